@@ -1,0 +1,17 @@
+// A distance with the path that attains it (a warping path for DTW, a coupling for Fréchet).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace curvewise {
+
+struct Alignment {
+    double distance = 0.0;
+    // Index pairs (i, j): point i of P is matched to point j of Q. Each step is (1, 0), (0, 1)
+    // or (1, 1).
+    std::vector<std::array<std::int64_t, 2>> path;
+};
+
+}  // namespace curvewise

@@ -1,0 +1,50 @@
+// The area between two curves in the plane: Algorithm 1 of Jekel, Venter, Venter, Stander &
+// Haftka (2018). The curve with fewer points is refined until both have the same number;
+// quadrilateral i is (A[i], A[i+1], B[i+1], B[i]); the measure is the sum of their areas.
+// Symmetric to rounding. Time O(n + m + |n - m| log m), memory O(n + m). Throws
+// std::invalid_argument for a curve that is not finite, has fewer than 2 points or other than
+// 2 coordinates.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "curvewise/curve.hpp"
+
+namespace curvewise {
+
+// What the refinement measures a segment by.
+enum class Spacing {
+    distance,   // sqrt(dx^2 + dy^2): the paper's text
+    x,          // |dx|: what the paper's Table 4 was computed with; for raw stress and strain
+    arc_length  // a vertex wherever the other curve has one, by relative arc length, after
+                // scaling by P's box: independent of how either curve was sampled
+};
+
+// What becomes of a quadrilateral that intersects itself.
+enum class Crossing {
+    rearrange,  // two vertices are swapped until it is simple: the paper. Jumps where a
+                // quadrilateral turns complex.
+    split       // the two triangles at the crossing point. Continuous.
+};
+
+struct AreaOptions {
+    Spacing spacing = Spacing::distance;
+    Crossing crossing = Crossing::rearrange;
+    // Sum the squared areas (the paper's section 4, the analogue of sum-of-squares).
+    bool squared = false;
+};
+
+struct AreaQuads {
+    // Vertices in the order whose area is given; the original order where a complex
+    // quadrilateral was split.
+    std::vector<std::array<std::array<double, 2>, 4>> quads;
+    std::vector<double> areas;
+};
+
+double area(const CurveView& P, const CurveView& Q, const AreaOptions& options = {});
+
+// The quadrilaterals behind area(); options.squared is not used.
+AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& options = {});
+
+}  // namespace curvewise

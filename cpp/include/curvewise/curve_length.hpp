@@ -1,0 +1,34 @@
+// The curve-length measure: OF2 of Andrade-Campos, de-Carvalho & Valente (2012). Point i of P, at
+// arc length s_i of L_P, is compared with the point of Q at s_i L_Q / L_P; every curve's lengths
+// are taken after dividing by its own largest |x| and |y|. The value is
+//
+//   sqrt(sum over i of ln(1 + |dx_i / x_scale|)^2 + ln(1 + |dy_i / y_scale|)^2)
+//
+// Not symmetric. Time O(n + m), memory O(n + m). Throws std::invalid_argument for a curve that is
+// not finite, has fewer than 2 points, other than 2 coordinates, or no length, and where the
+// scale is 0.
+#pragma once
+
+#include "curvewise/curve.hpp"
+
+namespace curvewise {
+
+// What the differences in x (and in y) are divided by, each taken over P.
+enum class LengthScale {
+    mean,      // the paper's; 0 or nearly so for loops centred on zero
+    mean_abs,  // the mean of |x|
+    range      // max x - min x
+};
+
+struct CurveLengthOptions {
+    LengthScale scale = LengthScale::mean;
+};
+
+double curve_length(const CurveView& P, const CurveView& Q, const CurveLengthOptions& options = {});
+
+// Writes r_x to out[2 i] and r_y to out[2 i + 1] for every point of P; the measure is the
+// Euclidean norm of all of them.
+void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
+                            const CurveLengthOptions& options = {});
+
+}  // namespace curvewise

@@ -1,0 +1,44 @@
+// Dynamic time warping: the smallest sum of ground distances over all warping paths.
+//
+//   c[0, 0] = d(P_0, Q_0)
+//   c[i, j] = min(min(c[i-1, j], c[i, j-1]) + d, c[i-1, j-1] + w d),   d = d(P_i, Q_j)
+//
+// w = 1 for symmetric1, 2 for symmetric2 (Sakoe & Chiba 1978). Exact. Time O(n m); memory O(n + m)
+// for the distance, n m bytes for the path, 8 n m bytes for the table. Every function throws
+// std::invalid_argument for a curve that is empty or not finite, for curves of different
+// dimension, and for options out of range, with a message that says which and where; and
+// std::bad_alloc.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "curvewise/alignment.hpp"
+#include "curvewise/curve.hpp"
+#include "curvewise/ground_distance.hpp"
+
+namespace curvewise {
+
+enum class StepPattern { symmetric1, symmetric2 };
+
+struct DtwOptions {
+    GroundDistance ground;
+    StepPattern step_pattern = StepPattern::symmetric1;
+    // Sakoe-Chiba band: |i (m-1) - j (n-1)| <= window (max(n, m) - 1); none where n or m is 1.
+    std::optional<std::ptrdiff_t> window;
+    // Subsequence DTW (Müller 2007): P is matched to a part of Q, which may begin, or end,
+    // anywhere. With symmetric1 and without a window only.
+    bool open_begin = false;
+    bool open_end = false;
+};
+
+double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options = {});
+
+// Among equal predecessors: diagonal, then (i-1, j), then (i, j-1). The sum of step weight
+// times ground distance along the path, in path order, equals the distance to the bit.
+Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& options = {});
+
+// Writes c to out[i * m + j]; infinity outside the window.
+void dtw_table(const CurveView& P, const CurveView& Q, double* out, const DtwOptions& options = {});
+
+}  // namespace curvewise

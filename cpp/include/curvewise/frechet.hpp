@@ -1,0 +1,31 @@
+// The discrete Fréchet distance (Eiter & Mannila 1994): the smallest, over all couplings, of the
+// largest ground distance.
+//
+//   c[i, j] = max(d(P_i, Q_j), min(c[i-1, j], c[i, j-1], c[i-1, j-1]))
+//
+// It is at most the longest edge of either curve above the continuous Fréchet distance. Exact.
+// Time O(n m); memory O(n + m) for the distance, n m bytes for the path, 8 n m bytes for the
+// table. Throws as dtw does.
+#pragma once
+
+#include "curvewise/alignment.hpp"
+#include "curvewise/curve.hpp"
+#include "curvewise/ground_distance.hpp"
+
+namespace curvewise {
+
+struct FrechetOptions {
+    GroundDistance ground;
+};
+
+double frechet(const CurveView& P, const CurveView& Q, const FrechetOptions& options = {});
+
+// Among equal predecessors: diagonal, then (i-1, j), then (i, j-1). The largest ground distance
+// along the path equals the distance to the bit.
+Alignment frechet_path(const CurveView& P, const CurveView& Q, const FrechetOptions& options = {});
+
+// Writes c to out[i * m + j].
+void frechet_table(const CurveView& P, const CurveView& Q, double* out,
+                   const FrechetOptions& options = {});
+
+}  // namespace curvewise

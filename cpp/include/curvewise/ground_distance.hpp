@@ -1,0 +1,23 @@
+// The ground distance: how far apart two points are, for dtw and frechet.
+#pragma once
+
+#include <limits>
+
+namespace curvewise {
+
+enum class Metric {
+    euclidean,    // sqrt of the sum of squared differences (|difference| in one dimension)
+    sqeuclidean,  // sum of squared differences
+    cityblock,    // sum of absolute differences
+    chebyshev,    // largest absolute difference
+    minkowski     // M (sum (|difference| / M)^p)^(1/p), M the largest |difference|
+};
+
+struct GroundDistance {
+    Metric metric = Metric::euclidean;
+    // The order of minkowski, 1 <= p <= inf; p = 1, 2 and inf are computed as cityblock,
+    // euclidean and chebyshev. Not used by the other metrics.
+    double p = 2.0;
+};
+
+}  // namespace curvewise

@@ -1,0 +1,36 @@
+// Partial curve mapping (Witowski & Stander 2012, as section 2.1 of Jekel et al. 2018 describes
+// it). Both curves are scaled by P's bounding box; the shorter one, of length S, is laid onto the
+// longer one, of length T, at an offset along it, vertex by vertex at equal arc length; the
+// measure is the smallest area between the two over the offsets 0 to T - S. Not symmetric (P's
+// box scales). A curve that is a piece of the other scores 0 by design: see PcmMatch::coverage.
+// Throws std::invalid_argument for a curve that is not finite, has fewer than 2 points, other
+// than 2 coordinates, or no length.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "curvewise/curve.hpp"
+
+namespace curvewise {
+
+struct PcmOptions {
+    // The number of evenly spaced offsets, at least 1 (1: no offset). Time O(offsets (n + m)).
+    std::ptrdiff_t offsets = 200;
+    // Search all offsets instead, to 1e-12 S, by branch and bound. `offsets` is not used.
+    bool continuous = false;
+};
+
+struct PcmMatch {
+    double value = 0.0;
+    double offset = 0.0;    // arc length on the longer curve, after scaling
+    double coverage = 0.0;  // S / T
+    bool maps_p = true;     // the shorter curve, whose vertices are mapped: P, or Q
+    std::vector<std::array<double, 2>> points;  // their places on the other, in original units
+};
+
+double pcm(const CurveView& P, const CurveView& Q, const PcmOptions& options = {});
+PcmMatch pcm_match(const CurveView& P, const CurveView& Q, const PcmOptions& options = {});
+
+}  // namespace curvewise

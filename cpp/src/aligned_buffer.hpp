@@ -1,0 +1,33 @@
+// Uninitialised storage for doubles, aligned to a cache line so that no SIMD load of a strip's
+// points crosses one.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+
+namespace curvewise::detail {
+
+class AlignedBuffer {
+   public:
+    explicit AlignedBuffer(std::ptrdiff_t size)
+        : data_(static_cast<double*>(
+              ::operator new(static_cast<std::size_t>(size) * sizeof(double), line))) {}
+
+    double* data() noexcept { return data_.get(); }
+    const double* data() const noexcept { return data_.get(); }
+
+    // `size` doubles rounded up, so that what follows is aligned too.
+    static constexpr std::ptrdiff_t rounded(std::ptrdiff_t size) noexcept {
+        return (size + 7) / 8 * 8;
+    }
+
+   private:
+    static constexpr std::align_val_t line{64};
+    struct Free {
+        void operator()(double* data) const noexcept { ::operator delete(data, line); }
+    };
+    std::unique_ptr<double, Free> data_;
+};
+
+}  // namespace curvewise::detail

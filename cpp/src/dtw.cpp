@@ -1,0 +1,92 @@
+// DTW on the strip sweep: checks, the choice of recurrence, and where the path ends.
+#include "curvewise/dtw.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "checks.hpp"
+#include "packed_pair.hpp"
+#include "sweep.hpp"
+
+namespace curvewise {
+namespace {
+
+using detail::BottomRow;
+using detail::PackedPair;
+using detail::RangeScale;
+using detail::SweepProblem;
+
+void check_options(const DtwOptions& options) {
+    detail::check_ground_distance(options.ground);
+    if (options.window && *options.window < 0) {
+        throw std::invalid_argument("window is " + std::to_string(*options.window) +
+                                    "; give a whole number >= 0, or None");
+    }
+    if (!options.open_begin && !options.open_end) return;
+    if (options.step_pattern != StepPattern::symmetric1) {
+        throw std::invalid_argument("open_begin and open_end need step_pattern='symmetric1'");
+    }
+    if (options.window) {
+        throw std::invalid_argument("open_begin and open_end cannot be combined with window");
+    }
+}
+
+void check_window(std::ptrdiff_t n, std::ptrdiff_t m, const DtwOptions& options) {
+    if (options.window && *options.window == 0 && n != m && n > 1 && m > 1) {
+        throw std::invalid_argument("window=0 admits no path between " + std::to_string(n) +
+                                    " and " + std::to_string(m) + " points; use at least 1");
+    }
+}
+
+// A call's curves and options, checked and ready to sweep.
+struct Problem {
+    Problem(const CurveView& P, const CurveView& Q, const DtwOptions& given)
+        : options((check_options(given), given)),
+          range(detail::check_pair(P, Q, {"dtw", 1, false})),
+          curves((check_window(P.size(), Q.size(), given), PackedPair(P, Q, range))),
+          sweep{curves,
+                given.step_pattern == StepPattern::symmetric1 ? kernels::Recurrence::dtw_symmetric1
+                                                              : kernels::Recurrence::dtw_symmetric2,
+                detail::canonical_cost(given.ground, P.dim()),
+                given.ground.p,
+                detail::Band(P.size(), Q.size(), given.window),
+                given.open_begin} {}
+
+    std::ptrdiff_t end_column(const BottomRow& bottom) const noexcept {
+        return options.open_end ? bottom.argmin() : curves.columns() - 1;
+    }
+    double restore(double value) const noexcept {
+        return range.restore(value, options.ground.metric == Metric::sqeuclidean ? 2 : 1);
+    }
+
+    const DtwOptions& options;
+    RangeScale range;
+    PackedPair curves;
+    SweepProblem sweep;
+};
+
+}  // namespace
+
+double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options) {
+    const Problem problem(P, Q, options);
+    const BottomRow bottom = sweep(problem.sweep);
+    return problem.restore(bottom[problem.end_column(bottom)]);
+}
+
+Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& options) {
+    const Problem problem(P, Q, options);
+    const detail::PredecessorTable table(problem.sweep);
+    const std::ptrdiff_t end = problem.end_column(table.bottom_row());
+    return {problem.restore(table.bottom_row()[end]), table.path_to(end)};
+}
+
+void dtw_table(const CurveView& P, const CurveView& Q, double* out, const DtwOptions& options) {
+    const Problem problem(P, Q, options);
+    sweep_into_table(problem.sweep, out);
+    if (problem.range.is_identity()) return;
+    std::transform(out, out + P.size() * Q.size(), out,
+                   [&](double value) { return problem.restore(value); });
+}
+
+}  // namespace curvewise

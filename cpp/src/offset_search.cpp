@@ -1,0 +1,194 @@
+// The continuous search is a branch and bound over offsets. f is S-Lipschitz, which discards an
+// interval far from the best value in O(n + m). Near it that bound is too weak (of first order in
+// the interval's width h), so a second one is used: d_i is convex as long as s_i + o stays on one
+// segment, so it lies above its tangent at the interval's centre, but for what the corners inside
+// the interval take away; that is added up exactly, corner by corner. What is lost is of second
+// order in h, so that a few intervals per halving survive. Typically 10^3 evaluations.
+#include "offset_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace curvewise::detail {
+namespace {
+
+constexpr double tolerance = 1e-12;  // of S
+
+double dot(const Point& a, const Point& b) noexcept { return a.x * b.x + a.y * b.y; }
+
+// f and its lower bound over an interval.
+class AreaAtOffset {
+   public:
+    AreaAtOffset(const ArcCurve& shorter, const ArcCurve& longer)
+        : shorter_(shorter), longer_(longer), weights_(shorter.points().size(), 0.0) {
+        const std::vector<double>& s = shorter.arc_lengths();
+        for (std::size_t i = 0; i + 1 < s.size(); ++i) {
+            const double half = 0.5 * (s[i + 1] - s[i]);
+            weights_[i] += half;
+            weights_[i + 1] += half;
+        }
+    }
+
+    double value(double offset) const noexcept {
+        ArcPosition position = start(offset);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < weights_.size(); ++i) {
+            position.move_to(shorter_.arc_lengths()[i] + offset);
+            sum += weights_[i] * norm(position.point() - shorter_.points()[i]);
+        }
+        return sum;
+    }
+
+    // Of f over centre - half .. centre + half.
+    double lower_bound(double centre, double half) const noexcept {
+        ArcPosition position = start(centre);
+        double value = 0.0;
+        double slope = 0.0;
+        double deficit = 0.0;
+        for (std::size_t i = 0; i < weights_.size(); ++i) {
+            const double u = shorter_.arc_lengths()[i] + centre;
+            position.move_to(u);
+            const Tangent tangent = tangent_at(i, u, position);
+            value += weights_[i] * tangent.value;
+            slope += weights_[i] * tangent.slope;
+            deficit += weights_[i] * std::max(deficit_after(i, tangent, position, u + half),
+                                              deficit_before(i, tangent, position, u - half));
+        }
+        return value - std::abs(slope) * half - deficit;
+    }
+
+   private:
+    struct Tangent {
+        double at;
+        double value;
+        double slope;
+        double operator()(double u) const noexcept { return value + slope * (u - at); }
+    };
+
+    ArcPosition start(double offset) const noexcept {
+        ArcPosition position(longer_);
+        position.move_to(offset);
+        return position;
+    }
+
+    // The rate at which the distance from `gap` away grows along a segment; 0 where they touch,
+    // which is a slope below all that the distance has there.
+    double rate(const Point& gap, double distance, std::size_t segment) const noexcept {
+        const double length = segment_length(segment);
+        if (distance == 0.0 || length == 0.0) return 0.0;
+        const Point edge = longer_.points()[segment + 1] - longer_.points()[segment];
+        return dot(gap, edge) / (distance * length);
+    }
+
+    double segment_length(std::size_t segment) const noexcept {
+        return longer_.arc_lengths()[segment + 1] - longer_.arc_lengths()[segment];
+    }
+
+    Tangent tangent_at(std::size_t i, double u, const ArcPosition& position) const noexcept {
+        const Point gap = position.point() - shorter_.points()[i];
+        const double distance = norm(gap);
+        return {u, distance, rate(gap, distance, position.segment())};
+    }
+
+    // How far d_i falls below its tangent between the tangent's place and `end` after it: behind
+    // each corner d_i lies above the line that leaves the corner with its slope there.
+    double deficit_after(std::size_t i, const Tangent& tangent, const ArcPosition& position,
+                         double end) const noexcept {
+        const std::vector<double>& t = longer_.arc_lengths();
+        double worst = 0.0;
+        for (std::size_t k = position.segment() + 1; k + 1 < t.size() && t[k] < end; ++k) {
+            const Point gap = longer_.points()[k] - shorter_.points()[i];
+            const double distance = norm(gap);
+            const double stop = std::min(t[k + 1], end);
+            const double line = distance + rate(gap, distance, k) * (stop - t[k]);
+            worst = std::max(worst, tangent(stop) - line);
+        }
+        return worst;
+    }
+
+    double deficit_before(std::size_t i, const Tangent& tangent, const ArcPosition& position,
+                          double begin) const noexcept {
+        const std::vector<double>& t = longer_.arc_lengths();
+        double worst = 0.0;
+        for (std::size_t k = position.segment(); k > 0 && t[k] > begin; --k) {
+            const Point gap = longer_.points()[k] - shorter_.points()[i];
+            const double distance = norm(gap);
+            const double stop = std::max(t[k - 1], begin);
+            const double line = distance - rate(gap, distance, k - 1) * (t[k] - stop);
+            worst = std::max(worst, tangent(stop) - line);
+        }
+        return worst;
+    }
+
+    const ArcCurve& shorter_;
+    const ArcCurve& longer_;
+    std::vector<double> weights_;
+};
+
+std::vector<double> grid(double slack, std::ptrdiff_t count) {
+    std::vector<double> offsets(static_cast<std::size_t>(count), 0.0);
+    for (std::size_t i = 1; i < offsets.size(); ++i) {
+        offsets[i] = slack * (static_cast<double>(i) / static_cast<double>(count - 1));
+    }
+    return offsets;
+}
+
+double slack(const ArcCurve& shorter, const ArcCurve& longer) noexcept {
+    return std::max(0.0, longer.length() - shorter.length());
+}
+
+void improve(Offset& best, double at, double area) noexcept {
+    if (area < best.area || (area == best.area && at < best.at)) best = {at, area};
+}
+
+Offset best_of(const AreaAtOffset& f, const std::vector<double>& offsets) {
+    Offset best{0.0, f.value(0.0)};
+    for (const double offset : offsets) improve(best, offset, f.value(offset));
+    return best;
+}
+
+struct Interval {
+    double low;
+    double high;
+};
+
+}  // namespace
+
+void ArcPosition::move_to(double u) noexcept {
+    const std::vector<double>& t = curve_->arc_lengths();
+    u = std::min(u, curve_->length());
+    while (segment_ + 2 < t.size() && t[segment_ + 1] <= u) ++segment_;
+    const double length = t[segment_ + 1] - t[segment_];
+    fraction_ = length > 0.0 ? (u - t[segment_]) / length : 1.0;
+}
+
+Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdiff_t count) {
+    return best_of(AreaAtOffset(shorter, longer), grid(slack(shorter, longer), count));
+}
+
+Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer) {
+    const AreaAtOffset f(shorter, longer);
+    const std::vector<double> offsets = grid(slack(shorter, longer), 200);
+    Offset best = best_of(f, offsets);
+    std::vector<Interval> open;
+    for (std::size_t i = offsets.size() - 1; i > 0; --i) {
+        open.push_back({offsets[i - 1], offsets[i]});
+    }
+    const double S = shorter.length();
+    while (!open.empty()) {
+        const Interval interval = open.back();
+        open.pop_back();
+        const double centre = 0.5 * (interval.low + interval.high);
+        const double half = 0.5 * (interval.high - interval.low);
+        if (!(interval.low < centre && centre < interval.high)) continue;
+        const double area = f.value(centre);
+        improve(best, centre, area);
+        const double target = best.area - tolerance * S;
+        if (area - S * half >= target || f.lower_bound(centre, half) >= target) continue;
+        open.push_back({centre, interval.high});
+        open.push_back({interval.low, centre});
+    }
+    return best;
+}
+
+}  // namespace curvewise::detail

@@ -1,0 +1,52 @@
+// Points and polylines in the plane, for area, pcm and curve_length.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "checks.hpp"
+#include "curvewise/curve.hpp"
+
+namespace curvewise::detail {
+
+struct Point {
+    double x;
+    double y;
+};
+
+inline Point operator-(const Point& a, const Point& b) noexcept { return {a.x - b.x, a.y - b.y}; }
+
+inline double cross(const Point& a, const Point& b) noexcept { return a.x * b.y - a.y * b.x; }
+
+inline double norm(const Point& a) noexcept { return std::sqrt(a.x * a.x + a.y * a.y); }
+
+// a + h (b - a), and b itself for h = 1.
+inline Point interpolate(const Point& a, const Point& b, double h) noexcept {
+    if (h == 1.0) return b;
+    return {a.x + h * (b.x - a.x), a.y + h * (b.y - a.y)};
+}
+
+using Polyline = std::vector<Point>;
+
+Polyline polyline(const CurveView& curve, const RangeScale& range);
+
+// The smallest axis-parallel box around a curve.
+struct Box {
+    Point low;
+    Point extent;  // 1 in a direction in which the curve has none: there nothing is scaled
+
+    explicit Box(const Polyline& curve) noexcept;
+    Point scaled(const Point& point) const noexcept {
+        return {(point.x - low.x) / extent.x, (point.y - low.y) / extent.y};
+    }
+    Polyline scaled(const Polyline& curve) const;
+};
+
+// The arc length at every vertex: 0 first, the curve's length last.
+std::vector<double> arc_lengths(const Polyline& curve);
+
+// Throws std::invalid_argument where `length` is 0.
+void check_length(double length, const char* name, const char* measure);
+
+}  // namespace curvewise::detail

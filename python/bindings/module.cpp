@@ -1,0 +1,24 @@
+// curvewise._core: the compiled library for the Python package, which gives it checked float64
+// arrays and every option by position. Documented in measures.py.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "bind_topics.hpp"
+#include "curvewise/build_info.hpp"
+
+PYBIND11_MODULE(_core, module) {
+    module.doc() = "The compiled library behind curvewise; private.";
+    curvewise::bindings::bind_tables(module);
+    curvewise::bindings::bind_planar(module);
+    curvewise::bindings::bind_pointwise(module);
+    module.def("build_info", [] {
+        const curvewise::BuildInfo info = curvewise::build_info();
+        pybind11::dict result;
+        result["version"] = info.version;
+        result["compiler"] = info.compiler;
+        result["eigen"] = info.eigen;
+        result["instruction_sets"] = info.instruction_sets;
+        result["active"] = info.active;
+        return result;
+    });
+}

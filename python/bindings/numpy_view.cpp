@@ -1,0 +1,25 @@
+#include "numpy_view.hpp"
+
+#include <limits>
+
+namespace curvewise::bindings {
+
+CurveView view(const CurveArray& array) {
+    constexpr auto item = static_cast<py::ssize_t>(sizeof(double));
+    const double* const data = array.data();
+    if (array.ndim() == 1) return {data, array.shape(0), 1, array.strides(0) / item, 0};
+    return {data, array.shape(0), array.shape(1), array.strides(0) / item, array.strides(1) / item};
+}
+
+std::ptrdiff_t whole_number(const char* option, const py::object& given, const char* advice) {
+    if (PyIndex_Check(given.ptr()) && !PyBool_Check(given.ptr())) {
+        // Without an exception type, a number out of range is cut to the range.
+        const Py_ssize_t value = PyNumber_AsSsize_t(given.ptr(), nullptr);
+        if (value != -1 || !PyErr_Occurred()) return value;
+        PyErr_Clear();
+    }
+    throw py::value_error(std::string(option) + " is " + py::repr(given).cast<std::string>() +
+                          "; " + advice);
+}
+
+}  // namespace curvewise::bindings

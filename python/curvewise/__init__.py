@@ -1,0 +1,79 @@
+"""How alike two curves are: area, partial curve mapping, Fréchet, DTW and curve length.
+
+>>> import curvewise
+>>> experiment, simulation = curvewise.datasets.hysteresis_pair()
+>>> print(curvewise.compare(experiment, simulation))  # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+from . import _core, datasets, reference
+from .compare import Comparison, compare
+from .measures import (
+    area,
+    area_quads,
+    curve_length,
+    curve_length_residuals,
+    dtw,
+    dtw_path,
+    dtw_table,
+    frechet,
+    frechet_path,
+    frechet_table,
+    mae,
+    mse,
+    normalize,
+    pcm,
+    pcm_match,
+    sum_of_squares,
+)
+from .results import Alignment, AreaQuads, PcmMatch
+
+__all__ = [
+    "Alignment",
+    "AreaQuads",
+    "Comparison",
+    "PcmMatch",
+    "__version__",
+    "area",
+    "area_quads",
+    "build_info",
+    "compare",
+    "curve_length",
+    "curve_length_residuals",
+    "datasets",
+    "dtw",
+    "dtw_path",
+    "dtw_table",
+    "frechet",
+    "frechet_path",
+    "frechet_table",
+    "mae",
+    "mse",
+    "normalize",
+    "pcm",
+    "pcm_match",
+    "reference",
+    "sum_of_squares",
+]
+
+
+def build_info() -> _core.BuildInfo:
+    """Return how the compiled library was built and what it uses on this machine.
+
+    Returns
+    -------
+    dict
+        "version", "compiler", "eigen", "instruction_sets" (those this machine has, the slowest
+        first) and "active" (the one in use).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.build_info()["active"] in curvewise.build_info()["instruction_sets"]
+    True
+    """
+    return _core.build_info()
+
+
+__version__: str = _core.build_info()["version"]

@@ -1,0 +1,71 @@
+"""From what a user passes to a float64 array of one or two dimensions.
+
+This is the only place that knows about lists, DataFrames and dtypes. What follows from the
+numbers themselves (finite, long enough, matching dimensions) is checked by whoever computes:
+the C++ library for the compiled functions, numpy code for the reference.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["Array", "CurveLike", "as_curve", "as_curves"]
+
+Array: TypeAlias = npt.NDArray[np.float64]
+CurveLike: TypeAlias = npt.ArrayLike
+"""Anything ``numpy.asarray`` turns into a real array of shape (n, d) or (n,)."""
+
+_FLOAT64 = np.dtype(np.float64)
+
+
+def as_curve(curve: Any, name: str) -> Array:
+    """Return `curve` as an aligned, native float64 array of shape (n, d) or (n,).
+
+    A float64 array is returned as it is, without a copy, whatever its strides.
+
+    Raises
+    ------
+    TypeError
+        Complex numbers, text, objects, dates, or masked entries.
+    ValueError
+        Ragged lists, or an array of 0 or more than 2 dimensions.
+    """
+    if type(curve) is np.ndarray and curve.dtype is _FLOAT64 and 1 <= curve.ndim <= 2:
+        return curve if curve.flags.aligned else curve.copy()
+    if np.ma.isMaskedArray(curve) and np.ma.is_masked(curve):
+        raise TypeError(f"{name} is a masked array with masked entries; drop or fill them first")
+    try:
+        array = np.asarray(curve)
+    except ValueError as error:
+        raise ValueError(
+            f"{name} is ragged; a curve is n points with the same number of coordinates each"
+        ) from error
+    if array.dtype.kind == "c":
+        raise TypeError(f"{name} is complex; a curve is real: give real and imaginary as columns")
+    if array.dtype.kind not in "fiub":
+        raise TypeError(f"{name} has dtype {array.dtype}; a curve holds real numbers")
+    if not 1 <= array.ndim <= 2:
+        raise ValueError(
+            f"{name} has {array.ndim} array dimensions; give shape (n, d), or (n,) for d = 1"
+        )
+    # astype, not asarray: float64 of the other byte order must be converted too.
+    with np.errstate(over="ignore"):  # a longdouble beyond float64 becomes inf: reported as such
+        return array.astype(_FLOAT64, copy=False)
+
+
+def as_curves(P: Any, Q: Any) -> tuple[Array, Array]:
+    """Return both curves as arrays; DataFrames must have the same columns."""
+    if type(P) is not np.ndarray and type(Q) is not np.ndarray:
+        _check_columns(P, Q)
+    return as_curve(P, "P"), as_curve(Q, "Q")
+
+
+def _check_columns(P: Any, Q: Any) -> None:
+    columns = [list(getattr(curve, "columns", [])) for curve in (P, Q)]
+    if columns[0] and columns[1] and columns[0] != columns[1]:
+        raise ValueError(
+            f"P has columns {columns[0]} and Q has columns {columns[1]}; name and order them alike"
+        )

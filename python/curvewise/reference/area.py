@@ -1,0 +1,218 @@
+"""The area between two curves: Algorithm 1 of the paper.
+
+The curve with fewer points is refined until both have the same number; between corresponding
+segments lie quadrilaterals, whose areas are added up. Whether a quadrilateral intersects itself
+("complex") is told by the signs of the cross products of its consecutive edges; the area of a
+simple one is half the cross product of its diagonals, which is Gauss's formula without its
+cancellation. Time O(n + (n - m) log m), memory O(n).
+"""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias, get_args
+
+import numpy as np
+import numpy.typing as npt
+
+from .._curves import Array, CurveLike, as_curves
+from ..results import AreaQuads
+from .checks import check_choice, check_pair
+from .refinement import Spacing, facing_curves
+from .scaling import range_exponent, times_power_of_two
+
+__all__ = ["area", "area_quads"]
+
+Crossing: TypeAlias = Literal["rearrange", "split"]
+
+
+def area(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    spacing: Spacing = "distance",
+    crossing: Crossing = "rearrange",
+    squared: bool = False,
+) -> float:
+    """Area between two curves in the plane.
+
+    Parameters
+    ----------
+    P, Q : array_like, shapes (n, 2) and (m, 2)
+        The curves, each of at least 2 points.
+    spacing : {"distance", "x", "arc_length"}
+        What the refinement measures a segment by. "distance" is sqrt(dx² + dy²), the paper's
+        text. "x" is abs(dx), with which the paper's Table 4 was computed (within 1.4 %; on raw
+        stress and strain "distance" gives 174 where the table says 45.1, because stress dominates
+        the length): raw stress–strain data want "x", or curves scaled by :func:`normalize`.
+        "arc_length" gives each curve a vertex wherever the other has one, by relative arc length
+        after scaling by P's box, so that the value does not depend on how either was sampled.
+    crossing : {"rearrange", "split"}
+        What becomes of a quadrilateral that intersects itself. "rearrange" (the paper) swaps two
+        vertices: the value jumps where a quadrilateral turns complex. "split" takes the two
+        triangles at the crossing point: the value changes continuously.
+    squared : bool
+        Sum the squares of the areas instead (the paper's section 4, the analogue of
+        sum-of-squares).
+
+    Returns
+    -------
+    float
+        In units of x times units of y (squared: of that squared). Symmetric to rounding, but for
+        "arc_length", which scales by P's box.
+
+    Raises
+    ------
+    ValueError
+        A curve is not finite, has fewer than 2 points or other than 2 coordinates; an unknown
+        option.
+    TypeError
+        A curve does not hold real numbers.
+
+    Notes
+    -----
+    The sum of the areas of :func:`area_quads`; cost and source there.
+
+    Examples
+    --------
+    >>> from curvewise import reference
+    >>> reference.area([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 1)])
+    2.0
+    >>> crossed = [(0, 1), (1, -1)], [(0, -1), (1, 1)]
+    >>> reference.area(*crossed), reference.area(*crossed, crossing="split")
+    (2.0, 1.0)
+    """
+    _, areas, exponent = _quadrilaterals(P, Q, spacing, crossing)
+    with np.errstate(over="ignore", under="ignore"):
+        total = np.asarray(np.sum(areas * areas if squared else areas))
+    return float(times_power_of_two(total, (4 if squared else 2) * exponent))
+
+
+def area_quads(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    spacing: Spacing = "distance",
+    crossing: Crossing = "rearrange",
+) -> AreaQuads:
+    """Return the quadrilaterals whose areas :func:`area` adds up.
+
+    Parameters
+    ----------
+    P, Q, spacing, crossing
+        As for :func:`area`.
+
+    Returns
+    -------
+    AreaQuads
+        ``quads``, shape (k, 4, 2), and ``areas``, (k,). Quadrilateral i is (A[i], A[i+1], B[i+1],
+        B[i]), where A is the curve with more points; one that was rearranged has its vertices in
+        the order whose area is given, one that was split in the original order.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`area`.
+
+    Notes
+    -----
+    Algorithm 1 of the paper; its Eq. 6 has a misprint: CD = (x4 - x3, y4 - y3). Time
+    O(n + (n - m) log m) where n >= m, memory O(n); with "arc_length" O(n + m).
+
+    Examples
+    --------
+    >>> from curvewise import reference
+    >>> quads, areas = reference.area_quads([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 1)])
+    >>> quads.shape, areas.tolist()
+    ((2, 4, 2), [1.0, 1.0])
+    """
+    quads, areas, exponent = _quadrilaterals(P, Q, spacing, crossing)
+    return AreaQuads(times_power_of_two(quads, exponent), times_power_of_two(areas, 2 * exponent))
+
+
+def _quadrilaterals(
+    P: CurveLike, Q: CurveLike, spacing: Spacing, crossing: Crossing
+) -> tuple[Array, Array, int]:
+    """Return vertices and areas, in units of 2**exponent and its square, and the exponent."""
+    P, Q = as_curves(P, Q)
+    check_choice("spacing", spacing, get_args(Spacing))
+    check_choice("crossing", crossing, get_args(Crossing))
+    P, Q = check_pair(P, Q, "area", least_points=2, planar=True)
+    exponent = range_exponent(P, Q)
+    P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
+    A, B = facing_curves(P, Q, spacing)
+    quads = np.stack([A[:-1], A[1:], B[1:], B[:-1]], axis=1)
+    with np.errstate(over="ignore", under="ignore"):
+        quads, areas = _measured(quads, crossing)
+    return quads, areas, exponent
+
+
+def _measured(quads: Array, crossing: Crossing) -> tuple[Array, Array]:
+    """Return quadrilaterals in the order whose area is taken, and the areas."""
+    split_areas = np.full(len(quads), np.nan)
+    if crossing == "split":
+        is_complex = ~_is_simple(quads)
+        split_areas[is_complex] = _areas_of_triangles(quads[is_complex])
+    is_split = ~np.isnan(split_areas)
+    quads = np.where(is_split[:, np.newaxis, np.newaxis], quads, _rearranged(quads))
+    return quads, np.where(is_split, split_areas, _area_of_simple(quads))
+
+
+def _cross(a: Array, b: Array) -> Array:
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def _is_simple(quads: Array) -> npt.NDArray[np.bool_]:
+    """Say which do not intersect themselves: those that turn the same way at three corners."""
+    edges = np.roll(quads, -1, axis=1) - quads
+    turns = _cross(edges, np.roll(edges, -1, axis=1))
+    left, right = (turns >= 0).sum(axis=1), (turns <= 0).sum(axis=1)
+    return np.asarray(np.maximum(left, right) >= 3)
+
+
+def _area_of_simple(quads: Array) -> Array:
+    A, B, C, D = np.moveaxis(quads, 1, 0)
+    return 0.5 * np.abs(_cross(C - A, D - B))
+
+
+def _rearranged(quads: Array) -> Array:
+    """Swap the first two vertices of complex ones, or their second and third if that fails."""
+    quads = quads.copy()
+    is_complex = ~_is_simple(quads)
+    first_swapped = quads[is_complex][:, [1, 0, 2, 3]]
+    second_swapped = quads[is_complex][:, [0, 2, 1, 3]]
+    # The second swap is taken unchecked: no third order would be left.
+    use_first = _is_simple(first_swapped)[:, np.newaxis, np.newaxis]
+    quads[is_complex] = np.where(use_first, first_swapped, second_swapped)
+    return quads
+
+
+def _areas_of_triangles(quads: Array) -> Array:
+    """Return the areas of the two triangles at the crossing point of AB and CD, or BC and DA.
+
+    nan where rounding leaves neither pair crossing.
+    """
+    first = _areas_at_crossing(quads)
+    second = _areas_at_crossing(np.roll(quads, -1, axis=1))
+    return np.where(np.isnan(first), second, first)
+
+
+def _areas_at_crossing(quads: Array) -> Array:
+    """Return the areas of XBC and XDA, where AB and CD cross in X; nan where they do not.
+
+    X divides CD in the ratio of the distances of C and D from the line AB, which is that of the
+    triangles ABC and ABD. So XBC is the part abc / (abc + abd) of the triangle CDB, and XDA is
+    the part abd / (abc + abd) of CDA.
+    """
+    A, B, C, D = np.moveaxis(quads, 1, 0)
+    abc, abd = _cross(B - A, C - A), _cross(B - A, D - A)
+    cda, cdb = _cross(D - C, A - C), _cross(D - C, B - C)
+    crosses = _opposite(abc, abd) & _opposite(cda, cdb)
+    total = np.where(crosses, np.abs(abc) + np.abs(abd), 1.0)
+    # Quotients first: the product of two cross products may overflow.
+    areas = 0.5 * (np.abs(abc) / total * np.abs(cdb) + np.abs(abd) / total * np.abs(cda))
+    return np.where(crosses, areas, np.nan)
+
+
+def _opposite(s: Array, t: Array) -> npt.NDArray[np.bool_]:
+    """Say where s and t have opposite signs; one of the two may be 0."""
+    return np.asarray((np.minimum(s, t) <= 0) & (np.maximum(s, t) >= 0) & (s != t))

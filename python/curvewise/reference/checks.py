@@ -1,0 +1,106 @@
+"""What is refused, and in which words: options first, then shapes, then the numbers.
+
+Every check raises ValueError with one line that says what is wrong, where, and what to do. The
+compiled library uses the same words.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from .._curves import Array
+
+__all__ = [
+    "check_choice",
+    "check_length",
+    "check_pair",
+    "check_same_shape",
+    "whole_number",
+]
+
+
+def check_choice(option: str, value: object, choices: Sequence[str]) -> None:
+    """Refuse a `value` that is not one of the strings in `choices`."""
+    if not (isinstance(value, str) and value in choices):
+        raise ValueError(f"unknown {option} {value!r}; choose from {', '.join(choices)}")
+
+
+def whole_number(option: str, value: Any, least: int, advice: str) -> int:
+    """Return `value` as an int; refuse bools, floats and whatever is below `least`."""
+    try:
+        number = None if isinstance(value, bool) else operator.index(value)
+    except TypeError:
+        number = None
+    if number is None or number < least:
+        raise ValueError(f"{option} is {value!r}; {advice}")
+    return number
+
+
+def check_pair(
+    P: Array,
+    Q: Array,
+    measure: str,
+    *,
+    least_points: int = 1,
+    planar: bool = False,
+    name: str = "Q",
+) -> tuple[Array, Array]:
+    """Check P and Q, which goes by `name`, and return both with shape (n, d)."""
+    _check_columns(P, "P")
+    _check_columns(Q, name)
+    if _points(P).shape[1] != _points(Q).shape[1]:
+        raise ValueError(f"{_shapes(P, Q, name)}; both need the same number of coordinates")
+    if planar and _points(P).shape[1] != 2:
+        raise ValueError(f"{_shapes(P, Q, name)}; {measure} needs 2 coordinates, x and y")
+    _check_least_points(P, "P", measure, least_points)
+    _check_least_points(Q, name, measure, least_points)
+    _check_finite(P, "P")
+    _check_finite(Q, name)
+    return _points(P), _points(Q)
+
+
+def check_same_shape(P: Array, Q: Array, measure: str) -> None:
+    """Refuse curves that cannot be compared entry by entry."""
+    _check_columns(P, "P")
+    _check_columns(Q, "Q")
+    if _points(P).shape != _points(Q).shape:
+        raise ValueError(f"{_shapes(P, Q)}; {measure} needs equal shapes")
+
+
+def check_length(curve: Array, name: str, measure: str) -> None:
+    """Refuse a curve whose points are all equal."""
+    if np.all(curve == curve[0]):
+        raise ValueError(
+            f"{name} has zero length (all its points are equal); "
+            f"{measure} needs two different points"
+        )
+
+
+def _points(curve: Array) -> Array:
+    return curve[:, np.newaxis] if curve.ndim == 1 else curve
+
+
+def _shapes(P: Array, Q: Array, name: str = "Q") -> str:
+    return f"P has shape {P.shape} and {name} has shape {Q.shape}"
+
+
+def _check_columns(curve: Array, name: str) -> None:
+    if _points(curve).shape[1] < 1:
+        raise ValueError(f"{name} has shape {curve.shape}; a curve needs at least 1 coordinate")
+
+
+def _check_least_points(curve: Array, name: str, measure: str, least: int) -> None:
+    if len(curve) < least:
+        noun = "point" if least == 1 else "points"
+        raise ValueError(f"{name} has shape {curve.shape}; {measure} needs at least {least} {noun}")
+
+
+def _check_finite(curve: Array, name: str) -> None:
+    bad = np.argwhere(~np.isfinite(curve))
+    if len(bad):
+        place = ", ".join(str(index) for index in bad[0])
+        raise ValueError(f"{name}[{place}] is {curve[tuple(bad[0])]}; curves must be finite")

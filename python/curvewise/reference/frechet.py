@@ -1,0 +1,200 @@
+"""The discrete Fréchet distance: the shortest leash for two walks along the points.
+
+The table c[i, j] holds the shortest leash for a coupling that ends at (i, j):
+
+    c[i, j] = max(d(P[i], Q[j]), min(c[i-1, j], c[i, j-1], c[i-1, j-1]))
+
+(Eiter & Mannila, 1994). It is filled along anti-diagonals i + j = s, whose cells depend on earlier
+ones only. For the Euclidean distance the table is that of the squares, and roots are taken at the
+end: sqrt is monotone, so max and min choose the same cells and the values have the same bits. The
+coupling is read off the squares too, because the rounding of sqrt can make two of them equal that
+are not. Time and memory O(n m).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, SupportsFloat
+
+import numpy as np
+import numpy.typing as npt
+
+from .._curves import Array, CurveLike, as_curves
+from ..results import Alignment
+from .checks import check_pair
+from .ground_distance import Metric, check_metric, degree, ground_distances
+from .scaling import range_exponent, times_power_of_two
+
+__all__ = ["frechet", "frechet_path", "frechet_table"]
+
+
+def frechet(
+    P: CurveLike, Q: CurveLike, *, metric: Metric = "euclidean", p: SupportsFloat | None = None
+) -> float:
+    """Discrete Fréchet distance.
+
+    Parameters
+    ----------
+    P, Q : array_like, shapes (n, d) and (m, d), or (n,) and (m,)
+        The curves, of any d.
+    metric : {"euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"}
+        The ground distance between points.
+    p : float, 1 <= p <= inf, optional
+        The order of "minkowski"; 2 if not given.
+
+    Returns
+    -------
+    float
+        In units of the ground distance. Symmetric. Not below the continuous Fréchet distance
+        (but for "sqeuclidean"), and above it by at most the longest edge of either curve.
+
+    Raises
+    ------
+    ValueError
+        A curve is not finite or empty; the curves differ in d; an option is unknown or out of
+        range.
+    TypeError
+        A curve does not hold real numbers.
+
+    Notes
+    -----
+    Time and memory O(n m). Eiter & Mannila, "Computing discrete Fréchet distance" (1994).
+
+    Examples
+    --------
+    >>> from curvewise import reference
+    >>> reference.frechet([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 3)])
+    3.0
+    """
+    table = _accumulate(P, Q, metric, p)
+    return float(table.restored(table.leashes[-1, -1]))
+
+
+def frechet_path(
+    P: CurveLike, Q: CurveLike, *, metric: Metric = "euclidean", p: SupportsFloat | None = None
+) -> Alignment:
+    """Discrete Fréchet distance with a coupling that attains it.
+
+    Parameters
+    ----------
+    P, Q, metric, p
+        As for :func:`frechet`.
+
+    Returns
+    -------
+    Alignment
+        ``distance`` and ``path``, shape (k, 2). Among equal predecessors the diagonal is taken,
+        then (i-1, j), then (i, j-1). The largest ground distance along the path equals the
+        distance to the bit.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`frechet`.
+
+    Notes
+    -----
+    As for :func:`frechet`.
+
+    Examples
+    --------
+    >>> from curvewise import reference
+    >>> reference.frechet_path([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 3)]).path.tolist()
+    [[0, 0], [1, 0], [2, 1]]
+    """
+    table = _accumulate(P, Q, metric, p)
+    return Alignment(float(table.restored(table.leashes[-1, -1])), _coupling(table.leashes))
+
+
+def frechet_table(
+    P: CurveLike, Q: CurveLike, *, metric: Metric = "euclidean", p: SupportsFloat | None = None
+) -> Array:
+    """Return the cumulative table of the discrete Fréchet distance.
+
+    Parameters
+    ----------
+    P, Q, metric, p
+        As for :func:`frechet`.
+
+    Returns
+    -------
+    ndarray, shape (n, m)
+        c[i, j], the discrete Fréchet distance of the first i + 1 and the first j + 1 points.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`frechet`.
+
+    Notes
+    -----
+    As for :func:`frechet`.
+
+    Examples
+    --------
+    >>> from curvewise import reference
+    >>> reference.frechet_table([0, 1, 2], [0, 2]).tolist()
+    [[0.0, 2.0], [1.0, 1.0], [2.0, 1.0]]
+    """
+    table = _accumulate(P, Q, metric, p)
+    return np.array(table.restored(table.leashes))
+
+
+class _Table(NamedTuple):
+    """A filled table, with what is needed to read a distance off it."""
+
+    leashes: Array  # c[i, j], or its square, in units of 2**exponent
+    squared: bool
+    exponent: int
+
+    def restored(self, values: Array) -> Array:
+        """Return values of the table in units of the curves."""
+        return times_power_of_two(np.sqrt(values) if self.squared else values, self.exponent)
+
+
+def _accumulate(P: CurveLike, Q: CurveLike, metric: Metric, p: SupportsFloat | None) -> _Table:
+    """Check everything and fill the table."""
+    P, Q = as_curves(P, Q)
+    metric, order = check_metric(metric, p)
+    P, Q = check_pair(P, Q, "frechet")
+    exponent = range_exponent(P, Q)
+    P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
+    # In one dimension the Euclidean distance is a difference: there is no root to put off.
+    squared = metric == "euclidean" and P.shape[1] > 1
+    ground = ground_distances(P, Q, "sqeuclidean" if squared else metric, order)
+    return _Table(_cumulative_leashes(ground), squared, exponent * degree(metric))
+
+
+def _cumulative_leashes(ground: Array) -> Array:
+    n, m = ground.shape
+    # leashes[i + 1, j + 1] is c[i, j]: behind a border of inf the first row and column need no
+    # case of their own.
+    leashes = np.full((n + 1, m + 1), np.inf)
+    leashes[1, 1] = ground[0, 0]
+    for s in range(1, n + m - 1):
+        i = np.arange(max(0, s - m + 1), min(s, n - 1) + 1)
+        j = s - i
+        up, left, diagonal = leashes[i, j + 1], leashes[i + 1, j], leashes[i, j]
+        shortest = np.minimum(np.minimum(up, left), diagonal)
+        leashes[i + 1, j + 1] = np.maximum(ground[i, j], shortest)
+    return leashes[1:, 1:]
+
+
+def _coupling(leashes: Array) -> npt.NDArray[np.int64]:
+    """Trace the coupling back from its end."""
+    i, j = leashes.shape[0] - 1, leashes.shape[1] - 1
+    path = [(i, j)]
+    while i > 0 or j > 0:
+        if i == 0:
+            j -= 1
+        elif j == 0:
+            i -= 1
+        else:
+            up, left, diagonal = leashes[i - 1, j], leashes[i, j - 1], leashes[i - 1, j - 1]
+            if diagonal <= min(up, left):
+                i, j = i - 1, j - 1
+            elif up <= left:
+                i -= 1
+            else:
+                j -= 1
+        path.append((i, j))
+    return np.array(path[::-1], dtype=np.int64)

@@ -1,0 +1,70 @@
+"""What the richer functions return: plain, immutable records of numpy arrays and numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["Alignment", "AreaQuads", "PcmMatch"]
+
+
+@dataclass(frozen=True)
+class Alignment:
+    """A distance with the path that attains it.
+
+    Attributes
+    ----------
+    distance : float
+        The value of the measure.
+    path : ndarray of int64, shape (k, 2)
+        Index pairs ``(i, j)``: point ``i`` of P is matched to point ``j`` of Q. Each step is
+        (1, 0), (0, 1) or (1, 1).
+    """
+
+    distance: float
+    path: npt.NDArray[np.int64]
+
+
+class AreaQuads(NamedTuple):
+    """The quadrilaterals between two curves and their areas.
+
+    Attributes
+    ----------
+    quads : ndarray, shape (k, 4, 2)
+        Vertices, in the order whose area is given.
+    areas : ndarray, shape (k,)
+        Their areas, in units of x times units of y.
+    """
+
+    quads: npt.NDArray[np.float64]
+    areas: npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PcmMatch:
+    """Where partial curve mapping places the shorter curve on the longer.
+
+    Attributes
+    ----------
+    value : float
+        The smallest area between the curves (dimensionless: curves scaled by P's box).
+    offset : float
+        Arc length (scaled) on the longer curve at which the shorter one starts.
+    coverage : float
+        Length of the shorter curve divided by that of the longer, at most 1 (to 1e-12). A small
+        coverage with a small value means that one curve is a piece of the other, not that
+        they agree.
+    mapped : {"P", "Q"}
+        Which curve is the shorter one, whose vertices are mapped onto the other.
+    points : ndarray, shape (k, 2)
+        For every vertex of the mapped curve, its point on the other curve, in original units.
+    """
+
+    value: float
+    offset: float
+    coverage: float
+    mapped: Literal["P", "Q"]
+    points: npt.NDArray[np.float64]
