@@ -1,0 +1,208 @@
+"""The command line: from two files, or the built-in pair, to five numbers and a picture.
+
+Exit status: 0; 1 for data that cannot be compared, a file that cannot be read or written, and a
+failed self-check, with one line on standard error; 2 for wrong usage; 130 after Ctrl-C and 141
+after a closed pipe, quietly. What only some commands need (matplotlib first of all) is imported
+by them, so that the others start fast and run without it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import io
+import json
+import math
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import get_args
+
+from . import __version__, build_info
+from .compare import Comparison, Preset, compare
+from .csv_curves import read_curve
+from .datasets import hysteresis_pair
+
+__all__ = ["main"]
+
+_MEASURES = ("area", "pcm", "frechet", "dtw", "curve_length")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit status.
+
+    Parameters
+    ----------
+    argv : sequence of str, optional
+        The arguments; those of the process by default.
+
+    Returns
+    -------
+    int
+        The exit status: 0, 1, 130 or 141, as said at the top of this file.
+
+    Raises
+    ------
+    SystemExit
+        By argparse: status 2 for wrong usage, 0 for --help and --version.
+
+    Examples
+    --------
+    >>> from curvewise.cli import main
+    >>> main(["compare", "no_such_file.csv", "nor_this.csv"])  # says so on standard error
+    1
+    """
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        # A file name, or "Fréchet", must not fail for the terminal's encoding.
+        sys.stdout.reconfigure(errors="backslashreplace")
+    try:
+        try:
+            arguments = _parser().parse_args(argv)
+            status: int = arguments.run(arguments)
+            return status
+        finally:
+            print(end="", flush=True)  # here, where an error of the output can be caught
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        _discard_output()
+        return 141
+    except OSError as error:
+        if error.filename is None:
+            _discard_output()
+            return _fail(f"the output cannot be written: {error.strerror}")
+        return _fail(f"{error.filename}: {error.strerror}")
+    except MemoryError as error:
+        return _fail(str(error) or "not enough memory")
+    except (ImportError, ValueError) as error:
+        return _fail(str(error))
+
+
+def _fail(message: str) -> int:
+    print("curvewise:", " ".join(message.split()), file=sys.stderr)
+    return 1
+
+
+def _discard_output() -> None:
+    """Send what is still buffered nowhere, or Python reports it again when it exits."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="curvewise",
+        description="How alike two curves are: area, partial curve mapping, Fréchet, DTW and "
+        "curve length.",
+        epilog="Exit status: 0, 1 (bad data or files), 2 (usage).",
+    )
+    parser.add_argument("--version", action="version", version=f"%(prog)s {__version__}")
+    commands = parser.add_subparsers(title="commands", metavar="command", required=True)
+
+    command = commands.add_parser("compare", help="compare the curves in two text files")
+    command.set_defaults(run=_compare)
+    command.add_argument("A", help="the reference, e.g. the experiment: one point per line")
+    command.add_argument("B", help="the other curve, e.g. the simulation")
+    command.add_argument(
+        "--columns",
+        nargs="+",
+        metavar="COLUMN",
+        help="names from the header, or numbers from 1; by default the first two",
+    )
+    command.add_argument(
+        "--preset",
+        choices=get_args(Preset),
+        default="scaled",
+        help="scale by the box of A (default), as in the paper's Table 4, or not at all",
+    )
+    command.add_argument(
+        "--measures",
+        nargs="+",
+        choices=_MEASURES,
+        help="by default all five; frechet and dtw if there are not two columns",
+    )
+    command.add_argument("--json", action="store_true", help="print one JSON object")
+    command.add_argument("--plot", metavar="FILE", help="write a picture, e.g. out.png or out.pdf")
+
+    command = commands.add_parser("demo", help="compare the built-in hysteresis loops")
+    command.set_defaults(run=_demo)
+    command.add_argument("--output", metavar="FILE", default="curvewise_demo.png")
+
+    command = commands.add_parser("selfcheck", help="check every kernel on this machine")
+    command.set_defaults(run=_selfcheck)
+    command = commands.add_parser("info", help="show version, compiler and instruction sets")
+    command.set_defaults(run=_info)
+    return parser
+
+
+def _compare(arguments: argparse.Namespace) -> int:
+    if arguments.plot:
+        _require_matplotlib()
+    files = [arguments.A, arguments.B]
+    P, Q = (read_curve(file, arguments.columns) for file in files)
+    try:
+        comparison = compare(P, Q, preset=arguments.preset, measures=arguments.measures)
+    except ValueError as error:
+        raise ValueError(f"{error} (P is {files[0]}, Q is {files[1]})") from error
+    if arguments.json:
+        print(_to_json(comparison, files))
+    else:
+        _print_table(comparison, files)
+    if arguments.plot:
+        _write_picture(comparison, arguments.plot)
+        if not arguments.json:
+            print(f"\npicture: {arguments.plot}")
+    return 0
+
+
+def _demo(arguments: argparse.Namespace) -> int:
+    _require_matplotlib()
+    comparison = compare(*hysteresis_pair())
+    _print_table(comparison, ["experiment (made by curvewise)", "simulation (likewise)"])
+    _write_picture(comparison, arguments.output)
+    print(f"\npicture: {arguments.output}")
+    return 0
+
+
+def _selfcheck(arguments: argparse.Namespace) -> int:
+    from .selfcheck import run
+
+    return 0 if run(sys.stdout) else 1
+
+
+def _info(arguments: argparse.Namespace) -> int:
+    for key, value in build_info().items():
+        text = " ".join(value) if isinstance(value, list) else value
+        print(f"{key.replace('_', ' '):<16}  {text}")
+    return 0
+
+
+def _print_table(comparison: Comparison, names: list[str]) -> None:
+    for letter, name, curve in zip("PQ", names, (comparison.P, comparison.Q), strict=True):
+        print(f"{letter}  {name}, {len(curve)} points")
+    print(f"preset {comparison.preset}\n\n{comparison}")
+
+
+def _to_json(comparison: Comparison, files: list[str]) -> str:
+    values = {
+        # JSON has no infinity: a value beyond the range of a double is null.
+        name: value if math.isfinite(value) else None
+        for name, value in comparison.to_dict().items()
+    }
+    n = [len(comparison.P), len(comparison.Q)]
+    return json.dumps(
+        {"files": files, "preset": comparison.preset, "n": n, "values": values}, indent=2
+    )
+
+
+def _require_matplotlib() -> None:
+    """Fail before the work rather than after it."""
+    try:
+        importlib.import_module("matplotlib.figure")
+    except ImportError as error:
+        raise ImportError('a picture needs matplotlib: pip install "curvewise[plot]"') from error
+
+
+def _write_picture(comparison: Comparison, file: str) -> None:
+    # With the format given, matplotlib does not append ".png" to a name without an ending.
+    comparison.plot().savefig(file, format=Path(file).suffix[1:] or "png")
