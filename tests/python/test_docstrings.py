@@ -1,0 +1,38 @@
+"""The examples in the docstrings, and that every public function has one."""
+
+from __future__ import annotations
+
+import doctest
+import importlib
+import inspect
+import pkgutil
+from types import ModuleType
+
+import pytest
+
+import curvewise
+
+MODULES = sorted(
+    module.name
+    for module in pkgutil.walk_packages(curvewise.__path__, "curvewise.")
+    if not module.name.endswith(("._core", ".__main__"))
+)
+
+FUNCTIONS = sorted(
+    name for name in curvewise.__all__ if inspect.isfunction(getattr(curvewise, name))
+)
+
+
+@pytest.mark.parametrize("name", ["curvewise", *MODULES])
+def test_examples_run(name: str) -> None:
+    module: ModuleType = importlib.import_module(name)
+    assert doctest.testmod(module).failed == 0
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_public_function_is_documented(name: str) -> None:
+    docstring = inspect.getdoc(getattr(curvewise, name)) or ""
+    sections = ["Returns\n-----", "Examples\n-----"]
+    if inspect.signature(getattr(curvewise, name)).parameters:
+        sections += ["Parameters\n-----", "Raises\n-----", "Notes\n-----"]
+    assert [section for section in sections if section not in docstring] == []

@@ -1,0 +1,80 @@
+"""A user's file that calls every public function; `mypy --strict` must accept it.
+
+Each result is bound to the type that the documentation promises.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.figure import Figure
+
+import curvewise
+import curvewise.compat as similaritymeasures
+from curvewise import cli, datasets, plotting, reference, selfcheck
+from curvewise.csv_curves import read_curve
+
+FloatArray = npt.NDArray[np.float64]
+
+P, Q = datasets.hysteresis_pair(seed=1)
+listed = [(0.0, 1.0), (1, 2)]
+
+number: float = curvewise.area(P, Q, spacing="x", crossing="split", squared=True)
+number = curvewise.area(listed, [[0, 1], [2, 3]])
+quads: FloatArray = curvewise.area_quads(P, Q, spacing="arc_length").quads
+areas: FloatArray = curvewise.area_quads(P, Q, crossing="split")[1]
+number = curvewise.pcm(P, Q, offsets="continuous")
+number = curvewise.pcm(P, Q, offsets=np.int64(100))
+match: curvewise.PcmMatch = curvewise.pcm_match(P, Q, offsets=50)
+number = match.value + match.offset + match.coverage
+mapped: str = match.mapped
+points: FloatArray = match.points
+
+number = curvewise.frechet(P, Q, metric="minkowski", p=3)
+alignment: curvewise.Alignment = curvewise.frechet_path(P, Q, metric="chebyshev")
+path: npt.NDArray[np.int64] = alignment.path
+number = alignment.distance
+table: FloatArray = curvewise.frechet_table(P, Q, metric="cityblock")
+number = curvewise.dtw(P, Q, metric="sqeuclidean", step_pattern="symmetric2", window=10)
+number = curvewise.dtw(P[:, 0], Q[:, 0], open_begin=True, open_end=True)
+alignment = curvewise.dtw_path(P, Q, window=np.int32(3))
+table = curvewise.dtw_table(P, Q, metric="minkowski", p=np.inf)
+
+number = curvewise.curve_length(P, Q, scale="mean_abs")
+residuals: FloatArray = curvewise.curve_length_residuals(P, Q, scale="range")
+number = curvewise.sum_of_squares(P, P) + curvewise.mse(P, P) + curvewise.mae(P, P)
+scaled: list[FloatArray] = curvewise.normalize(P, Q, listed)
+
+comparison: curvewise.Comparison = curvewise.compare(P, Q, preset="paper", measures=["dtw"])
+number = comparison["dtw"]
+values: dict[str, float] = comparison.to_dict()
+figure: Figure = comparison.plot()
+compiler: str = curvewise.build_info()["compiler"]
+levels: list[str] = curvewise.build_info()["instruction_sets"]
+version: str = curvewise.__version__
+
+axes = figure.subplots()
+plotting.plot_area(P, Q, axes, spacing="x")
+plotting.plot_alignment(P, Q, axes, measure="frechet", metric="cityblock")
+plotting.plot_pcm(P, Q, axes, offsets="continuous")
+plotting.plot_curve_length(P, Q, axes)
+plotting.plot_table(P, Q, axes, measure="dtw", window=3)
+figure = plotting.plot_comparison(comparison)
+
+number = reference.area(P, Q) + reference.pcm(P, Q) + reference.frechet(P, Q)
+number = reference.dtw(P, Q, window=4) + reference.curve_length(P, Q, scale="range")
+alignment = reference.dtw_path(P, Q)
+
+number = float(similaritymeasures.area_between_two_curves(P, Q))
+number = float(similaritymeasures.pcm(P, Q, norm_seg_length=True))
+number = float(similaritymeasures.curve_length_measure(P, Q))
+number = float(similaritymeasures.frechet_dist(P, Q, p=2))
+distance, cumulative = similaritymeasures.dtw(P, Q, metric="canberra")
+number = float(similaritymeasures.mae(P, P) + similaritymeasures.mse(P, P))
+
+curve: FloatArray = read_curve(Path("loop.csv"), columns=["strain", "stress"])
+all_equal: bool = selfcheck.run(sys.stdout)
+status: int = cli.main(["info"])
