@@ -6,6 +6,7 @@
 #include <string>
 
 #include "checks.hpp"
+#include "dispatch.hpp"
 #include "packed_pair.hpp"
 #include "sweep.hpp"
 
@@ -45,10 +46,11 @@ struct Problem {
         : options((check_options(given), given)),
           range(detail::check_pair(P, Q, {"dtw", 1, false})),
           curves((check_window(P.size(), Q.size(), given), PackedPair(P, Q, range))),
-          sweep{curves,
+          sweep{*detail::active_level().kernels,
+                curves,
                 given.step_pattern == StepPattern::symmetric1 ? kernels::Recurrence::dtw_symmetric1
                                                               : kernels::Recurrence::dtw_symmetric2,
-                detail::canonical_cost(given.ground, P.dim()),
+                detail::canonical_cost(given.ground, curves),
                 given.ground.p,
                 detail::Band(P.size(), Q.size(), given.window),
                 given.open_begin} {}

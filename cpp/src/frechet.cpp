@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "checks.hpp"
+#include "dispatch.hpp"
 #include "packed_pair.hpp"
 #include "sweep.hpp"
 
@@ -25,13 +26,15 @@ struct Problem {
           range((detail::check_ground_distance(options.ground),
                  detail::check_pair(P, Q, {"frechet", 1, false}))),
           curves(P, Q, range),
-          sweep{curves,
+          sweep{*detail::active_level().kernels,
+                curves,
                 kernels::Recurrence::frechet,
-                detail::canonical_cost(options.ground, P.dim()),
+                detail::canonical_cost(options.ground, curves),
                 options.ground.p,
                 detail::Band(P.size(), Q.size(), std::nullopt),
                 false},
-          squared(sweep.cost == kernels::Cost::euclidean) {
+          squared(sweep.cost == kernels::Cost::euclidean ||
+                  sweep.cost == kernels::Cost::euclidean_in_domain) {
         if (squared) sweep.cost = kernels::Cost::sqeuclidean;
     }
 

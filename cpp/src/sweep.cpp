@@ -7,7 +7,6 @@
 #include <string>
 
 #include "allocation_error.hpp"
-#include "dispatch.hpp"
 
 namespace curvewise::detail {
 namespace {
@@ -38,9 +37,9 @@ class StripWalk {
           lanes_(4 * lane_stride_),
           first_column_(static_cast<std::size_t>(height_)),
           last_column_(static_cast<std::size_t>(height_)),
-          advance_(active_kernels().advance(problem.recurrence, problem.cost, problem.curves.dim(),
-                                            output)),
-          fill_(active_kernels().fill(problem.cost)) {
+          advance_(problem.kernels.advance(problem.recurrence, problem.cost, problem.curves.dim(),
+                                           output)),
+          fill_(problem.kernels.fill(problem.cost)) {
         const PackedPair& curves = problem.curves;
         strip_.p_stride = curves.p_stride();
         strip_.q = curves.q();
@@ -133,9 +132,9 @@ void check_ground_distance(const GroundDistance& ground) {
     }
 }
 
-kernels::Cost canonical_cost(const GroundDistance& ground, std::ptrdiff_t dim) noexcept {
+kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& curves) noexcept {
     if (ground.metric == Metric::sqeuclidean) return kernels::Cost::sqeuclidean;
-    if (dim == 1) return kernels::Cost::cityblock;
+    if (curves.dim() == 1) return kernels::Cost::cityblock;
     switch (ground.metric) {
         case Metric::cityblock:
             return kernels::Cost::cityblock;
@@ -149,7 +148,8 @@ kernels::Cost canonical_cost(const GroundDistance& ground, std::ptrdiff_t dim) n
         default:
             break;
     }
-    return kernels::Cost::euclidean;
+    return curves.squares_are_in_domain() ? kernels::Cost::euclidean_in_domain
+                                          : kernels::Cost::euclidean;
 }
 
 BottomRow::BottomRow(std::ptrdiff_t columns)

@@ -17,6 +17,7 @@
 namespace curvewise::detail {
 
 struct SweepProblem {
+    const kernels::KernelSet& kernels;
     const PackedPair& curves;
     kernels::Recurrence recurrence;
     kernels::Cost cost;
@@ -30,7 +31,7 @@ void check_ground_distance(const GroundDistance& ground);
 
 // The metric to compute: orders 1, 2 and inf of minkowski by their own names, and everything but
 // sqeuclidean as |difference| in one dimension.
-kernels::Cost canonical_cost(const GroundDistance& ground, std::ptrdiff_t dim) noexcept;
+kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& curves) noexcept;
 
 // The last row of the table.
 class BottomRow {

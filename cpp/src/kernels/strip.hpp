@@ -72,7 +72,8 @@ using AdvanceFunction = void (*)(Strip& strip, std::ptrdiff_t end, CostFunction 
 
 enum class Output { boundary_only, codes, table };
 
-enum class Cost { euclidean, sqeuclidean, cityblock, chebyshev, minkowski };
+// euclidean_in_domain: every sum of squares is 0 or within the domain of the fast square root.
+enum class Cost { euclidean, euclidean_in_domain, sqeuclidean, cityblock, chebyshev, minkowski };
 
 // What one instruction-set level offers.
 struct KernelSet {
@@ -82,5 +83,9 @@ struct KernelSet {
 };
 
 extern const KernelSet baseline;
+#ifdef CURVEWISE_X86_64_LEVELS
+extern const KernelSet v3;  // AVX2 and FMA
+extern const KernelSet v4;  // AVX-512 F, BW, CD, DQ and VL
+#endif
 
 }  // namespace curvewise::kernels

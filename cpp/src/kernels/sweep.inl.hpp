@@ -1,8 +1,10 @@
 // The one anti-diagonal sweep of a strip, for DTW and Fréchet (see strip.hpp for the layout).
 // Per SIMD vector of cells: three loads of earlier diagonals, the ground distance, the
 // recurrence, one store. Three policies compose it: the recurrence, the ground distance, and what
-// is kept besides the bottom row. Included by the kernel of each instruction set, inside its
-// anonymous namespace, after ground_distance.inl.hpp.
+// is kept besides the bottom row. Included by the kernel of each level, inside its anonymous
+// namespace.
+
+#include "ground_distance.inl.hpp"
 
 struct DtwSymmetric1 {
     // min(min(up, left) + d, diagonal + d) is the same: rounding is monotone.
@@ -143,9 +145,9 @@ AdvanceFunction select_cost(Cost cost, std::ptrdiff_t dim, Output output) noexce
         if (dim == 2) return advance<Rule, SquaredCost<2>, KeepNothing>;
         if (dim == 3) return advance<Rule, SquaredCost<3>, KeepNothing>;
     }
-    if (cost == Cost::euclidean) {
-        if (dim == 2) return advance<Rule, EuclideanCost<2>, KeepNothing>;
-        if (dim == 3) return advance<Rule, EuclideanCost<3>, KeepNothing>;
+    if (cost == Cost::euclidean_in_domain) {
+        if (dim == 2) return advance<Rule, EuclideanCost<2, FastRoot>, KeepNothing>;
+        if (dim == 3) return advance<Rule, EuclideanCost<3, FastRoot>, KeepNothing>;
     }
     return advance<Rule, BufferedCost, KeepNothing>;
 }
