@@ -15,13 +15,14 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-import curvewise.compat as similaritymeasures
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+import curvewise.compat as similaritymeasures
 
 Array = npt.NDArray[Any]
 Convert = Callable[[Array], Any]
@@ -192,7 +193,7 @@ def area_by_loops(exp: Array, num: Array) -> float:
         k = lengths.index(max(lengths))
         (x0, y0), (x1, y1) = sorted(shorter[k : k + 2], key=lambda point: point[0])
         x = (x0 + x1) / 2
-        y = (y1 - y0) / (x1 - x0) * (x - x0) + y0 if x0 < x1 else shorter[k][1]
+        y = (y1 - y0) / (x1 - x0) * (x - x0) + y0 if x0 < x1 else (y0 + y1) / 2
         shorter.insert(k + 1, [x, y])
     quads = zip(pairwise(longer), pairwise(shorter), strict=True)
     return math.fsum(quad_area([a, b, c, d]) for (a, b), (d, c) in quads)

@@ -4,7 +4,8 @@ The paper's Algorithm 1 (Jekel et al. 2018) as that package does it: the curve w
 gets one point more at a time, in the middle of what is then its longest segment, all lengths being
 those of the points as they were rounded; a midpoint's y is interpolated by ``numpy.interp``. Only
 a vertical segment is treated otherwise than there: it gets its true midpoint. The areas of the
-quadrilaterals between corresponding segments are added. O(n·(n − m)) time for the refinement, in vectorised steps; O(n) memory.
+quadrilaterals between corresponding segments are added. O(n·(n − m)) time for the refinement, in
+vectorised steps; O(n) memory.
 """
 
 from __future__ import annotations
