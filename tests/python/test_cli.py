@@ -8,9 +8,10 @@ import re
 import subprocess
 import sys
 
-import curvewise
 import numpy as np
 import pytest
+
+import curvewise
 from curvewise import cli
 from curvewise.csv_curves import read_curve
 

@@ -7,10 +7,11 @@ import json
 
 import numpy as np
 import pytest
-from curvewise import csv_curves
-from curvewise.csv_curves import read_curve
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+
+from curvewise import csv_curves
+from curvewise.csv_curves import read_curve
 
 POINTS = [[0.0, 0.0], [0.001, 199.5], [-0.0005, -1e-05]]
 

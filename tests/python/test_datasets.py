@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+
 from curvewise.datasets import hysteresis_pair, kinematic_hardening
 
 E, YIELD = 200e3, 300.0

@@ -12,14 +12,15 @@ import subprocess
 import sys
 import time
 
-import curvewise
 import numpy as np
 import pytest
-from curvewise import plotting
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+
+import curvewise
+from curvewise import plotting
 
 BOTH_MEASURES = pytest.mark.parametrize("measure", ["dtw", "frechet"])
 PICTURES = {

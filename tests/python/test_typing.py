@@ -14,8 +14,11 @@ USER_FILE = Path(__file__).resolve().parents[1] / "typing" / "every_public_funct
 
 def test_mypy_strict_accepts_every_public_function(tmp_path: Path) -> None:
     checked = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", "--config-file=", f"--cache-dir={tmp_path}"]
-        + [str(USER_FILE)],
+        [
+            *(sys.executable, "-m", "mypy", "--strict", "--config-file="),
+            f"--cache-dir={tmp_path}",
+            str(USER_FILE),
+        ],
         capture_output=True,
         text=True,
         cwd=tmp_path,

@@ -9,8 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .._curves import Array
+from .scaling import range_exponent, times_power_of_two
 
-__all__ = ["arc_lengths", "interpolate", "locate"]
+__all__ = ["arc_lengths", "interpolate", "locate", "norms"]
 
 
 def arc_lengths(curve: Array) -> Array:
@@ -19,8 +20,14 @@ def arc_lengths(curve: Array) -> Array:
     Beyond the range of a double it is inf, or nan where coordinates are infinite.
     """
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-        dx, dy = np.diff(curve, axis=0).T
-        return np.concatenate([[0.0], np.cumsum(np.sqrt(dx * dx + dy * dy))])
+        return np.concatenate([[0.0], np.cumsum(norms(np.diff(curve, axis=0)))])
+
+
+def norms(vectors: Array) -> Array:
+    """Return sqrt(dx² + dy²) of vectors, shape (..., 2), of which squares may be out of range."""
+    exponent = range_exponent(vectors)
+    dx, dy = np.moveaxis(times_power_of_two(vectors, -exponent), -1, 0)
+    return times_power_of_two(np.sqrt(dx * dx + dy * dy), exponent)
 
 
 def locate(lengths: Array, position: Array) -> tuple[npt.NDArray[np.intp], Array]:

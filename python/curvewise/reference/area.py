@@ -45,7 +45,8 @@ def area(
         stress and strain "distance" gives 174 where the table says 45.1, because stress dominates
         the length): raw stress–strain data want "x", or curves scaled by :func:`normalize`.
         "arc_length" gives each curve a vertex wherever the other has one, by relative arc length
-        after scaling by P's box, so that the value does not depend on how either was sampled.
+        after scaling by P's box, so that the value does not depend on how either was sampled,
+        where the curves do not cross.
     crossing : {"rearrange", "split"}
         What becomes of a quadrilateral that intersects itself. "rearrange" (the paper) swaps two
         vertices: the value jumps where a quadrilateral turns complex. "split" takes the two

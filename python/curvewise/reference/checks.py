@@ -32,11 +32,13 @@ def check_choice(option: str, value: object, choices: Sequence[str]) -> None:
 def whole_number(option: str, value: Any, least: int, advice: str) -> int:
     """Return `value` as an int; refuse bools, floats and whatever is below `least`."""
     try:
-        number = None if isinstance(value, bool) else operator.index(value)
+        number = operator.index(value)
     except TypeError:
         number = None
-    if number is None or number < least:
+    if number is None or isinstance(value, bool):
         raise ValueError(f"{option} is {value!r}; {advice}")
+    if number < least:
+        raise ValueError(f"{option} is {number}; {advice}")
     return number
 
 

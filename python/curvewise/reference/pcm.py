@@ -16,7 +16,7 @@ import numpy as np
 
 from .._curves import Array, CurveLike, as_curves
 from ..results import PcmMatch
-from .arc_length import arc_lengths, interpolate, locate
+from .arc_length import arc_lengths, interpolate, locate, norms
 from .checks import check_length, check_pair, whole_number
 from .scaling import box_scaled, range_exponent, times_power_of_two
 
@@ -169,18 +169,20 @@ def _areas_at_once(roles: _Roles, offsets: Array) -> Array:
     position = np.minimum(roles.s + offsets[:, np.newaxis], roles.t[-1])
     points = interpolate(roles.longer, *locate(roles.t, position))
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-        dx, dy = np.moveaxis(points - roles.shorter, -1, 0)
-        d = np.sqrt(dx * dx + dy * dy)
+        d = norms(points - roles.shorter)
         areas = np.sum(0.5 * (d[:, :-1] + d[:, 1:]) * np.diff(roles.s), axis=1)
     return np.where(np.isfinite(areas), areas, np.inf)
 
 
 def _mapped_points(roles: _Roles, offset: float, longer: Array) -> Array:
     """Return where the vertices of the shorter curve lie on the unscaled longer one."""
-    exponent = range_exponent(longer)
-    position = np.minimum(roles.s + offset, roles.t[-1])
-    points = interpolate(times_power_of_two(longer, -exponent), *locate(roles.t, position))
-    return times_power_of_two(points, exponent)
+    position = locate(roles.t, np.minimum(roles.s + offset, roles.t[-1]))
+    columns = []
+    for x in longer.T:
+        exponent = range_exponent(x)
+        points = interpolate(times_power_of_two(x, -exponent), *position)
+        columns.append(times_power_of_two(points, exponent))
+    return np.column_stack(columns)
 
 
 def _all_offsets(roles: _Roles) -> Array:
