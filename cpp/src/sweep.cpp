@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -128,8 +129,9 @@ BottomRow row_above(const SweepProblem& problem) {
 
 void check_ground_distance(const GroundDistance& ground) {
     if (ground.metric == Metric::minkowski && !(ground.p >= 1.0)) {
-        std::string p = std::to_string(ground.p);
-        throw std::invalid_argument("p is " + p + "; minkowski needs 1 <= p <= inf");
+        char p[32];
+        std::snprintf(p, sizeof p, "%.17g", ground.p);
+        throw std::invalid_argument("p is " + std::string(p) + "; minkowski needs 1 <= p <= inf");
     }
 }
 

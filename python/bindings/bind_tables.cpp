@@ -24,7 +24,7 @@ GroundDistance ground_distance(const py::object& metric, const py::object& p) {
                               py::repr(metric).cast<std::string>());
     }
     const double order = PyFloat_AsDouble(p.ptr());
-    if (PyErr_Occurred()) {
+    if (PyErr_Occurred() || !(order >= 1.0)) {
         PyErr_Clear();
         throw py::value_error("p is " + py::repr(p).cast<std::string>() +
                               "; minkowski needs 1 <= p <= inf");
@@ -55,10 +55,21 @@ py::tuple as_tuple(const Alignment& alignment) {
         py::array_t<std::int64_t>({length, py::ssize_t{2}}, alignment.path.front().data()));
 }
 
-// Allocated by numpy, whose MemoryError names the size.
+py::array_t<double> allocate_table(const CurveArray& P, const CurveArray& Q) {
+    try {
+        return py::array_t<double>({P.shape(0), Q.shape(0)});
+    } catch (const py::error_already_set&) {  // numpy names the size in units of its choice
+        const double size = cells(P, Q) * sizeof(double) / (1024.0 * 1024.0 * 1024.0);
+        PyErr_Format(PyExc_MemoryError, "no memory for a table of shape (%zd, %zd), %s GiB",
+                     P.shape(0), Q.shape(0),
+                     py::str("{:.3g}").format(size).cast<std::string>().c_str());
+        throw py::error_already_set();
+    }
+}
+
 template <class Fill>
 py::array_t<double> table(const CurveArray& P, const CurveArray& Q, Fill fill) {
-    py::array_t<double> out({P.shape(0), Q.shape(0)});
+    py::array_t<double> out = allocate_table(P, Q);
     double* const data = out.mutable_data();
     unlocked(cells(P, Q), [&] { fill(data); });
     return out;
