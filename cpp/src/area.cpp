@@ -76,11 +76,6 @@ Measured measure(const Quad& quad, Crossing crossing) noexcept {
     return {simple, simple.area()};
 }
 
-FacingCurves facing(const CurveView& P, const CurveView& Q, const RangeScale& range,
-                    Spacing spacing) {
-    return detail::face(polyline(P, range), polyline(Q, range), spacing);
-}
-
 Quad quad_at(const FacingCurves& curves, std::size_t i) noexcept {
     return {curves.A[i], curves.A[i + 1], curves.B[i + 1], curves.B[i]};
 }
@@ -89,7 +84,7 @@ Quad quad_at(const FacingCurves& curves, std::size_t i) noexcept {
 
 double area(const CurveView& P, const CurveView& Q, const AreaOptions& options) {
     const RangeScale range = detail::check_pair(P, Q, {"area", 2, true});
-    const FacingCurves curves = facing(P, Q, range, options.spacing);
+    const FacingCurves curves = detail::face(P, Q, range, options.spacing);
     double sum = 0.0;
     for (std::size_t i = 0; i + 1 < curves.A.size(); ++i) {
         const double part = measure(quad_at(curves, i), options.crossing).area;
@@ -100,7 +95,7 @@ double area(const CurveView& P, const CurveView& Q, const AreaOptions& options) 
 
 AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& options) {
     const RangeScale range = detail::check_pair(P, Q, {"area", 2, true});
-    const FacingCurves curves = facing(P, Q, range, options.spacing);
+    const FacingCurves curves = detail::face(P, Q, range, options.spacing);
     const auto restored = [&](const Point& point) -> std::array<double, 2> {
         return {range.restore(point.x, 1), range.restore(point.y, 1)};
     };

@@ -64,6 +64,12 @@ RangeScale::RangeScale(double largest_magnitude) noexcept {
     }
 }
 
+RangeScale RangeScale::to_unity(double magnitude) noexcept {
+    RangeScale range;
+    std::frexp(magnitude, &range.exponent_);
+    return range;
+}
+
 double check_finite(const CurveView& curve, const char* name) {
     double largest = 0.0;
     double poison = 0.0;  // stays 0 while every entry is finite: inf - inf and nan - nan are nan

@@ -20,6 +20,8 @@ struct Requirements {
 class RangeScale {
    public:
     explicit RangeScale(double largest_magnitude) noexcept;
+    // To where `magnitude`, if not 0, comes to lie between 1/2 and 1, whatever it is.
+    static RangeScale to_unity(double magnitude) noexcept;
     bool is_identity() const noexcept { return exponent_ == 0; }
     double shrink(double coordinate) const noexcept {
         return is_identity() ? coordinate : std::ldexp(coordinate, -exponent_);
@@ -30,6 +32,7 @@ class RangeScale {
     }
 
    private:
+    RangeScale() noexcept = default;
     int exponent_ = 0;
 };
 

@@ -14,101 +14,131 @@
 namespace curvewise {
 namespace {
 
-using detail::Point;
 using detail::Polyline;
+using detail::RangeScale;
 
 // The arc lengths after dividing each coordinate by the curve's own largest magnitude.
-std::vector<double> relative_arc_lengths(const Polyline& curve) {
-    Point largest{0.0, 0.0};
-    for (const Point& point : curve) {
-        largest.x = std::max(largest.x, std::abs(point.x));
-        largest.y = std::max(largest.y, std::abs(point.y));
+std::vector<double> relative_arc_lengths(const CurveView& curve) {
+    double largest[2] = {0.0, 0.0};
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        largest[0] = std::max(largest[0], std::abs(curve(i, 0)));
+        largest[1] = std::max(largest[1], std::abs(curve(i, 1)));
     }
-    if (largest.x == 0.0) largest.x = 1e-15;
-    if (largest.y == 0.0) largest.y = 1e-15;
-    Polyline scaled(curve.size());
-    std::transform(curve.begin(), curve.end(), scaled.begin(), [&](const Point& point) -> Point {
-        return {point.x / largest.x, point.y / largest.y};
-    });
+    for (double& value : largest) {
+        if (value == 0.0) value = 1e-15;
+    }
+    Polyline scaled(static_cast<std::size_t>(curve.size()));
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        scaled[static_cast<std::size_t>(i)] = {curve(i, 0) / largest[0], curve(i, 1) / largest[1]};
+    }
     return detail::arc_lengths(scaled);
 }
 
-[[noreturn]] void throw_zero_scale(const char* what, const char* axis, const char* others) {
-    throw std::invalid_argument(std::string("the ") + what + " of P's " + axis + " is 0" + others);
+// A place on a curve: a segment and a fraction of it.
+struct Place {
+    std::size_t segment;
+    double fraction;
+};
+
+// For each point of P the place on Q at the same fraction of its length.
+std::vector<Place> corresponding_places(const CurveView& P, const CurveView& Q) {
+    const std::vector<double> s = relative_arc_lengths(P);
+    const std::vector<double> t = relative_arc_lengths(Q);
+    detail::check_length(s.back(), "P", "curve_length");
+    detail::check_length(t.back(), "Q", "curve_length");
+    const double ratio = t.back() / s.back();
+    std::vector<Place> places(s.size());
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const double at = i + 1 < s.size() ? std::min(s[i] * ratio, t.back()) : t.back();
+        while (k + 2 < t.size() && t[k + 1] <= at) ++k;
+        const double length = t[k + 1] - t[k];
+        places[i] = {k, length > 0.0 ? (at - t[k]) / length : 1.0};
+    }
+    return places;
 }
+
+// One coordinate of both curves, in a range of its own: a quotient has no units, so nothing needs
+// to be scaled back.
+struct Coordinate {
+    std::vector<double> p;
+    std::vector<double> q;
+    const char* name;
+
+    Coordinate(const CurveView& P, const CurveView& Q, std::ptrdiff_t c)
+        : p(values(P, c)), q(values(Q, c)), name(c == 0 ? "x" : "y") {
+        const double largest = largest_magnitude(p);
+        if (RangeScale(std::max(largest, largest_magnitude(q))).is_identity()) return;
+        const RangeScale range = RangeScale::to_unity(largest);
+        for (double& value : p) value = range.shrink(value);
+        for (double& value : q) value = range.shrink(value);
+    }
+
+    static std::vector<double> values(const CurveView& curve, std::ptrdiff_t c) {
+        std::vector<double> result(static_cast<std::size_t>(curve.size()));
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            result[i] = curve(static_cast<std::ptrdiff_t>(i), c);
+        }
+        return result;
+    }
+    static double largest_magnitude(const std::vector<double>& values) noexcept {
+        double largest = 0.0;
+        for (const double value : values) largest = std::max(largest, std::abs(value));
+        return largest;
+    }
+};
 
 // What differences in one coordinate are divided by.
-double coordinate_scale(const Polyline& P, double Point::*coordinate, LengthScale scale) {
-    const char* const axis = coordinate == &Point::x ? "x" : "y";
-    const auto n = static_cast<double>(P.size());
-    double low = P.front().*coordinate, high = low, sum = 0.0, sum_abs = 0.0;
-    for (const Point& point : P) {
-        const double value = point.*coordinate;
+double coordinate_scale(const Coordinate& x, LengthScale scale) {
+    const auto n = static_cast<double>(x.p.size());
+    double low = x.p.front(), high = low, sum = 0.0, sum_abs = 0.0;
+    for (const double value : x.p) {
         low = std::min(low, value);
         high = std::max(high, value);
-        sum += value / n;
-        sum_abs += std::abs(value) / n;
-    }
-    if (scale == LengthScale::range) {
-        if (high > low) return high - low;
-        throw_zero_scale("range", axis, "; use scale='mean' or scale='mean_abs'");
-    }
-    if (scale == LengthScale::mean_abs) {
-        if (sum_abs > 0.0) return sum_abs;
-        throw_zero_scale("mean absolute value", axis,
-                         " throughout; curve_length needs another x or y");
+        sum += value;
+        sum_abs += std::abs(value);
     }
     const double largest = std::max(std::abs(low), std::abs(high));
-    if (std::abs(sum) > n * std::numeric_limits<double>::epsilon() * largest) return sum;
-    throw_zero_scale("mean", axis, " to rounding; use scale='mean_abs' or scale='range'");
+    const std::string name = x.name;
+    if (scale == LengthScale::mean) {
+        const double mean = sum / n;
+        if (std::abs(mean) > n * std::numeric_limits<double>::epsilon() * largest) return mean;
+        throw std::invalid_argument("the mean of P's " + name +
+                                    " is 0 to rounding; use scale='mean_abs' or scale='range'");
+    }
+    if (largest == 0.0) {
+        throw std::invalid_argument(
+            "P's " + name + " is 0 throughout, which leaves nothing to divide by; " +
+            "add the same constant to " + name + " of both curves and use scale='mean_abs'");
+    }
+    if (scale == LengthScale::mean_abs) return sum_abs / n;
+    if (high > low) return high - low;
+    throw std::invalid_argument("the range of P's " + name +
+                                " is 0; use scale='mean' or scale='mean_abs'");
 }
 
-// Which point of Q corresponds to each point of P: the one at the same fraction of its length.
-class Correspondence {
-   public:
-    Correspondence(const Polyline& P, const Polyline& Q)
-        : Q_(Q), s_(relative_arc_lengths(P)), t_(relative_arc_lengths(Q)) {
-        detail::check_length(s_.back(), "P", "curve_length");
-        detail::check_length(t_.back(), "Q", "curve_length");
+// Writes the residuals of one coordinate to out[0], out[2], out[4], ...
+void write_residuals(const Coordinate& x, const std::vector<Place>& places, LengthScale scale,
+                     double* out) {
+    const double divisor = coordinate_scale(x, scale);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const double a = x.q[places[i].segment];
+        const double b = x.q[places[i].segment + 1];
+        const double at = places[i].fraction == 1.0 ? b : a + places[i].fraction * (b - a);
+        const double relative = std::abs((at - x.p[i]) / divisor);
+        out[2 * i] =
+            std::log1p(std::isnan(relative) ? std::numeric_limits<double>::infinity() : relative);
     }
-
-    // Calls visit(i, point of Q) for every point i of P.
-    template <class Visit>
-    void for_each(Visit visit) const {
-        const double ratio = t_.back() / s_.back();
-        std::size_t k = 0;
-        for (std::size_t i = 0; i < s_.size(); ++i) {
-            const double at = i + 1 < s_.size() ? std::min(s_[i] * ratio, t_.back()) : t_.back();
-            while (k + 2 < Q_.size() && t_[k + 1] <= at) ++k;
-            const double length = t_[k + 1] - t_[k];
-            visit(i, interpolate(Q_[k], Q_[k + 1], length > 0.0 ? (at - t_[k]) / length : 1.0));
-        }
-    }
-
-   private:
-    const Polyline& Q_;
-    std::vector<double> s_;
-    std::vector<double> t_;
-};
+}
 
 }  // namespace
 
 void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
                             const CurveLengthOptions& options) {
-    const detail::RangeScale range = detail::check_pair(P, Q, {"curve_length", 2, true});
-    const Polyline p = polyline(P, range);
-    const Polyline q = polyline(Q, range);
-    const Correspondence correspondence(p, q);
-    const double scale_x = coordinate_scale(p, &Point::x, options.scale);
-    const double scale_y = coordinate_scale(p, &Point::y, options.scale);
-    const auto residual = [](double delta, double scale) {
-        return std::log1p(std::abs(delta / scale));
-    };
-    correspondence.for_each([&](std::size_t i, const Point& point) {
-        const Point delta = point - p[i];
-        out[2 * i] = residual(delta.x, scale_x);
-        out[2 * i + 1] = residual(delta.y, scale_y);
-    });
+    detail::check_pair(P, Q, {"curve_length", 2, true});
+    const std::vector<Place> places = corresponding_places(P, Q);
+    write_residuals(Coordinate(P, Q, 0), places, options.scale, out);
+    write_residuals(Coordinate(P, Q, 1), places, options.scale, out + 1);
 }
 
 double curve_length(const CurveView& P, const CurveView& Q, const CurveLengthOptions& options) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace curvewise::detail {
 namespace {
@@ -36,7 +37,7 @@ class AreaAtOffset {
             position.move_to(shorter_.arc_lengths()[i] + offset);
             sum += weights_[i] * norm(position.point() - shorter_.points()[i]);
         }
-        return sum;
+        return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
     }
 
     // Of f over centre - half .. centre + half.

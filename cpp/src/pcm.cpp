@@ -18,10 +18,6 @@ namespace curvewise {
 namespace {
 
 using detail::ArcCurve;
-using detail::Box;
-using detail::Point;
-using detail::Polyline;
-using detail::RangeScale;
 
 constexpr double equal_lengths = 1e-12;  // relative; within it P counts as the shorter curve
 
@@ -32,10 +28,9 @@ struct Roles {
     bool maps_p;
 };
 
-Roles assign_roles(const Polyline& P, const Polyline& Q) {
-    const Box box(P);
-    ArcCurve p(box.scaled(P));
-    ArcCurve q(box.scaled(Q));
+Roles assign_roles(const CurveView& P, const CurveView& Q) {
+    ArcCurve p(detail::box_scaled(P, P));
+    ArcCurve q(detail::box_scaled(Q, P));
     detail::check_length(p.length(), "P", "pcm");
     detail::check_length(q.length(), "Q", "pcm");
     if (p.length() <= q.length() + equal_lengths * std::max(p.length(), q.length())) {
@@ -59,34 +54,49 @@ detail::Offset best_offset(const Roles& roles, const PcmOptions& options) {
                               : detail::best_of_grid(roles.shorter, roles.longer, options.offsets);
 }
 
+// Where the shorter curve's vertices lie on the unscaled longer one.
+std::vector<std::array<double, 2>> mapped_points(const Roles& roles, const CurveView& longer,
+                                                 double offset) {
+    std::vector<std::array<double, 2>> points;
+    points.reserve(roles.shorter.arc_lengths().size());
+    detail::ArcPosition position(roles.longer);
+    for (const double s : roles.shorter.arc_lengths()) {
+        position.move_to(s + offset);
+        const auto k = static_cast<std::ptrdiff_t>(position.segment());
+        const double h = position.fraction();
+        const auto between = [&](std::ptrdiff_t c) {
+            // Not a + h (b - a): b - a may overflow.
+            return h == 1.0 ? longer(k + 1, c) : (1.0 - h) * longer(k, c) + h * longer(k + 1, c);
+        };
+        points.push_back({between(0), between(1)});
+    }
+    return points;
+}
+
 }  // namespace
 
 double pcm(const CurveView& P, const CurveView& Q, const PcmOptions& options) {
     check_options(options);
-    const RangeScale range = detail::check_pair(P, Q, {"pcm", 2, true});
-    return best_offset(assign_roles(polyline(P, range), polyline(Q, range)), options).area;
+    detail::check_pair(P, Q, {"pcm", 2, true});
+    return best_offset(assign_roles(P, Q), options).area;
 }
 
 PcmMatch pcm_match(const CurveView& P, const CurveView& Q, const PcmOptions& options) {
     check_options(options);
-    const RangeScale range = detail::check_pair(P, Q, {"pcm", 2, true});
-    const Polyline p = polyline(P, range);
-    const Polyline q = polyline(Q, range);
-    const Roles roles = assign_roles(p, q);
+    detail::check_pair(P, Q, {"pcm", 2, true});
+    const Roles roles = assign_roles(P, Q);
     const detail::Offset best = best_offset(roles, options);
     PcmMatch match;
     match.value = best.area;
     match.offset = best.at;
-    match.coverage = roles.shorter.length() / roles.longer.length();
     match.maps_p = roles.maps_p;
-    const Polyline& unscaled = roles.maps_p ? q : p;
-    detail::ArcPosition position(roles.longer);
-    for (const double s : roles.shorter.arc_lengths()) {
-        position.move_to(s + best.at);
-        const Point point = interpolate(unscaled[position.segment()],
-                                        unscaled[position.segment() + 1], position.fraction());
-        match.points.push_back({range.restore(point.x, 1), range.restore(point.y, 1)});
+    if (!std::isfinite(roles.longer.length())) {
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        match.points.assign(roles.shorter.points().size(), {nan, nan});
+        return match;
     }
+    match.coverage = roles.shorter.length() / roles.longer.length();
+    match.points = mapped_points(roles, roles.maps_p ? Q : P, best.at);
     return match;
 }
 

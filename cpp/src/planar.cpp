@@ -1,8 +1,9 @@
 #include "planar.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
+
+#include "box.hpp"
 
 namespace curvewise::detail {
 
@@ -15,19 +16,13 @@ Polyline polyline(const CurveView& curve, const RangeScale& range) {
     return points;
 }
 
-Box::Box(const Polyline& curve) noexcept : low(curve.front()), extent{} {
-    Point high = low;
-    for (const Point& point : curve) {
-        low = {std::min(low.x, point.x), std::min(low.y, point.y)};
-        high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+Polyline box_scaled(const CurveView& curve, const CurveView& box_of) {
+    const BoxSide x(box_of, 0);
+    const BoxSide y(box_of, 1);
+    Polyline points(static_cast<std::size_t>(curve.size()));
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        points[static_cast<std::size_t>(i)] = {x.scaled(curve(i, 0)), y.scaled(curve(i, 1))};
     }
-    extent = {high.x > low.x ? high.x - low.x : 1.0, high.y > low.y ? high.y - low.y : 1.0};
-}
-
-Polyline Box::scaled(const Polyline& curve) const {
-    Polyline points(curve.size());
-    std::transform(curve.begin(), curve.end(), points.begin(),
-                   [this](const Point& point) { return scaled(point); });
     return points;
 }
 

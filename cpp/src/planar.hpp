@@ -19,7 +19,11 @@ inline Point operator-(const Point& a, const Point& b) noexcept { return {a.x - 
 
 inline double cross(const Point& a, const Point& b) noexcept { return a.x * b.y - a.y * b.x; }
 
-inline double norm(const Point& a) noexcept { return std::sqrt(a.x * a.x + a.y * a.y); }
+// Also where the squares overflow or vanish.
+inline double norm(const Point& a) noexcept {
+    const double squares = a.x * a.x + a.y * a.y;
+    return squares > 0x1p-900 && squares < 0x1p1000 ? std::sqrt(squares) : std::hypot(a.x, a.y);
+}
 
 // a + h (b - a), and b itself for h = 1.
 inline Point interpolate(const Point& a, const Point& b, double h) noexcept {
@@ -31,17 +35,8 @@ using Polyline = std::vector<Point>;
 
 Polyline polyline(const CurveView& curve, const RangeScale& range);
 
-// The smallest axis-parallel box around a curve.
-struct Box {
-    Point low;
-    Point extent;  // 1 in a direction in which the curve has none: there nothing is scaled
-
-    explicit Box(const Polyline& curve) noexcept;
-    Point scaled(const Point& point) const noexcept {
-        return {(point.x - low.x) / extent.x, (point.y - low.y) / extent.y};
-    }
-    Polyline scaled(const Polyline& curve) const;
-};
+// A curve scaled by the box of `box_of`.
+Polyline box_scaled(const CurveView& curve, const CurveView& box_of);
 
 // The arc length at every vertex: 0 first, the curve's length last.
 std::vector<double> arc_lengths(const Polyline& curve);

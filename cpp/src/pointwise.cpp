@@ -1,18 +1,18 @@
 #include "curvewise/pointwise.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "box.hpp"
 #include "checks.hpp"
 
 namespace curvewise {
 namespace {
 
-// Sum over all entries of term(p - q), in units that neither overflow nor vanish; the caller's
-// degree undoes them.
+// Sum over all entries of term(p - q), divided by `divisor`, in units that neither overflow nor
+// vanish; the degree of the term undoes them.
 template <class Term>
-double sum_of(const CurveView& P, const CurveView& Q, const char* measure, int degree, Term term) {
+double sum_of(const CurveView& P, const CurveView& Q, const char* measure, double divisor,
+              int degree, Term term) {
     detail::check_equal_shapes(P, Q, measure);
     const detail::RangeScale range = detail::check_pair(P, Q, {measure, 1, false});
     double sum = 0.0;
@@ -21,7 +21,7 @@ double sum_of(const CurveView& P, const CurveView& Q, const char* measure, int d
             sum += term(range.shrink(P(i, c)) - range.shrink(Q(i, c)));
         }
     }
-    return range.restore(sum, degree);
+    return range.restore(sum / divisor, degree);
 }
 
 double square(double delta) noexcept { return delta * delta; }
@@ -31,34 +31,26 @@ double entries(const CurveView& P) noexcept { return static_cast<double>(P.size(
 }  // namespace
 
 double sum_of_squares(const CurveView& P, const CurveView& Q) {
-    return sum_of(P, Q, "sum_of_squares", 2, square);
+    return sum_of(P, Q, "sum_of_squares", 1.0, 2, square);
 }
 
 double mse(const CurveView& P, const CurveView& Q) {
-    return sum_of(P, Q, "mse", 2, square) / entries(P);
+    return sum_of(P, Q, "mse", entries(P), 2, square);
 }
 
 double mae(const CurveView& P, const CurveView& Q) {
-    return sum_of(P, Q, "mae", 1, [](double delta) { return std::abs(delta); }) / entries(P);
+    return sum_of(P, Q, "mae", entries(P), 1, [](double delta) { return std::abs(delta); });
 }
 
 void normalize(const CurveView& P, const CurveView& C, double* out, const char* name) {
     detail::check_same_dim(P, "P", C, name);
     detail::check_points(P, "P", {"normalize", 1, false});
     detail::check_points(C, name, {"normalize", 1, false});
-    const double largest_p = detail::check_finite(P, "P");
-    const detail::RangeScale range(std::max(largest_p, detail::check_finite(C, name)));
+    detail::check_finite(P, "P");
+    detail::check_finite(C, name);
     for (std::ptrdiff_t c = 0; c < P.dim(); ++c) {
-        double low = range.shrink(P(0, c));
-        double high = low;
-        for (std::ptrdiff_t i = 1; i < P.size(); ++i) {
-            low = std::min(low, range.shrink(P(i, c)));
-            high = std::max(high, range.shrink(P(i, c)));
-        }
-        const double extent = high > low ? high - low : range.shrink(1.0);
-        for (std::ptrdiff_t i = 0; i < C.size(); ++i) {
-            out[i * P.dim() + c] = (range.shrink(C(i, c)) - low) / extent;
-        }
+        const detail::BoxSide side(P, c);
+        for (std::ptrdiff_t i = 0; i < C.size(); ++i) out[i * P.dim() + c] = side.scaled(C(i, c));
     }
 }
 

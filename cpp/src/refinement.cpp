@@ -17,7 +17,8 @@ double rounded_to_34_bits(double length) noexcept {
 }
 
 double segment_length(const Point& edge, Spacing spacing) noexcept {
-    return rounded_to_34_bits(spacing == Spacing::x ? std::abs(edge.x) : norm(edge));
+    return rounded_to_34_bits(spacing == Spacing::x ? std::abs(edge.x)
+                                                    : std::sqrt(edge.x * edge.x + edge.y * edge.y));
 }
 
 // The part of an original segment from `start` to `start + width`, both fractions of it.
@@ -78,10 +79,11 @@ Polyline refined(const Polyline& curve, std::size_t size, Spacing spacing) {
 // A curve walked by relative arc length.
 class RelativeWalk {
    public:
-    RelativeWalk(const Polyline& curve, const Box& box)
-        : curve_(curve), u_(arc_lengths(box.scaled(curve))) {
+    RelativeWalk(const Polyline& curve, const Polyline& scaled)
+        : curve_(curve), u_(arc_lengths(scaled)) {
         const double length = u_.back();
-        for (double& u : u_) u = length > 0.0 ? u / length : 0.0;
+        const bool measurable = length > 0.0 && std::isfinite(length);
+        for (double& u : u_) u = measurable ? u / length : 0.0;
         u_.back() = 1.0;
     }
     bool at_end() const noexcept { return vertex_ + 1 == curve_.size(); }
@@ -101,10 +103,10 @@ class RelativeWalk {
     std::size_t vertex_ = 0;
 };
 
-FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q) {
-    const Box box(P);
-    RelativeWalk along_p(P, box);
-    RelativeWalk along_q(Q, box);
+FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q, const Polyline& scaled_p,
+                                const Polyline& scaled_q) {
+    RelativeWalk along_p(P, scaled_p);
+    RelativeWalk along_q(Q, scaled_q);
     FacingCurves result{{P.front()}, {Q.front()}};
     result.A.reserve(P.size() + Q.size());
     result.B.reserve(P.size() + Q.size());
@@ -118,11 +120,16 @@ FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q) {
 
 }  // namespace
 
-FacingCurves face(Polyline P, Polyline Q, Spacing spacing) {
-    if (spacing == Spacing::arc_length) return face_by_arc_length(P, Q);
-    if (P.size() < Q.size()) std::swap(P, Q);
-    if (P.size() > Q.size()) Q = refined(Q, P.size(), spacing);
-    return {std::move(P), std::move(Q)};
+FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& range,
+                  Spacing spacing) {
+    Polyline A = polyline(P, range);
+    Polyline B = polyline(Q, range);
+    if (spacing == Spacing::arc_length) {
+        return face_by_arc_length(A, B, box_scaled(P, P), box_scaled(Q, P));
+    }
+    if (A.size() < B.size()) std::swap(A, B);
+    if (A.size() > B.size()) B = refined(B, A.size(), spacing);
+    return {std::move(A), std::move(B)};
 }
 
 }  // namespace curvewise::detail

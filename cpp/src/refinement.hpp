@@ -14,7 +14,7 @@ struct FacingCurves {
 
 // For `distance` and `x`, A is the curve with more points (P if equal) and B the other, refined:
 // the longest segment is bisected, again and again. O((n - m) log m). For `arc_length`, A is P and
-// B is Q, each with a vertex wherever the other has one. O(n + m).
-FacingCurves face(Polyline P, Polyline Q, Spacing spacing);
+// B is Q, each with a vertex wherever the other has one. O(n + m). Coordinates come out in `range`.
+FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& range, Spacing spacing);
 
 }  // namespace curvewise::detail

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -65,8 +66,9 @@ Row sweep_all(const SweepProblem& problem, const Destination& destination) {
 
 void check_ground_distance(const GroundDistance& ground) {
     if (ground.metric == Metric::minkowski && !(ground.p >= 1.0)) {
-        const std::string p = std::to_string(ground.p);
-        throw std::invalid_argument("p is " + p + "; minkowski needs 1 <= p <= inf");
+        char p[32];
+        std::snprintf(p, sizeof p, "%.17g", ground.p);
+        throw std::invalid_argument("p is " + std::string(p) + "; minkowski needs 1 <= p <= inf");
     }
 }
 

@@ -23,9 +23,7 @@ AreaOptions area_options(const py::object& spacing, const py::object& crossing, 
 }
 
 PcmOptions pcm_options(const py::object& offsets) {
-    if (py::isinstance<py::str>(offsets) && offsets.cast<std::string_view>() == "continuous") {
-        return {200, true};
-    }
+    if (is_text(offsets, "continuous")) return {200, true};
     return {whole_number("offsets", offsets, "give a whole number >= 1, or 'continuous'"), false};
 }
 

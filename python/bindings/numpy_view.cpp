@@ -8,7 +8,14 @@ CurveView view(const CurveArray& array) {
     constexpr auto item = static_cast<py::ssize_t>(sizeof(double));
     const double* const data = array.data();
     if (array.ndim() == 1) return {data, array.shape(0), 1, array.strides(0) / item, 0};
-    return {data, array.shape(0), array.shape(1), array.strides(0) / item, array.strides(1) / item};
+    // A stride of 0 is kept for flat lists; that of a single column is never used.
+    const py::ssize_t col_stride = array.shape(1) == 1 ? 1 : array.strides(1) / item;
+    return {data, array.shape(0), array.shape(1), array.strides(0) / item, col_stride};
+}
+
+bool is_text(const py::object& given, std::string_view text) {
+    return PyUnicode_Check(given.ptr()) &&
+           PyUnicode_CompareWithASCIIString(given.ptr(), std::string(text).c_str()) == 0;
 }
 
 std::ptrdiff_t whole_number(const char* option, const py::object& given, const char* advice) {

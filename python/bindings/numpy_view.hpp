@@ -22,16 +22,16 @@ using CurveArray = py::array_t<double, 0>;
 
 CurveView view(const CurveArray& array);
 
+// Whether an object is a str that reads `text`.
+bool is_text(const py::object& given, std::string_view text);
+
 // The value that an option's name stands for, or
 // "unknown metric 'foo'; choose from euclidean, ...".
 template <class Enum>
 Enum choose(const char* option, const py::object& given,
             std::initializer_list<std::pair<std::string_view, Enum>> choices) {
-    if (py::isinstance<py::str>(given)) {
-        const auto name = given.cast<std::string_view>();
-        for (const auto& [valid, value] : choices) {
-            if (name == valid) return value;
-        }
+    for (const auto& [valid, value] : choices) {
+        if (is_text(given, valid)) return value;
     }
     std::string list;
     for (const auto& choice : choices) {

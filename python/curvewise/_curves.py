@@ -34,7 +34,7 @@ def as_curve(curve: Any, name: str) -> Array:
         Ragged lists, or an array of 0 or more than 2 dimensions.
     """
     if type(curve) is np.ndarray and curve.dtype is _FLOAT64 and 1 <= curve.ndim <= 2:
-        return curve if curve.flags.aligned else curve.copy()
+        return _aligned(curve)
     if np.ma.isMaskedArray(curve) and np.ma.is_masked(curve):
         raise TypeError(f"{name} is a masked array with masked entries; drop or fill them first")
     try:
@@ -53,7 +53,11 @@ def as_curve(curve: Any, name: str) -> Array:
         )
     # astype, not asarray: float64 of the other byte order must be converted too.
     with np.errstate(over="ignore"):  # a longdouble beyond float64 becomes inf: reported as such
-        return array.astype(_FLOAT64, copy=False)
+        return _aligned(array.astype(_FLOAT64, copy=False))
+
+
+def _aligned(array: Array) -> Array:
+    return array if array.flags.aligned else array.copy()
 
 
 def as_curves(P: Any, Q: Any) -> tuple[Array, Array]:

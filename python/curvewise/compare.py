@@ -148,12 +148,12 @@ def compare(
     curve_length  1.41421
     """
     P, Q = (curve.copy() for curve in as_curves(P, Q))
-    if preset not in PRESETS:
+    if not isinstance(preset, str) or preset not in PRESETS:
         raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
     if measures is None:
         measures = list(_MEASURES) if P.ndim == 2 and P.shape[1] == 2 else _ANY_DIMENSION
     for name in measures:
-        if name not in _MEASURES:
+        if not isinstance(name, str) or name not in _MEASURES:
             raise ValueError(f"unknown measure {name!r}; choose from {', '.join(_MEASURES)}")
     conditions = PRESETS[preset]
     values = {

@@ -28,6 +28,8 @@ struct PcmMatch {
     double coverage = 0.0;  // S / T
     bool maps_p = true;     // the shorter curve, whose vertices are mapped: P, or Q
     std::vector<std::array<double, 2>> points;  // their places on the other, in original units
+    // (A curve longer than the largest double: value is infinite, offset and coverage 0, points
+    // nan.)
 };
 
 double pcm(const CurveView& P, const CurveView& Q, const PcmOptions& options = {});
