@@ -20,9 +20,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The largest table of predecessors, in bytes: it should fit a last-level cache or nearly.
-constexpr std::ptrdiff_t max_codes = std::ptrdiff_t{1} << 24;
-
 // A part of the problem: the region, how its path comes into it, and where it ends.
 struct Part {
     Region region;
@@ -37,11 +34,12 @@ struct Part {
 
 class PathFinder {
    public:
-    explicit PathFinder(const SweepProblem& problem) : problem_(problem) {}
+    PathFinder(const SweepProblem& problem, std::ptrdiff_t max_codes)
+        : problem_(problem), max_codes_(max_codes) {}
 
     // Appends the part's path, from its end to its beginning, and returns its last value.
     double find(const Part& part) {
-        if (part.region.rows == 1 || part.region.rows * part.region.columns <= max_codes) {
+        if (part.region.rows == 1 || part.region.rows * part.region.columns <= max_codes_) {
             return read_off(part);
         }
         const std::ptrdiff_t upper_rows = part.region.rows / 2;
@@ -153,13 +151,14 @@ class PathFinder {
     }
 
     const SweepProblem& problem_;
+    std::ptrdiff_t max_codes_;
     IndexPairs path_;
 };
 
 }  // namespace
 
-Path find_path(const SweepProblem& problem, bool open_end) {
-    PathFinder finder(problem);
+Path find_path(const SweepProblem& problem, bool open_end, std::ptrdiff_t max_codes) {
+    PathFinder finder(problem, max_codes);
     const double value = finder.find({whole_table(problem.curves), true, 0.0, open_end});
     return {value, finder.take()};
 }

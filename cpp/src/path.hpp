@@ -18,7 +18,8 @@ struct Path {
 };
 
 // The path that ends in the last row in the last column or, with an open end, in the first one
-// with the smallest value.
-Path find_path(const SweepProblem& problem, bool open_end);
+// with the smallest value. Regions of up to `max_codes` cells are swept with a byte for each.
+Path find_path(const SweepProblem& problem, bool open_end,
+               std::ptrdiff_t max_codes = std::ptrdiff_t{1} << 24);
 
 }  // namespace curvewise::detail

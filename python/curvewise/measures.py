@@ -315,6 +315,7 @@ def frechet_path(
     ------
     ValueError, TypeError
         As for :func:`frechet`.
+
     Notes
     -----
     As for :func:`frechet`, by divide and conquer over rows: up to three times the time of the
@@ -473,6 +474,7 @@ def dtw_path(
     ------
     ValueError, TypeError
         As for :func:`dtw`.
+
     Notes
     -----
     As for :func:`dtw`, by divide and conquer over rows: up to three times the time of the
