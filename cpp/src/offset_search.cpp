@@ -126,14 +126,6 @@ class AreaAtOffset {
     std::vector<double> weights_;
 };
 
-std::vector<double> grid(double slack, std::ptrdiff_t count) {
-    std::vector<double> offsets(static_cast<std::size_t>(count), 0.0);
-    for (std::size_t i = 1; i < offsets.size(); ++i) {
-        offsets[i] = slack * (static_cast<double>(i) / static_cast<double>(count - 1));
-    }
-    return offsets;
-}
-
 double slack(const ArcCurve& shorter, const ArcCurve& longer) noexcept {
     return std::max(0.0, longer.length() - shorter.length());
 }
@@ -142,9 +134,17 @@ void improve(Offset& best, double at, double area) noexcept {
     if (area < best.area || (area == best.area && at < best.at)) best = {at, area};
 }
 
-Offset best_of(const AreaAtOffset& f, const std::vector<double>& offsets) {
+// Offset i of `count` evenly spaced ones.
+double grid_offset(double slack, std::ptrdiff_t i, std::ptrdiff_t count) noexcept {
+    return i == 0 ? 0.0 : slack * (static_cast<double>(i) / static_cast<double>(count - 1));
+}
+
+Offset best_of_grid(const AreaAtOffset& f, double slack, std::ptrdiff_t count) {
     Offset best{0.0, f.value(0.0)};
-    for (const double offset : offsets) improve(best, offset, f.value(offset));
+    for (std::ptrdiff_t i = 1; i < count; ++i) {
+        const double offset = grid_offset(slack, i, count);
+        improve(best, offset, f.value(offset));
+    }
     return best;
 }
 
@@ -164,18 +164,19 @@ void ArcPosition::move_to(double u) noexcept {
 }
 
 Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdiff_t count) {
-    return best_of(AreaAtOffset(shorter, longer), grid(slack(shorter, longer), count));
+    return best_of_grid(AreaAtOffset(shorter, longer), slack(shorter, longer), count);
 }
 
 Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer) {
+    constexpr std::ptrdiff_t count = 200;
     const AreaAtOffset f(shorter, longer);
-    const std::vector<double> offsets = grid(slack(shorter, longer), 200);
-    Offset best = best_of(f, offsets);
-    std::vector<Interval> open;
-    for (std::size_t i = offsets.size() - 1; i > 0; --i) {
-        open.push_back({offsets[i - 1], offsets[i]});
-    }
     const double S = shorter.length();
+    const double range = slack(shorter, longer);
+    Offset best = best_of_grid(f, range, count);
+    std::vector<Interval> open;
+    for (std::ptrdiff_t i = count - 1; i > 0; --i) {
+        open.push_back({grid_offset(range, i - 1, count), grid_offset(range, i, count)});
+    }
     while (!open.empty()) {
         const Interval interval = open.back();
         open.pop_back();
