@@ -251,7 +251,7 @@ def order_cases(function: str) -> Iterator[tuple[str, Case]]:
         yield f"types-before-{label}", wrong._replace(Q=["a"], message=text, error=TypeError)
     cube = "P has 3 array dimensions; give shape (n, d), or (n,) for d = 1"
     yield "P-before-Q", Case(np.zeros((1, 1, 1)), ["a"], {}, cube)
-    if function in (*POINTWISE, "normalize", "compare"):  # which take one curve after the other
+    if function in (*POINTWISE, "normalize", "compare"):  # whose order is their own
         return
     dims = "P has shape (20, 2) and Q has shape (4, 3); both need the same number of coordinates"
     yield "dims-before-finite", Case(nan, good(4, 3), {}, dims)
