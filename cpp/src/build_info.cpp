@@ -21,7 +21,11 @@ std::string compiler() {
 }  // namespace
 
 BuildInfo build_info() {
-    return {version, compiler(), CURVEWISE_EIGEN_VERSION, {"baseline"}, "baseline"};
+    BuildInfo info{version, compiler(), CURVEWISE_EIGEN_VERSION, {}, detail::active_level().name};
+    for (const detail::Level& level : detail::available_levels()) {
+        info.instruction_sets.emplace_back(level.name);
+    }
+    return info;
 }
 
 }  // namespace curvewise

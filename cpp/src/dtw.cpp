@@ -4,17 +4,21 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "checks.hpp"
+#include "dispatch.hpp"
 #include "packed_pair.hpp"
+#include "path.hpp"
 #include "sweep.hpp"
+#include "workers.hpp"
 
 namespace curvewise {
 namespace {
 
-using detail::BottomRow;
 using detail::PackedPair;
 using detail::RangeScale;
+using detail::Row;
 using detail::SweepProblem;
 
 void check_options(const DtwOptions& options) {
@@ -42,25 +46,22 @@ void check_window(std::ptrdiff_t n, std::ptrdiff_t m, const DtwOptions& options)
 // A call's curves and options, checked and ready to sweep.
 struct Problem {
     Problem(const CurveView& P, const CurveView& Q, const DtwOptions& given)
-        : options((check_options(given), given)),
+        : degree((check_options(given), given.ground.metric == Metric::sqeuclidean ? 2 : 1)),
           range(detail::check_pair(P, Q, {"dtw", 1, false})),
           curves((check_window(P.size(), Q.size(), given), PackedPair(P, Q, range))),
-          sweep{curves,
+          sweep{*detail::active_level().kernels,
+                curves,
                 given.step_pattern == StepPattern::symmetric1 ? kernels::Recurrence::dtw_symmetric1
                                                               : kernels::Recurrence::dtw_symmetric2,
-                detail::canonical_cost(given.ground, P.dim()),
+                detail::canonical_cost(given.ground, curves),
                 given.ground.p,
                 detail::Band(P.size(), Q.size(), given.window),
-                given.open_begin} {}
+                given.open_begin,
+                detail::resolve_workers(given.workers)} {}
 
-    std::ptrdiff_t end_column(const BottomRow& bottom) const noexcept {
-        return options.open_end ? bottom.argmin() : curves.columns() - 1;
-    }
-    double restore(double value) const noexcept {
-        return range.restore(value, options.ground.metric == Metric::sqeuclidean ? 2 : 1);
-    }
+    double restore(double value) const noexcept { return range.restore(value, degree); }
 
-    const DtwOptions& options;
+    int degree;
     RangeScale range;
     PackedPair curves;
     SweepProblem sweep;
@@ -70,20 +71,19 @@ struct Problem {
 
 double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options) {
     const Problem problem(P, Q, options);
-    const BottomRow bottom = sweep(problem.sweep);
-    return problem.restore(bottom[problem.end_column(bottom)]);
+    const Row bottom = last_row(problem.sweep);
+    return problem.restore(bottom[options.open_end ? bottom.argmin() : Q.size() - 1]);
 }
 
 Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& options) {
     const Problem problem(P, Q, options);
-    const detail::PredecessorTable table(problem.sweep);
-    const std::ptrdiff_t end = problem.end_column(table.bottom_row());
-    return {problem.restore(table.bottom_row()[end]), table.path_to(end)};
+    detail::Path path = find_path(problem.sweep, options.open_end);
+    return {problem.restore(path.value), std::move(path.pairs)};
 }
 
 void dtw_table(const CurveView& P, const CurveView& Q, double* out, const DtwOptions& options) {
     const Problem problem(P, Q, options);
-    sweep_into_table(problem.sweep, out);
+    sweep_table(problem.sweep, out);
     if (problem.range.is_identity()) return;
     std::transform(out, out + P.size() * Q.size(), out,
                    [&](double value) { return problem.restore(value); });

@@ -5,15 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "checks.hpp"
+#include "dispatch.hpp"
 #include "packed_pair.hpp"
+#include "path.hpp"
 #include "sweep.hpp"
+#include "workers.hpp"
 
 namespace curvewise {
 namespace {
 
-using detail::BottomRow;
 using detail::PackedPair;
 using detail::RangeScale;
 using detail::SweepProblem;
@@ -25,13 +28,16 @@ struct Problem {
           range((detail::check_ground_distance(options.ground),
                  detail::check_pair(P, Q, {"frechet", 1, false}))),
           curves(P, Q, range),
-          sweep{curves,
+          sweep{*detail::active_level().kernels,
+                curves,
                 kernels::Recurrence::frechet,
-                detail::canonical_cost(options.ground, P.dim()),
+                detail::canonical_cost(options.ground, curves),
                 options.ground.p,
                 detail::Band(P.size(), Q.size(), std::nullopt),
-                false},
-          squared(sweep.cost == kernels::Cost::euclidean) {
+                false,
+                detail::resolve_workers(options.workers)},
+          squared(sweep.cost == kernels::Cost::euclidean ||
+                  sweep.cost == kernels::Cost::euclidean_in_domain) {
         if (squared) sweep.cost = kernels::Cost::sqeuclidean;
     }
 
@@ -50,20 +56,19 @@ struct Problem {
 
 double frechet(const CurveView& P, const CurveView& Q, const FrechetOptions& options) {
     const Problem problem(P, Q, options);
-    return problem.restore(sweep(problem.sweep)[Q.size() - 1]);
+    return problem.restore(last_row(problem.sweep)[Q.size() - 1]);
 }
 
 Alignment frechet_path(const CurveView& P, const CurveView& Q, const FrechetOptions& options) {
     const Problem problem(P, Q, options);
-    const detail::PredecessorTable table(problem.sweep);
-    const std::ptrdiff_t end = Q.size() - 1;
-    return {problem.restore(table.bottom_row()[end]), table.path_to(end)};
+    detail::Path path = find_path(problem.sweep, false);
+    return {problem.restore(path.value), std::move(path.pairs)};
 }
 
 void frechet_table(const CurveView& P, const CurveView& Q, double* out,
                    const FrechetOptions& options) {
     const Problem problem(P, Q, options);
-    sweep_into_table(problem.sweep, out);
+    sweep_table(problem.sweep, out);
     std::transform(out, out + P.size() * Q.size(), out,
                    [&](double value) { return problem.restore(value); });
 }

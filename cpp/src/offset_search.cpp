@@ -7,6 +7,7 @@
 #include "offset_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -28,16 +29,46 @@ class AreaAtOffset {
             weights_[i] += half;
             weights_[i + 1] += half;
         }
+        const std::vector<double>& t = longer.arc_lengths();
+        segments_.reserve(t.size());
+        for (std::size_t k = 0; k + 1 < t.size(); ++k) {
+            const double length = t[k + 1] - t[k];
+            const Point edge = longer.points()[k + 1] - longer.points()[k];
+            const Point direction =
+                length > 0.0 ? Point{edge.x / length, edge.y / length} : Point{};
+            segments_.push_back({t[k], longer.points()[k], direction});
+        }
+        segments_.push_back({std::numeric_limits<double>::infinity(), {}, {}});  // ends every walk
     }
 
-    double value(double offset) const noexcept {
-        ArcPosition position = start(offset);
-        double sum = 0.0;
+    double value(double offset) const noexcept { return values<1>({offset})[0]; }
+
+    // At several offsets in one walk: their steps do not wait for each other.
+    template <std::size_t count>
+    std::array<double, count> values(const std::array<double, count>& offsets) const noexcept {
+        std::array<double, count> sums{};
+        std::array<const Segment*, count> at{};
+        std::transform(offsets.begin(), offsets.end(), at.begin(),
+                       [this](double offset) { return segment_at(offset); });
         for (std::size_t i = 0; i < weights_.size(); ++i) {
-            position.move_to(shorter_.arc_lengths()[i] + offset);
-            sum += weights_[i] * norm(position.point() - shorter_.points()[i]);
+            const Point vertex = shorter_.points()[i];
+            for (std::size_t o = 0; o < count; ++o) {
+                const double u = std::min(shorter_.arc_lengths()[i] + offsets[o], longer_.length());
+                // One step without a branch, which would be mispredicted often.
+                at[o] += at[o][1].start <= u;
+                while (at[o][1].start <= u) ++at[o];
+                const double along = u - at[o]->start;
+                const Point gap{at[o]->from.x + along * at[o]->direction.x - vertex.x,
+                                at[o]->from.y + along * at[o]->direction.y - vertex.y};
+                sums[o] += weights_[i] * std::sqrt(dot(gap, gap));
+            }
         }
-        return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+        for (std::size_t o = 0; o < count; ++o) {
+            // Squares have overflown, or vanished.
+            const bool in_range = sums[o] > 0x1p-400 && std::isfinite(sums[o]);
+            if (!in_range) sums[o] = careful_value(offsets[o]);
+        }
+        return sums;
     }
 
     // Of f over centre - half .. centre + half.
@@ -59,12 +90,36 @@ class AreaAtOffset {
     }
 
    private:
+    // A segment of the longer curve: points at start + along are from + along * direction.
+    struct Segment {
+        double start;
+        Point from;
+        Point direction;
+    };
+
     struct Tangent {
         double at;
         double value;
         double slope;
         double operator()(double u) const noexcept { return value + slope * (u - at); }
     };
+
+    // Of any magnitude.
+    double careful_value(double offset) const noexcept {
+        ArcPosition position = start(offset);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < weights_.size(); ++i) {
+            position.move_to(shorter_.arc_lengths()[i] + offset);
+            sum += weights_[i] * norm(position.point() - shorter_.points()[i]);
+        }
+        return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+    }
+
+    const Segment* segment_at(double u) const noexcept {
+        const std::vector<double>& t = longer_.arc_lengths();
+        const auto next = std::upper_bound(t.begin() + 1, t.end() - 1, u);
+        return segments_.data() + (next - t.begin() - 1);
+    }
 
     ArcPosition start(double offset) const noexcept {
         ArcPosition position(longer_);
@@ -124,15 +179,8 @@ class AreaAtOffset {
     const ArcCurve& shorter_;
     const ArcCurve& longer_;
     std::vector<double> weights_;
+    std::vector<Segment> segments_;
 };
-
-std::vector<double> grid(double slack, std::ptrdiff_t count) {
-    std::vector<double> offsets(static_cast<std::size_t>(count), 0.0);
-    for (std::size_t i = 1; i < offsets.size(); ++i) {
-        offsets[i] = slack * (static_cast<double>(i) / static_cast<double>(count - 1));
-    }
-    return offsets;
-}
 
 double slack(const ArcCurve& shorter, const ArcCurve& longer) noexcept {
     return std::max(0.0, longer.length() - shorter.length());
@@ -142,9 +190,23 @@ void improve(Offset& best, double at, double area) noexcept {
     if (area < best.area || (area == best.area && at < best.at)) best = {at, area};
 }
 
-Offset best_of(const AreaAtOffset& f, const std::vector<double>& offsets) {
+// Offset i of `count` evenly spaced ones.
+double grid_offset(double slack, std::ptrdiff_t i, std::ptrdiff_t count) noexcept {
+    return i == 0 ? 0.0 : slack * (static_cast<double>(i) / static_cast<double>(count - 1));
+}
+
+Offset best_of_grid(const AreaAtOffset& f, double slack, std::ptrdiff_t count) {
+    constexpr std::ptrdiff_t at_once = 4;
     Offset best{0.0, f.value(0.0)};
-    for (const double offset : offsets) improve(best, offset, f.value(offset));
+    for (std::ptrdiff_t i = 1; i < count; i += at_once) {
+        std::array<double, at_once> offsets{};
+        for (std::ptrdiff_t o = 0; o < at_once; ++o) {
+            offsets[static_cast<std::size_t>(o)] =
+                grid_offset(slack, std::min(i + o, count - 1), count);
+        }
+        const std::array<double, at_once> areas = f.values(offsets);
+        for (std::size_t o = 0; o < at_once; ++o) improve(best, offsets[o], areas[o]);
+    }
     return best;
 }
 
@@ -164,18 +226,19 @@ void ArcPosition::move_to(double u) noexcept {
 }
 
 Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdiff_t count) {
-    return best_of(AreaAtOffset(shorter, longer), grid(slack(shorter, longer), count));
+    return best_of_grid(AreaAtOffset(shorter, longer), slack(shorter, longer), count);
 }
 
 Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer) {
+    constexpr std::ptrdiff_t count = 200;
     const AreaAtOffset f(shorter, longer);
-    const std::vector<double> offsets = grid(slack(shorter, longer), 200);
-    Offset best = best_of(f, offsets);
-    std::vector<Interval> open;
-    for (std::size_t i = offsets.size() - 1; i > 0; --i) {
-        open.push_back({offsets[i - 1], offsets[i]});
-    }
     const double S = shorter.length();
+    const double range = slack(shorter, longer);
+    Offset best = best_of_grid(f, range, count);
+    std::vector<Interval> open;
+    for (std::ptrdiff_t i = count - 1; i > 0; --i) {
+        open.push_back({grid_offset(range, i - 1, count), grid_offset(range, i, count)});
+    }
     while (!open.empty()) {
         const Interval interval = open.back();
         open.pop_back();

@@ -22,6 +22,11 @@ class PackedPair {
     // q()[c * q_stride() + columns() - 1 - j].
     const double* p() const noexcept { return storage_.data(); }
     const double* q() const noexcept { return storage_.data() + dim_ * p_stride_; }
+    // Whether no |coordinate| but 0 is below 2^-400. Differences are then 0 or at least 2^-452, the
+    // last bit of such a coordinate, and their squares 0 or at least 2^-904: what the fast square
+    // root takes.
+    bool squares_are_in_domain() const noexcept { return squares_are_in_domain_; }
+
     std::ptrdiff_t p_stride() const noexcept { return p_stride_; }
     std::ptrdiff_t q_stride() const noexcept { return q_stride_; }
 
@@ -32,6 +37,7 @@ class PackedPair {
     std::ptrdiff_t p_stride_;
     std::ptrdiff_t q_stride_;
     AlignedBuffer storage_;
+    bool squares_are_in_domain_;
 };
 
 }  // namespace curvewise::detail

@@ -1,15 +1,15 @@
-// The cumulative table of DTW or Fréchet, strip by strip, in any of its three forms: its last row
-// only (memory O(m)), with the predecessor of every cell (one byte each), or whole.
+// The cumulative table of DTW or Fréchet, or a rectangle of it, swept strip by strip (see
+// kernels/strip.hpp). Only the row below the last strip is kept, O(m) memory, and what the caller
+// asks for besides. Strips may be shared out among threads: each waits, a chunk of columns at a
+// time, for the one above it. The number of threads changes no value.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "aligned_buffer.hpp"
 #include "band.hpp"
-#include "curvewise/alignment.hpp"
 #include "curvewise/ground_distance.hpp"
 #include "kernels/strip.hpp"
 #include "packed_pair.hpp"
@@ -17,12 +17,14 @@
 namespace curvewise::detail {
 
 struct SweepProblem {
+    const kernels::KernelSet& kernels;
     const PackedPair& curves;
     kernels::Recurrence recurrence;
     kernels::Cost cost;
     double minkowski_p;
     Band band;
     bool open_begin;
+    std::ptrdiff_t workers;
 };
 
 // Throws std::invalid_argument for an order of minkowski outside [1, inf].
@@ -30,14 +32,26 @@ void check_ground_distance(const GroundDistance& ground);
 
 // The metric to compute: orders 1, 2 and inf of minkowski by their own names, and everything but
 // sqeuclidean as |difference| in one dimension.
-kernels::Cost canonical_cost(const GroundDistance& ground, std::ptrdiff_t dim) noexcept;
+kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& curves) noexcept;
 
-// The last row of the table.
-class BottomRow {
+// A part of the table: rows and columns, by their first and their number.
+struct Region {
+    std::ptrdiff_t first_row;
+    std::ptrdiff_t rows;
+    std::ptrdiff_t first_column;
+    std::ptrdiff_t columns;
+};
+
+Region whole_table(const PackedPair& curves) noexcept;
+
+// A row of the table, with the room that a sweep needs behind it.
+class Row {
    public:
-    explicit BottomRow(std::ptrdiff_t columns);
+    Row(std::ptrdiff_t columns, double value);
     double* data() noexcept { return row_.data(); }
+    const double* data() const noexcept { return row_.data(); }
     double operator[](std::ptrdiff_t j) const noexcept { return row_.data()[j]; }
+    double& operator[](std::ptrdiff_t j) noexcept { return row_.data()[j]; }
     // The first column with the smallest value.
     std::ptrdiff_t argmin() const noexcept;
 
@@ -46,32 +60,39 @@ class BottomRow {
     AlignedBuffer row_;
 };
 
-BottomRow sweep(const SweepProblem& problem);
-BottomRow sweep_into_table(const SweepProblem& problem, double* table);
-
-// The table of predecessors, in the order in which the strips were swept.
-class PredecessorTable {
-   public:
-    // Sweeps. Throws AllocationError where n m bytes cannot be had.
-    explicit PredecessorTable(const SweepProblem& problem);
-
-    const BottomRow& bottom_row() const noexcept { return bottom_; }
-    // The path that ends in the last row at `column`; in row 0 it stops at once if open_begin.
-    std::vector<std::array<std::int64_t, 2>> path_to(std::ptrdiff_t column) const;
-
-   private:
-    kernels::Predecessor at(std::ptrdiff_t i, std::ptrdiff_t j) const noexcept;
-
-    struct StripCodes {
-        std::ptrdiff_t first_diagonal;
-        std::ptrdiff_t offset;
-    };
-    std::ptrdiff_t rows_;
-    std::ptrdiff_t strip_height_;
-    bool open_begin_;
-    std::vector<StripCodes> strips_;
-    std::unique_ptr<std::uint8_t[]> codes_;
-    BottomRow bottom_;
+// Where the codes of a strip's predecessors begin in an array of all of them.
+struct StripCodes {
+    std::ptrdiff_t first_diagonal;
+    std::ptrdiff_t offset;
 };
+
+// What a sweep writes besides its last row, each where not null.
+struct Destination {
+    double* table = nullptr;             // the region's cells, row by row
+    std::uint8_t* codes = nullptr;       // predecessors, strip by strip as laid out by CodeLayout
+    const StripCodes* layout = nullptr;  // one per strip
+    double* origins = nullptr;           // per column, updated like the boundary row: for the
+                                         // row above, then for the last row, the column at
+                                         // which a cell's path leaves the row above the region
+};
+
+// Sweeps a region. `boundary` is the row above it on the way in and its last row on the way out.
+// `starts_here`: boundary[0] is the 0 that starts every path, not a cell of the table.
+void sweep(const SweepProblem& problem, const Region& region, bool starts_here, double* boundary,
+           const Destination& destination);
+
+// The height of the strips that a sweep with `codes` cuts a region into, and where each begins.
+struct CodeLayout {
+    CodeLayout(const SweepProblem& problem, const Region& region);
+    std::ptrdiff_t height;
+    std::ptrdiff_t size = 0;  // of all codes, in bytes
+    std::vector<StripCodes> strips;
+};
+
+// The whole table's last row.
+Row last_row(const SweepProblem& problem);
+
+// The whole table, row by row; infinity outside the band.
+void sweep_table(const SweepProblem& problem, double* table);
 
 }  // namespace curvewise::detail

@@ -24,7 +24,8 @@ AreaOptions area_options(const py::object& spacing, const py::object& crossing, 
 
 PcmOptions pcm_options(const py::object& offsets) {
     if (is_text(offsets, "continuous")) return {200, true};
-    return {whole_number("offsets", offsets, "give a whole number >= 1, or 'continuous'"), false};
+    return {whole_number("offsets", offsets, 1, "give a whole number >= 1, or 'continuous'"),
+            false};
 }
 
 CurveLengthOptions curve_length_options(const py::object& scale) {
@@ -59,8 +60,8 @@ py::tuple pcm_match_tuple(const CurveArray& P, const CurveArray& Q, const py::ob
 
 void bind_planar(py::module_& module) {
     module.def("area", [](const CurveArray& P, const CurveArray& Q, const py::object& spacing,
-                          const py::object& crossing, bool squared) {
-        const AreaOptions options = area_options(spacing, crossing, squared);
+                          const py::object& crossing, const py::object& squared) {
+        const AreaOptions options = area_options(spacing, crossing, is_true(squared));
         const CurveView a = view(P), b = view(Q);
         return unlocked(points(P, Q), [&] { return area(a, b, options); });
     });

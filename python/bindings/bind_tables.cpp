@@ -32,19 +32,30 @@ GroundDistance ground_distance(const py::object& metric, const py::object& p) {
     return {chosen, order};
 }
 
+std::ptrdiff_t thread_count(const py::object& workers) {
+    return whole_number("workers", workers, -1, "give a whole number >= 1, or -1 for all cores");
+}
+
+FrechetOptions frechet_options(const py::object& metric, const py::object& p,
+                               const py::object& workers) {
+    return {ground_distance(metric, p), thread_count(workers)};
+}
+
 DtwOptions dtw_options(const py::object& metric, const py::object& p,
-                       const py::object& step_pattern, const py::object& window, bool open_begin,
-                       bool open_end) {
+                       const py::object& step_pattern, const py::object& window,
+                       const py::object& open_begin, const py::object& open_end,
+                       const py::object& workers) {
     DtwOptions options;
     options.ground = ground_distance(metric, p);
     options.step_pattern = choose<StepPattern>(
         "step_pattern", step_pattern,
         {{"symmetric1", StepPattern::symmetric1}, {"symmetric2", StepPattern::symmetric2}});
     if (!window.is_none()) {
-        options.window = whole_number("window", window, "give a whole number >= 0, or None");
+        options.window = whole_number("window", window, 0, "give a whole number >= 0, or None");
     }
-    options.open_begin = open_begin;
-    options.open_end = open_end;
+    options.open_begin = is_true(open_begin);
+    options.open_end = is_true(open_end);
+    options.workers = thread_count(workers);
     return options;
 }
 
@@ -78,42 +89,49 @@ py::array_t<double> table(const CurveArray& P, const CurveArray& Q, Fill fill) {
 void bind_dtw(py::module_& module) {
     module.def("dtw", [](const CurveArray& P, const CurveArray& Q, const py::object& metric,
                          const py::object& p, const py::object& step_pattern,
-                         const py::object& window, bool open_begin, bool open_end) {
-        const auto options = dtw_options(metric, p, step_pattern, window, open_begin, open_end);
+                         const py::object& window, const py::object& open_begin,
+                         const py::object& open_end, const py::object& workers) {
+        const auto options =
+            dtw_options(metric, p, step_pattern, window, open_begin, open_end, workers);
         const CurveView a = view(P), b = view(Q);
         return unlocked(cells(P, Q), [&] { return dtw(a, b, options); });
     });
     module.def("dtw_path", [](const CurveArray& P, const CurveArray& Q, const py::object& metric,
                               const py::object& p, const py::object& step_pattern,
-                              const py::object& window, bool open_begin, bool open_end) {
-        const auto options = dtw_options(metric, p, step_pattern, window, open_begin, open_end);
+                              const py::object& window, const py::object& open_begin,
+                              const py::object& open_end, const py::object& workers) {
+        const auto options =
+            dtw_options(metric, p, step_pattern, window, open_begin, open_end, workers);
         const CurveView a = view(P), b = view(Q);
         return as_tuple(unlocked(cells(P, Q), [&] { return dtw_path(a, b, options); }));
     });
     module.def("dtw_table", [](const CurveArray& P, const CurveArray& Q, const py::object& metric,
                                const py::object& p, const py::object& step_pattern,
-                               const py::object& window, bool open_begin, bool open_end) {
-        const auto options = dtw_options(metric, p, step_pattern, window, open_begin, open_end);
+                               const py::object& window, const py::object& open_begin,
+                               const py::object& open_end) {
+        const auto options =
+            dtw_options(metric, p, step_pattern, window, open_begin, open_end, py::int_(1));
         return table(P, Q, [&](double* out) { dtw_table(view(P), view(Q), out, options); });
     });
 }
 
 void bind_frechet(py::module_& module) {
     module.def("frechet", [](const CurveArray& P, const CurveArray& Q, const py::object& metric,
-                             const py::object& p) {
-        const FrechetOptions options{ground_distance(metric, p)};
+                             const py::object& p, const py::object& workers) {
+        const FrechetOptions options = frechet_options(metric, p, workers);
         const CurveView a = view(P), b = view(Q);
         return unlocked(cells(P, Q), [&] { return frechet(a, b, options); });
     });
-    module.def("frechet_path", [](const CurveArray& P, const CurveArray& Q,
-                                  const py::object& metric, const py::object& p) {
-        const FrechetOptions options{ground_distance(metric, p)};
-        const CurveView a = view(P), b = view(Q);
-        return as_tuple(unlocked(cells(P, Q), [&] { return frechet_path(a, b, options); }));
-    });
+    module.def(
+        "frechet_path", [](const CurveArray& P, const CurveArray& Q, const py::object& metric,
+                           const py::object& p, const py::object& workers) {
+            const FrechetOptions options = frechet_options(metric, p, workers);
+            const CurveView a = view(P), b = view(Q);
+            return as_tuple(unlocked(cells(P, Q), [&] { return frechet_path(a, b, options); }));
+        });
     module.def("frechet_table", [](const CurveArray& P, const CurveArray& Q,
                                    const py::object& metric, const py::object& p) {
-        const FrechetOptions options{ground_distance(metric, p)};
+        const FrechetOptions options = frechet_options(metric, p, py::int_(1));
         return table(P, Q, [&](double* out) { frechet_table(view(P), view(Q), out, options); });
     });
 }

@@ -7,6 +7,11 @@
 #include "curvewise/build_info.hpp"
 
 PYBIND11_MODULE(_core, module) {
+    try {
+        curvewise::build_info();  // chooses the instruction set
+    } catch (const std::runtime_error& error) {
+        throw pybind11::import_error(error.what());
+    }
     module.doc() = "The compiled library behind curvewise; private.";
     curvewise::bindings::bind_tables(module);
     curvewise::bindings::bind_planar(module);

@@ -41,8 +41,13 @@ Enum choose(const char* option, const py::object& given,
                           py::repr(given).cast<std::string>() + "; choose from " + list);
 }
 
-// A whole number, cut to the range of ptrdiff_t; a ValueError with `advice` for anything else.
-std::ptrdiff_t whole_number(const char* option, const py::object& given, const char* advice);
+// A whole number of at least `least`, one beyond ptrdiff_t cut to its largest value; a ValueError
+// with `advice` for anything else.
+std::ptrdiff_t whole_number(const char* option, const py::object& given, std::ptrdiff_t least,
+                            const char* advice);
+
+// Python's truth.
+bool is_true(const py::object& given);
 
 // Without the interpreter's lock where that is worth its cost: `work` is the number of elementary
 // steps ahead.

@@ -152,13 +152,15 @@ def compare(
         raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
     if measures is None:
         measures = list(_MEASURES) if P.ndim == 2 and P.shape[1] == 2 else _ANY_DIMENSION
-    for name in measures:
+    if isinstance(measures, str) or not (names := list(measures)):
+        raise ValueError(f"measures is {measures!r}; give a list of names, e.g. ['area', 'dtw']")
+    for name in names:
         if not isinstance(name, str) or name not in _MEASURES:
             raise ValueError(f"unknown measure {name!r}; choose from {', '.join(_MEASURES)}")
     conditions = PRESETS[preset]
     values = {
         name: _MEASURES[name](*_prepared(P, Q, conditions[name]), **conditions[name].options)
-        for name in measures
+        for name in names
     }
     return Comparison(P, Q, preset, values)
 

@@ -4,7 +4,7 @@
 //   c[i, j] = min(min(c[i-1, j], c[i, j-1]) + d, c[i-1, j-1] + w d),   d = d(P_i, Q_j)
 //
 // w = 1 for symmetric1, 2 for symmetric2 (Sakoe & Chiba 1978). Exact. Time O(n m); memory O(n + m)
-// for the distance, n m bytes for the path, 8 n m bytes for the table. Every function throws
+// for the distance and the path, 8 n m bytes for the table. Every function throws
 // std::invalid_argument for a curve that is empty or not finite, for curves of different
 // dimension, and for options out of range, with a message that says which and where; and
 // std::bad_alloc.
@@ -30,6 +30,8 @@ struct DtwOptions {
     // anywhere. With symmetric1 and without a window only.
     bool open_begin = false;
     bool open_end = false;
+    // Threads for this call, -1 for one per core. Never changes a result.
+    std::ptrdiff_t workers = 1;
 };
 
 double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options = {});

@@ -4,9 +4,11 @@
 //   c[i, j] = max(d(P_i, Q_j), min(c[i-1, j], c[i, j-1], c[i-1, j-1]))
 //
 // It is at most the longest edge of either curve above the continuous Fréchet distance. Exact.
-// Time O(n m); memory O(n + m) for the distance, n m bytes for the path, 8 n m bytes for the
-// table. Throws as dtw does.
+// Time O(n m); memory O(n + m) for the distance and the path, 8 n m bytes for the table. Throws as
+// dtw does.
 #pragma once
+
+#include <cstddef>
 
 #include "curvewise/alignment.hpp"
 #include "curvewise/curve.hpp"
@@ -16,6 +18,8 @@ namespace curvewise {
 
 struct FrechetOptions {
     GroundDistance ground;
+    // Threads for this call, -1 for one per core. Never changes a result.
+    std::ptrdiff_t workers = 1;
 };
 
 double frechet(const CurveView& P, const CurveView& Q, const FrechetOptions& options = {});

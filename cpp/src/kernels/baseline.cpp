@@ -1,5 +1,4 @@
-// The kernels for the processor's baseline instruction set (x86-64-v2 is not assumed: SSE2; NEON
-// on arm64).
+// The kernels for the processor family's baseline: SSE2 on x86-64, NEON on arm64.
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
@@ -8,7 +7,6 @@
 
 namespace curvewise::kernels {
 namespace {
-#include "ground_distance.inl.hpp"
 #include "sweep.inl.hpp"
 }  // namespace
 

@@ -1,15 +1,9 @@
 // Ground distances of one diagonal, a SIMD vector of lanes at a time. Differences are squared and
 // added in coordinate order, never fused, and sqrt is correctly rounded, so that the numpy
-// reference gives the same bits. Included by the kernel of each instruction set, inside its
+// reference gives the same bits. Included by the kernel of each level, inside its
 // anonymous namespace.
 
-namespace simd = Eigen::internal;
-using Pack = simd::packet_traits<double>::type;
-constexpr std::ptrdiff_t width = simd::unpacket_traits<Pack>::size;
-static_assert(width <= padding);
-
-inline Pack load(const double* from) noexcept { return simd::ploadu<Pack>(from); }
-inline void store(double* to, const Pack& pack) noexcept { simd::pstoreu(to, pack); }
+#include "square_root.inl.hpp"
 
 // Sum of squared differences in a number of dimensions known at compile time.
 template <int dim>
@@ -38,11 +32,11 @@ struct SquaredCost {
     }
 };
 
-template <int dim>
+template <int dim, class Root>
 struct EuclideanCost : SquaredCost<dim> {
     using SquaredCost<dim>::SquaredCost;
     Pack at(std::ptrdiff_t t, std::ptrdiff_t k) const noexcept {
-        return simd::psqrt(SquaredCost<dim>::at(t, k));
+        return Root::of(SquaredCost<dim>::at(t, k));
     }
 };
 
@@ -79,8 +73,9 @@ struct Squares {
     static Pack finish(const Pack& sum) noexcept { return sum; }
 };
 
+template <class Root>
 struct RootOfSquares : Squares {
-    static Pack finish(const Pack& sum) noexcept { return simd::psqrt(sum); }
+    static Pack finish(const Pack& sum) noexcept { return Root::of(sum); }
 };
 
 struct AbsoluteSum {
@@ -135,7 +130,9 @@ void fill_minkowski(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
 CostFunction select_fill(Cost cost) noexcept {
     switch (cost) {
         case Cost::euclidean:
-            return fill_cost<RootOfSquares>;
+            return fill_cost<RootOfSquares<DividerRoot>>;
+        case Cost::euclidean_in_domain:
+            return fill_cost<RootOfSquares<FastRoot>>;
         case Cost::sqeuclidean:
             return fill_cost<Squares>;
         case Cost::cityblock:

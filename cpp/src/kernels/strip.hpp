@@ -54,6 +54,13 @@ struct Strip {
     double* current;
     double* cost;  // one diagonal of ground distances, for those that are not fused
 
+    // Where asked for: the column at which the path of a cell leaves the row above the region, in
+    // lanes and a boundary row of their own, moved along with the values.
+    double* origin_boundary;
+    double* origin_before;
+    double* origin_before_last;
+    double* origin_current;
+
     // Where asked for: the predecessor of lane k on diagonal t, at codes[t * code_stride + k];
     // the cell of row k and column j, at table[k * table_stride + j].
     std::uint8_t* codes;
@@ -70,9 +77,10 @@ using CostFunction = void (*)(const Strip& strip, std::ptrdiff_t t, std::ptrdiff
 // per diagonal where the cost is not fused.
 using AdvanceFunction = void (*)(Strip& strip, std::ptrdiff_t end, CostFunction fill) noexcept;
 
-enum class Output { boundary_only, codes, table };
+enum class Output { boundary_only, origins, codes, table };
 
-enum class Cost { euclidean, sqeuclidean, cityblock, chebyshev, minkowski };
+// euclidean_in_domain: every sum of squares is 0 or within the domain of the fast square root.
+enum class Cost { euclidean, euclidean_in_domain, sqeuclidean, cityblock, chebyshev, minkowski };
 
 // What one instruction-set level offers.
 struct KernelSet {
@@ -82,5 +90,9 @@ struct KernelSet {
 };
 
 extern const KernelSet baseline;
+#ifdef CURVEWISE_X86_64_LEVELS
+extern const KernelSet v3;  // AVX2 and FMA
+extern const KernelSet v4;  // AVX-512 F, BW, CD, DQ and VL
+#endif
 
 }  // namespace curvewise::kernels

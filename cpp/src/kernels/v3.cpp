@@ -1,0 +1,15 @@
+// The kernels for x86-64-v3: AVX2 and FMA.
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+
+#include "strip.hpp"
+
+namespace curvewise::kernels {
+namespace {
+#include "sweep.inl.hpp"
+}  // namespace
+
+const KernelSet v3 = {select_advance, select_fill};
+
+}  // namespace curvewise::kernels

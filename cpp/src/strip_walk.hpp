@@ -1,0 +1,73 @@
+// A region of the table cut into strips, and the state with which one thread sweeps one strip
+// after the other.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "aligned_buffer.hpp"
+#include "kernels/strip.hpp"
+#include "sweep.hpp"
+
+namespace curvewise::detail {
+
+// How a region is swept: the strips, the kernel, and where results go. Shared by all threads.
+class StripPlan {
+   public:
+    StripPlan(const SweepProblem& problem, const Region& region, std::ptrdiff_t workers,
+              const Destination& destination) noexcept;
+
+    std::ptrdiff_t height() const noexcept { return height_; }
+    std::ptrdiff_t strips() const noexcept { return (region_.rows + height_ - 1) / height_; }
+    std::ptrdiff_t workers() const noexcept { return workers_; }
+    // What a row of the region may hold, in columns of the region.
+    ColumnRange columns(std::ptrdiff_t row) const noexcept;
+
+   private:
+    friend class StripWalk;
+    const SweepProblem* problem_;
+    Region region_;
+    Destination destination_;
+    kernels::Output output_;
+    std::ptrdiff_t height_;
+    std::ptrdiff_t workers_;
+};
+
+class StripWalk {
+   public:
+    // Long enough to amortise the ramps at both ends of a strip and the pass over the boundary
+    // row, short enough that three diagonals and the strip's points stay in the first-level cache.
+    static constexpr std::ptrdiff_t max_height = 256;
+
+    StripWalk(const StripPlan& plan, bool starts_here, double* boundary);
+
+    void enter(std::ptrdiff_t strip) noexcept;
+    // Up to the diagonal `end`.
+    void advance(std::ptrdiff_t end) noexcept;
+
+    std::ptrdiff_t first_diagonal_of(std::ptrdiff_t strip) const noexcept {
+        return plan_->columns(strip * plan_->height()).first;
+    }
+    std::ptrdiff_t next_diagonal() const noexcept { return strip_.next_diagonal; }
+    std::ptrdiff_t end_diagonal() const noexcept { return end_diagonal_; }
+    // The columns of the last row that have been written.
+    std::ptrdiff_t finished_columns() const noexcept {
+        return strip_.next_diagonal - strip_.rows + 1;
+    }
+
+   private:
+    void aim(std::ptrdiff_t strip) noexcept;
+
+    const StripPlan* plan_;
+    bool starts_here_;
+    std::ptrdiff_t lane_stride_;
+    AlignedBuffer lanes_;
+    std::vector<std::ptrdiff_t> columns_;  // first_column of every row, then last_column
+    kernels::AdvanceFunction advance_;
+    kernels::CostFunction fill_;
+    kernels::Strip strip_{};
+    std::ptrdiff_t end_diagonal_ = 0;
+    bool at_start_ = false;
+};
+
+}  // namespace curvewise::detail

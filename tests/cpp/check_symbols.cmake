@@ -1,0 +1,18 @@
+# Fails where two of the object files OBJECTS define the same weak symbol: the linker would then
+# serve one instruction-set level with the other's code. NM lists symbols.
+set(seen)
+foreach(object IN LISTS OBJECTS)
+  execute_process(COMMAND ${NM} ${object} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL " [uvVwW] [^\n]+" weak "${symbols}")
+  string(REGEX MATCHALL "[^\n]+" all "${symbols}")
+  list(LENGTH all count)
+  if(count LESS 10)
+    message(FATAL_ERROR "${object}: ${NM} lists only ${count} symbols")
+  endif()
+  foreach(symbol IN LISTS weak)
+    if(symbol IN_LIST seen)
+      message(SEND_ERROR "weak in two kernels:${symbol}")
+    endif()
+  endforeach()
+  list(APPEND seen ${weak})
+endforeach()

@@ -1,0 +1,201 @@
+// CurveView: what a view reads, in every layout that two strides describe, what it is called in
+// messages, and that no measure depends on the layout.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "check.hpp"
+#include "curves.hpp"
+#include "curvewise/curve.hpp"
+#include "curvewise/curvewise.hpp"
+
+namespace {
+
+using curvewise::CurveView;
+using test::Curve;
+using test::Random;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// A curve of dimension 2 in memory of another layout; what lies between its numbers is nan, and
+// an answer that used it would be nan too.
+class Relaid {
+   public:
+    Relaid(std::string name, const Curve& curve, std::ptrdiff_t row_stride,
+           std::ptrdiff_t col_stride)
+        : name_(std::move(name)), n_(curve.size()), strides_{row_stride, col_stride} {
+        const std::ptrdiff_t rows_reach = (n_ - 1) * row_stride;
+        origin_ =
+            3 + std::max<std::ptrdiff_t>(0, -rows_reach) + std::max<std::ptrdiff_t>(0, -col_stride);
+        memory_.assign(static_cast<std::size_t>(6 + std::abs(rows_reach) + std::abs(col_stride)),
+                       nan);
+        for (std::ptrdiff_t i = 0; i < n_; ++i) {
+            for (std::ptrdiff_t c = 0; c < 2; ++c) {
+                memory_[static_cast<std::size_t>(origin_ + i * row_stride + c * col_stride)] =
+                    curve(i, c);
+            }
+        }
+    }
+    CurveView view() const { return {memory_.data() + origin_, n_, 2, strides_[0], strides_[1]}; }
+    const std::string& name() const { return name_; }
+
+   private:
+    std::string name_;
+    std::ptrdiff_t n_;
+    std::array<std::ptrdiff_t, 2> strides_;
+    std::ptrdiff_t origin_;
+    std::vector<double> memory_;
+};
+
+std::vector<Relaid> layouts(const Curve& curve) {
+    const std::ptrdiff_t n = curve.size();
+    return {{"row-major", curve, 2, 1},
+            {"column-major", curve, 1, n},
+            {"columns 0 and 2 of 5", curve, 5, 2},
+            {"every third row", curve, 6, 1},
+            {"rows reversed", curve, -2, 1},
+            {"columns exchanged", curve, 2, -1},
+            {"column-major, rows reversed", curve, -1, n + 3}};
+}
+
+void reading() {
+    const std::vector<double> data{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+    const CurveView dense(data.data(), 4, 3);
+    CHECK_EQUAL(dense.size(), std::ptrdiff_t{4});
+    CHECK_EQUAL(dense.dim(), std::ptrdiff_t{3});
+    CHECK_EQUAL(dense(2, 1), 7.0);
+    const CurveView transposed(data.data(), 3, 4, 1, 3);
+    CHECK_EQUAL(transposed(2, 1), 5.0);
+    const CurveView backwards(data.data() + 11, 4, 3, -3, -1);
+    CHECK_EQUAL(backwards(0, 0), 11.0);
+    CHECK_EQUAL(backwards(3, 2), 0.0);
+    const CurveView repeated(data.data() + 5, 100, 1, 0, 1);
+    CHECK_EQUAL(repeated(99, 0), 5.0);
+}
+
+void shapes() {
+    const double value = 0.0;
+    CHECK_EQUAL(CurveView(&value, 5, 2).shape(), "(5, 2)");
+    CHECK_EQUAL(CurveView(&value, 0, 0).shape(), "(0, 0)");
+    CHECK_EQUAL(CurveView(&value, 5, 1).shape(), "(5, 1)");
+    CHECK_EQUAL(CurveView(&value, 5, 1, 1, 0).shape(), "(5,)");
+    CHECK(CurveView(&value, 5, 1, 1, 0).is_flat());
+    CHECK(!CurveView(&value, 5, 1).is_flat());
+    CHECK(!CurveView(&value, 5, 2, 1, 0).is_flat());
+}
+
+std::vector<double> tables(const CurveView& P, const CurveView& Q) {
+    const auto cells = static_cast<std::size_t>(P.size() * Q.size());
+    std::vector<double> result(2 * cells);
+    curvewise::dtw_table(P, Q, result.data());
+    curvewise::frechet_table(P, Q, result.data() + cells);
+    return result;
+}
+
+// Every function of the library that takes curves.
+std::vector<double> answers(const CurveView& P, const CurveView& Q) {
+    std::vector<double> result = tables(P, Q);
+    result.insert(result.end(),
+                  {curvewise::dtw(P, Q), curvewise::frechet(P, Q), curvewise::area(P, Q),
+                   curvewise::pcm(P, Q), curvewise::curve_length(P, Q), curvewise::mse(P, Q),
+                   curvewise::mae(P, Q), curvewise::sum_of_squares(P, Q)});
+    for (const auto& path : {curvewise::dtw_path(P, Q).path, curvewise::frechet_path(P, Q).path}) {
+        for (const auto& [i, j] : path) {
+            result.insert(result.end(), {static_cast<double>(i), static_cast<double>(j)});
+        }
+    }
+    for (const auto& quad : curvewise::area_quads(P, Q).quads) result.push_back(quad[2][1]);
+    for (const auto& point : curvewise::pcm_match(P, Q).points) result.push_back(point[0]);
+    std::vector<double> residuals(static_cast<std::size_t>(2 * P.size()));
+    curvewise::curve_length_residuals(P, Q, residuals.data());
+    result.insert(result.end(), residuals.begin(), residuals.end());
+    curvewise::normalize(P, Q, residuals.data());
+    result.insert(result.end(), residuals.begin(), residuals.end());
+    return result;
+}
+
+void same_answers_in_every_layout() {
+    Random random(91);
+    const Curve P = random.walk(20), Q = random.walk(20);
+    const std::vector<double> expected = answers(P, Q);
+    for (const Relaid& p : layouts(P)) {
+        for (const Relaid& q : layouts(Q)) {
+            const check::Note note("P " + p.name() + ", Q " + q.name());
+            CHECK(answers(p.view(), q.view()) == expected);
+        }
+    }
+    const Curve R({5.0, 1.0, 4.0, 2.0}, 1), S({1.0, 1.0, 0.0}, 1);
+    const CurveView flat_r(R.values().data(), 4, 1, 1, 0), flat_s(S.values().data(), 3, 1, 1, 0);
+    CHECK_EQUAL(tables(flat_r, flat_s), tables(R, S));
+    CHECK_EQUAL(tables(flat_r, S), tables(R, S));
+}
+
+// The first bad entry in row-major order, whatever lies first in memory.
+void places_of_bad_entries() {
+    Random random(92);
+    const Curve P = random.walk(20);
+    Curve Q = P;
+    Q(18, 0) = -std::numeric_limits<double>::infinity();
+    Q(17, 1) = nan;
+    for (const Relaid& q : layouts(Q)) {
+        const check::Note note("Q " + q.name());
+        const auto refuses = [](auto call) {
+            CHECK_THROWS(call(), std::invalid_argument, "Q[17, 1] is nan; curves must be finite");
+        };
+        const CurveView view = q.view();
+        refuses([&] { return curvewise::dtw(P, view); });
+        refuses([&] { return curvewise::frechet(P, view); });
+        refuses([&] { return curvewise::area(P, view); });
+        refuses([&] { return curvewise::pcm(P, view); });
+        refuses([&] { return curvewise::curve_length(P, view); });
+        refuses([&] { return curvewise::mae(P, view); });
+    }
+    const std::vector<double> flat{0.0, 1.0, nan};
+    CHECK_THROWS(
+        curvewise::dtw(CurveView(flat.data(), 3, 1, 1, 0), P), std::invalid_argument,
+        "P has shape (3,) and Q has shape (20, 2); both need the same number of coordinates");
+    CHECK_THROWS(curvewise::dtw(CurveView(flat.data(), 3, 1, 1, 0), Curve{{1.0}}),
+                 std::invalid_argument, "P[2] is nan; curves must be finite");
+    CHECK_THROWS(curvewise::dtw(CurveView(flat.data(), 3, 1), Curve{{1.0}}), std::invalid_argument,
+                 "P[2, 0] is nan; curves must be finite");
+    CHECK_THROWS(curvewise::frechet(CurveView(flat.data(), 0, 1, 1, 0), Curve{{1.0}}),
+                 std::invalid_argument, "P has shape (0,); frechet needs at least 1 point");
+}
+
+// Columns, then matching dimensions, then points, then finite; P before Q in each.
+void order_of_checks() {
+    const CurveView no_columns(nullptr, 0, 0), no_points(nullptr, 0, 2);
+    const Curve bad{{nan, 0.0}, {0.0, 0.0}}, line{{nan}}, good{{0.0, 0.0}, {1.0, 1.0}};
+    CHECK_THROWS(curvewise::area(bad, no_columns), std::invalid_argument,
+                 "Q has shape (0, 0); a curve needs at least 1 coordinate");
+    CHECK_THROWS(
+        curvewise::area(no_points, line), std::invalid_argument,
+        "P has shape (0, 2) and Q has shape (1, 1); both need the same number of coordinates");
+    CHECK_THROWS(curvewise::area(line, line), std::invalid_argument,
+                 "P has shape (1, 1) and Q has shape (1, 1); area needs 2 coordinates, x and y");
+    CHECK_THROWS(curvewise::area(bad, no_points), std::invalid_argument,
+                 "Q has shape (0, 2); area needs at least 2 points");
+    CHECK_THROWS(curvewise::area(no_points, no_points), std::invalid_argument,
+                 "P has shape (0, 2); area needs at least 2 points");
+    CHECK_THROWS(curvewise::area(good, bad), std::invalid_argument,
+                 "Q[0, 0] is nan; curves must be finite");
+    CHECK_THROWS(curvewise::area(bad, bad), std::invalid_argument,
+                 "P[0, 0] is nan; curves must be finite");
+}
+
+}  // namespace
+
+int main() {
+    return check::run({{"reading", reading},
+                       {"shapes", shapes},
+                       {"same answers in every layout", same_answers_in_every_layout},
+                       {"places of bad entries", places_of_bad_entries},
+                       {"order of checks", order_of_checks}});
+}
