@@ -142,10 +142,10 @@ def compare(
     >>> import curvewise
     >>> print(curvewise.compare([(0, 0), (1, 1), (2, 0)], [(0, 1), (1, 2), (2, 1)]))
     area          1
-    pcm           1.41421
+    pcm           2.23607
     frechet       1
-    dtw           2.5
-    curve_length  1.41421
+    dtw           3
+    curve_length  2.40113
     """
     P, Q = (curve.copy() for curve in as_curves(P, Q))
     if not isinstance(preset, str) or preset not in PRESETS:

@@ -93,9 +93,12 @@ def loop_pairs(loops: dict[str, Array]) -> list[Pair]:
     return [(thin[a], thin[b][: -len(thin[b]) // 5]) for a, b in names]
 
 
-@pytest.fixture(scope="session")
-def all_pairs(loop_pairs: list[Pair]) -> list[Pair]:
-    return PAIRS + loop_pairs
+@pytest.fixture(scope="session", params=["random", "measured"])
+def all_pairs(request: pytest.FixtureRequest) -> list[Pair]:
+    if request.param == "random":  # does not need the data
+        return PAIRS
+    measured: list[Pair] = request.getfixturevalue("loop_pairs")
+    return measured
 
 
 @pytest.mark.parametrize("options", AREA_OPTIONS, ids=lambda options: "-".join(options.values()))

@@ -1,0 +1,90 @@
+"""Threads within one pair change no bit, at any instruction-set level, and live with others."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+import pytest
+
+import curvewise
+from curvewise import reference
+
+# Enough cells for several threads, whole and in a band.
+CASES: list[tuple[str, dict[str, Any]]] = [
+    ("dtw", {}),
+    ("dtw", {"step_pattern": "symmetric2", "window": 150}),
+    ("dtw", {"metric": "chebyshev", "open_begin": True, "open_end": True}),
+    ("frechet", {}),
+    ("frechet", {"metric": "cityblock"}),
+]
+
+
+def pair() -> tuple[Any, Any]:
+    rng = np.random.default_rng(7)
+    return rng.normal(size=(610, 2)).cumsum(0), rng.integers(-9, 9, (470, 2)).astype(float)
+
+
+def differences() -> list[str]:
+    """Return what differs from the reference, at this process's level."""
+    P, Q = pair()
+    found = []
+    for measure, options in CASES:
+        expected = getattr(reference, f"{measure}_path")(P, Q, **options)
+        for workers in (1, 2, 3, -1):
+            distance = getattr(curvewise, measure)(P, Q, **options, workers=workers)
+            path = getattr(curvewise, f"{measure}_path")(P, Q, **options, workers=workers)
+            same_path = path.distance == distance and np.array_equal(path.path, expected.path)
+            if distance != expected.distance or not same_path:
+                found.append(f"{measure} {options} workers={workers}")
+    return found
+
+
+@pytest.mark.parametrize("level", curvewise.build_info()["instruction_sets"])
+def test_workers_change_no_bit_at_any_level(level: str) -> None:
+    done = subprocess.run(
+        [sys.executable, __file__],
+        env={**os.environ, "CURVEWISE_ISA": level},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.stdout.split() == [level, "agrees"], done.stdout + done.stderr
+
+
+def test_a_level_that_the_machine_lacks_is_an_import_error() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", "import curvewise"],
+        env={**os.environ, "CURVEWISE_ISA": "v9"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    names = ", ".join(curvewise.build_info()["instruction_sets"])
+    last_line = done.stderr.strip().splitlines()[-1]
+    assert last_line == f"ImportError: CURVEWISE_ISA is 'v9'; this machine has {names}"
+
+
+@pytest.mark.parametrize("function", ["dtw", "dtw_path", "frechet", "frechet_path"])
+@pytest.mark.parametrize("workers", [0, -2, 1.5, "2", None, True])
+def test_workers_out_of_range(function: str, workers: Any) -> None:
+    message = f"workers is {workers!r}; give a whole number >= 1, or -1 for all cores"
+    with pytest.raises(ValueError, match="workers") as caught:
+        getattr(curvewise, function)([1, 2], [3], workers=workers)
+    assert str(caught.value) == message
+
+
+def test_workers_within_the_threads_of_a_caller() -> None:
+    P, Q = pair()
+    expected = curvewise.dtw(P, Q)
+    with ThreadPoolExecutor(4) as pool:
+        calls = [pool.submit(curvewise.dtw, P, Q, workers=3) for _ in range(24)]
+    assert {call.result() for call in calls} == {expected}
+
+
+if __name__ == "__main__":
+    print(curvewise.build_info()["active"], " ".join(differences()) or "agrees")
