@@ -24,7 +24,8 @@ listed = [(0.0, 1.0), (1, 2)]
 
 number: float = curvewise.area(P, Q, spacing="x", crossing="split", squared=True)
 number = curvewise.area(listed, [[0, 1], [2, 3]])
-quads: FloatArray = curvewise.area_quads(P, Q, spacing="arc_length").quads
+found: curvewise.AreaQuads = curvewise.area_quads(P, Q, spacing="arc_length")
+quads: FloatArray = found.quads
 areas: FloatArray = curvewise.area_quads(P, Q, crossing="split")[1]
 number = curvewise.pcm(P, Q, offsets="continuous")
 number = curvewise.pcm(P, Q, offsets=np.int64(100))
@@ -33,14 +34,14 @@ number = match.value + match.offset + match.coverage
 mapped: str = match.mapped
 points: FloatArray = match.points
 
-number = curvewise.frechet(P, Q, metric="minkowski", p=3)
+number = curvewise.frechet(P, Q, metric="minkowski", p=3, workers=-1)
 alignment: curvewise.Alignment = curvewise.frechet_path(P, Q, metric="chebyshev")
 path: npt.NDArray[np.int64] = alignment.path
 number = alignment.distance
 table: FloatArray = curvewise.frechet_table(P, Q, metric="cityblock")
 number = curvewise.dtw(P, Q, metric="sqeuclidean", step_pattern="symmetric2", window=10)
 number = curvewise.dtw(P[:, 0], Q[:, 0], open_begin=True, open_end=True)
-alignment = curvewise.dtw_path(P, Q, window=np.int32(3))
+alignment = curvewise.dtw_path(P, Q, window=np.int32(3), workers=2)
 table = curvewise.dtw_table(P, Q, metric="minkowski", p=np.inf)
 
 number = curvewise.curve_length(P, Q, scale="mean_abs")
