@@ -39,6 +39,7 @@ class AreaAtOffset {
             segments_.push_back({t[k], longer.points()[k], direction});
         }
         segments_.push_back({std::numeric_limits<double>::infinity(), {}, {}});  // ends every walk
+        fill_signposts();
     }
 
     double value(double offset) const noexcept { return values<1>({offset})[0]; }
@@ -46,20 +47,24 @@ class AreaAtOffset {
     // At several offsets in one walk: their steps do not wait for each other.
     template <std::size_t count>
     std::array<double, count> values(const std::array<double, count>& offsets) const noexcept {
-        std::array<double, count> sums{};
+        std::array<double, count> sums{}, x{}, y{};
         std::array<const Segment*, count> at{};
-        std::transform(offsets.begin(), offsets.end(), at.begin(),
-                       [this](double offset) { return segment_at(offset); });
+        at.fill(segments_.data());
         for (std::size_t i = 0; i < weights_.size(); ++i) {
             const Point vertex = shorter_.points()[i];
+            const double s = shorter_.arc_lengths()[i];
             for (std::size_t o = 0; o < count; ++o) {
-                const double u = std::min(shorter_.arc_lengths()[i] + offsets[o], longer_.length());
+                const double u = std::min(s + offsets[o], longer_.length());
+                at[o] = std::max(at[o], signpost(u));
                 // One step without a branch, which would be mispredicted often.
                 at[o] += at[o][1].start <= u;
                 while (at[o][1].start <= u) ++at[o];
                 const double along = u - at[o]->start;
-                const Point gap{at[o]->from.x + along * at[o]->direction.x - vertex.x,
-                                at[o]->from.y + along * at[o]->direction.y - vertex.y};
+                x[o] = at[o]->from.x + along * at[o]->direction.x;
+                y[o] = at[o]->from.y + along * at[o]->direction.y;
+            }
+            for (std::size_t o = 0; o < count; ++o) {
+                const Point gap{x[o] - vertex.x, y[o] - vertex.y};
                 sums[o] += weights_[i] * std::sqrt(dot(gap, gap));
             }
         }
@@ -115,10 +120,24 @@ class AreaAtOffset {
         return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
     }
 
-    const Segment* segment_at(double u) const noexcept {
+    // A segment at or shortly before arc length u: a walk that starts there takes few steps, and
+    // none of those it takes waits for the steps to an earlier place.
+    const Segment* signpost(double u) const noexcept {
+        return segments_.data() + signposts_[static_cast<std::size_t>(u * signposts_per_length_)];
+    }
+
+    void fill_signposts() {
+        constexpr std::size_t per_segment = 4;
         const std::vector<double>& t = longer_.arc_lengths();
-        const auto next = std::upper_bound(t.begin() + 1, t.end() - 1, u);
-        return segments_.data() + (next - t.begin() - 1);
+        const std::size_t count = per_segment * t.size();
+        signposts_per_length_ = static_cast<double>(count) / longer_.length();
+        signposts_.resize(count + 2);  // rounding may lead one past the last
+        std::size_t k = 0;
+        for (std::size_t b = 0; b < signposts_.size(); ++b) {
+            const double u = static_cast<double>(b) / signposts_per_length_;
+            while (k + 2 < t.size() && t[k + 1] <= u) ++k;
+            signposts_[b] = k;
+        }
     }
 
     ArcPosition start(double offset) const noexcept {
@@ -180,6 +199,8 @@ class AreaAtOffset {
     const ArcCurve& longer_;
     std::vector<double> weights_;
     std::vector<Segment> segments_;
+    std::vector<std::size_t> signposts_;
+    double signposts_per_length_ = 0.0;
 };
 
 double slack(const ArcCurve& shorter, const ArcCurve& longer) noexcept {
@@ -196,7 +217,7 @@ double grid_offset(double slack, std::ptrdiff_t i, std::ptrdiff_t count) noexcep
 }
 
 Offset best_of_grid(const AreaAtOffset& f, double slack, std::ptrdiff_t count) {
-    constexpr std::ptrdiff_t at_once = 4;
+    constexpr std::ptrdiff_t at_once = 16;
     Offset best{0.0, f.value(0.0)};
     for (std::ptrdiff_t i = 1; i < count; i += at_once) {
         std::array<double, at_once> offsets{};
