@@ -6,7 +6,7 @@
 namespace curvewise::detail {
 
 BoxSide::BoxSide(const CurveView& curve, std::ptrdiff_t coordinate) noexcept
-    : range_(0.0), low_(curve(0, coordinate)), extent_(1.0) {
+    : range_(0.0), low_(curve(0, coordinate)) {
     double high = low_;
     for (std::ptrdiff_t i = 1; i < curve.size(); ++i) {
         low_ = std::min(low_, curve(i, coordinate));

@@ -20,7 +20,7 @@ class BoxSide {
    private:
     RangeScale range_;
     double low_;
-    double extent_;  // 1 where the curve has none: there nothing is scaled
+    double extent_ = 1.0;  // 1 where the curve has none: there nothing is scaled
 };
 
 }  // namespace curvewise::detail

@@ -31,8 +31,7 @@ PackedPair::PackedPair(const CurveView& P, const CurveView& Q, const RangeScale&
       dim_(P.dim()),
       p_stride_(AlignedBuffer::rounded(n_ + kernels::padding)),
       q_stride_(AlignedBuffer::rounded(m_ + kernels::padding)),
-      storage_(dim_ * (p_stride_ + q_stride_)),
-      squares_are_in_domain_(true) {
+      storage_(dim_ * (p_stride_ + q_stride_)) {
     for (std::ptrdiff_t c = 0; c < dim_; ++c) {
         squares_are_in_domain_ &= pack(P, c, false, range, storage_.data() + c * p_stride_);
         squares_are_in_domain_ &=

@@ -37,7 +37,7 @@ class PackedPair {
     std::ptrdiff_t p_stride_;
     std::ptrdiff_t q_stride_;
     AlignedBuffer storage_;
-    bool squares_are_in_domain_;
+    bool squares_are_in_domain_ = true;
 };
 
 }  // namespace curvewise::detail
