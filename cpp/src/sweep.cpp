@@ -18,11 +18,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Columns between two looks at what other threads have done: some 10^5 cells, 50 to 200 µs.
 constexpr std::ptrdiff_t chunk = 1024;
 
-// Below this many cells a thread costs more than it saves.
-constexpr std::ptrdiff_t cells_per_worker = 1 << 17;
-
 std::ptrdiff_t worker_count(const SweepProblem& problem, const Region& region) noexcept {
-    const std::ptrdiff_t useful = region.rows * region.columns / cells_per_worker;
+    const std::ptrdiff_t useful = region.rows * region.columns / problem.cells_per_worker;
     return std::max<std::ptrdiff_t>(1, std::min(problem.workers, useful));
 }
 

@@ -25,6 +25,9 @@ struct SweepProblem {
     Band band;
     bool open_begin;
     std::ptrdiff_t workers;
+    // With fewer cells for each, starting threads costs more than they save: it takes up to a
+    // millisecond until a second core is at work.
+    std::ptrdiff_t cells_per_worker = std::ptrdiff_t{1} << 22;
 };
 
 // Throws std::invalid_argument for an order of minkowski outside [1, inf].

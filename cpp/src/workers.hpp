@@ -28,7 +28,7 @@ class Pipeline {
 
     // The next strip, or -1.
     std::ptrdiff_t take() noexcept;
-    // Until the strip above `strip` has finished `columns` columns. Spins for some microseconds,
+    // Until the strip above `strip` has finished `columns` columns. Looks for some microseconds,
     // then sleeps.
     void wait(std::ptrdiff_t strip, std::ptrdiff_t columns);
     void publish(std::ptrdiff_t strip, std::ptrdiff_t columns);

@@ -1,6 +1,6 @@
 """Types of the compiled module; documented in measures.py."""
 
-from typing import Literal, TypedDict
+from typing import Literal, SupportsFloat, SupportsIndex, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -20,47 +20,49 @@ def dtw(
     P: _Array,
     Q: _Array,
     metric: str,
-    p: float | None,
+    p: SupportsFloat | None,
     step_pattern: str,
-    window: int | None,
+    window: SupportsIndex | None,
     open_begin: bool,
     open_end: bool,
-    workers: int,
+    workers: SupportsIndex,
     /,
 ) -> float: ...
 def dtw_path(
     P: _Array,
     Q: _Array,
     metric: str,
-    p: float | None,
+    p: SupportsFloat | None,
     step_pattern: str,
-    window: int | None,
+    window: SupportsIndex | None,
     open_begin: bool,
     open_end: bool,
-    workers: int,
+    workers: SupportsIndex,
     /,
 ) -> tuple[float, _Path]: ...
 def dtw_table(
     P: _Array,
     Q: _Array,
     metric: str,
-    p: float | None,
+    p: SupportsFloat | None,
     step_pattern: str,
-    window: int | None,
+    window: SupportsIndex | None,
     open_begin: bool,
     open_end: bool,
     /,
 ) -> _Array: ...
-def frechet(P: _Array, Q: _Array, metric: str, p: float | None, workers: int, /) -> float: ...
+def frechet(
+    P: _Array, Q: _Array, metric: str, p: SupportsFloat | None, workers: SupportsIndex, /
+) -> float: ...
 def frechet_path(
-    P: _Array, Q: _Array, metric: str, p: float | None, workers: int, /
+    P: _Array, Q: _Array, metric: str, p: SupportsFloat | None, workers: SupportsIndex, /
 ) -> tuple[float, _Path]: ...
-def frechet_table(P: _Array, Q: _Array, metric: str, p: float | None, /) -> _Array: ...
+def frechet_table(P: _Array, Q: _Array, metric: str, p: SupportsFloat | None, /) -> _Array: ...
 def area(P: _Array, Q: _Array, spacing: str, crossing: str, squared: bool, /) -> float: ...
 def area_quads(P: _Array, Q: _Array, spacing: str, crossing: str, /) -> tuple[_Array, _Array]: ...
-def pcm(P: _Array, Q: _Array, offsets: int | str, /) -> float: ...
+def pcm(P: _Array, Q: _Array, offsets: SupportsIndex | str, /) -> float: ...
 def pcm_match(
-    P: _Array, Q: _Array, offsets: int | str, /
+    P: _Array, Q: _Array, offsets: SupportsIndex | str, /
 ) -> tuple[float, float, float, Literal["P", "Q"], _Array]: ...
 def curve_length(P: _Array, Q: _Array, scale: str, /) -> float: ...
 def curve_length_residuals(P: _Array, Q: _Array, scale: str, /) -> _Array: ...

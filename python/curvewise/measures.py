@@ -12,7 +12,7 @@ material parameters from hysteresis loops using inverse analysis", Int. J. Mater
 
 from __future__ import annotations
 
-from typing import Literal, SupportsFloat, SupportsIndex, TypeAlias, cast
+from typing import Literal, SupportsFloat, SupportsIndex, TypeAlias
 
 from . import _core
 from ._curves import Array, CurveLike, as_curve, as_curves
@@ -70,7 +70,8 @@ def area(
         dominates the length): raw stress–strain data want "x", or curves scaled by
         :func:`normalize`. "arc_length" gives each curve a vertex wherever the other has one, by
         relative arc length after scaling by P's box, so that the value does not depend on how
-        either curve was sampled.
+        either curve was sampled, as long as they do not cross; not symmetric then, as P's box
+        scales.
     crossing : {"rearrange", "split"}
         What becomes of a quadrilateral that intersects itself. "rearrange" (the paper) swaps two
         vertices until it is simple: the value jumps where a quadrilateral turns complex. "split"
@@ -83,7 +84,8 @@ def area(
     Returns
     -------
     float
-        In units of x times units of y (squared: of that squared). Symmetric to rounding.
+        In units of x times units of y (squared: of that squared). Symmetric to rounding, except
+        with "arc_length".
 
     Raises
     ------
@@ -187,9 +189,10 @@ def pcm(
     Notes
     -----
     Witowski & Stander (2012), as section 2.1 of the paper describes it. Time O(offsets (n + m));
-    "continuous" needs about 10³ evaluations of O(n + m), and O(n m) in the worst case beside
-    them. Memory O(n + m). The error of the grid is at most S (T - S) / (2 (offsets - 1)) for
-    lengths S <= T.
+    "continuous" needs about 10³ evaluations of O(n + m) for curves that bend, and up to n m of
+    them where the area is level over long stretches of offsets (zigzags along one line: 4 s for
+    2201 and 4401 points). Memory O(n + m). The error of the grid is at most
+    S (T - S) / (2 (offsets - 1)) for lengths S <= T.
 
     Examples
     --------
@@ -199,7 +202,7 @@ def pcm(
     0.0
     """
     P, Q = as_curves(P, Q)
-    return _core.pcm(P, Q, cast("int | str", offsets))
+    return _core.pcm(P, Q, offsets)
 
 
 def pcm_match(
@@ -236,7 +239,7 @@ def pcm_match(
     ('Q', 0.25)
     """
     P, Q = as_curves(P, Q)
-    return PcmMatch(*_core.pcm_match(P, Q, cast("int | str", offsets)))
+    return PcmMatch(*_core.pcm_match(P, Q, offsets))
 
 
 def frechet(
@@ -286,7 +289,7 @@ def frechet(
     3.0
     """
     P, Q = as_curves(P, Q)
-    return _core.frechet(P, Q, metric, cast("float | None", p), cast("int", workers))
+    return _core.frechet(P, Q, metric, p, workers)
 
 
 def frechet_path(
@@ -328,9 +331,7 @@ def frechet_path(
     [[0, 0], [1, 0], [2, 1]]
     """
     P, Q = as_curves(P, Q)
-    return Alignment(
-        *_core.frechet_path(P, Q, metric, cast("float | None", p), cast("int", workers))
-    )
+    return Alignment(*_core.frechet_path(P, Q, metric, p, workers))
 
 
 def frechet_table(
@@ -366,7 +367,7 @@ def frechet_table(
     [[0.0, 2.0], [1.0, 1.0], [2.0, 1.0]]
     """
     P, Q = as_curves(P, Q)
-    return _core.frechet_table(P, Q, metric, cast("float | None", p))
+    return _core.frechet_table(P, Q, metric, p)
 
 
 def dtw(
@@ -435,12 +436,12 @@ def dtw(
         P,
         Q,
         metric,
-        cast("float | None", p),
+        p,
         step_pattern,
-        cast("int | None", window),
+        window,
         open_begin,
         open_end,
-        cast("int", workers),
+        workers,
     )
 
 
@@ -492,12 +493,12 @@ def dtw_path(
             P,
             Q,
             metric,
-            cast("float | None", p),
+            p,
             step_pattern,
-            cast("int | None", window),
+            window,
             open_begin,
             open_end,
-            cast("int", workers),
+            workers,
         )
     )
 
@@ -548,9 +549,9 @@ def dtw_table(
         P,
         Q,
         metric,
-        cast("float | None", p),
+        p,
         step_pattern,
-        cast("int | None", window),
+        window,
         open_begin,
         open_end,
     )

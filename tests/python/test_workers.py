@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,40 +15,53 @@ import pytest
 import curvewise
 from curvewise import reference
 
-# Enough cells for several threads, whole and in a band.
+# Enough cells for two threads, whole and in a band.
+SIZES = (3100, 2900)
 CASES: list[tuple[str, dict[str, Any]]] = [
     ("dtw", {}),
-    ("dtw", {"step_pattern": "symmetric2", "window": 150}),
-    ("dtw", {"metric": "chebyshev", "open_begin": True, "open_end": True}),
+    ("dtw", {"step_pattern": "symmetric2", "window": 1400}),
     ("frechet", {}),
-    ("frechet", {"metric": "cityblock"}),
 ]
 
 
 def pair() -> tuple[Any, Any]:
+    n, m = SIZES
     rng = np.random.default_rng(7)
-    return rng.normal(size=(610, 2)).cumsum(0), rng.integers(-9, 9, (470, 2)).astype(float)
+    return rng.normal(size=(n, 2)).cumsum(0), rng.integers(-9, 9, (m, 2)).astype(float)
 
 
-def differences() -> list[str]:
+@pytest.fixture(scope="module")
+def expected(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a file with what the reference gives for each case."""
+    P, Q = pair()
+    arrays = {}
+    for i, (measure, options) in enumerate(CASES):
+        alignment = getattr(reference, f"{measure}_path")(P, Q, **options)
+        arrays[f"distance{i}"], arrays[f"path{i}"] = alignment.distance, alignment.path
+    file = tmp_path_factory.mktemp("workers") / "expected.npz"
+    np.savez(file, **arrays)
+    return file
+
+
+def differences(file: str) -> list[str]:
     """Return what differs from the reference, at this process's level."""
     P, Q = pair()
+    expected = np.load(file)
     found = []
-    for measure, options in CASES:
-        expected = getattr(reference, f"{measure}_path")(P, Q, **options)
-        for workers in (1, 2, 3, -1):
+    for i, (measure, options) in enumerate(CASES):
+        for workers in (1, 2, -1):
             distance = getattr(curvewise, measure)(P, Q, **options, workers=workers)
             path = getattr(curvewise, f"{measure}_path")(P, Q, **options, workers=workers)
-            same_path = path.distance == distance and np.array_equal(path.path, expected.path)
-            if distance != expected.distance or not same_path:
+            same_path = np.array_equal(path.path, expected[f"path{i}"])
+            if not (distance == path.distance == expected[f"distance{i}"]) or not same_path:
                 found.append(f"{measure} {options} workers={workers}")
     return found
 
 
 @pytest.mark.parametrize("level", curvewise.build_info()["instruction_sets"])
-def test_workers_change_no_bit_at_any_level(level: str) -> None:
+def test_workers_change_no_bit_at_any_level(level: str, expected: Path) -> None:
     done = subprocess.run(
-        [sys.executable, __file__],
+        [sys.executable, __file__, str(expected)],
         env={**os.environ, "CURVEWISE_ISA": level},
         capture_output=True,
         text=True,
@@ -82,9 +96,9 @@ def test_workers_within_the_threads_of_a_caller() -> None:
     P, Q = pair()
     expected = curvewise.dtw(P, Q)
     with ThreadPoolExecutor(4) as pool:
-        calls = [pool.submit(curvewise.dtw, P, Q, workers=3) for _ in range(24)]
+        calls = [pool.submit(curvewise.dtw, P, Q, workers=2) for _ in range(24)]
     assert {call.result() for call in calls} == {expected}
 
 
 if __name__ == "__main__":
-    print(curvewise.build_info()["active"], " ".join(differences()) or "agrees")
+    print(curvewise.build_info()["active"], " ".join(differences(sys.argv[1])) or "agrees")
