@@ -33,7 +33,9 @@ class StripPlan {
     std::ptrdiff_t workers_;
 };
 
-class StripWalk {
+// Aligned to two cache lines, which processors fetch together: a kernel writes to its strip on
+// every diagonal, and the walks of two threads must not share a line.
+class alignas(128) StripWalk {
    public:
     // Long enough to amortise the ramps at both ends of a strip and the pass over the boundary
     // row, short enough that three diagonals and the strip's points stay in the first-level cache.
