@@ -70,7 +70,11 @@ void time_sweep(const char* name, Recurrence recurrence, Metric metric, std::ptr
     std::vector<std::function<void()>> calls;
     for (const detail::Level& level : levels) {
         calls.emplace_back([&, level] {
-            const detail::PackedPair curves(P, Q, detail::RangeScale(1.0));
+            const detail::PackedCurve rows(P, detail::RangeScale(1.0), detail::PointOrder::forward);
+            const detail::PackedCurve columns(Q, detail::RangeScale(1.0),
+                                              detail::PointOrder::reversed);
+            const detail::PackedPair curves{rows, columns};
+            detail::Watch watch(nullptr);
             const GroundDistance ground{metric};
             const detail::SweepProblem problem{*level.kernels,
                                                curves,
@@ -79,7 +83,8 @@ void time_sweep(const char* name, Recurrence recurrence, Metric metric, std::ptr
                                                2.0,
                                                detail::Band(n, n, std::nullopt),
                                                false,
-                                               1};
+                                               1,
+                                               watch};
             last_row(problem);
         });
     }

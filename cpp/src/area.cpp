@@ -3,9 +3,11 @@
 // cancellation.
 #include "curvewise/area.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "checks.hpp"
+#include "pair_measures.hpp"
 #include "planar.hpp"
 #include "refinement.hpp"
 
@@ -80,10 +82,8 @@ Quad quad_at(const FacingCurves& curves, std::size_t i) noexcept {
     return {curves.A[i], curves.A[i + 1], curves.B[i + 1], curves.B[i]};
 }
 
-}  // namespace
-
-double area(const CurveView& P, const CurveView& Q, const AreaOptions& options) {
-    const RangeScale range = detail::check_pair(P, Q, {"area", 2, true});
+double area_between(const CurveView& P, const CurveView& Q, const RangeScale& range,
+                    const AreaOptions& options) {
     const FacingCurves curves = detail::face(P, Q, range, options.spacing);
     double sum = 0.0;
     for (std::size_t i = 0; i + 1 < curves.A.size(); ++i) {
@@ -91,6 +91,18 @@ double area(const CurveView& P, const CurveView& Q, const AreaOptions& options) 
         sum += options.squared ? part * part : part;
     }
     return range.restore(sum, options.squared ? 4 : 2);
+}
+
+}  // namespace
+
+double area(const CurveView& P, const CurveView& Q, const AreaOptions& options) {
+    return area_between(P, Q, detail::check_pair(P, Q, {"area", 2, true}), options);
+}
+
+double detail::AreaMeasure::operator()(const Reference& P, const Other& Q, double /*cutoff*/,
+                                       std::ptrdiff_t /*workers*/, Watch& /*watch*/) const {
+    const RangeScale range(std::max(P.checked.largest, Q.checked.largest));
+    return area_between(P.checked.curve, Q.checked.curve, range, options_);
 }
 
 AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& options) {

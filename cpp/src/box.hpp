@@ -23,4 +23,11 @@ class BoxSide {
     double extent_ = 1.0;  // 1 where the curve has none: there nothing is scaled
 };
 
+// The box of a curve in the plane.
+struct Box {
+    explicit Box(const CurveView& curve) noexcept : x(curve, 0), y(curve, 1) {}
+    BoxSide x;
+    BoxSide y;
+};
+
 }  // namespace curvewise::detail

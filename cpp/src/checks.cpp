@@ -57,6 +57,15 @@ void check_points(const CurveView& curve, const char* name, const Requirements& 
                                 (needs.min_points == 1 ? " point" : " points"));
 }
 
+void check_shape(const CurveView& curve, const char* name, const Requirements& needs) {
+    check_columns(curve, name);
+    if (needs.planar && curve.dim() != 2) {
+        throw std::invalid_argument(std::string(name) + " has shape " + curve.shape() + "; " +
+                                    needs.measure + " needs 2 coordinates, x and y");
+    }
+    check_points(curve, name, needs);
+}
+
 RangeScale::RangeScale(double largest_magnitude) noexcept {
     const double limit = std::ldexp(1.0, 500);
     if (largest_magnitude > limit || (largest_magnitude > 0 && largest_magnitude < 1.0 / limit)) {

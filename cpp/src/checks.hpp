@@ -42,6 +42,9 @@ RangeScale check_pair(const CurveView& P, const CurveView& Q, const Requirements
 // Throws for the first entry, in row-major order, that is not finite; returns the largest |entry|.
 double check_finite(const CurveView& curve, const char* name);
 
+// A curve by itself: its columns, its number of points.
+void check_shape(const CurveView& curve, const char* name, const Requirements& needs);
+
 void check_equal_shapes(const CurveView& P, const CurveView& Q, const char* measure);
 void check_same_dim(const CurveView& P, const char* p_name, const CurveView& Q, const char* q_name);
 void check_points(const CurveView& curve, const char* name, const Requirements& needs);

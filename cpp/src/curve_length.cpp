@@ -6,9 +6,11 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "checks.hpp"
+#include "pair_measures.hpp"
 #include "planar.hpp"
 
 namespace curvewise {
@@ -40,12 +42,9 @@ struct Place {
     double fraction;
 };
 
-// For each point of P the place on Q at the same fraction of its length.
-std::vector<Place> corresponding_places(const CurveView& P, const CurveView& Q) {
-    const std::vector<double> s = relative_arc_lengths(P);
-    const std::vector<double> t = relative_arc_lengths(Q);
-    detail::check_length(s.back(), "P", "curve_length");
-    detail::check_length(t.back(), "Q", "curve_length");
+// For each point of P, at arc length s, the place on Q at the same fraction of its length.
+std::vector<Place> corresponding_places(const std::vector<double>& s,
+                                        const std::vector<double>& t) {
     const double ratio = t.back() / s.back();
     std::vector<Place> places(s.size());
     std::size_t k = 0;
@@ -89,7 +88,7 @@ struct Coordinate {
 };
 
 // What differences in one coordinate are divided by.
-double coordinate_scale(const Coordinate& x, LengthScale scale) {
+double coordinate_scale(const Coordinate& x, LengthScale scale, const std::string& what) {
     const auto n = static_cast<double>(x.p.size());
     double low = x.p.front(), high = low, sum = 0.0, sum_abs = 0.0;
     for (const double value : x.p) {
@@ -103,24 +102,23 @@ double coordinate_scale(const Coordinate& x, LengthScale scale) {
     if (scale == LengthScale::mean) {
         const double mean = sum / n;
         if (std::abs(mean) > n * std::numeric_limits<double>::epsilon() * largest) return mean;
-        throw std::invalid_argument("the mean of P's " + name +
+        throw std::invalid_argument("the mean of " + what + "'s " + name +
                                     " is 0 to rounding; use scale='mean_abs' or scale='range'");
     }
     if (largest == 0.0) {
         throw std::invalid_argument(
-            "P's " + name + " is 0 throughout, which leaves nothing to divide by; " +
+            what + "'s " + name + " is 0 throughout, which leaves nothing to divide by; " +
             "add the same constant to " + name + " of both curves and use scale='mean_abs'");
     }
     if (scale == LengthScale::mean_abs) return sum_abs / n;
     if (high > low) return high - low;
-    throw std::invalid_argument("the range of P's " + name +
+    throw std::invalid_argument("the range of " + what + "'s " + name +
                                 " is 0; use scale='mean' or scale='mean_abs'");
 }
 
 // Writes the residuals of one coordinate to out[0], out[2], out[4], ...
-void write_residuals(const Coordinate& x, const std::vector<Place>& places, LengthScale scale,
+void write_residuals(const Coordinate& x, const std::vector<Place>& places, double divisor,
                      double* out) {
-    const double divisor = coordinate_scale(x, scale);
     for (std::size_t i = 0; i < places.size(); ++i) {
         const double a = x.q[places[i].segment];
         const double b = x.q[places[i].segment + 1];
@@ -131,23 +129,58 @@ void write_residuals(const Coordinate& x, const std::vector<Place>& places, Leng
     }
 }
 
-}  // namespace
+using Side = detail::CurveLengthMeasure::Side;
 
-void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
-                            const CurveLengthOptions& options) {
-    detail::check_pair(P, Q, {"curve_length", 2, true});
-    const std::vector<Place> places = corresponding_places(P, Q);
-    write_residuals(Coordinate(P, Q, 0), places, options.scale, out);
-    write_residuals(Coordinate(P, Q, 1), places, options.scale, out + 1);
+void write_residuals(const Side& P, const Side& Q, LengthScale scale, double* out) {
+    const std::vector<Place> places = corresponding_places(P.arc_lengths, Q.arc_lengths);
+    for (std::ptrdiff_t c = 0; c < 2; ++c) {
+        const Coordinate x(P.checked.curve, Q.checked.curve, c);
+        write_residuals(x, places, coordinate_scale(x, scale, P.checked.name), out + c);
+    }
 }
 
-double curve_length(const CurveView& P, const CurveView& Q, const CurveLengthOptions& options) {
-    std::vector<double> residuals(
-        static_cast<std::size_t>(2 * std::max<std::ptrdiff_t>(P.size(), 0)));
-    curve_length_residuals(P, Q, residuals.data(), options);
+double norm_of_residuals(const Side& P, const Side& Q, LengthScale scale) {
+    std::vector<double> residuals(2 * P.arc_lengths.size());
+    write_residuals(P, Q, scale, residuals.data());
     double sum = 0.0;
     for (const double r : residuals) sum += r * r;
     return std::sqrt(sum);
+}
+
+// Both curves, checked.
+std::pair<Side, Side> sides_of(const CurveView& P, const CurveView& Q) {
+    detail::check_pair(P, Q, {"curve_length", 2, true});
+    return {Side({P, 0.0, "P"}), Side({Q, 0.0, "Q"})};
+}
+
+}  // namespace
+
+detail::CurveLengthMeasure::Side::Side(const CheckedCurve& curve)
+    : checked(curve), arc_lengths(relative_arc_lengths(curve.curve)) {
+    check_length(arc_lengths.back(), curve.name.c_str(), "curve_length");
+}
+
+void detail::CurveLengthMeasure::check_reference(const Reference& P) const {
+    for (std::ptrdiff_t c = 0; c < 2; ++c) {
+        const Coordinate x(P.checked.curve, P.checked.curve, c);
+        coordinate_scale(x, options_.scale, P.checked.name);
+    }
+}
+
+double detail::CurveLengthMeasure::operator()(const Reference& P, const Other& Q, double /*cutoff*/,
+                                              std::ptrdiff_t /*workers*/, Watch& /*watch*/) const {
+    return norm_of_residuals(P, Q, options_.scale);
+}
+
+void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
+                            const CurveLengthOptions& options) {
+    const auto [p, q] = sides_of(P, Q);
+    write_residuals(p, q, options.scale, out);
+}
+
+double curve_length(const CurveView& P, const CurveView& Q, const CurveLengthOptions& options) {
+    const auto [p, q] = sides_of(P, Q);
+    return norm_of_residuals(p, q, options.scale);
 }
 
 }  // namespace curvewise

@@ -216,10 +216,11 @@ double grid_offset(double slack, std::ptrdiff_t i, std::ptrdiff_t count) noexcep
     return i == 0 ? 0.0 : slack * (static_cast<double>(i) / static_cast<double>(count - 1));
 }
 
-Offset best_of_grid(const AreaAtOffset& f, double slack, std::ptrdiff_t count) {
+Offset best_of_grid(const AreaAtOffset& f, double slack, std::ptrdiff_t count, Watch& watch) {
     constexpr std::ptrdiff_t at_once = 16;
     Offset best{0.0, f.value(0.0)};
     for (std::ptrdiff_t i = 1; i < count; i += at_once) {
+        if (watch.poll()) throw Stopped();
         std::array<double, at_once> offsets{};
         for (std::ptrdiff_t o = 0; o < at_once; ++o) {
             offsets[static_cast<std::size_t>(o)] =
@@ -246,21 +247,23 @@ void ArcPosition::move_to(double u) noexcept {
     fraction_ = length > 0.0 ? (u - t[segment_]) / length : 1.0;
 }
 
-Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdiff_t count) {
-    return best_of_grid(AreaAtOffset(shorter, longer), slack(shorter, longer), count);
+Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdiff_t count,
+                    Watch& watch) {
+    return best_of_grid(AreaAtOffset(shorter, longer), slack(shorter, longer), count, watch);
 }
 
-Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer) {
+Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Watch& watch) {
     constexpr std::ptrdiff_t count = 200;
     const AreaAtOffset f(shorter, longer);
     const double S = shorter.length();
     const double range = slack(shorter, longer);
-    Offset best = best_of_grid(f, range, count);
+    Offset best = best_of_grid(f, range, count, watch);
     std::vector<Interval> open;
     for (std::ptrdiff_t i = count - 1; i > 0; --i) {
         open.push_back({grid_offset(range, i - 1, count), grid_offset(range, i, count)});
     }
     while (!open.empty()) {
+        if (watch.poll()) throw Stopped();
         const Interval interval = open.back();
         open.pop_back();
         const double centre = 0.5 * (interval.low + interval.high);

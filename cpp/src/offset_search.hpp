@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "planar.hpp"
+#include "watch.hpp"
 
 namespace curvewise::detail {
 
@@ -52,10 +53,13 @@ struct Offset {
     double area;
 };
 
+// Both throw Stopped where the watch says so.
+//
 // The first of the best among `count` evenly spaced offsets. O(count (n + m)).
-Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdiff_t count);
+Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdiff_t count,
+                    Watch& watch);
 
 // The best of all offsets, to 1e-12 S; never above the grid of 200.
-Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer);
+Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Watch& watch);
 
 }  // namespace curvewise::detail

@@ -12,31 +12,34 @@
 
 #include "checks.hpp"
 #include "offset_search.hpp"
+#include "pair_measures.hpp"
 #include "planar.hpp"
 
 namespace curvewise {
 namespace {
 
 using detail::ArcCurve;
+using detail::CheckedCurve;
+using detail::PcmMeasure;
 
 constexpr double equal_lengths = 1e-12;  // relative; within it P counts as the shorter curve
 
 // Both curves, scaled by P's box, in their roles.
 struct Roles {
-    ArcCurve shorter;
-    ArcCurve longer;
+    Roles(const ArcCurve& p, const ArcCurve& q) noexcept
+        : maps_p(p.length() <= q.length() + equal_lengths * std::max(p.length(), q.length())),
+          shorter(maps_p ? p : q),
+          longer(maps_p ? q : p) {}
+
     bool maps_p;
+    const ArcCurve& shorter;
+    const ArcCurve& longer;
 };
 
-Roles assign_roles(const CurveView& P, const CurveView& Q) {
-    ArcCurve p(detail::box_scaled(P, P));
-    ArcCurve q(detail::box_scaled(Q, P));
-    detail::check_length(p.length(), "P", "pcm");
-    detail::check_length(q.length(), "Q", "pcm");
-    if (p.length() <= q.length() + equal_lengths * std::max(p.length(), q.length())) {
-        return {std::move(p), std::move(q), true};
-    }
-    return {std::move(q), std::move(p), false};
+ArcCurve scaled_other(const CheckedCurve& Q, const detail::Box& box) {
+    ArcCurve scaled(detail::box_scaled(Q.curve, box));
+    detail::check_length(scaled.length(), Q.name.c_str(), "pcm");
+    return scaled;
 }
 
 void check_options(const PcmOptions& options) {
@@ -47,11 +50,12 @@ void check_options(const PcmOptions& options) {
 }
 
 // A curve too long for a double is infinitely far from everything.
-detail::Offset best_offset(const Roles& roles, const PcmOptions& options) {
+detail::Offset best_offset(const Roles& roles, const PcmOptions& options, detail::Watch& watch) {
     const double infinity = std::numeric_limits<double>::infinity();
     if (!std::isfinite(roles.longer.length())) return {0.0, infinity};
-    return options.continuous ? detail::best_of_all(roles.shorter, roles.longer)
-                              : detail::best_of_grid(roles.shorter, roles.longer, options.offsets);
+    return options.continuous
+               ? detail::best_of_all(roles.shorter, roles.longer, watch)
+               : detail::best_of_grid(roles.shorter, roles.longer, options.offsets, watch);
 }
 
 // Where the shorter curve's vertices lie on the unscaled longer one.
@@ -75,17 +79,42 @@ std::vector<std::array<double, 2>> mapped_points(const Roles& roles, const Curve
 
 }  // namespace
 
-double pcm(const CurveView& P, const CurveView& Q, const PcmOptions& options) {
-    check_options(options);
-    detail::check_pair(P, Q, {"pcm", 2, true});
-    return best_offset(assign_roles(P, Q), options).area;
+detail::PcmMeasure::Reference::Reference(const CheckedCurve& P)
+    : checked(P), box(P.curve), scaled(box_scaled(P.curve, box)) {
+    check_length(scaled.length(), P.name.c_str(), "pcm");
 }
 
-PcmMatch pcm_match(const CurveView& P, const CurveView& Q, const PcmOptions& options) {
+detail::PcmMeasure::PcmMeasure(const PcmOptions& options)
+    : PlanarMeasure("pcm"), options_((check_options(options), options)) {}
+
+double detail::PcmMeasure::operator()(const Reference& P, const Other& Q, double /*cutoff*/,
+                                      std::ptrdiff_t /*workers*/, Watch& watch) const {
+    const ArcCurve q = scaled_other(Q.checked, P.box);
+    return best_offset(Roles(P.scaled, q), options_, watch).area;
+}
+
+double pcm(const CurveView& P, const CurveView& Q, const PcmOptions& options, Control* control) {
+    const PcmMeasure measure(options);
+    detail::check_pair(P, Q, measure.needs());
+    detail::Watch watch(control);
+    watch.begin(P.size() + Q.size());
+    const PcmMeasure::Reference p({P, 0.0, "P"});
+    const double value = measure(p, PcmMeasure::Other({Q, 0.0, "Q"}), 0.0, 1, watch);
+    watch.finish();
+    return value;
+}
+
+PcmMatch pcm_match(const CurveView& P, const CurveView& Q, const PcmOptions& options,
+                   Control* control) {
     check_options(options);
     detail::check_pair(P, Q, {"pcm", 2, true});
-    const Roles roles = assign_roles(P, Q);
-    const detail::Offset best = best_offset(roles, options);
+    detail::Watch watch(control);
+    watch.begin(P.size() + Q.size());
+    const PcmMeasure::Reference p({P, 0.0, "P"});
+    const ArcCurve q = scaled_other({Q, 0.0, "Q"}, p.box);
+    const Roles roles(p.scaled, q);
+    const detail::Offset best = best_offset(roles, options, watch);
+    watch.finish();
     PcmMatch match;
     match.value = best.area;
     match.offset = best.at;

@@ -3,8 +3,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "box.hpp"
-
 namespace curvewise::detail {
 
 Polyline polyline(const CurveView& curve, const RangeScale& range) {
@@ -16,12 +14,11 @@ Polyline polyline(const CurveView& curve, const RangeScale& range) {
     return points;
 }
 
-Polyline box_scaled(const CurveView& curve, const CurveView& box_of) {
-    const BoxSide x(box_of, 0);
-    const BoxSide y(box_of, 1);
+Polyline box_scaled(const CurveView& curve, const Box& box) {
     Polyline points(static_cast<std::size_t>(curve.size()));
     for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-        points[static_cast<std::size_t>(i)] = {x.scaled(curve(i, 0)), y.scaled(curve(i, 1))};
+        points[static_cast<std::size_t>(i)] = {box.x.scaled(curve(i, 0)),
+                                               box.y.scaled(curve(i, 1))};
     }
     return points;
 }

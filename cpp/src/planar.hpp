@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "box.hpp"
 #include "checks.hpp"
 #include "curvewise/curve.hpp"
 
@@ -35,8 +36,7 @@ using Polyline = std::vector<Point>;
 
 Polyline polyline(const CurveView& curve, const RangeScale& range);
 
-// A curve scaled by the box of `box_of`.
-Polyline box_scaled(const CurveView& curve, const CurveView& box_of);
+Polyline box_scaled(const CurveView& curve, const Box& box);
 
 // The arc length at every vertex: 0 first, the curve's length last.
 std::vector<double> arc_lengths(const Polyline& curve);

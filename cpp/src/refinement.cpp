@@ -125,7 +125,8 @@ FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& rang
     Polyline A = polyline(P, range);
     Polyline B = polyline(Q, range);
     if (spacing == Spacing::arc_length) {
-        return face_by_arc_length(A, B, box_scaled(P, P), box_scaled(Q, P));
+        const Box box(P);
+        return face_by_arc_length(A, B, box_scaled(P, box), box_scaled(Q, box));
     }
     if (A.size() < B.size()) std::swap(A, B);
     if (A.size() > B.size()) B = refined(B, A.size(), spacing);

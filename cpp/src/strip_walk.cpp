@@ -68,9 +68,9 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary)
       fill_(plan.problem_->kernels.fill(plan.problem_->cost)) {
     const PackedPair& curves = plan.problem_->curves;
     const Region& region = plan.region_;
-    strip_.p_stride = curves.p_stride();
-    strip_.q = curves.q() + curves.columns() - region.first_column - region.columns;
-    strip_.q_stride = curves.q_stride();
+    strip_.p_stride = curves.p.stride();
+    strip_.q = curves.q.data() + curves.columns() - region.first_column - region.columns;
+    strip_.q_stride = curves.q.stride();
     strip_.dim = curves.dim();
     strip_.columns = region.columns;
     strip_.minkowski_p = plan.problem_->minkowski_p;
@@ -85,7 +85,7 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary)
 void StripWalk::enter(std::ptrdiff_t strip) noexcept {
     const std::ptrdiff_t row = strip * plan_->height_;
     strip_.rows = std::min(plan_->height_, plan_->region_.rows - row);
-    strip_.p = plan_->problem_->curves.p() + plan_->region_.first_row + row;
+    strip_.p = plan_->problem_->curves.p.data() + plan_->region_.first_row + row;
     for (std::ptrdiff_t k = 0; k < strip_.rows; ++k) {
         const ColumnRange range = plan_->columns(row + k);
         columns_[static_cast<std::size_t>(k)] = range.first;
@@ -94,7 +94,9 @@ void StripWalk::enter(std::ptrdiff_t strip) noexcept {
     strip_.low_lane = 0;
     strip_.high_lane = -1;
     strip_.next_diagonal = strip_.first_column[0];
+    first_diagonal_ = strip_.next_diagonal;
     end_diagonal_ = strip_.last_column[strip_.rows - 1] + strip_.rows;
+    counted_ = 0;
     at_start_ = starts_here_ && strip == 0;
     aim(strip);
 }
@@ -126,7 +128,7 @@ void StripWalk::aim(std::ptrdiff_t strip) noexcept {
     }
 }
 
-void StripWalk::advance(std::ptrdiff_t end) noexcept {
+std::int64_t StripWalk::advance(std::ptrdiff_t end) noexcept {
     if (at_start_) {
         // The 0 above cell (0, 0) starts every path; it is nobody's diagonal predecessor.
         advance_(strip_, strip_.next_diagonal + 1, fill_);
@@ -134,6 +136,13 @@ void StripWalk::advance(std::ptrdiff_t end) noexcept {
         at_start_ = false;
     }
     advance_(strip_, end, fill_);
+    const double share = static_cast<double>(end - first_diagonal_) /
+                         static_cast<double>(end_diagonal_ - first_diagonal_);
+    const auto count = static_cast<std::int64_t>(share * static_cast<double>(strip_.rows) *
+                                                 static_cast<double>(strip_.columns));
+    const std::int64_t more = count - counted_;
+    counted_ = count;
+    return more;
 }
 
 }  // namespace curvewise::detail

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "aligned_buffer.hpp"
@@ -44,8 +45,9 @@ class alignas(128) StripWalk {
     StripWalk(const StripPlan& plan, bool starts_here, double* boundary);
 
     void enter(std::ptrdiff_t strip) noexcept;
-    // Up to the diagonal `end`.
-    void advance(std::ptrdiff_t end) noexcept;
+    // Up to the diagonal `end`. Returns the share of the strip's rows times all columns of the
+    // region that this is: what a caller counts as done, whatever the band leaves out.
+    std::int64_t advance(std::ptrdiff_t end) noexcept;
 
     std::ptrdiff_t first_diagonal_of(std::ptrdiff_t strip) const noexcept {
         return plan_->columns(strip * plan_->height()).first;
@@ -68,7 +70,9 @@ class alignas(128) StripWalk {
     kernels::AdvanceFunction advance_;
     kernels::CostFunction fill_;
     kernels::Strip strip_{};
+    std::ptrdiff_t first_diagonal_ = 0;
     std::ptrdiff_t end_diagonal_ = 0;
+    std::int64_t counted_ = 0;
     bool at_start_ = false;
 };
 

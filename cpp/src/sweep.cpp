@@ -15,31 +15,50 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Columns between two looks at what other threads have done: some 10^5 cells, 50 to 200 µs.
-constexpr std::ptrdiff_t chunk = 1024;
+// Columns between two looks at the watch and at what other threads have done: some 10^5 cells, 50
+// to 200 µs, or fewer where a cell has many coordinates.
+std::ptrdiff_t chunk_of(const SweepProblem& problem) noexcept {
+    return std::max<std::ptrdiff_t>(1, 1024 / ((problem.curves.dim() + 3) / 4));
+}
 
 std::ptrdiff_t worker_count(const SweepProblem& problem, const Region& region) noexcept {
     const std::ptrdiff_t useful = region.rows * region.columns / problem.cells_per_worker;
     return std::max<std::ptrdiff_t>(1, std::min(problem.workers, useful));
 }
 
-void sweep_alone(StripWalk& walk, std::ptrdiff_t strips) noexcept {
-    for (std::ptrdiff_t s = 0; s < strips; ++s) {
-        walk.enter(s);
-        walk.advance(walk.end_diagonal());
+// Whether to stop.
+bool sweep_strip(StripWalk& walk, std::ptrdiff_t strip, std::ptrdiff_t chunk, Watch& watch) {
+    walk.enter(strip);
+    while (walk.next_diagonal() < walk.end_diagonal()) {
+        const std::ptrdiff_t end = std::min(walk.next_diagonal() + chunk, walk.end_diagonal());
+        if (watch.step(walk.advance(end))) return true;
     }
+    return false;
 }
 
-// Takes strips from the pipeline until none is left.
-void sweep_in_turn(StripWalk& walk, Pipeline& pipeline) {
+bool is_hopeless(const SweepProblem& problem, const Region& region, const double* row) noexcept {
+    return problem.give_up_above < infinity &&
+           std::all_of(row, row + region.columns,
+                       [&](double value) { return value > problem.give_up_above; });
+}
+
+// Counts the strips from `strip` on as done.
+void skip_rest(const SweepProblem& problem, const StripPlan& plan, std::ptrdiff_t strip) {
+    const std::ptrdiff_t rows = problem.curves.rows() - strip * plan.height();
+    problem.watch.step(std::max<std::ptrdiff_t>(rows, 0) * problem.curves.columns());
+}
+
+// Takes strips from the pipeline until none is left, or the watch says stop.
+void sweep_in_turn(StripWalk& walk, std::ptrdiff_t chunk, Pipeline& pipeline, Watch& watch) {
     for (std::ptrdiff_t s = pipeline.take(); s >= 0; s = pipeline.take()) {
-        pipeline.wait(s, walk.first_diagonal_of(s));
+        if (!pipeline.wait(s, walk.first_diagonal_of(s), watch)) return;
         walk.enter(s);
         while (walk.next_diagonal() < walk.end_diagonal()) {
             const std::ptrdiff_t end = std::min(walk.next_diagonal() + chunk, walk.end_diagonal());
-            pipeline.wait(s, end);
-            walk.advance(end);
+            if (!pipeline.wait(s, end, watch)) return;
+            const std::int64_t cells = walk.advance(end);
             pipeline.publish(s, walk.finished_columns());
+            if (watch.step(cells)) return;
         }
         pipeline.finish(s);
     }
@@ -105,9 +124,13 @@ std::ptrdiff_t Row::argmin() const noexcept {
 void sweep(const SweepProblem& problem, const Region& region, bool starts_here, double* boundary,
            const Destination& destination) {
     const StripPlan plan(problem, region, worker_count(problem, region), destination);
+    const std::ptrdiff_t chunk = chunk_of(problem);
     if (plan.workers() == 1) {
         StripWalk walk(plan, starts_here, boundary);
-        sweep_alone(walk, plan.strips());
+        for (std::ptrdiff_t s = 0; s < plan.strips(); ++s) {
+            if (sweep_strip(walk, s, chunk, problem.watch)) throw Stopped();
+            if (is_hopeless(problem, region, boundary)) return skip_rest(problem, plan, s + 1);
+        }
         return;
     }
     std::vector<StripWalk> walks;
@@ -115,9 +138,10 @@ void sweep(const SweepProblem& problem, const Region& region, bool starts_here, 
     for (std::ptrdiff_t w = 0; w < plan.workers(); ++w)
         walks.emplace_back(plan, starts_here, boundary);
     Pipeline pipeline(plan.strips());
-    run_workers(plan.workers(), [&](std::ptrdiff_t w) {
-        sweep_in_turn(walks[static_cast<std::size_t>(w)], pipeline);
+    run_workers(plan.workers(), problem.watch, [&](std::ptrdiff_t w, Watch& watch) {
+        sweep_in_turn(walks[static_cast<std::size_t>(w)], chunk, pipeline, watch);
     });
+    problem.watch.throw_if_stopped();
 }
 
 CodeLayout::CodeLayout(const SweepProblem& problem, const Region& region) {
@@ -134,6 +158,14 @@ CodeLayout::CodeLayout(const SweepProblem& problem, const Region& region) {
         strips.push_back({first, size});
         size += (end - first) * height;
     }
+}
+
+double lone_cell(const SweepProblem& problem, std::ptrdiff_t row, std::ptrdiff_t column) {
+    SweepProblem cell = problem;
+    cell.band = Band(1, 1, std::nullopt);
+    Row above(1, 0.0);
+    sweep(cell, {row, 1, column, 1}, true, above.data(), {});
+    return above[0];
 }
 
 Row last_row(const SweepProblem& problem) { return sweep_all(problem, {}); }

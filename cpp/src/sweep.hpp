@@ -6,28 +6,33 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "aligned_buffer.hpp"
 #include "band.hpp"
 #include "curvewise/ground_distance.hpp"
 #include "kernels/strip.hpp"
-#include "packed_pair.hpp"
+#include "packed_curve.hpp"
+#include "watch.hpp"
 
 namespace curvewise::detail {
 
 struct SweepProblem {
     const kernels::KernelSet& kernels;
-    const PackedPair& curves;
+    PackedPair curves;
     kernels::Recurrence recurrence;
     kernels::Cost cost;
     double minkowski_p;
     Band band;
     bool open_begin;
     std::ptrdiff_t workers;
+    Watch& watch;
     // With fewer cells for each, starting threads costs more than they save: it takes up to a
     // millisecond until a second core is at work.
     std::ptrdiff_t cells_per_worker = std::ptrdiff_t{1} << 22;
+    // In one thread, a sweep of the whole table ends where all values of a row are above this.
+    double give_up_above = std::numeric_limits<double>::infinity();
 };
 
 // Throws std::invalid_argument for an order of minkowski outside [1, inf].
@@ -80,7 +85,8 @@ struct Destination {
 };
 
 // Sweeps a region. `boundary` is the row above it on the way in and its last row on the way out.
-// `starts_here`: boundary[0] is the 0 that starts every path, not a cell of the table.
+// `starts_here`: boundary[0] is the 0 that starts every path, not a cell of the table. Throws
+// Stopped where the watch says so.
 void sweep(const SweepProblem& problem, const Region& region, bool starts_here, double* boundary,
            const Destination& destination);
 
@@ -92,8 +98,11 @@ struct CodeLayout {
     std::vector<StripCodes> strips;
 };
 
-// The whole table's last row.
+// The whole table's last row; after giving up, values of which each is above `give_up_above`.
 Row last_row(const SweepProblem& problem);
+
+// What the table would hold in a cell if its path began there: its ground distance.
+double lone_cell(const SweepProblem& problem, std::ptrdiff_t row, std::ptrdiff_t column);
 
 // The whole table, row by row; infinity outside the band.
 void sweep_table(const SweepProblem& problem, double* table);

@@ -1,6 +1,7 @@
 #include "workers.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -9,6 +10,9 @@
 
 namespace curvewise::detail {
 namespace {
+
+// How long a thread that waits for another sleeps at most before it looks at its watch.
+constexpr std::chrono::milliseconds nap(20);
 
 // Looks before a waiting thread sleeps: some 50 µs, which is less than waking it up may take. Each
 // offers its core to whoever else wants it.
@@ -25,46 +29,77 @@ std::ptrdiff_t resolve_workers(std::ptrdiff_t workers) {
     return workers;
 }
 
-void run_workers(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& work) {
+void run_workers(std::ptrdiff_t count, Watch& watch, const Work& work) {
     std::vector<std::thread> threads;
     threads.reserve(static_cast<std::size_t>(count));
+    std::mutex mutex;
+    std::condition_variable ended;
+    std::size_t at_work = 0;
+    const auto run = [&](std::ptrdiff_t w) {
+        {
+            Watch own(watch.control(), Watch::Role::worker);
+            work(w, own);
+        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        --at_work;
+        ended.notify_one();
+    };
     try {
-        for (std::ptrdiff_t w = 1; w < count; ++w) threads.emplace_back(work, w);
+        for (std::ptrdiff_t w = 1; w < count; ++w) {
+            {
+                const std::lock_guard<std::mutex> lock(mutex);
+                ++at_work;
+            }
+            threads.emplace_back(run, w);
+        }
     } catch (const std::system_error&) {
         // The system gives no more threads; those there are, and this one, do the work.
+        const std::lock_guard<std::mutex> lock(mutex);
+        --at_work;
     }
-    work(0);
+    work(0, watch);
+    // Not joined at once: the watch goes on reporting, and hears of a stop, to the end.
+    for (std::unique_lock<std::mutex> lock(mutex); at_work > 0;) {
+        ended.wait_for(lock, nap, [&] { return at_work == 0; });
+        lock.unlock();
+        watch.poll();
+        lock.lock();
+    }
     for (std::thread& thread : threads) thread.join();
 }
 
-Pipeline::Pipeline(std::ptrdiff_t strips) : progress_(static_cast<std::size_t>(strips)) {}
+Pipeline::Pipeline(std::ptrdiff_t strips) : strips_(static_cast<std::size_t>(strips)) {}
 
 std::ptrdiff_t Pipeline::take() noexcept {
     const std::ptrdiff_t strip = next_.fetch_add(1, std::memory_order_relaxed);
-    return strip < static_cast<std::ptrdiff_t>(progress_.size()) ? strip : -1;
+    return strip < static_cast<std::ptrdiff_t>(strips_.size()) ? strip : -1;
 }
 
 bool Pipeline::reached(std::ptrdiff_t strip, std::ptrdiff_t columns) const noexcept {
-    const Progress& above = progress_[static_cast<std::size_t>(strip - 1)];
+    const Progress& above = strips_[static_cast<std::size_t>(strip - 1)];
     return above.columns.load(std::memory_order_acquire) >= columns;
 }
 
-void Pipeline::wait(std::ptrdiff_t strip, std::ptrdiff_t columns) {
-    if (strip == 0) return;
+bool Pipeline::wait(std::ptrdiff_t strip, std::ptrdiff_t columns, Watch& watch) {
+    if (strip == 0) return true;
     for (int i = 0; i < looks; ++i) {
-        if (reached(strip, columns)) return;
+        if (reached(strip, columns)) return true;
         std::this_thread::yield();
     }
-    std::unique_lock<std::mutex> lock(mutex_);
-    moved_.wait(lock, [&] { return reached(strip, columns); });
+    for (;;) {
+        {
+            std::unique_lock<std::mutex> lock(mutex_);
+            if (moved_.wait_for(lock, nap, [&] { return reached(strip, columns); })) return true;
+        }
+        if (watch.poll()) return false;
+    }
 }
 
 void Pipeline::publish(std::ptrdiff_t strip, std::ptrdiff_t columns) {
     {
         // Under the lock, so that no waiter misses it between its look and its sleep.
         const std::lock_guard<std::mutex> lock(mutex_);
-        progress_[static_cast<std::size_t>(strip)].columns.store(columns,
-                                                                 std::memory_order_release);
+        strips_[static_cast<std::size_t>(strip)].columns.store(columns, std::memory_order_release);
     }
     moved_.notify_all();
 }

@@ -9,15 +9,19 @@
 #include <mutex>
 #include <vector>
 
+#include "watch.hpp"
+
 namespace curvewise::detail {
 
 // The number of threads that `workers` asks for: -1 is one per core. Throws std::invalid_argument
 // for 0 and for what is below -1.
 std::ptrdiff_t resolve_workers(std::ptrdiff_t workers);
 
-// Calls work(w) for w = 0, 1, ... in up to `count` threads, this one among them. Where the system
-// refuses a thread, fewer do the work: `work` must share itself out. It must not throw.
-void run_workers(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& work);
+// Calls work(w, watch) for w = 0, 1, ... in up to `count` threads, this one among them as 0, with
+// `watch`; the others have watches of their own. Where the system refuses a thread, fewer do the
+// work: `work` must share itself out. It must not throw.
+using Work = std::function<void(std::ptrdiff_t w, Watch& watch)>;
+void run_workers(std::ptrdiff_t count, Watch& watch, const Work& work);
 
 // Strips handed out from top to bottom, each following the one above it. A strip is taken only
 // after the one above it was, by a thread that goes on until it is finished, so that waiting
@@ -29,8 +33,8 @@ class Pipeline {
     // The next strip, or -1.
     std::ptrdiff_t take() noexcept;
     // Until the strip above `strip` has finished `columns` columns. Looks for some microseconds,
-    // then sleeps.
-    void wait(std::ptrdiff_t strip, std::ptrdiff_t columns);
+    // then sleeps. False where the work was given up meanwhile.
+    bool wait(std::ptrdiff_t strip, std::ptrdiff_t columns, Watch& watch);
     void publish(std::ptrdiff_t strip, std::ptrdiff_t columns);
     void finish(std::ptrdiff_t strip);
 
@@ -41,7 +45,7 @@ class Pipeline {
     };
     bool reached(std::ptrdiff_t strip, std::ptrdiff_t columns) const noexcept;
 
-    std::vector<Progress> progress_;
+    std::vector<Progress> strips_;
     std::atomic<std::ptrdiff_t> next_{0};
     std::mutex mutex_;
     std::condition_variable moved_;

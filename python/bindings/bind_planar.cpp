@@ -1,9 +1,13 @@
 // area, pcm and curve_length, with their quadrilaterals, matches and residuals.
+#include <limits>
+
 #include "bind_topics.hpp"
 #include "curvewise/area.hpp"
 #include "curvewise/curve_length.hpp"
 #include "curvewise/pcm.hpp"
+#include "interruptible.hpp"
 #include "numpy_view.hpp"
+#include "options.hpp"
 
 namespace curvewise::bindings {
 namespace {
@@ -12,32 +16,15 @@ double points(const CurveArray& P, const CurveArray& Q) {
     return static_cast<double>(P.shape(0) + Q.shape(0));
 }
 
-AreaOptions area_options(const py::object& spacing, const py::object& crossing, bool squared) {
-    return {choose<Spacing>("spacing", spacing,
-                            {{"distance", Spacing::distance},
-                             {"x", Spacing::x},
-                             {"arc_length", Spacing::arc_length}}),
-            choose<Crossing>("crossing", crossing,
-                             {{"rearrange", Crossing::rearrange}, {"split", Crossing::split}}),
-            squared};
-}
-
-PcmOptions pcm_options(const py::object& offsets) {
-    if (is_text(offsets, "continuous")) return {200, true};
-    return {whole_number("offsets", offsets, 1, "give a whole number >= 1, or 'continuous'"),
-            false};
-}
-
-CurveLengthOptions curve_length_options(const py::object& scale) {
-    return {choose<LengthScale>("scale", scale,
-                                {{"mean", LengthScale::mean},
-                                 {"mean_abs", LengthScale::mean_abs},
-                                 {"range", LengthScale::range}})};
+// Nobody knows how many evaluations the search over all offsets takes.
+double steps(const CurveArray& P, const CurveArray& Q, const PcmOptions& options) {
+    if (options.continuous) return std::numeric_limits<double>::infinity();
+    return static_cast<double>(options.offsets) * points(P, Q);
 }
 
 py::tuple area_quads_arrays(const CurveArray& P, const CurveArray& Q, const py::object& spacing,
                             const py::object& crossing) {
-    const AreaOptions options = area_options(spacing, crossing, false);
+    const AreaOptions options = area_options(spacing, crossing, py::bool_(false));
     const CurveView a = view(P), b = view(Q);
     const AreaQuads found = unlocked(points(P, Q), [&] { return area_quads(a, b, options); });
     const auto count = static_cast<py::ssize_t>(found.areas.size());
@@ -49,7 +36,9 @@ py::tuple area_quads_arrays(const CurveArray& P, const CurveArray& Q, const py::
 py::tuple pcm_match_tuple(const CurveArray& P, const CurveArray& Q, const py::object& offsets) {
     const PcmOptions options = pcm_options(offsets);
     const CurveView a = view(P), b = view(Q);
-    const PcmMatch match = unlocked(200.0 * points(P, Q), [&] { return pcm_match(a, b, options); });
+    const PcmMatch match = interruptible(steps(P, Q, options), py::none(), [&](Control* control) {
+        return pcm_match(a, b, options, control);
+    });
     const auto count = static_cast<py::ssize_t>(match.points.size());
     return py::make_tuple(
         match.value, match.offset, match.coverage, match.maps_p ? "P" : "Q",
@@ -61,7 +50,7 @@ py::tuple pcm_match_tuple(const CurveArray& P, const CurveArray& Q, const py::ob
 void bind_planar(py::module_& module) {
     module.def("area", [](const CurveArray& P, const CurveArray& Q, const py::object& spacing,
                           const py::object& crossing, const py::object& squared) {
-        const AreaOptions options = area_options(spacing, crossing, is_true(squared));
+        const AreaOptions options = area_options(spacing, crossing, squared);
         const CurveView a = view(P), b = view(Q);
         return unlocked(points(P, Q), [&] { return area(a, b, options); });
     });
@@ -69,7 +58,8 @@ void bind_planar(py::module_& module) {
     module.def("pcm", [](const CurveArray& P, const CurveArray& Q, const py::object& offsets) {
         const PcmOptions options = pcm_options(offsets);
         const CurveView a = view(P), b = view(Q);
-        return unlocked(200.0 * points(P, Q), [&] { return pcm(a, b, options); });
+        return interruptible(steps(P, Q, options), py::none(),
+                             [&](Control* control) { return pcm(a, b, options, control); });
     });
     module.def("pcm_match", pcm_match_tuple);
     module.def("curve_length",

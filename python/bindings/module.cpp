@@ -6,7 +6,8 @@
 #include "bind_topics.hpp"
 #include "curvewise/build_info.hpp"
 
-PYBIND11_MODULE(_core, module) {
+// No global state but what is set once: safe without the interpreter's lock.
+PYBIND11_MODULE(_core, module, pybind11::mod_gil_not_used()) {
     try {
         curvewise::build_info();  // chooses the instruction set
     } catch (const std::runtime_error& error) {
@@ -16,6 +17,7 @@ PYBIND11_MODULE(_core, module) {
     curvewise::bindings::bind_tables(module);
     curvewise::bindings::bind_planar(module);
     curvewise::bindings::bind_pointwise(module);
+    curvewise::bindings::bind_pairwise(module);
     module.def("build_info", [] {
         const curvewise::BuildInfo info = curvewise::build_info();
         pybind11::dict result;

@@ -27,6 +27,7 @@ from .measures import (
     pcm_match,
     sum_of_squares,
 )
+from .pairwise import Prepared, available_measures, cdist, pdist
 from .results import Alignment, AreaQuads, PcmMatch
 
 __all__ = [
@@ -34,10 +35,13 @@ __all__ = [
     "AreaQuads",
     "Comparison",
     "PcmMatch",
+    "Prepared",
     "__version__",
     "area",
     "area_quads",
+    "available_measures",
     "build_info",
+    "cdist",
     "compare",
     "curve_length",
     "curve_length_residuals",
@@ -53,6 +57,7 @@ __all__ = [
     "normalize",
     "pcm",
     "pcm_match",
+    "pdist",
     "reference",
     "sum_of_squares",
 ]

@@ -1,6 +1,7 @@
 """Types of the compiled module; documented in measures.py."""
 
-from typing import Literal, SupportsFloat, SupportsIndex, TypedDict
+from collections.abc import Callable
+from typing import Any, Literal, SupportsFloat, SupportsIndex, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -66,6 +67,34 @@ def pcm_match(
 ) -> tuple[float, float, float, Literal["P", "Q"], _Array]: ...
 def curve_length(P: _Array, Q: _Array, scale: str, /) -> float: ...
 def curve_length_residuals(P: _Array, Q: _Array, scale: str, /) -> _Array: ...
+def cdist(
+    XA: list[_Array],
+    XB: list[_Array] | None,
+    measure: str,
+    options: tuple[Any, ...],
+    out: _Array,
+    workers: SupportsIndex,
+    cutoff: float,
+    progress: Callable[[int, int], object] | None,
+    /,
+) -> None: ...
+def pdist(
+    X: list[_Array],
+    measure: str,
+    options: tuple[Any, ...],
+    out: _Array,
+    workers: SupportsIndex,
+    cutoff: float,
+    progress: Callable[[int, int], object] | None,
+    /,
+) -> None: ...
+def is_symmetric(measure: str, options: tuple[Any, ...], /) -> bool: ...
+
+class Prepared:
+    def __init__(self, P: _Array, measure: str, options: tuple[Any, ...], /) -> None: ...
+    def value(self, Q: _Array, /) -> float: ...
+    def values(self, Qs: list[_Array], workers: SupportsIndex, /) -> _Array: ...
+
 def sum_of_squares(P: _Array, Q: _Array, /) -> float: ...
 def mse(P: _Array, Q: _Array, /) -> float: ...
 def mae(P: _Array, Q: _Array, /) -> float: ...

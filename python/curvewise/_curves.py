@@ -7,12 +7,21 @@ the C++ library for the compiled functions, numpy code for the reference.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Array", "CurveLike", "as_curve", "as_curves"]
+__all__ = [
+    "Array",
+    "CurveLike",
+    "as_curve",
+    "as_curve_list",
+    "as_curves",
+    "check_column_names",
+    "column_names",
+]
 
 Array: TypeAlias = npt.NDArray[np.float64]
 CurveLike: TypeAlias = npt.ArrayLike
@@ -63,13 +72,46 @@ def _aligned(array: Array) -> Array:
 def as_curves(P: Any, Q: Any) -> tuple[Array, Array]:
     """Return both curves as arrays; DataFrames must have the same columns."""
     if type(P) is not np.ndarray and type(Q) is not np.ndarray:
-        _check_columns(P, Q)
+        check_column_names(column_names(P), "P", column_names(Q), "Q")
     return as_curve(P, "P"), as_curve(Q, "Q")
 
 
-def _check_columns(P: Any, Q: Any) -> None:
-    columns = [list(getattr(curve, "columns", [])) for curve in (P, Q)]
-    if columns[0] and columns[1] and columns[0] != columns[1]:
+def as_curve_list(curves: Any, name: str, like: Any = None) -> list[Array]:
+    """Return the curves of an array of shape (k, n, d), or of a sequence, as a list of arrays.
+
+    Raises
+    ------
+    TypeError, ValueError
+        Not a list of curves; a curve that :func:`as_curve` refuses, named ``XA[3]``; DataFrames
+        whose columns differ from those of the first curve, or of the first of the list `like`.
+    """
+    if hasattr(curves, "columns") or (isinstance(curves, np.ndarray) and curves.dtype != object):
+        dimensions = np.ndim(curves)
+        if dimensions != 3:
+            raise ValueError(
+                f"{name} has {dimensions} array dimensions; give k curves as shape (k, n, d) or as "
+                f"a list: [{name}] for a single curve, list({name}) for k curves with d = 1"
+            )
+    elif isinstance(curves, str | bytes) or not isinstance(curves, Iterable):
+        raise TypeError(f"{name} is of type {type(curves).__name__}; give a list of curves")
+    given = list(curves)
+    first, first_name = column_names(given[0]) if given else [], f"{name}[0]"
+    if like is not None and len(like) > 0:
+        first, first_name = column_names(like[0]), "XA[0]"
+    for i, curve in enumerate(given):
+        check_column_names(first, first_name, column_names(curve), f"{name}[{i}]")
+    return [as_curve(curve, f"{name}[{i}]") for i, curve in enumerate(given)]
+
+
+def column_names(curve: Any) -> list[Any]:
+    """Return the names of a DataFrame's columns; nothing for anything else."""
+    return [] if type(curve) is np.ndarray else list(getattr(curve, "columns", []))
+
+
+def check_column_names(first: list[Any], first_name: str, second: list[Any], name: str) -> None:
+    """Raise ValueError where both curves have named columns and the names differ."""
+    if first and second and first != second:
         raise ValueError(
-            f"P has columns {columns[0]} and Q has columns {columns[1]}; name and order them alike"
+            f"{first_name} has columns {first} and {name} has columns {second}; "
+            "name and order them alike"
         )

@@ -109,7 +109,7 @@ void no_length() {
 
 // After scaling by P's box.
 std::vector<double> relative_lengths(const Curve& curve, const Curve& P) {
-    std::vector<double> lengths = arc_lengths(box_scaled(curve, P));
+    std::vector<double> lengths = arc_lengths(box_scaled(curve, curvewise::detail::Box(P)));
     const double length = lengths.back();
     for (double& u : lengths) u /= length;
     return lengths;

@@ -22,7 +22,8 @@ using curvewise::Metric;
 using curvewise::detail::available_levels;
 using curvewise::detail::Band;
 using curvewise::detail::Level;
-using curvewise::detail::PackedPair;
+using curvewise::detail::PackedCurve;
+using curvewise::detail::PointOrder;
 using curvewise::detail::RangeScale;
 using curvewise::detail::Row;
 using curvewise::detail::SweepProblem;
@@ -128,16 +129,23 @@ class Comparison {
           Q_(Q),
           setup_(setup),
           expected_(P, Q, setup),
-          packed_(P, Q, RangeScale(1.0)),
-          cost_(curvewise::detail::canonical_cost(setup.ground, packed_)) {}
+          rows_(P, RangeScale(1.0), PointOrder::forward),
+          columns_(Q, RangeScale(1.0), PointOrder::reversed),
+          cost_(curvewise::detail::canonical_cost(setup.ground, {rows_, columns_})) {}
 
     void run() const {
         for (const Level& level : available_levels()) {
             const check::Note note(level.name);
-            const SweepProblem problem{*level.kernels,    packed_,
-                                       setup_.recurrence, cost_,
-                                       setup_.ground.p,   Band(P_.size(), Q_.size(), setup_.window),
-                                       setup_.open_begin, setup_.workers};
+            curvewise::detail::Watch watch(nullptr);
+            const SweepProblem problem{*level.kernels,
+                                       {rows_, columns_},
+                                       setup_.recurrence,
+                                       cost_,
+                                       setup_.ground.p,
+                                       Band(P_.size(), Q_.size(), setup_.window),
+                                       setup_.open_begin,
+                                       setup_.workers,
+                                       watch};
             check_bottom(last_row(problem));
             check_table(problem);
             for (const std::ptrdiff_t max_codes : {1 << 24, 40}) {
@@ -203,7 +211,8 @@ class Comparison {
     const Curve& Q_;
     const Setup& setup_;
     RowScan expected_;
-    PackedPair packed_;
+    PackedCurve rows_;
+    PackedCurve columns_;
     curvewise::kernels::Cost cost_;
 };
 

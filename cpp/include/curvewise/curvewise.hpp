@@ -3,10 +3,12 @@
 
 #include "curvewise/area.hpp"
 #include "curvewise/build_info.hpp"
+#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/curve_length.hpp"
 #include "curvewise/dtw.hpp"
 #include "curvewise/frechet.hpp"
+#include "curvewise/pairwise.hpp"
 #include "curvewise/pcm.hpp"
 #include "curvewise/pointwise.hpp"
 #include "curvewise/version.hpp"

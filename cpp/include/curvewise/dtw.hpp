@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "curvewise/alignment.hpp"
+#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/ground_distance.hpp"
 
@@ -34,13 +35,16 @@ struct DtwOptions {
     std::ptrdiff_t workers = 1;
 };
 
-double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options = {});
+double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options = {},
+           Control* control = nullptr);
 
 // Among equal predecessors: diagonal, then (i-1, j), then (i, j-1). The sum of step weight
 // times ground distance along the path, in path order, equals the distance to the bit.
-Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& options = {});
+Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& options = {},
+                   Control* control = nullptr);
 
 // Writes c to out[i * m + j]; infinity outside the window.
-void dtw_table(const CurveView& P, const CurveView& Q, double* out, const DtwOptions& options = {});
+void dtw_table(const CurveView& P, const CurveView& Q, double* out, const DtwOptions& options = {},
+               Control* control = nullptr);
 
 }  // namespace curvewise

@@ -11,6 +11,7 @@
 #include <cstddef>
 
 #include "curvewise/alignment.hpp"
+#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/ground_distance.hpp"
 
@@ -22,14 +23,16 @@ struct FrechetOptions {
     std::ptrdiff_t workers = 1;
 };
 
-double frechet(const CurveView& P, const CurveView& Q, const FrechetOptions& options = {});
+double frechet(const CurveView& P, const CurveView& Q, const FrechetOptions& options = {},
+               Control* control = nullptr);
 
 // Among equal predecessors: diagonal, then (i-1, j), then (i, j-1). The largest ground distance
 // along the path equals the distance to the bit.
-Alignment frechet_path(const CurveView& P, const CurveView& Q, const FrechetOptions& options = {});
+Alignment frechet_path(const CurveView& P, const CurveView& Q, const FrechetOptions& options = {},
+                       Control* control = nullptr);
 
 // Writes c to out[i * m + j].
 void frechet_table(const CurveView& P, const CurveView& Q, double* out,
-                   const FrechetOptions& options = {});
+                   const FrechetOptions& options = {}, Control* control = nullptr);
 
 }  // namespace curvewise

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 
 namespace curvewise {
@@ -32,7 +33,9 @@ struct PcmMatch {
     // nan.)
 };
 
-double pcm(const CurveView& P, const CurveView& Q, const PcmOptions& options = {});
-PcmMatch pcm_match(const CurveView& P, const CurveView& Q, const PcmOptions& options = {});
+double pcm(const CurveView& P, const CurveView& Q, const PcmOptions& options = {},
+           Control* control = nullptr);
+PcmMatch pcm_match(const CurveView& P, const CurveView& Q, const PcmOptions& options = {},
+                   Control* control = nullptr);
 
 }  // namespace curvewise

@@ -1,0 +1,66 @@
+// The pairs of a batch in the order in which threads take them: tiles of neighbours in lists sorted
+// by size, so that a tile's pairs cost about the same and its curves stay in the cache; the most
+// expensive tile first, so that the last ones to finish are cheap. O(k log k) time for k curves,
+// and memory for at most a million tiles.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace curvewise::detail {
+
+using Sizes = std::vector<std::ptrdiff_t>;  // the number of points of every curve of a list
+
+enum class PairSet {
+    rectangle,  // every row with every column
+    triangle    // every two different curves of one list, which is rows and columns
+};
+
+// Positions in the sorted lists, the ends not included.
+struct Tile {
+    std::ptrdiff_t row, row_end;
+    std::ptrdiff_t column, column_end;
+};
+
+class PairTiles {
+   public:
+    // The work of a curve of n points against `count` curves of `points` points in all.
+    using Steps = std::int64_t (*)(std::int64_t n, std::int64_t count,
+                                   std::int64_t points) noexcept;
+
+    PairTiles(const Sizes& rows, const Sizes& columns, PairSet set, Steps steps,
+              std::ptrdiff_t workers);
+
+    const std::vector<Tile>& tiles() const noexcept { return tiles_; }
+    // The work of all pairs.
+    std::int64_t total() const noexcept { return total_; }
+
+    // Calls visit(i, j), indices of the lists as given, for every pair of the tile. In a triangle
+    // i < j. Ends at once where `visit` returns false.
+    template <class Visit>
+    void for_each(const Tile& tile, Visit visit) const {
+        for (std::ptrdiff_t a = tile.row; a < tile.row_end; ++a) {
+            for (std::ptrdiff_t b = first_column(tile, a); b < tile.column_end; ++b) {
+                const std::ptrdiff_t i = rows_[static_cast<std::size_t>(a)];
+                const std::ptrdiff_t j = columns_[static_cast<std::size_t>(b)];
+                const bool swap = set_ == PairSet::triangle && j < i;
+                if (!(swap ? visit(j, i) : visit(i, j))) return;
+            }
+        }
+    }
+
+   private:
+    std::ptrdiff_t first_column(const Tile& tile, std::ptrdiff_t row) const noexcept {
+        const bool on_diagonal = set_ == PairSet::triangle && row + 1 > tile.column;
+        return on_diagonal ? row + 1 : tile.column;
+    }
+
+    PairSet set_;
+    std::vector<std::ptrdiff_t> rows_;  // indices, the largest curve first
+    std::vector<std::ptrdiff_t> columns_;
+    std::vector<Tile> tiles_;
+    std::int64_t total_;
+};
+
+}  // namespace curvewise::detail

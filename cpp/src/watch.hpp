@@ -1,0 +1,58 @@
+// One thread's side of a Control: counts what the thread has done, passes it on in lumps, and says
+// when to stop. The watch of the thread that made the call also makes the reports. Without a
+// Control it does nothing.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "curvewise/control.hpp"
+
+namespace curvewise::detail {
+
+class Watch {
+   public:
+    enum class Role { caller, worker };
+
+    explicit Watch(Control* control, Role role = Role::caller);
+    Watch(const Watch&) = delete;
+    Watch& operator=(const Watch&) = delete;
+    ~Watch() { pass_on(); }
+
+    // For the caller, before and after the work.
+    void begin(std::int64_t total) noexcept;
+    void finish();
+
+    // `steps` more are done. Whether to stop.
+    bool step(std::int64_t steps) {
+        if (control_ == nullptr) return false;
+        pending_ += steps;
+        if (pending_ < lump) return control_->stopped();
+        return poll();
+    }
+    // Whether to stop; reports if it is time to.
+    bool poll();
+    bool stopped() const noexcept { return control_ != nullptr && control_->stopped(); }
+    void throw_if_stopped() const {
+        if (stopped()) throw Stopped();
+    }
+
+    Control* control() const noexcept { return control_; }
+
+   private:
+    using Clock = std::chrono::steady_clock;
+
+    // Some 20 µs of work: a look at the clock, and a write that other threads see, are nothing
+    // beside it.
+    static constexpr std::int64_t lump = 1 << 15;
+
+    void pass_on() noexcept;
+    void report();
+
+    Control* control_;
+    Role role_;
+    std::int64_t pending_ = 0;
+    Clock::time_point next_report_;
+};
+
+}  // namespace curvewise::detail

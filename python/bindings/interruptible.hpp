@@ -1,0 +1,73 @@
+// Long calls that Ctrl-C ends and that tell how far they are. The library knows nothing of Python:
+// its Control calls back from the thread that made the call, some twenty times a second, and only
+// then is the interpreter's lock taken.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "curvewise/control.hpp"
+
+namespace curvewise::bindings {
+
+namespace py = pybind11;
+
+// Calls function(Control*) without the interpreter's lock, where that is worth its cost: `steps` is
+// the number of elementary steps ahead. Signals are handled on the main thread, where Python
+// delivers them; the exception that a handler, or `progress(done, total)`, raises ends the call.
+template <class Function>
+auto interruptible(double steps, const py::object& progress, Function function);
+
+// Raises what a handler raised, if the call was stopped by one.
+class PythonControl {
+   public:
+    explicit PythonControl(const py::object& progress)
+        : progress_(progress),
+          handles_signals_(is_main_thread()),
+          control_([this](std::int64_t done, std::int64_t total) { return report(done, total); }) {}
+
+    // None where nobody would hear of it.
+    Control* control() noexcept {
+        return handles_signals_ || !progress_.is_none() ? &control_ : nullptr;
+    }
+
+   private:
+    static bool is_main_thread() {
+        const py::object main = py::module_::import("threading").attr("main_thread")();
+        return main.attr("ident").cast<unsigned long>() == PyThread_get_thread_ident();
+    }
+
+    // Whether to go on. An exception stays set in this thread until the call is back.
+    bool report(std::int64_t done, std::int64_t total) {
+        const py::gil_scoped_acquire lock;
+        if (handles_signals_ && PyErr_CheckSignals() != 0) return false;
+        if (progress_.is_none()) return true;
+        PyObject* const result = PyObject_CallFunction(
+            progress_.ptr(), "LL", static_cast<long long>(done), static_cast<long long>(total));
+        Py_XDECREF(result);
+        return result != nullptr;
+    }
+
+    const py::object& progress_;
+    bool handles_signals_;
+    Control control_;
+};
+
+template <class Function>
+auto interruptible(double steps, const py::object& progress, Function function) {
+    constexpr double worth_unlocking = 5e3;  // about 50 µs at the slowest rate there is
+    constexpr double worth_watching = 5e5;   // less is over before a report is due
+    if (progress.is_none() && steps < worth_unlocking) return function(nullptr);
+    if (progress.is_none() && steps < worth_watching) {
+        const py::gil_scoped_release unlocked;
+        return function(nullptr);
+    }
+    PythonControl python(progress);
+    try {
+        const py::gil_scoped_release unlocked;
+        return function(python.control());
+    } catch (const Stopped&) {
+        throw py::error_already_set();
+    }
+}
+
+}  // namespace curvewise::bindings
