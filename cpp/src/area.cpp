@@ -83,10 +83,11 @@ Quad quad_at(const FacingCurves& curves, std::size_t i) noexcept {
 }
 
 double area_between(const CurveView& P, const CurveView& Q, const RangeScale& range,
-                    const AreaOptions& options) {
-    const FacingCurves curves = detail::face(P, Q, range, options.spacing);
+                    const AreaOptions& options, detail::Watch& watch) {
+    const FacingCurves curves = detail::face(P, Q, range, options.spacing, watch);
     double sum = 0.0;
     for (std::size_t i = 0; i + 1 < curves.A.size(); ++i) {
+        watch.turn(i);
         const double part = measure(quad_at(curves, i), options.crossing).area;
         sum += options.squared ? part * part : part;
     }
@@ -95,19 +96,27 @@ double area_between(const CurveView& P, const CurveView& Q, const RangeScale& ra
 
 }  // namespace
 
-double area(const CurveView& P, const CurveView& Q, const AreaOptions& options) {
-    return area_between(P, Q, detail::check_pair(P, Q, {"area", 2, true}), options);
+double area(const CurveView& P, const CurveView& Q, const AreaOptions& options, Control* control) {
+    const RangeScale range = detail::check_pair(P, Q, {"area", 2, true});
+    detail::Watch watch(control);
+    watch.begin(P.size() + Q.size());
+    const double value = area_between(P, Q, range, options, watch);
+    watch.finish();
+    return value;
 }
 
 double detail::AreaMeasure::operator()(const Reference& P, const Other& Q, double /*cutoff*/,
-                                       std::ptrdiff_t /*workers*/, Watch& /*watch*/) const {
+                                       std::ptrdiff_t /*workers*/, Watch& watch) const {
     const RangeScale range(std::max(P.checked.largest, Q.checked.largest));
-    return area_between(P.checked.curve, Q.checked.curve, range, options_);
+    return area_between(P.checked.curve, Q.checked.curve, range, options_, watch);
 }
 
-AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& options) {
+AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& options,
+                     Control* control) {
     const RangeScale range = detail::check_pair(P, Q, {"area", 2, true});
-    const FacingCurves curves = detail::face(P, Q, range, options.spacing);
+    detail::Watch watch(control);
+    watch.begin(P.size() + Q.size());
+    const FacingCurves curves = detail::face(P, Q, range, options.spacing, watch);
     const auto restored = [&](const Point& point) -> std::array<double, 2> {
         return {range.restore(point.x, 1), range.restore(point.y, 1)};
     };
@@ -115,11 +124,13 @@ AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& 
     result.quads.reserve(curves.A.size() - 1);
     result.areas.reserve(curves.A.size() - 1);
     for (std::size_t i = 0; i + 1 < curves.A.size(); ++i) {
+        watch.turn(i);
         const auto [quad, area] = measure(quad_at(curves, i), options.crossing);
         result.quads.push_back(
             {restored(quad.a), restored(quad.b), restored(quad.c), restored(quad.d)});
         result.areas.push_back(range.restore(area, 2));
     }
+    watch.finish();
     return result;
 }
 

@@ -18,6 +18,7 @@ namespace {
 
 using detail::Polyline;
 using detail::RangeScale;
+using detail::Watch;
 
 // The arc lengths after dividing each coordinate by the curve's own largest magnitude.
 std::vector<double> relative_arc_lengths(const CurveView& curve) {
@@ -43,12 +44,13 @@ struct Place {
 };
 
 // For each point of P, at arc length s, the place on Q at the same fraction of its length.
-std::vector<Place> corresponding_places(const std::vector<double>& s,
-                                        const std::vector<double>& t) {
+std::vector<Place> corresponding_places(const std::vector<double>& s, const std::vector<double>& t,
+                                        Watch& watch) {
     const double ratio = t.back() / s.back();
     std::vector<Place> places(s.size());
     std::size_t k = 0;
     for (std::size_t i = 0; i < s.size(); ++i) {
+        watch.turn(i);
         const double at = i + 1 < s.size() ? std::min(s[i] * ratio, t.back()) : t.back();
         while (k + 2 < t.size() && t[k + 1] <= at) ++k;
         const double length = t[k + 1] - t[k];
@@ -118,8 +120,9 @@ double coordinate_scale(const Coordinate& x, LengthScale scale, const std::strin
 
 // Writes the residuals of one coordinate to out[0], out[2], out[4], ...
 void write_residuals(const Coordinate& x, const std::vector<Place>& places, double divisor,
-                     double* out) {
+                     double* out, Watch& watch) {
     for (std::size_t i = 0; i < places.size(); ++i) {
+        watch.turn(i);
         const double a = x.q[places[i].segment];
         const double b = x.q[places[i].segment + 1];
         const double at = places[i].fraction == 1.0 ? b : a + places[i].fraction * (b - a);
@@ -131,26 +134,31 @@ void write_residuals(const Coordinate& x, const std::vector<Place>& places, doub
 
 using Side = detail::CurveLengthMeasure::Side;
 
-void write_residuals(const Side& P, const Side& Q, LengthScale scale, double* out) {
-    const std::vector<Place> places = corresponding_places(P.arc_lengths, Q.arc_lengths);
+void write_residuals(const Side& P, const Side& Q, LengthScale scale, double* out, Watch& watch) {
+    const std::vector<Place> places = corresponding_places(P.arc_lengths, Q.arc_lengths, watch);
     for (std::ptrdiff_t c = 0; c < 2; ++c) {
         const Coordinate x(P.checked.curve, Q.checked.curve, c);
-        write_residuals(x, places, coordinate_scale(x, scale, P.checked.name), out + c);
+        write_residuals(x, places, coordinate_scale(x, scale, P.checked.name), out + c, watch);
     }
 }
 
-double norm_of_residuals(const Side& P, const Side& Q, LengthScale scale) {
+double norm_of_residuals(const Side& P, const Side& Q, LengthScale scale, Watch& watch) {
     std::vector<double> residuals(2 * P.arc_lengths.size());
-    write_residuals(P, Q, scale, residuals.data());
+    write_residuals(P, Q, scale, residuals.data(), watch);
     double sum = 0.0;
     for (const double r : residuals) sum += r * r;
     return std::sqrt(sum);
 }
 
 // Both curves, checked.
-std::pair<Side, Side> sides_of(const CurveView& P, const CurveView& Q) {
+std::pair<Side, Side> sides_of(const CurveView& P, const CurveView& Q, Watch& watch) {
     detail::check_pair(P, Q, {"curve_length", 2, true});
-    return {Side({P, 0.0, "P"}), Side({Q, 0.0, "Q"})};
+    watch.begin(P.size() + Q.size());
+    Side p({P, 0.0, "P"});
+    watch.turn(0);
+    Side q({Q, 0.0, "Q"});
+    watch.turn(0);
+    return {std::move(p), std::move(q)};
 }
 
 }  // namespace
@@ -168,19 +176,25 @@ void detail::CurveLengthMeasure::check_reference(const Reference& P) const {
 }
 
 double detail::CurveLengthMeasure::operator()(const Reference& P, const Other& Q, double /*cutoff*/,
-                                              std::ptrdiff_t /*workers*/, Watch& /*watch*/) const {
-    return norm_of_residuals(P, Q, options_.scale);
+                                              std::ptrdiff_t /*workers*/, Watch& watch) const {
+    return norm_of_residuals(P, Q, options_.scale, watch);
 }
 
 void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
-                            const CurveLengthOptions& options) {
-    const auto [p, q] = sides_of(P, Q);
-    write_residuals(p, q, options.scale, out);
+                            const CurveLengthOptions& options, Control* control) {
+    Watch watch(control);
+    const auto [p, q] = sides_of(P, Q, watch);
+    write_residuals(p, q, options.scale, out, watch);
+    watch.finish();
 }
 
-double curve_length(const CurveView& P, const CurveView& Q, const CurveLengthOptions& options) {
-    const auto [p, q] = sides_of(P, Q);
-    return norm_of_residuals(p, q, options.scale);
+double curve_length(const CurveView& P, const CurveView& Q, const CurveLengthOptions& options,
+                    Control* control) {
+    Watch watch(control);
+    const auto [p, q] = sides_of(P, Q, watch);
+    const double value = norm_of_residuals(p, q, options.scale, watch);
+    watch.finish();
+    return value;
 }
 
 }  // namespace curvewise

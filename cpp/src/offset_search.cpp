@@ -21,8 +21,11 @@ double dot(const Point& a, const Point& b) noexcept { return a.x * b.x + a.y * b
 // f and its lower bound over an interval.
 class AreaAtOffset {
    public:
-    AreaAtOffset(const ArcCurve& shorter, const ArcCurve& longer)
-        : shorter_(shorter), longer_(longer), weights_(shorter.points().size(), 0.0) {
+    AreaAtOffset(const ArcCurve& shorter, const ArcCurve& longer, Watch& watch)
+        : shorter_(shorter),
+          longer_(longer),
+          watch_(watch),
+          weights_(shorter.points().size(), 0.0) {
         const std::vector<double>& s = shorter.arc_lengths();
         for (std::size_t i = 0; i + 1 < s.size(); ++i) {
             const double half = 0.5 * (s[i + 1] - s[i]);
@@ -32,6 +35,7 @@ class AreaAtOffset {
         const std::vector<double>& t = longer.arc_lengths();
         segments_.reserve(t.size());
         for (std::size_t k = 0; k + 1 < t.size(); ++k) {
+            watch_.turn(k);
             const double length = t[k + 1] - t[k];
             const Point edge = longer.points()[k + 1] - longer.points()[k];
             const Point direction =
@@ -42,15 +46,16 @@ class AreaAtOffset {
         fill_signposts();
     }
 
-    double value(double offset) const noexcept { return values<1>({offset})[0]; }
+    double value(double offset) const { return values<1>({offset})[0]; }
 
     // At several offsets in one walk: their steps do not wait for each other.
     template <std::size_t count>
-    std::array<double, count> values(const std::array<double, count>& offsets) const noexcept {
+    std::array<double, count> values(const std::array<double, count>& offsets) const {
         std::array<double, count> sums{}, x{}, y{};
         std::array<const Segment*, count> at{};
         at.fill(segments_.data());
         for (std::size_t i = 0; i < weights_.size(); ++i) {
+            watch_.turn(i);
             const Point vertex = shorter_.points()[i];
             const double s = shorter_.arc_lengths()[i];
             for (std::size_t o = 0; o < count; ++o) {
@@ -77,12 +82,13 @@ class AreaAtOffset {
     }
 
     // Of f over centre - half .. centre + half.
-    double lower_bound(double centre, double half) const noexcept {
+    double lower_bound(double centre, double half) const {
         ArcPosition position = start(centre);
         double value = 0.0;
         double slope = 0.0;
         double deficit = 0.0;
         for (std::size_t i = 0; i < weights_.size(); ++i) {
+            watch_.turn(i);
             const double u = shorter_.arc_lengths()[i] + centre;
             position.move_to(u);
             const Tangent tangent = tangent_at(i, u, position);
@@ -134,6 +140,7 @@ class AreaAtOffset {
         signposts_.resize(count + 2);  // rounding may lead one past the last
         std::size_t k = 0;
         for (std::size_t b = 0; b < signposts_.size(); ++b) {
+            watch_.turn(b);
             const double u = static_cast<double>(b) / signposts_per_length_;
             while (k + 2 < t.size() && t[k + 1] <= u) ++k;
             signposts_[b] = k;
@@ -197,6 +204,7 @@ class AreaAtOffset {
 
     const ArcCurve& shorter_;
     const ArcCurve& longer_;
+    Watch& watch_;
     std::vector<double> weights_;
     std::vector<Segment> segments_;
     std::vector<std::size_t> signposts_;
@@ -216,11 +224,10 @@ double grid_offset(double slack, std::ptrdiff_t i, std::ptrdiff_t count) noexcep
     return i == 0 ? 0.0 : slack * (static_cast<double>(i) / static_cast<double>(count - 1));
 }
 
-Offset best_of_grid(const AreaAtOffset& f, double slack, std::ptrdiff_t count, Watch& watch) {
+Offset best_of_grid(const AreaAtOffset& f, double slack, std::ptrdiff_t count) {
     constexpr std::ptrdiff_t at_once = 16;
     Offset best{0.0, f.value(0.0)};
     for (std::ptrdiff_t i = 1; i < count; i += at_once) {
-        if (watch.poll()) throw Stopped();
         std::array<double, at_once> offsets{};
         for (std::ptrdiff_t o = 0; o < at_once; ++o) {
             offsets[static_cast<std::size_t>(o)] =
@@ -249,21 +256,20 @@ void ArcPosition::move_to(double u) noexcept {
 
 Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdiff_t count,
                     Watch& watch) {
-    return best_of_grid(AreaAtOffset(shorter, longer), slack(shorter, longer), count, watch);
+    return best_of_grid(AreaAtOffset(shorter, longer, watch), slack(shorter, longer), count);
 }
 
 Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Watch& watch) {
     constexpr std::ptrdiff_t count = 200;
-    const AreaAtOffset f(shorter, longer);
+    const AreaAtOffset f(shorter, longer, watch);
     const double S = shorter.length();
     const double range = slack(shorter, longer);
-    Offset best = best_of_grid(f, range, count, watch);
+    Offset best = best_of_grid(f, range, count);
     std::vector<Interval> open;
     for (std::ptrdiff_t i = count - 1; i > 0; --i) {
         open.push_back({grid_offset(range, i - 1, count), grid_offset(range, i, count)});
     }
     while (!open.empty()) {
-        if (watch.poll()) throw Stopped();
         const Interval interval = open.back();
         open.pop_back();
         const double centre = 0.5 * (interval.low + interval.high);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "box.hpp"
@@ -81,7 +82,7 @@ class PlanarMeasure {
 class AreaMeasure : public PlanarMeasure {
    public:
     struct Side {
-        explicit Side(const CheckedCurve& curve) : checked(curve) {}
+        explicit Side(CheckedCurve curve) : checked(std::move(curve)) {}
         CheckedCurve checked;
     };
     using Reference = Side;
@@ -104,7 +105,7 @@ class PcmMeasure : public PlanarMeasure {
         ArcCurve scaled;  // by its own box
     };
     struct Other {
-        explicit Other(const CheckedCurve& Q) : checked(Q) {}
+        explicit Other(CheckedCurve Q) : checked(std::move(Q)) {}
         CheckedCurve checked;
     };
 

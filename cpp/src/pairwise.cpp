@@ -132,8 +132,9 @@ void run_pairs(const M& measure, const std::vector<typename M::Reference>& rows,
 
 // Every curve of one list with every curve of the other.
 template <class M>
-void run_rectangle(const M& measure, const CurveList& XA, const CurveList& XB, double* out,
-                   const BatchOptions& options, Control* control) {
+void run_rectangle(const M& measure, const CurveList& XA, const CurveList& XB,
+                   const PairDestination& destination, const BatchOptions& options,
+                   Control* control) {
     if (XA.curves.empty() || XB.curves.empty()) return;
     const auto rows = references(measure, checked(XA, XA, measure.needs()));
     const auto columns = sides<typename M::Other>(checked(XB, XA, measure.needs()));
@@ -141,13 +142,12 @@ void run_rectangle(const M& measure, const CurveList& XA, const CurveList& XB, d
     check_sizes(measure, row_sizes, column_sizes);
     const PairTiles tiles(row_sizes, column_sizes, PairSet::rectangle, M::steps,
                           detail::resolve_workers(options.workers));
-    const PairDestination destination(out, columns.size(), PairDestination::Shape::matrix);
     run_pairs(measure, rows, columns, tiles, destination, options, control);
 }
 
 // Every two curves of one list.
 template <class M>
-void run_triangle(const M& measure, const CurveList& X, double* out, PairDestination::Shape shape,
+void run_triangle(const M& measure, const CurveList& X, const PairDestination& destination,
                   const BatchOptions& options, Control* control) {
     if (X.curves.empty()) return;
     const std::vector<CheckedCurve> curves = checked(X, X, measure.needs());
@@ -157,7 +157,6 @@ void run_triangle(const M& measure, const CurveList& X, double* out, PairDestina
     check_sizes(measure, sizes, sizes);
     const PairTiles tiles(sizes, sizes, PairSet::triangle, M::steps,
                           detail::resolve_workers(options.workers));
-    const PairDestination destination(out, columns.size(), shape);
     run_pairs(measure, rows, columns, tiles, destination, options, control);
 }
 
@@ -176,9 +175,11 @@ bool is_symmetric(const Measure& measure) noexcept {
 void cdist(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
            const Measure& measure, double* out, const BatchOptions& options, Control* control) {
     check_options(options);
+    const PairDestination destination(out, XB.size(), PairDestination::Shape::matrix);
     std::visit(
         [&](const auto& chosen) {
-            run_rectangle(measure_of(chosen), {XA, "XA"}, {XB, "XB"}, out, options, control);
+            run_rectangle(measure_of(chosen), {XA, "XA"}, {XB, "XB"}, destination, options,
+                          control);
         },
         measure);
 }
@@ -191,10 +192,11 @@ void cdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
         [&](const auto& chosen) {
             if (is_symmetric(measure)) {
                 for (std::size_t i = 0; i < X.size(); ++i) out[i * X.size() + i] = 0.0;
-                run_triangle(measure_of(chosen), list, out, PairDestination::Shape::mirrored,
-                             options, control);
+                const PairDestination mirrored(out, X.size(), PairDestination::Shape::mirrored);
+                run_triangle(measure_of(chosen), list, mirrored, options, control);
             } else {
-                run_rectangle(measure_of(chosen), list, list, out, options, control);
+                const PairDestination matrix(out, X.size(), PairDestination::Shape::matrix);
+                run_rectangle(measure_of(chosen), list, list, matrix, options, control);
             }
         },
         measure);
@@ -208,16 +210,21 @@ void pdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
             "is not; use cdist");
     }
     check_options(options);
+    const PairDestination condensed(out, X.size(), PairDestination::Shape::condensed);
     std::visit(
         [&](const auto& chosen) {
-            run_triangle(measure_of(chosen), {X, "X"}, out, PairDestination::Shape::condensed,
-                         options, control);
+            run_triangle(measure_of(chosen), {X, "X"}, condensed, options, control);
         },
         measure);
 }
 
 class Prepared::State {
    public:
+    State() = default;
+    State(const State&) = delete;
+    State(State&&) = delete;
+    State& operator=(const State&) = delete;
+    State& operator=(State&&) = delete;
     virtual ~State() = default;
     virtual double value(const CurveView& Q, Control* control) const = 0;
     virtual void values(const std::vector<CurveView>& Qs, double* out, const BatchOptions& options,

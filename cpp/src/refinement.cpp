@@ -39,7 +39,8 @@ struct Part {
 
 using Cut = std::pair<std::size_t, double>;  // segment, fraction of it
 
-std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacing spacing) {
+std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacing spacing,
+                                Watch& watch) {
     std::vector<Part> parts;
     parts.reserve(curve.size() + count);
     for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
@@ -49,6 +50,7 @@ std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacin
     std::vector<Cut> cuts;
     cuts.reserve(count);
     while (cuts.size() < count) {
+        watch.turn(cuts.size());
         Part part = heap.top();
         heap.pop();
         part.length /= 2.0;
@@ -62,12 +64,13 @@ std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacin
     return cuts;
 }
 
-Polyline refined(const Polyline& curve, std::size_t size, Spacing spacing) {
-    const std::vector<Cut> cuts = bisection_cuts(curve, size - curve.size(), spacing);
+Polyline refined(const Polyline& curve, std::size_t size, Spacing spacing, Watch& watch) {
+    const std::vector<Cut> cuts = bisection_cuts(curve, size - curve.size(), spacing, watch);
     Polyline result;
     result.reserve(size);
     auto cut = cuts.begin();
     for (std::size_t i = 0; i < curve.size(); ++i) {
+        watch.turn(i);
         result.push_back(curve[i]);
         for (; cut != cuts.end() && cut->first == i; ++cut) {
             result.push_back(interpolate(curve[i], curve[i + 1], cut->second));
@@ -104,13 +107,14 @@ class RelativeWalk {
 };
 
 FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q, const Polyline& scaled_p,
-                                const Polyline& scaled_q) {
+                                const Polyline& scaled_q, Watch& watch) {
     RelativeWalk along_p(P, scaled_p);
     RelativeWalk along_q(Q, scaled_q);
     FacingCurves result{{P.front()}, {Q.front()}};
     result.A.reserve(P.size() + Q.size());
     result.B.reserve(P.size() + Q.size());
     while (!along_p.at_end() || !along_q.at_end()) {
+        watch.turn(result.A.size());
         const double u = std::min(along_p.next(), along_q.next());
         result.A.push_back(along_p.advance(u));
         result.B.push_back(along_q.advance(u));
@@ -120,16 +124,16 @@ FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q, const Poly
 
 }  // namespace
 
-FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& range,
-                  Spacing spacing) {
+FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& range, Spacing spacing,
+                  Watch& watch) {
     Polyline A = polyline(P, range);
     Polyline B = polyline(Q, range);
     if (spacing == Spacing::arc_length) {
         const Box box(P);
-        return face_by_arc_length(A, B, box_scaled(P, box), box_scaled(Q, box));
+        return face_by_arc_length(A, B, box_scaled(P, box), box_scaled(Q, box), watch);
     }
     if (A.size() < B.size()) std::swap(A, B);
-    if (A.size() > B.size()) B = refined(B, A.size(), spacing);
+    if (A.size() > B.size()) B = refined(B, A.size(), spacing, watch);
     return {std::move(A), std::move(B)};
 }
 

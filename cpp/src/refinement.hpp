@@ -4,6 +4,7 @@
 
 #include "curvewise/area.hpp"
 #include "planar.hpp"
+#include "watch.hpp"
 
 namespace curvewise::detail {
 
@@ -15,6 +16,8 @@ struct FacingCurves {
 // For `distance` and `x`, A is the curve with more points (P if equal) and B the other, refined:
 // the longest segment is bisected, again and again. O((n - m) log m). For `arc_length`, A is P and
 // B is Q, each with a vertex wherever the other has one. O(n + m). Coordinates come out in `range`.
-FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& range, Spacing spacing);
+// Throws Stopped where the watch says so.
+FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& range, Spacing spacing,
+                  Watch& watch);
 
 }  // namespace curvewise::detail

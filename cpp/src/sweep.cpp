@@ -15,10 +15,16 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// The time a cell takes, roughly, in that of the fastest.
+std::ptrdiff_t cell_weight(const SweepProblem& problem) noexcept {
+    constexpr std::ptrdiff_t power = 16;
+    return problem.curves.dim() * (problem.cost == kernels::Cost::minkowski ? power : 1);
+}
+
 // Columns between two looks at the watch and at what other threads have done: some 10^5 cells, 50
 // to 200 µs, or fewer where a cell has many coordinates.
 std::ptrdiff_t chunk_of(const SweepProblem& problem) noexcept {
-    return std::max<std::ptrdiff_t>(1, 1024 / ((problem.curves.dim() + 3) / 4));
+    return std::clamp<std::ptrdiff_t>(4096 / cell_weight(problem), 1, 1024);
 }
 
 std::ptrdiff_t worker_count(const SweepProblem& problem, const Region& region) noexcept {
@@ -27,11 +33,12 @@ std::ptrdiff_t worker_count(const SweepProblem& problem, const Region& region) n
 }
 
 // Whether to stop.
-bool sweep_strip(StripWalk& walk, std::ptrdiff_t strip, std::ptrdiff_t chunk, Watch& watch) {
+bool sweep_strip(StripWalk& walk, std::ptrdiff_t strip, std::ptrdiff_t chunk, std::ptrdiff_t weight,
+                 Watch& watch) {
     walk.enter(strip);
     while (walk.next_diagonal() < walk.end_diagonal()) {
         const std::ptrdiff_t end = std::min(walk.next_diagonal() + chunk, walk.end_diagonal());
-        if (watch.step(walk.advance(end))) return true;
+        if (watch.step(walk.advance(end), weight)) return true;
     }
     return false;
 }
@@ -49,7 +56,8 @@ void skip_rest(const SweepProblem& problem, const StripPlan& plan, std::ptrdiff_
 }
 
 // Takes strips from the pipeline until none is left, or the watch says stop.
-void sweep_in_turn(StripWalk& walk, std::ptrdiff_t chunk, Pipeline& pipeline, Watch& watch) {
+void sweep_in_turn(StripWalk& walk, std::ptrdiff_t chunk, std::ptrdiff_t weight, Pipeline& pipeline,
+                   Watch& watch) {
     for (std::ptrdiff_t s = pipeline.take(); s >= 0; s = pipeline.take()) {
         if (!pipeline.wait(s, walk.first_diagonal_of(s), watch)) return;
         walk.enter(s);
@@ -58,7 +66,7 @@ void sweep_in_turn(StripWalk& walk, std::ptrdiff_t chunk, Pipeline& pipeline, Wa
             if (!pipeline.wait(s, end, watch)) return;
             const std::int64_t cells = walk.advance(end);
             pipeline.publish(s, walk.finished_columns());
-            if (watch.step(cells)) return;
+            if (watch.step(cells, weight)) return;
         }
         pipeline.finish(s);
     }
@@ -124,11 +132,11 @@ std::ptrdiff_t Row::argmin() const noexcept {
 void sweep(const SweepProblem& problem, const Region& region, bool starts_here, double* boundary,
            const Destination& destination) {
     const StripPlan plan(problem, region, worker_count(problem, region), destination);
-    const std::ptrdiff_t chunk = chunk_of(problem);
+    const std::ptrdiff_t chunk = chunk_of(problem), weight = cell_weight(problem);
     if (plan.workers() == 1) {
         StripWalk walk(plan, starts_here, boundary);
         for (std::ptrdiff_t s = 0; s < plan.strips(); ++s) {
-            if (sweep_strip(walk, s, chunk, problem.watch)) throw Stopped();
+            if (sweep_strip(walk, s, chunk, weight, problem.watch)) throw Stopped();
             if (is_hopeless(problem, region, boundary)) return skip_rest(problem, plan, s + 1);
         }
         return;
@@ -139,7 +147,7 @@ void sweep(const SweepProblem& problem, const Region& region, bool starts_here, 
         walks.emplace_back(plan, starts_here, boundary);
     Pipeline pipeline(plan.strips());
     run_workers(plan.workers(), problem.watch, [&](std::ptrdiff_t w, Watch& watch) {
-        sweep_in_turn(walks[static_cast<std::size_t>(w)], chunk, pipeline, watch);
+        sweep_in_turn(walks[static_cast<std::size_t>(w)], chunk, weight, pipeline, watch);
     });
     problem.watch.throw_if_stopped();
 }

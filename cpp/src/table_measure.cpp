@@ -64,7 +64,6 @@ TableProblem::TableProblem(const TableOptions& options, const PackedPair& curves
                            const RangeScale& range, Watch& watch)
     : range_(range),
       degree_(options.ground.metric == Metric::sqeuclidean ? 2 : 1),
-      squared_(false),
       open_end_(options.open_end),
       sweep_{*active_level().kernels,
              curves,

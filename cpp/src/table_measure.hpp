@@ -49,8 +49,8 @@ class TableProblem {
     bool ends_are_within(double cutoff) const;
 
     RangeScale range_;
-    int degree_;    // of homogeneity in the coordinates
-    bool squared_;  // the table holds squares of the values
+    int degree_;            // of homogeneity in the coordinates
+    bool squared_ = false;  // the table holds squares of the values
     bool open_end_;
     SweepProblem sweep_;
 };

@@ -24,6 +24,7 @@ void Watch::finish() {
 
 bool Watch::poll() {
     if (control_ == nullptr) return false;
+    effort_ = 0;
     pass_on();
     if (role_ == Role::caller && !stopped() && Clock::now() >= next_report_) report();
     return stopped();

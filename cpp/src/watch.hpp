@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 
 #include "curvewise/control.hpp"
@@ -16,19 +17,26 @@ class Watch {
 
     explicit Watch(Control* control, Role role = Role::caller);
     Watch(const Watch&) = delete;
+    Watch(Watch&&) = delete;
     Watch& operator=(const Watch&) = delete;
+    Watch& operator=(Watch&&) = delete;
     ~Watch() { pass_on(); }
 
     // For the caller, before and after the work.
     void begin(std::int64_t total) noexcept;
     void finish();
 
-    // `steps` more are done. Whether to stop.
-    bool step(std::int64_t steps) {
+    // `steps` more are done, each as long as `weight` of the shortest there are. Whether to stop.
+    bool step(std::int64_t steps, std::int64_t weight = 1) {
         if (control_ == nullptr) return false;
         pending_ += steps;
-        if (pending_ < lump) return control_->stopped();
+        effort_ += steps * weight;
+        if (effort_ < lump) return control_->stopped();
         return poll();
+    }
+    // For loops over points: polls in every 2^16th turn and throws Stopped.
+    void turn(std::size_t i) {
+        if ((i & 0xffff) == 0 && poll()) throw Stopped();
     }
     // Whether to stop; reports if it is time to.
     bool poll();
@@ -52,6 +60,7 @@ class Watch {
     Control* control_;
     Role role_;
     std::int64_t pending_ = 0;
+    std::int64_t effort_ = 0;
     Clock::time_point next_report_;
 };
 

@@ -26,7 +26,9 @@ py::tuple area_quads_arrays(const CurveArray& P, const CurveArray& Q, const py::
                             const py::object& crossing) {
     const AreaOptions options = area_options(spacing, crossing, py::bool_(false));
     const CurveView a = view(P), b = view(Q);
-    const AreaQuads found = unlocked(points(P, Q), [&] { return area_quads(a, b, options); });
+    const AreaQuads found = interruptible(points(P, Q), py::none(), [&](Control* control) {
+        return area_quads(a, b, options, control);
+    });
     const auto count = static_cast<py::ssize_t>(found.areas.size());
     return py::make_tuple(
         py::array_t<double>({count, py::ssize_t{4}, py::ssize_t{2}}, found.quads[0][0].data()),
@@ -52,7 +54,8 @@ void bind_planar(py::module_& module) {
                           const py::object& crossing, const py::object& squared) {
         const AreaOptions options = area_options(spacing, crossing, squared);
         const CurveView a = view(P), b = view(Q);
-        return unlocked(points(P, Q), [&] { return area(a, b, options); });
+        return interruptible(points(P, Q), py::none(),
+                             [&](Control* control) { return area(a, b, options, control); });
     });
     module.def("area_quads", area_quads_arrays);
     module.def("pcm", [](const CurveArray& P, const CurveArray& Q, const py::object& offsets) {
@@ -66,7 +69,9 @@ void bind_planar(py::module_& module) {
                [](const CurveArray& P, const CurveArray& Q, const py::object& scale) {
                    const CurveLengthOptions options = curve_length_options(scale);
                    const CurveView a = view(P), b = view(Q);
-                   return unlocked(points(P, Q), [&] { return curve_length(a, b, options); });
+                   return interruptible(points(P, Q), py::none(), [&](Control* control) {
+                       return curve_length(a, b, options, control);
+                   });
                });
     module.def("curve_length_residuals",
                [](const CurveArray& P, const CurveArray& Q, const py::object& scale) {
@@ -74,7 +79,9 @@ void bind_planar(py::module_& module) {
                    py::array_t<double> out({P.shape(0), py::ssize_t{2}});
                    double* const data = out.mutable_data();
                    const CurveView a = view(P), b = view(Q);
-                   unlocked(points(P, Q), [&] { curve_length_residuals(a, b, data, options); });
+                   interruptible(points(P, Q), py::none(), [&](Control* control) {
+                       curve_length_residuals(a, b, data, options, control);
+                   });
                    return out;
                });
 }

@@ -24,12 +24,14 @@ using curvewise::detail::RangeScale;
 using test::Curve;
 using test::Random;
 
+curvewise::detail::Watch unwatched(nullptr);
+
 const RangeScale as_they_are(1.0);
 
 Polyline points_of(const Curve& curve) { return polyline(curve, as_they_are); }
 
 FacingCurves facing_curves(const Curve& P, const Curve& Q, Spacing spacing) {
-    return face(P, Q, as_they_are, spacing);
+    return face(P, Q, as_they_are, spacing, unwatched);
 }
 
 std::vector<double> numbers(const Polyline& curve) {

@@ -45,6 +45,13 @@ alignment = curvewise.dtw_path(P, Q, window=np.int32(3), workers=2)
 table = curvewise.dtw_table(P, Q, metric="minkowski", p=np.inf)
 
 number = curvewise.curve_length(P, Q, scale="mean_abs")
+distances: FloatArray = curvewise.cdist([P, Q], [P], "pcm", offsets=50, workers=-1)
+distances = curvewise.cdist([listed], measure=curvewise.mae, progress=print, cutoff=np.float32(3))
+distances = curvewise.pdist(np.stack((P, P)), "frechet", metric="chebyshev", out=distances)
+prepared = curvewise.Prepared(listed, "dtw", window=4)
+number = prepared(Q)
+names: list[str] = curvewise.available_measures()
+
 residuals: FloatArray = curvewise.curve_length_residuals(P, Q, scale="range")
 number = curvewise.sum_of_squares(P, P) + curvewise.mse(P, P) + curvewise.mae(P, P)
 scaled: list[FloatArray] = curvewise.normalize(P, Q, listed)

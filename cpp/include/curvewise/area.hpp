@@ -9,6 +9,7 @@
 #include <array>
 #include <vector>
 
+#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 
 namespace curvewise {
@@ -42,9 +43,11 @@ struct AreaQuads {
     std::vector<double> areas;
 };
 
-double area(const CurveView& P, const CurveView& Q, const AreaOptions& options = {});
+double area(const CurveView& P, const CurveView& Q, const AreaOptions& options = {},
+            Control* control = nullptr);
 
 // The quadrilaterals behind area(); options.squared is not used.
-AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& options = {});
+AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& options = {},
+                     Control* control = nullptr);
 
 }  // namespace curvewise

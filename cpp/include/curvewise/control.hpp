@@ -44,7 +44,10 @@ class Control {
                      std::chrono::milliseconds interval = std::chrono::milliseconds(50))
         : report_(std::move(report)), interval_(interval) {}
     Control(const Control&) = delete;
+    Control(Control&&) = delete;
     Control& operator=(const Control&) = delete;
+    Control& operator=(Control&&) = delete;
+    ~Control() = default;
 
     void stop() noexcept { stopped_.store(true, std::memory_order_relaxed); }
     bool stopped() const noexcept { return stopped_.load(std::memory_order_relaxed); }

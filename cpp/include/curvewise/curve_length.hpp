@@ -9,6 +9,7 @@
 // scale is 0.
 #pragma once
 
+#include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 
 namespace curvewise {
@@ -24,11 +25,12 @@ struct CurveLengthOptions {
     LengthScale scale = LengthScale::mean;
 };
 
-double curve_length(const CurveView& P, const CurveView& Q, const CurveLengthOptions& options = {});
+double curve_length(const CurveView& P, const CurveView& Q, const CurveLengthOptions& options = {},
+                    Control* control = nullptr);
 
 // Writes r_x to out[2 i] and r_y to out[2 i + 1] for every point of P; the measure is the
 // Euclidean norm of all of them.
 void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
-                            const CurveLengthOptions& options = {});
+                            const CurveLengthOptions& options = {}, Control* control = nullptr);
 
 }  // namespace curvewise

@@ -1,0 +1,229 @@
+// Batches against the measures' own functions, to the bit, with any number of threads; what a
+// Control hears of a call, and how it ends one.
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "check.hpp"
+#include "curves.hpp"
+#include "curvewise/curvewise.hpp"
+
+namespace {
+
+using namespace curvewise;
+using test::Curve;
+using test::Random;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::vector<Curve> random_curves(std::initializer_list<std::ptrdiff_t> sizes, std::ptrdiff_t dim) {
+    Random random(7);
+    std::vector<Curve> curves;
+    for (const std::ptrdiff_t n : sizes) curves.push_back(random.curve(n, dim));
+    return curves;
+}
+
+std::vector<CurveView> views_of(const std::vector<Curve>& curves) {
+    return {curves.begin(), curves.end()};
+}
+
+double value_of(const CurveView& P, const CurveView& Q, const Measure& measure) {
+    struct Call {
+        const CurveView& P;
+        const CurveView& Q;
+        double operator()(const DtwOptions& options) const { return dtw(P, Q, options); }
+        double operator()(const FrechetOptions& options) const { return frechet(P, Q, options); }
+        double operator()(const AreaOptions& options) const { return area(P, Q, options); }
+        double operator()(const PcmOptions& options) const { return pcm(P, Q, options); }
+        double operator()(const CurveLengthOptions& options) const {
+            return curve_length(P, Q, options);
+        }
+    };
+    return std::visit(Call{P, Q}, measure);
+}
+
+const std::vector<Measure>& measures() {
+    static const std::vector<Measure> all = [] {
+        DtwOptions window, open;
+        window.window = 30;
+        open.open_begin = open.open_end = true;
+        return std::vector<Measure>{DtwOptions{},  window,
+                                    open,          FrechetOptions{{Metric::cityblock}},
+                                    AreaOptions{}, AreaOptions{Spacing::arc_length},
+                                    PcmOptions{},  CurveLengthOptions{LengthScale::range}};
+    }();
+    return all;
+}
+
+void batches_equal_single_calls() {
+    const std::vector<Curve> curves = random_curves({9, 2, 40, 300, 7, 8, 64, 17, 3}, 2);
+    const std::vector<CurveView> X = views_of(curves);
+    const std::vector<CurveView> some(X.begin(), X.begin() + 4);
+    const std::size_t k = X.size();
+    for (const Measure& measure : measures()) {
+        const check::Note note("measure " + std::to_string(measure.index()));
+        std::vector<double> matrix, rectangle, condensed;
+        for (const CurveView& P : X) {
+            for (const CurveView& Q : X) matrix.push_back(value_of(P, Q, measure));
+            for (const CurveView& Q : some) rectangle.push_back(value_of(P, Q, measure));
+        }
+        if (is_symmetric(measure)) {
+            for (std::size_t i = 0; i < k; ++i) {
+                for (std::size_t j = i + 1; j < k; ++j) {
+                    condensed.push_back(matrix[i * k + j]);
+                    matrix[j * k + i] = matrix[i * k + j];
+                }
+            }
+        }
+        for (const std::ptrdiff_t workers : {1, 2, 3, -1}) {
+            const BatchOptions options{workers};
+            std::vector<double> out(k * k, -1.0);
+            cdist(X, measure, out.data(), options);
+            CHECK_EQUAL(out, matrix);
+            out.assign(k * some.size(), -1.0);
+            cdist(X, some, measure, out.data(), options);
+            CHECK_EQUAL(out, rectangle);
+            if (!is_symmetric(measure)) continue;
+            out.assign(condensed.size(), -1.0);
+            pdist(X, measure, out.data(), options);
+            CHECK_EQUAL(out, condensed);
+        }
+    }
+}
+
+void prepared_equals_single_calls() {
+    const std::vector<Curve> curves = random_curves({9, 2, 40, 300, 7}, 2);
+    const std::vector<CurveView> X = views_of(curves);
+    for (const Measure& measure : measures()) {
+        Curve P = curves[2];
+        const Prepared prepared(P, measure);
+        P(0, 0) = 1e9;  // a copy was taken
+        std::vector<double> expected, one_by_one;
+        for (const CurveView& Q : X) {
+            expected.push_back(value_of(X[2], Q, measure));
+            one_by_one.push_back(prepared(Q));
+        }
+        CHECK_EQUAL(one_by_one, expected);
+        std::vector<double> out(X.size());
+        prepared(X, out.data(), {2});
+        CHECK_EQUAL(out, expected);
+    }
+}
+
+void symmetry_is_known() {
+    std::vector<int> symmetric;
+    for (const Measure& measure : measures()) symmetric.push_back(is_symmetric(measure));
+    CHECK_EQUAL(symmetric, (std::vector<int>{1, 1, 0, 1, 1, 0, 0, 0}));
+}
+
+void cutoff_gives_infinity() {
+    const std::vector<Curve> curves = random_curves({300, 600, 2, 700, 40, 1}, 3);
+    const std::vector<CurveView> X = views_of(curves);
+    std::vector<double> values(15), cut(15), expected(15);
+    for (const Measure& measure : {Measure(DtwOptions{}), Measure(FrechetOptions{})}) {
+        pdist(X, measure, values.data());
+        for (const double cutoff : values) {
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                expected[i] = values[i] > cutoff ? infinity : values[i];
+            }
+            pdist(X, measure, cut.data(), {1, cutoff});
+            CHECK_EQUAL(cut, expected);
+        }
+    }
+}
+
+void errors_name_the_curve() {
+    const Curve P{{0.0, 0.0}, {1.0, 1.0}}, bad{{0.0, 0.0}, {infinity, 1.0}}, solid{{0.0, 1.0, 2.0}};
+    double out[4];
+    CHECK_THROWS(pdist({P, bad}, DtwOptions{}, out), std::invalid_argument,
+                 "X[1][1, 0] is inf; curves must be finite");
+    CHECK_THROWS(cdist({P}, {P, solid}, FrechetOptions{}, out), std::invalid_argument,
+                 "XA[0] has shape (2, 2) and XB[1] has shape (1, 3); both need the same number of "
+                 "coordinates");
+    CHECK_THROWS(pdist({P, P}, PcmOptions{}, out), std::invalid_argument,
+                 "pdist needs a measure for which d(P, Q) = d(Q, P), which this one with these "
+                 "options is not; use cdist");
+    CHECK_THROWS(pdist({P, P}, DtwOptions{}, out, {0}), std::invalid_argument,
+                 "workers is 0; give a whole number >= 1, or -1 for all cores");
+    CHECK_THROWS(Prepared(P, AreaOptions{})(solid), std::invalid_argument,
+                 "P has shape (2, 2) and Q has shape (1, 3); both need the same number of "
+                 "coordinates");
+}
+
+void reports_go_up_to_the_total() {
+    Random random(3);
+    const Curve P = random.walk(3000), Q = random.walk(2000);
+    for (const std::ptrdiff_t workers : {1, 2}) {
+        std::vector<std::int64_t> done;
+        Control control(
+            [&](std::int64_t so_far, std::int64_t total) {
+                CHECK_EQUAL(total, 6'000'000);
+                done.push_back(so_far);
+                return true;
+            },
+            std::chrono::milliseconds(0));
+        const double value = dtw(P, Q, {}, &control);
+        CHECK_EQUAL(value, dtw(P, Q));
+        CHECK(done.size() > 10);
+        CHECK(std::is_sorted(done.begin(), done.end()));
+        CHECK_EQUAL(done.back(), 6'000'000);
+        CHECK_EQUAL(control.done(), control.total());
+        done.clear();
+        std::vector<double> out(1);
+        cdist({P}, {Q}, DtwOptions{}, out.data(), {workers}, &control);
+        CHECK_EQUAL(out[0], value);
+        CHECK_EQUAL(done.back(), 6'000'000);
+    }
+}
+
+// Calls that would take minutes, each stopped by its own report and by another thread.
+void a_stopped_call_throws() {
+    Random random(4);
+    const Curve P = random.walk(200'000), small = random.walk(100);
+    const std::vector<CurveView> many(20'000, small);
+    std::vector<double> out(many.size() * (many.size() - 1) / 2);
+    FrechetOptions slow{{Metric::minkowski, 3.0}};
+    DtwOptions threaded;
+    threaded.workers = 3;
+    const std::vector<std::function<void(Control*)>> calls{
+        [&](Control* control) { frechet(P, P, slow, control); },
+        [&](Control* control) { dtw(P, P, threaded, control); },
+        [&](Control* control) { dtw_path(P, P, threaded, control); },
+        [&](Control* control) { pcm(P, P, {100'000'000}, control); },
+        [&](Control* control) { pdist(many, slow, out.data(), {1}, control); },
+        [&](Control* control) { pdist(many, slow, out.data(), {3}, control); },
+        [&](Control* control) { Prepared(P, slow)(P, control); },
+    };
+    for (std::size_t c = 0; c < calls.size(); ++c) {
+        const check::Note note("call " + std::to_string(c));
+        Control by_report([](std::int64_t, std::int64_t) { return false; },
+                          std::chrono::milliseconds(1));
+        CHECK_THROWS(calls[c](&by_report), Stopped, "stopped before the work was done");
+        Control by_thread;
+        std::thread other([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            by_thread.stop();
+        });
+        CHECK_THROWS(calls[c](&by_thread), Stopped, "stopped before the work was done");
+        other.join();
+        CHECK(by_thread.done() < by_thread.total());
+    }
+}
+
+}  // namespace
+
+int main() {
+    return check::run({{"batches equal single calls", batches_equal_single_calls},
+                       {"prepared equals single calls", prepared_equals_single_calls},
+                       {"symmetry is known", symmetry_is_known},
+                       {"cutoff gives infinity", cutoff_gives_infinity},
+                       {"errors name the curve", errors_name_the_curve},
+                       {"reports go up to the total", reports_go_up_to_the_total},
+                       {"a stopped call throws", a_stopped_call_throws}});
+}

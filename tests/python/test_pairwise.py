@@ -1,0 +1,435 @@
+"""cdist, pdist and Prepared against the measures' own functions, to the bit."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Callable
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import curvewise
+
+CASES: list[tuple[str, dict[str, Any]]] = [
+    ("dtw", {}),
+    ("dtw", {"metric": "minkowski", "p": 3}),
+    ("dtw", {"step_pattern": "symmetric2"}),
+    ("dtw", {"window": 40}),
+    ("dtw", {"open_begin": True, "open_end": True}),
+    ("frechet", {}),
+    ("frechet", {"metric": "cityblock"}),
+    ("area", {}),
+    ("area", {"spacing": "arc_length", "crossing": "split", "squared": True}),
+    ("pcm", {}),
+    ("pcm", {"offsets": "continuous"}),
+    ("curve_length", {"scale": "range"}),
+]
+SYMMETRIC = [
+    (measure, options)
+    for measure, options in CASES
+    if measure not in ("pcm", "curve_length")
+    and "open_end" not in options
+    and options.get("spacing") != "arc_length"
+]
+WORKERS = [1, 2, 5, -1]
+
+
+def random_walk(n: int, dim: int = 2, seed: int = 0) -> np.ndarray:
+    return np.random.default_rng([n, dim, seed]).normal(size=(n, dim)).cumsum(axis=0)
+
+
+@pytest.fixture(scope="module")
+def curves() -> list[np.ndarray]:
+    """Ragged, of any size around a SIMD vector and a strip, and in any order."""
+    sizes = [17, 2, 64, 300, 5, 33, 8, 257, 3, 9, 128, 40]
+    return [random_walk(n, seed=seed) for seed, n in enumerate(sizes)]
+
+
+def one_by_one(measure: str, XA: Any, XB: Any, options: dict[str, Any]) -> np.ndarray:
+    function = getattr(curvewise, measure)
+    return np.array([[function(P, Q, **options) for Q in XB] for P in XA])
+
+
+@pytest.mark.parametrize(("measure", "options"), CASES)
+def test_cdist_is_every_pair(measure, options, curves):
+    XA, XB = curves[:7], curves[4:]
+    expected = one_by_one(measure, XA, XB, options)
+    for workers in WORKERS:
+        actual = curvewise.cdist(XA, XB, measure, workers=workers, **options)
+        np.testing.assert_array_equal(actual, expected)
+
+
+@pytest.mark.parametrize(("measure", "options"), CASES)
+def test_cdist_of_one_list(measure, options, curves):
+    expected = one_by_one(measure, curves, curves, options)
+    if (measure, options) in SYMMETRIC:
+        expected = np.triu(expected) + np.triu(expected, 1).T
+        np.testing.assert_array_equal(np.diag(expected), 0.0)
+    for workers in WORKERS:
+        actual = curvewise.cdist(curves, measure=measure, workers=workers, **options)
+        np.testing.assert_array_equal(actual, expected)
+
+
+@pytest.mark.parametrize(("measure", "options"), SYMMETRIC)
+def test_pdist_is_the_upper_triangle(measure, options, curves):
+    function = getattr(curvewise, measure)
+    expected = [function(P, Q, **options) for P, Q in combinations(curves, 2)]
+    for workers in WORKERS:
+        actual = curvewise.pdist(curves, measure, workers=workers, **options)
+        np.testing.assert_array_equal(actual, expected)
+
+
+def test_many_pairs_fill_whole_tiles():
+    X = [random_walk(2 + k % 13, seed=k) for k in range(150)]
+    matrix = curvewise.cdist(X, X, "frechet", workers=3)
+    condensed = curvewise.pdist(X, "frechet", workers=2)
+    np.testing.assert_array_equal(condensed, matrix[np.triu_indices(len(X), 1)])
+    for i, j in [(0, 0), (149, 0), (31, 32), (32, 31), (77, 140)]:
+        assert matrix[i, j] == curvewise.frechet(X[i], X[j])
+
+
+def test_pair_that_all_threads_sweep_together():
+    """One pair of 36 million cells among small ones: more than 2^23 for each of two threads."""
+    X = [random_walk(6000), random_walk(10), random_walk(6001), random_walk(30)]
+    expected = one_by_one("frechet", X, X, {})
+    np.testing.assert_array_equal(curvewise.cdist(X, X, "frechet", workers=2), expected)
+    expected_pairs = expected[np.triu_indices(4, 1)]
+    np.testing.assert_array_equal(curvewise.pdist(X, "frechet", workers=2), expected_pairs)
+
+
+@pytest.mark.parametrize("dim", [1, 2, 3, 4, 7])
+def test_dimensions_and_layouts(dim):
+    X = np.random.default_rng(dim).normal(size=(6, 20, dim))
+    expected = one_by_one("dtw", X, X, {})
+    layouts = [
+        X,
+        np.asfortranarray(X),
+        X.astype(">f8"),
+        list(X),
+        tuple(curve.tolist() for curve in X),
+        np.repeat(X, 2, axis=1)[:, ::2],
+        X[::-1][::-1],
+    ]
+    for layout in layouts:
+        np.testing.assert_array_equal(curvewise.cdist(layout, X), expected)
+    flat = [curve[:, 0] for curve in X]
+    np.testing.assert_array_equal(curvewise.pdist(flat), curvewise.pdist(X[:, :, :1]))
+
+
+def test_values_out_of_the_range_of_squares():
+    X = [random_walk(20, seed=k) * scale for k, scale in enumerate([1.0, 1e200, 1e-200, 1e300])]
+    np.testing.assert_array_equal(curvewise.cdist(X, X, workers=2), one_by_one("dtw", X, X, {}))
+
+
+@pytest.mark.parametrize(("measure", "options"), CASES)
+@pytest.mark.parametrize("quantile", [0.0, 0.3, 1.0])
+def test_cutoff(measure, options, quantile, curves):
+    values = curvewise.cdist(curves, curves, measure, **options)
+    cutoff = float(np.quantile(values, quantile))
+    expected = np.where(values > cutoff, np.inf, values)
+    for workers in (1, 2):
+        actual = curvewise.cdist(curves, curves, measure, cutoff=cutoff, workers=workers, **options)
+        np.testing.assert_array_equal(actual, expected)
+
+
+@pytest.mark.parametrize("measure", ["dtw", "frechet"])
+def test_cutoff_between_rows_of_strips(measure):
+    """Pairs of several strips whose ends touch: given up in the middle, or not, by the value."""
+    loops = [
+        np.column_stack((np.sin(t := np.linspace(0, 6.28, n)) * size, np.cos(t) * size - size))
+        for n, size in [(900, 1.0), (1000, 1.5), (700, 2.0), (800, 1.0001)]
+    ]
+    values = curvewise.pdist(loops, measure)
+    for cutoff in [*values, *np.nextafter(values, 0), 0.0, 1e-300, 1e300]:
+        expected = np.where(values > cutoff, np.inf, values)
+        np.testing.assert_array_equal(curvewise.pdist(loops, measure, cutoff=cutoff), expected)
+
+
+def test_out_is_filled_and_returned(curves):
+    out = np.full((len(curves), 3), np.nan)
+    assert curvewise.cdist(curves, curves[:3], out=out) is out
+    np.testing.assert_array_equal(out, curvewise.cdist(curves, curves[:3]))
+    condensed = np.full(3, np.nan)
+    assert curvewise.pdist(curves[:3], out=condensed) is condensed
+
+
+def test_no_curves():
+    X = [random_walk(3)]
+    assert curvewise.cdist([], X).shape == (0, 1)
+    assert curvewise.cdist(X, []).shape == (1, 0)
+    assert curvewise.cdist([]).shape == (0, 0)
+    assert curvewise.pdist([]).shape == (0,)
+    assert curvewise.pdist(X).shape == (0,)
+    assert curvewise.Prepared(X[0])([]).shape == (0,)
+
+
+def test_callable_measure(curves):
+    def gap(P, Q, *, scale=1.0):
+        return scale * abs(len(P) - len(Q))
+
+    sizes = np.array([len(curve) for curve in curves], dtype=float)
+    expected = np.abs(sizes[:, None] - sizes)
+    np.testing.assert_array_equal(curvewise.cdist(curves, measure=gap), expected)
+    np.testing.assert_array_equal(curvewise.cdist(curves, curves[:2], gap), expected[:, :2])
+    np.testing.assert_array_equal(
+        curvewise.pdist(curves, gap, scale=2.0, cutoff=50.0),
+        [2 * v if 2 * v <= 50 else np.inf for v in expected[np.triu_indices(len(curves), 1)]],
+    )
+
+
+def test_callable_may_return_nan(curves):
+    assert np.isnan(curvewise.pdist(curves[:2], lambda P, Q: np.nan)).all()
+
+
+@pytest.mark.parametrize(("measure", "options"), CASES)
+def test_prepared(measure, options, curves):
+    for P in (curves[0], curves[3]):
+        prepared = curvewise.Prepared(P, measure, **options)
+        expected = one_by_one(measure, [P], curves, options)[0]
+        assert [prepared(Q) for Q in curves] == expected.tolist()
+        for workers in WORKERS:
+            np.testing.assert_array_equal(prepared(curves, workers=workers), expected)
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(prepared))(curves), expected)
+
+
+def test_prepared_keeps_a_copy_of_the_reference():
+    P, Q = random_walk(30), random_walk(20, seed=1)
+    prepared = curvewise.Prepared(P, "pcm")
+    before = prepared(Q)
+    P[:] = 0.0
+    assert prepared(Q) == before
+
+
+def test_prepared_tells_one_curve_from_a_list():
+    plane = curvewise.Prepared([(0, 0), (1, 1)], "dtw")
+    assert plane([(0, 0), (1, 1)]) == 0.0
+    assert plane([[(0, 0), (1, 1)]]).tolist() == [0.0]
+    assert plane(np.zeros((3, 5, 2))).shape == (3,)
+    flat = curvewise.Prepared([0, 1], "dtw")
+    assert flat([0, 1]) == 0.0
+    assert flat([[0, 1], [0, 1, 1]]).tolist() == [0.0, 0.0]
+
+
+def test_prepared_repr():
+    prepared = curvewise.Prepared([(0, 0), (1, 1)], "dtw", window=3)
+    assert repr(prepared) == "Prepared(<P of shape (2, 2)>, 'dtw', window=3)"
+
+
+GOOD = [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)]
+BAD: list[tuple[Callable[[], object], type[Exception], str]] = [
+    (
+        lambda: curvewise.cdist([GOOD, [(0, 0), (1, np.nan)]], [GOOD]),
+        ValueError,
+        "XA[1][1, 1] is nan; curves must be finite",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], [GOOD, GOOD, [(np.inf, 0)]]),
+        ValueError,
+        "XB[2][0, 0] is inf; curves must be finite",
+    ),
+    (
+        lambda: curvewise.pdist([[1.0, 2.0], [1.0, -np.inf]]),
+        ValueError,
+        "X[1][1] is -inf; curves must be finite",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], [GOOD, [(0, 0, 0)]]),
+        ValueError,
+        "XA[0] has shape (3, 2) and XB[1] has shape (1, 3); "
+        "both need the same number of coordinates",
+    ),
+    (
+        lambda: curvewise.pdist([GOOD, [1.0, 2.0]]),
+        ValueError,
+        "X[0] has shape (3, 2) and X[1] has shape (2,); both need the same number of coordinates",
+    ),
+    (
+        lambda: curvewise.pdist([GOOD, np.zeros((0, 2))], "frechet"),
+        ValueError,
+        "X[1] has shape (0, 2); frechet needs at least 1 point",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], [GOOD, GOOD[:1]], "area"),
+        ValueError,
+        "XB[1] has shape (1, 2); area needs at least 2 points",
+    ),
+    (
+        lambda: curvewise.cdist([[(0, 0, 0), (1, 1, 1)]], measure="pcm"),
+        ValueError,
+        "XA[0] has shape (2, 3); pcm needs 2 coordinates, x and y",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD, [(1, 1), (1, 1)]], [GOOD], "pcm"),
+        ValueError,
+        "XA[1] has zero length (all its points are equal); pcm needs two different points",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], [GOOD, [(1, 1), (1, 1)]], "pcm"),
+        ValueError,
+        "XB[1] has zero length (all its points are equal); pcm needs two different points",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], [[(1, 1), (1, 1)]], "curve_length"),
+        ValueError,
+        "XB[0] has zero length (all its points are equal); curve_length needs two different points",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD, [(-1, 1), (1, 1)]], [GOOD], "curve_length"),
+        ValueError,
+        "the mean of XA[1]'s x is 0 to rounding; use scale='mean_abs' or scale='range'",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], [GOOD[:2]], window=0),
+        ValueError,
+        "window=0 admits no path between 3 and 2 points; use at least 1",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], metric="manhattan"),
+        ValueError,
+        "unknown metric 'manhattan'; choose from euclidean, sqeuclidean, cityblock, chebyshev, "
+        "minkowski",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], [GOOD], "euclidean"),
+        ValueError,
+        "'euclidean' is a ground distance, between points; the measure is of curves, one of area, "
+        "curve_length, dtw, frechet, pcm: use measure='dtw', metric='euclidean' for example",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], [GOOD], metric="dtw"),
+        ValueError,
+        "'dtw' is a measure, of curves; the metric is the ground distance between their points, "
+        "one of euclidean, sqeuclidean, cityblock, chebyshev, minkowski: use measure='dtw'",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], measure="hausdorff"),
+        ValueError,
+        "unknown measure 'hausdorff'; choose from area, curve_length, dtw, frechet, pcm",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], measure="frechet", window=3),
+        TypeError,
+        "frechet has no option 'window'; it has metric, p",
+    ),
+    (
+        lambda: curvewise.pdist([GOOD], "curve_length", scale="range"),
+        ValueError,
+        "pdist needs a symmetric measure, and 'curve_length', scale='range' is not: use cdist, "
+        "which computes both directions",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], workers=0),
+        ValueError,
+        "workers is 0; give a whole number >= 1, or -1 for all cores",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], cutoff=-1.0),
+        ValueError,
+        "cutoff is -1.0; give a number >= 0, or None",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], cutoff=np.nan),
+        ValueError,
+        "cutoff is nan; give a number >= 0, or None",
+    ),
+    (
+        lambda: curvewise.cdist(np.zeros((4, 2))),
+        ValueError,
+        "XA has 2 array dimensions; give k curves as shape (k, n, d) or as a list: [XA] for a "
+        "single curve, list(XA) for k curves with d = 1",
+    ),
+    (
+        lambda: curvewise.cdist(pd.DataFrame({"x": [0.0, 1.0], "y": [0.0, 1.0]})),
+        ValueError,
+        "XA has 2 array dimensions; give k curves as shape (k, n, d) or as a list: [XA] for a "
+        "single curve, list(XA) for k curves with d = 1",
+    ),
+    (
+        lambda: curvewise.cdist("curves.csv"),
+        TypeError,
+        "XA is of type str; give a list of curves",
+    ),
+    (lambda: curvewise.cdist(3), TypeError, "XA is of type int; give a list of curves"),
+    (
+        lambda: curvewise.cdist([GOOD], [[1j, 2j]]),
+        TypeError,
+        "XB[0] is complex; a curve is real: give real and imaginary as columns",
+    ),
+    (
+        lambda: curvewise.pdist(
+            [pd.DataFrame({"x": [0.0, 1.0]}), pd.DataFrame({"stress": [0.0, 1.0]})]
+        ),
+        ValueError,
+        "X[0] has columns ['x'] and X[1] has columns ['stress']; name and order them alike",
+    ),
+    (
+        lambda: curvewise.cdist(
+            [pd.DataFrame({"x": [0.0, 1.0]})], [pd.DataFrame({"stress": [0.0, 1.0]})]
+        ),
+        ValueError,
+        "XA[0] has columns ['x'] and XB[0] has columns ['stress']; name and order them alike",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], out=[[0.0]]),
+        TypeError,
+        "out is of type list; give a numpy array",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD], out=np.empty((2, 2))),
+        ValueError,
+        "out has shape (2, 2); cdist of these curves needs (1, 1)",
+    ),
+    (
+        lambda: curvewise.pdist([GOOD, GOOD], out=np.empty(1, dtype=np.float32)),
+        ValueError,
+        "out has dtype <f4; pdist needs float64",
+    ),
+    (
+        lambda: curvewise.cdist([GOOD, GOOD], out=np.empty((2, 2), order="F")),
+        ValueError,
+        "out must be C-contiguous, aligned and writeable; cdist fills it",
+    ),
+    (
+        lambda: curvewise.Prepared([(0.0, np.nan)]),
+        ValueError,
+        "P[0, 1] is nan; curves must be finite",
+    ),
+    (
+        lambda: curvewise.Prepared(GOOD, "dtw")([(0.0, 1.0, 2.0)]),
+        ValueError,
+        "P has shape (3, 2) and Q has shape (1, 3); both need the same number of coordinates",
+    ),
+    (
+        lambda: curvewise.Prepared(GOOD, "area")([GOOD, GOOD[:1]]),
+        ValueError,
+        "Q[1] has shape (1, 2); area needs at least 2 points",
+    ),
+    (
+        lambda: curvewise.Prepared([(-1, 1), (1, 1)], "curve_length"),
+        ValueError,
+        "the mean of P's x is 0 to rounding; use scale='mean_abs' or scale='range'",
+    ),
+    (
+        lambda: curvewise.Prepared(GOOD, lambda P, Q: 0.0),
+        ValueError,
+        "unknown measure <function",
+    ),
+]
+
+
+@pytest.mark.parametrize(("call", "error", "message"), BAD)
+def test_errors(call, error, message):
+    with pytest.raises(error) as caught:
+        call()
+    text = str(caught.value)
+    assert text.startswith(message) if message.endswith("<function") else text == message
+
+
+def test_out_of_a_read_only_array():
+    out = np.empty((1, 1))
+    out.flags.writeable = False
+    with pytest.raises(ValueError, match="out must be C-contiguous, aligned and writeable"):
+        curvewise.cdist([GOOD], out=out)
