@@ -1,0 +1,236 @@
+"""One measure between many curves, on any scheduler of dask: threads, processes, a cluster.
+
+The matrix of :func:`curvewise.cdist` is cut into blocks. A block is one call of curvewise.cdist for
+some rows and columns, made wherever dask makes it; without XB, a block of a symmetric measure below
+the diagonal is the transpose of the one above. Since a value depends on its two curves alone, the
+blocks change no bit, and a block that is lost with its worker is simply computed again. Cost: that
+of the local matrix, and about a millisecond a block for dask's scheduler. The curves go into the
+graph once, in pieces of a block's rows or columns.
+"""
+
+from __future__ import annotations
+
+import itertools
+import operator
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, SupportsFloat, SupportsIndex
+
+import numpy as np
+
+from . import _core, pairwise
+from ._curves import Array, as_curve_list
+from .pairwise import Curves, Measure
+
+try:
+    # Absolute, so these are the packages of that name and not this module.
+    import dask.array as dask_array
+    from dask.base import tokenize
+    from dask.highlevelgraph import HighLevelGraph
+except ImportError as error:
+    raise ImportError('curvewise.dask needs dask: pip install "curvewise[dask]"') from error
+
+__all__ = ["cdist"]
+
+# Points of the curves of a block's rows, and of its columns, where the caller does not say: 10^9
+# cells of dtw or frechet, about a second, which is long beside what a block costs the scheduler.
+_BLOCK_POINTS = 32_000
+_LOCAL_ONLY = ("out", "progress", "workers")
+
+
+def cdist(
+    XA: Curves,
+    XB: Curves | None = None,
+    measure: Measure = "dtw",
+    *,
+    block: SupportsIndex | None = None,
+    cutoff: SupportsFloat | None = None,
+    **options: Any,
+) -> dask_array.Array:
+    """Compute a measure between every curve of one list and every curve of another, with dask.
+
+    Parameters
+    ----------
+    XA, XB, measure, cutoff, **options
+        As for :func:`curvewise.cdist`. A callable must be one that the scheduler's workers can
+        unpickle; cloudpickle takes lambdas to them too.
+    block : int, optional
+        Curves per block, at least 1: a block has so many rows and columns. If not given, as many
+        as have some 32,000 points: about a second of dtw or frechet a block.
+
+    Returns
+    -------
+    dask.array.Array, shape (k, l)
+        Lazy: ``.compute()`` runs it on the scheduler in use. Entry (i, j) has the bits that
+        :func:`curvewise.cdist` gives it.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`curvewise.cdist`, at once and not when the blocks are computed (but for a
+        `window` that admits no path); a `block` below 1; one of `out`, `progress` and `workers`.
+    ImportError
+        dask is not installed: ``pip install "curvewise[dask]"``.
+
+    Notes
+    -----
+    Time: that of curvewise.cdist, shared by the scheduler's workers, and some milliseconds a
+    block. Each block runs on one thread and releases the interpreter's lock, so that dask's threads
+    serve as well as its processes. Memory: the graph holds a copy of the curves; a worker holds
+    those of its blocks. A cluster warns of a graph above 10 MB
+    (``distributed.admin.large-graph-warning-threshold``), which then has only its curves to send,
+    once. The bar of ``dask.diagnostics.ProgressBar`` or the cluster's dashboard show the progress.
+    A block is not interrupted; cancelling waits for those that have begun.
+
+    Examples
+    --------
+    >>> import curvewise.dask
+    >>> curves = [[0, 1, 2, 3], [0, 0, 3, 3], [0, 3, 0]]
+    >>> lazy = curvewise.dask.cdist(curves, measure="dtw", block=2)
+    >>> lazy.chunks
+    ((2, 1), (2, 1))
+    >>> lazy.compute(scheduler="threads").tolist()
+    [[0.0, 2.0, 5.0], [2.0, 0.0, 3.0], [5.0, 3.0, 0.0]]
+    """
+    rows = as_curve_list(XA, "XA")
+    columns = rows if XB is None else as_curve_list(XB, "XB", like=XA)
+    limit = pairwise._checked_cutoff(cutoff)
+    _refuse_local_only(options)
+    mirrored = False
+    if not callable(measure):
+        name, values = pairwise._named(measure, options)
+        mirrored = _core.is_symmetric(name, values) and XB is None  # it checks the values too
+        _check_curves(rows, None if XB is None else columns, name, options)
+    size = _block_size(block, rows, columns)
+    token = tokenize(rows, columns, measure, limit, options, size, mirrored)
+    compute = partial(_block, measure=measure, cutoff=limit, options=options)
+    return _blocks(_Pieces(rows, size), _Pieces(columns, size), token, compute, mirrored)
+
+
+class _Pieces:
+    """A list of curves cut into pieces of `size` curves, and at least one piece."""
+
+    def __init__(self, curves: list[Array], size: int) -> None:
+        self._curves = curves
+        self._starts = range(0, max(len(curves), 1), size)
+
+    @property
+    def lengths(self) -> tuple[int, ...]:
+        """The number of curves of each piece."""
+        return tuple(len(self._curves[part]) for part in self._slices())
+
+    def packed(self) -> list[_Piece]:
+        """Return the pieces, copied: what the caller does to his arrays later changes nothing."""
+        return [_Piece([curve.copy() for curve in self._curves[part]]) for part in self._slices()]
+
+    def _slices(self) -> list[slice]:
+        return [slice(start, start + self._starts.step) for start in self._starts]
+
+
+class _Piece:
+    """Some curves as one object of a graph, in which dask looks for no tasks."""
+
+    __slots__ = ("curves",)
+
+    def __init__(self, curves: list[Array]) -> None:
+        self.curves = curves
+
+    def __sizeof__(self) -> int:
+        return object.__sizeof__(self) + sum(curve.nbytes for curve in self.curves)
+
+
+def _blocks(
+    rows: _Pieces, columns: _Pieces, token: str, compute: partial[Array], mirrored: bool
+) -> dask_array.Array:
+    """Return the lazy matrix: a task for each piece of curves, and one for each block.
+
+    The graph is written out, since no function of dask.array leaves blocks to their transposes:
+    see "Custom graphs" in dask's documentation.
+    """
+    name, P, Q = (f"{part}-{token}" for part in ("cdist", "cdist-P", "cdist-Q"))
+    graph: dict[Any, Any] = {(P, a): piece for a, piece in enumerate(rows.packed())}
+    if mirrored:
+        Q = P
+    else:
+        graph |= {(Q, b): piece for b, piece in enumerate(columns.packed())}
+    chunks = (rows.lengths, columns.lengths)
+    for a, b in itertools.product(*(range(len(lengths)) for lengths in chunks)):
+        if mirrored and a > b:
+            graph[name, a, b] = (np.transpose, (name, b, a))
+        elif mirrored and a == b:
+            graph[name, a, b] = (compute, (P, a))
+        else:
+            graph[name, a, b] = (compute, (P, a), (Q, b))
+    layers = HighLevelGraph.from_collections(name, graph)
+    # The constructor has no annotations of dask's.
+    array: Callable[..., dask_array.Array] = dask_array.Array
+    return array(layers, name, chunks, dtype=np.float64)
+
+
+def _block(
+    rows: _Piece,
+    columns: _Piece | None = None,
+    *,
+    measure: Measure,
+    cutoff: float,
+    options: dict[str, Any],
+) -> Array:
+    """Compute a block; without columns one of the diagonal, each of its pairs once."""
+    others = None if columns is None else columns.curves
+    return pairwise.cdist(rows.curves, others, measure, cutoff=cutoff, **options)
+
+
+def _block_size(
+    block: SupportsIndex | None, rows: Sequence[Array], columns: Sequence[Array]
+) -> int:
+    if block is None:
+        count = len(rows) + len(columns)
+        points = sum(map(len, rows)) + sum(map(len, columns))
+        return max(1, _BLOCK_POINTS * count // max(points, 1))
+    try:
+        size = operator.index(block)
+    except TypeError:
+        size = 0
+    if size < 1 or isinstance(block, bool):
+        raise ValueError(f"block is {block!r}; give a whole number >= 1, or None")
+    return size
+
+
+def _refuse_local_only(options: dict[str, Any]) -> None:
+    for name in _LOCAL_ONLY:
+        if name in options:
+            raise TypeError(
+                f"curvewise.dask.cdist has no {name!r}: the scheduler runs the blocks, shows how "
+                "far they are and holds the result"
+            )
+
+
+def _check_curves(
+    rows: list[Array], columns: list[Array] | None, measure: str, options: dict[str, Any]
+) -> None:
+    """Refuse what a block would refuse, which cannot say where in the whole list the curve is.
+
+    The compiled library checks whatever it computes; so each curve is compared with a line of two
+    points, in linear time.
+    """
+    if not rows or columns == []:
+        return
+    dim = _dimension(rows[0])
+    line = np.array([np.zeros(dim), np.ones(dim)])
+    # Neither a band, which a line does not fit, nor a long search.
+    cheap = {"window": None} if measure == "dtw" else {"offsets": 1} if measure == "pcm" else {}
+    _, values = pairwise._named(measure, {**options, **cheap})
+    _core.cdist(rows, [line], measure, values, np.empty(len(rows)), 1, np.inf, None)
+    if columns is None:
+        return
+    for j, curve in enumerate(columns):
+        if _dimension(curve) != dim:
+            raise ValueError(
+                f"XA[0] has shape {rows[0].shape} and XB[{j}] has shape {curve.shape}; "
+                "both need the same number of coordinates"
+            )
+    _core.cdist([line], columns, measure, values, np.empty(len(columns)), 1, np.inf, None)
+
+
+def _dimension(curve: Array) -> int:
+    return 1 if curve.ndim == 1 else curve.shape[1]
