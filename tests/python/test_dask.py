@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -70,6 +72,15 @@ def test_blocks_have_the_bits_of_the_local_matrix(
         assert isinstance(lazy, dask.array.Array)
         assert (lazy.shape, lazy.dtype) == (local.shape, local.dtype)
         assert np.array_equal(lazy.compute(**THREADS), local)
+
+
+def test_the_earlier_curve_is_p_above_and_below_the_diagonal() -> None:
+    curves = walks(10, shortest=20, longest=21)
+    both = curvewise.cdist(curves, curves, "area", crossing="split")
+    assert (both != both.T).any()  # equal but for rounding, so that the order can be seen
+    lazy = curvewise.dask.cdist(curves, measure="area", crossing="split", block=7)
+    local = curvewise.cdist(curves, measure="area", crossing="split")
+    assert np.array_equal(lazy.compute(**THREADS), local)
 
 
 def test_blocks_in_processes() -> None:
@@ -169,6 +180,20 @@ def test_what_cdist_refuses_is_refused_at_once_in_its_words(arguments: dict[str,
     with pytest.raises(local.type) as lazy:
         curvewise.dask.cdist(**arguments)
     assert str(lazy.value) == str(local.value)
+
+
+def test_a_window_without_a_path_is_refused_by_the_block() -> None:
+    lazy = curvewise.dask.cdist(walks(3), window=0, block=2)
+    with pytest.raises(ValueError, match="window=0 admits no path between"):
+        lazy.compute(**THREADS)
+
+
+def test_without_dask() -> None:
+    code = "import sys; sys.modules['dask'] = None; import curvewise, curvewise.dask"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    last_line = done.stderr.strip().splitlines()[-1]
+    message = 'curvewise.dask needs dask: pip install "curvewise[dask]"'
+    assert last_line == f"ImportError: {message}"
 
 
 @pytest.mark.parametrize("block", [0, -1, 2.0, True, "3"])
