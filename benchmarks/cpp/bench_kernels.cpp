@@ -75,6 +75,7 @@ void time_sweep(const char* name, Recurrence recurrence, Metric metric, std::ptr
                                               detail::PointOrder::reversed);
             const detail::PackedPair curves{rows, columns};
             detail::Watch watch(nullptr);
+            detail::SweepMemory memory;
             const GroundDistance ground{metric};
             const detail::SweepProblem problem{*level.kernels,
                                                curves,
@@ -84,7 +85,8 @@ void time_sweep(const char* name, Recurrence recurrence, Metric metric, std::ptr
                                                detail::Band(n, n, std::nullopt),
                                                false,
                                                1,
-                                               watch};
+                                               watch,
+                                               memory};
             last_row(problem);
         });
     }

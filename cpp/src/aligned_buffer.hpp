@@ -1,5 +1,5 @@
 // Uninitialised storage for doubles, aligned to a cache line so that no SIMD load of a strip's
-// points crosses one.
+// points crosses one. May be used again and again: it grows, and forgets its content, on demand.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,16 @@ namespace curvewise::detail {
 
 class AlignedBuffer {
    public:
-    explicit AlignedBuffer(std::ptrdiff_t size)
-        : data_(static_cast<double*>(
-              ::operator new(static_cast<std::size_t>(size) * sizeof(double), line))) {}
+    AlignedBuffer() noexcept = default;
+    explicit AlignedBuffer(std::ptrdiff_t size) { reserve(size); }
+
+    // Room for `size` doubles, of any content.
+    void reserve(std::ptrdiff_t size) {
+        if (size <= size_) return;
+        data_.reset(static_cast<double*>(
+            ::operator new(static_cast<std::size_t>(size) * sizeof(double), line)));
+        size_ = size;
+    }
 
     double* data() noexcept { return data_.get(); }
     const double* data() const noexcept { return data_.get(); }
@@ -28,6 +35,7 @@ class AlignedBuffer {
         void operator()(double* data) const noexcept { ::operator delete(data, line); }
     };
     std::unique_ptr<double, Free> data_;
+    std::ptrdiff_t size_ = 0;
 };
 
 }  // namespace curvewise::detail

@@ -105,10 +105,10 @@ double area(const CurveView& P, const CurveView& Q, const AreaOptions& options, 
     return value;
 }
 
-double detail::AreaMeasure::operator()(const Reference& P, const Other& Q, double /*cutoff*/,
-                                       std::ptrdiff_t /*workers*/, Watch& watch) const {
+double detail::AreaMeasure::operator()(const Reference& P, const Other& Q,
+                                       const PairCall& call) const {
     const RangeScale range(std::max(P.checked.largest, Q.checked.largest));
-    return area_between(P.checked.curve, Q.checked.curve, range, options_, watch);
+    return area_between(P.checked.curve, Q.checked.curve, range, options_, call.watch);
 }
 
 AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& options,

@@ -175,9 +175,9 @@ void detail::CurveLengthMeasure::check_reference(const Reference& P) const {
     }
 }
 
-double detail::CurveLengthMeasure::operator()(const Reference& P, const Other& Q, double /*cutoff*/,
-                                              std::ptrdiff_t /*workers*/, Watch& watch) const {
-    return norm_of_residuals(P, Q, options_.scale, watch);
+double detail::CurveLengthMeasure::operator()(const Reference& P, const Other& Q,
+                                              const PairCall& call) const {
+    return norm_of_residuals(P, Q, options_.scale, call.watch);
 }
 
 void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,

@@ -28,11 +28,19 @@ struct CheckedCurve {
     std::string name;
 };
 
+// How a pair is computed.
+struct PairCall {
+    double cutoff;  // a value above it may come back as any other that is
+    std::ptrdiff_t workers;
+    Watch& watch;
+    SweepMemory& memory;
+};
+
 // dtw and frechet.
 class TableMeasure {
    public:
-    // Whether a pair's steps are counted by the watch while it is computed, not afterwards.
-    static constexpr bool counts_itself = true;
+    // Several threads may work on one pair, and the watch hears of its steps while they do.
+    static constexpr bool is_swept = true;
     struct Reference {
         explicit Reference(const CheckedCurve& P);
         CheckedCurve checked;
@@ -54,8 +62,7 @@ class TableMeasure {
                               std::int64_t points) noexcept {
         return n * points;
     }
-    double operator()(const Reference& P, const Other& Q, double cutoff, std::ptrdiff_t workers,
-                      Watch& watch) const;
+    double operator()(const Reference& P, const Other& Q, const PairCall& call) const;
 
    private:
     TableOptions options_;
@@ -64,7 +71,7 @@ class TableMeasure {
 // Measures of two curves in the plane, in time linear in their points.
 class PlanarMeasure {
    public:
-    static constexpr bool counts_itself = false;
+    static constexpr bool is_swept = false;
     explicit PlanarMeasure(const char* name) noexcept : needs_{name, 2, true} {}
     const Requirements& needs() const noexcept { return needs_; }
     void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) const noexcept {}
@@ -89,8 +96,7 @@ class AreaMeasure : public PlanarMeasure {
     using Other = Side;
 
     explicit AreaMeasure(const AreaOptions& options) : PlanarMeasure("area"), options_(options) {}
-    double operator()(const Reference& P, const Other& Q, double cutoff, std::ptrdiff_t workers,
-                      Watch& watch) const;
+    double operator()(const Reference& P, const Other& Q, const PairCall& call) const;
 
    private:
     AreaOptions options_;
@@ -110,8 +116,7 @@ class PcmMeasure : public PlanarMeasure {
     };
 
     explicit PcmMeasure(const PcmOptions& options);
-    double operator()(const Reference& P, const Other& Q, double cutoff, std::ptrdiff_t workers,
-                      Watch& watch) const;
+    double operator()(const Reference& P, const Other& Q, const PairCall& call) const;
 
    private:
     PcmOptions options_;
@@ -131,8 +136,7 @@ class CurveLengthMeasure : public PlanarMeasure {
         : PlanarMeasure("curve_length"), options_(options) {}
     // Throws where there is nothing to divide by.
     void check_reference(const Reference& P) const;
-    double operator()(const Reference& P, const Other& Q, double cutoff, std::ptrdiff_t workers,
-                      Watch& watch) const;
+    double operator()(const Reference& P, const Other& Q, const PairCall& call) const;
 
    private:
     CurveLengthOptions options_;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "curvewise/pairwise.hpp"
+#include "pair_measures.hpp"
 #include "pair_tiles.hpp"
 #include "watch.hpp"
 #include "workers.hpp"
@@ -61,7 +62,9 @@ class PairRun {
           cutoff_(options.cutoff) {}
 
     void run(Watch& watch) {
-        if (workers_ > 1) run_giants(watch);
+        if constexpr (Measure::is_swept) {
+            if (workers_ > 1) run_giants(watch);
+        }
         const auto useful = static_cast<std::ptrdiff_t>(tiles_.tiles().size());
         run_workers(std::min(workers_, useful), watch,
                     [this](std::ptrdiff_t /*w*/, Watch& own) { take_tiles(own); });
@@ -70,8 +73,7 @@ class PairRun {
 
    private:
     // A pair of at least this many steps a thread is worth sweeping by all threads at once, if
-    // there are too few of them to keep every thread busy to the end. (The measures that take
-    // linear time have no such pairs within reach.)
+    // there are too few of them to keep every thread busy to the end.
     static constexpr std::int64_t giant_cells_per_worker = std::int64_t{1} << 23;
     static constexpr std::size_t few = 8;  // a thread
 
@@ -87,10 +89,9 @@ class PairRun {
         return side.checked.curve.size();
     }
 
-    double value(std::ptrdiff_t i, std::ptrdiff_t j, std::ptrdiff_t workers, Watch& watch) const {
-        const double found =
-            measure_(rows_[static_cast<std::size_t>(i)], columns_[static_cast<std::size_t>(j)],
-                     cutoff_, workers, watch);
+    double value(std::ptrdiff_t i, std::ptrdiff_t j, const PairCall& call) const {
+        const double found = measure_(rows_[static_cast<std::size_t>(i)],
+                                      columns_[static_cast<std::size_t>(j)], call);
         return found > cutoff_ ? std::numeric_limits<double>::infinity() : found;
     }
 
@@ -99,29 +100,30 @@ class PairRun {
         giant_ = giant_cells_per_worker * workers_;
         const std::size_t most = few * static_cast<std::size_t>(workers_);
         for (const Tile& tile : tiles_.tiles()) {
-            const std::size_t before = giants.size();
+            if (tile.largest < giant_ || giants.size() > most) break;
             tiles_.for_each(tile, [&](std::ptrdiff_t i, std::ptrdiff_t j) {
                 if (is_giant(i, j)) giants.emplace_back(i, j);
                 return giants.size() <= most;
             });
-            // A tile's first pair is its largest, and every tile's is at most that of the last.
-            if (giants.size() == before || giants.size() > most) break;
         }
         if (giants.size() > most) giants.clear();
         if (giants.empty()) giant_ = no_giant;
+        SweepMemory memory;
         for (const auto& [i, j] : giants) {
-            destination_.write(i, j, value(i, j, workers_, watch));
+            destination_.write(i, j, value(i, j, {cutoff_, workers_, watch, memory}));
         }
     }
 
     void take_tiles(Watch& watch) noexcept {
         try {
+            SweepMemory memory;
+            const PairCall call{cutoff_, 1, watch, memory};
             const std::vector<Tile>& tiles = tiles_.tiles();
             for (std::size_t t = next_++; t < tiles.size() && !has_failed_; t = next_++) {
                 tiles_.for_each(tiles[t], [&](std::ptrdiff_t i, std::ptrdiff_t j) {
                     if (is_giant(i, j)) return true;
-                    destination_.write(i, j, value(i, j, 1, watch));
-                    if (Measure::counts_itself ? watch.stopped() : watch.step(steps(i, j))) {
+                    destination_.write(i, j, value(i, j, call));
+                    if (Measure::is_swept ? watch.stopped() : watch.step(steps(i, j))) {
                         throw Stopped();
                     }
                     return true;

@@ -11,7 +11,7 @@ namespace {
 // large enough for its curves to be used again while they are in the cache.
 constexpr double tiles_per_worker = 64.0;
 constexpr double max_edge = 32.0;
-constexpr double max_tiles = 1e6;
+constexpr double max_tiles = 2e5;
 
 std::vector<std::ptrdiff_t> largest_first(const Sizes& sizes) {
     std::vector<std::ptrdiff_t> order(sizes.size());
@@ -56,21 +56,20 @@ PairTiles::PairTiles(const Sizes& rows, const Sizes& columns, PairSet set, Steps
     const double share = set == PairSet::triangle ? 0.5 : 1.0;
     const std::ptrdiff_t edge =
         tile_edge(share * static_cast<double>(height) * static_cast<double>(width), workers);
+    const auto points = [](const Sizes& sizes, const std::vector<std::ptrdiff_t>& order,
+                           std::ptrdiff_t position) {
+        return sizes[static_cast<std::size_t>(order[static_cast<std::size_t>(position)])];
+    };
     for (std::ptrdiff_t row = 0; row < height; row += edge) {
         const std::ptrdiff_t first = set == PairSet::triangle ? row : 0;
         for (std::ptrdiff_t column = first; column < width; column += edge) {
             tiles_.push_back(
-                {row, std::min(row + edge, height), column, std::min(column + edge, width)});
+                {row, std::min(row + edge, height), column, std::min(column + edge, width),
+                 steps(points(rows, rows_, row), 1, points(columns, columns_, column))});
         }
     }
-    const auto largest_pair = [&](const Tile& tile) {
-        return steps(
-            rows[static_cast<std::size_t>(rows_[static_cast<std::size_t>(tile.row)])], 1,
-            columns[static_cast<std::size_t>(columns_[static_cast<std::size_t>(tile.column)])]);
-    };
-    std::stable_sort(tiles_.begin(), tiles_.end(), [&](const Tile& a, const Tile& b) {
-        return largest_pair(a) > largest_pair(b);
-    });
+    std::stable_sort(tiles_.begin(), tiles_.end(),
+                     [](const Tile& a, const Tile& b) { return a.largest > b.largest; });
 }
 
 }  // namespace curvewise::detail

@@ -1,7 +1,7 @@
 // The pairs of a batch in the order in which threads take them: tiles of neighbours in lists sorted
 // by size, so that a tile's pairs cost about the same and its curves stay in the cache; the most
 // expensive tile first, so that the last ones to finish are cheap. O(k log k) time for k curves,
-// and memory for at most a million tiles.
+// and memory for some 10^5 tiles.
 #pragma once
 
 #include <cstddef>
@@ -17,10 +17,12 @@ enum class PairSet {
     triangle    // every two different curves of one list, which is rows and columns
 };
 
-// Positions in the sorted lists, the ends not included.
+// Positions in the sorted lists, the ends not included; and the work of the largest pair, or (on
+// the diagonal of a triangle) a little more.
 struct Tile {
     std::ptrdiff_t row, row_end;
     std::ptrdiff_t column, column_end;
+    std::int64_t largest;
 };
 
 class PairTiles {

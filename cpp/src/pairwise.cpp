@@ -259,7 +259,8 @@ class PreparedMeasure final : public Prepared::State {
         measure_.check_sizes(P_.size(), Q.size());
         Watch watch(control);
         watch.begin(M::steps(P_.size(), 1, Q.size()));
-        const double value = measure_(rows_[0], other, infinity, 1, watch);
+        detail::SweepMemory memory;
+        const double value = measure_(rows_[0], other, {infinity, 1, watch, memory});
         watch.finish();
         return value;
     }

@@ -87,19 +87,20 @@ detail::PcmMeasure::Reference::Reference(const CheckedCurve& P)
 detail::PcmMeasure::PcmMeasure(const PcmOptions& options)
     : PlanarMeasure("pcm"), options_((check_options(options), options)) {}
 
-double detail::PcmMeasure::operator()(const Reference& P, const Other& Q, double /*cutoff*/,
-                                      std::ptrdiff_t /*workers*/, Watch& watch) const {
+double detail::PcmMeasure::operator()(const Reference& P, const Other& Q,
+                                      const PairCall& call) const {
     const ArcCurve q = scaled_other(Q.checked, P.box);
-    return best_offset(Roles(P.scaled, q), options_, watch).area;
+    return best_offset(Roles(P.scaled, q), options_, call.watch).area;
 }
 
 double pcm(const CurveView& P, const CurveView& Q, const PcmOptions& options, Control* control) {
-    const PcmMeasure measure(options);
-    detail::check_pair(P, Q, measure.needs());
+    check_options(options);
+    detail::check_pair(P, Q, {"pcm", 2, true});
     detail::Watch watch(control);
     watch.begin(P.size() + Q.size());
     const PcmMeasure::Reference p({P, 0.0, "P"});
-    const double value = measure(p, PcmMeasure::Other({Q, 0.0, "Q"}), 0.0, 1, watch);
+    const ArcCurve q = scaled_other({Q, 0.0, "Q"}, p.box);
+    const double value = best_offset(Roles(p.scaled, q), options, watch).area;
     watch.finish();
     return value;
 }

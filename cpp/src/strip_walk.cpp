@@ -57,15 +57,17 @@ ColumnRange StripPlan::columns(std::ptrdiff_t row) const noexcept {
             std::min(range.last - region_.first_column, region_.columns - 1)};
 }
 
-StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary)
+StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, SweepMemory& memory)
     : plan_(&plan),
       starts_here_(starts_here),
       lane_stride_(AlignedBuffer::rounded(plan.height_ + 2 + kernels::padding)),
-      lanes_(2 * gap + lane_stride_ * (plan.output_ == kernels::Output::origins ? count : origins)),
-      columns_(static_cast<std::size_t>(2 * plan.height_)),
       advance_(plan.problem_->kernels.advance(plan.problem_->recurrence, plan.problem_->cost,
                                               plan.problem_->curves.dim(), plan.output_)),
       fill_(plan.problem_->kernels.fill(plan.problem_->cost)) {
+    memory.lanes.reserve(2 * gap + lane_stride_ * count);
+    memory.columns.resize(static_cast<std::size_t>(2 * plan.height_));
+    lanes_ = memory.lanes.data() + gap;
+    columns_ = memory.columns.data();
     const PackedPair& curves = plan.problem_->curves;
     const Region& region = plan.region_;
     strip_.p_stride = curves.p.stride();
@@ -74,8 +76,8 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary)
     strip_.dim = curves.dim();
     strip_.columns = region.columns;
     strip_.minkowski_p = plan.problem_->minkowski_p;
-    strip_.first_column = columns_.data();
-    strip_.last_column = columns_.data() + plan.height_;
+    strip_.first_column = columns_;
+    strip_.last_column = columns_ + plan.height_;
     strip_.boundary = boundary;
     strip_.origin_boundary = plan.destination_.origins;
     strip_.code_stride = plan.height_;
@@ -88,8 +90,8 @@ void StripWalk::enter(std::ptrdiff_t strip) noexcept {
     strip_.p = plan_->problem_->curves.p.data() + plan_->region_.first_row + row;
     for (std::ptrdiff_t k = 0; k < strip_.rows; ++k) {
         const ColumnRange range = plan_->columns(row + k);
-        columns_[static_cast<std::size_t>(k)] = range.first;
-        columns_[static_cast<std::size_t>(plan_->height_ + k)] = range.last;
+        columns_[k] = range.first;
+        columns_[plan_->height_ + k] = range.last;
     }
     strip_.low_lane = 0;
     strip_.high_lane = -1;
@@ -103,7 +105,7 @@ void StripWalk::enter(std::ptrdiff_t strip) noexcept {
 
 // Points the strip at its diagonals and its part of the destination.
 void StripWalk::aim(std::ptrdiff_t strip) noexcept {
-    double* const lanes = lanes_.data() + gap;
+    double* const lanes = lanes_;
     std::fill_n(lanes, costs * lane_stride_, infinity);
     strip_.before = lanes + values * lane_stride_;
     strip_.before_last = lanes + (values + 1) * lane_stride_;

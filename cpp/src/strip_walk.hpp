@@ -4,9 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
-#include "aligned_buffer.hpp"
 #include "kernels/strip.hpp"
 #include "sweep.hpp"
 
@@ -42,7 +40,7 @@ class alignas(128) StripWalk {
     // row, short enough that three diagonals and the strip's points stay in the first-level cache.
     static constexpr std::ptrdiff_t max_height = 256;
 
-    StripWalk(const StripPlan& plan, bool starts_here, double* boundary);
+    StripWalk(const StripPlan& plan, bool starts_here, double* boundary, SweepMemory& memory);
 
     void enter(std::ptrdiff_t strip) noexcept;
     // Up to the diagonal `end`. Returns the share of the strip's rows times all columns of the
@@ -65,8 +63,8 @@ class alignas(128) StripWalk {
     const StripPlan* plan_;
     bool starts_here_;
     std::ptrdiff_t lane_stride_;
-    AlignedBuffer lanes_;
-    std::vector<std::ptrdiff_t> columns_;  // first_column of every row, then last_column
+    double* lanes_;
+    std::ptrdiff_t* columns_;  // first_column of every row, then last_column
     kernels::AdvanceFunction advance_;
     kernels::CostFunction fill_;
     kernels::Strip strip_{};

@@ -72,16 +72,12 @@ void sweep_in_turn(StripWalk& walk, std::ptrdiff_t chunk, std::ptrdiff_t weight,
     }
 }
 
-// The virtual row above the whole table: 0 where a path may begin.
-Row row_above(const SweepProblem& problem) {
-    Row row(problem.curves.columns(), problem.open_begin ? 0.0 : infinity);
-    row[0] = 0.0;
-    return row;
-}
-
 // All of the table; returns its last row.
-Row sweep_all(const SweepProblem& problem, const Destination& destination) {
-    Row row = row_above(problem);
+const Row& sweep_all(const SweepProblem& problem, const Destination& destination) {
+    // The virtual row above the table: 0 where a path may begin.
+    Row& row = problem.memory.row;
+    row.assign(problem.curves.columns(), problem.open_begin ? 0.0 : infinity);
+    row[0] = 0.0;
     sweep(problem, whole_table(problem.curves), !problem.open_begin, row.data(), destination);
     return row;
 }
@@ -120,8 +116,9 @@ Region whole_table(const PackedPair& curves) noexcept {
     return {0, curves.rows(), 0, curves.columns()};
 }
 
-Row::Row(std::ptrdiff_t columns, double value)
-    : columns_(columns), row_(columns + StripWalk::max_height + kernels::padding) {
+void Row::assign(std::ptrdiff_t columns, double value) {
+    columns_ = columns;
+    row_.reserve(columns + StripWalk::max_height + kernels::padding);
     std::fill_n(row_.data(), columns, value);
 }
 
@@ -134,17 +131,17 @@ void sweep(const SweepProblem& problem, const Region& region, bool starts_here, 
     const StripPlan plan(problem, region, worker_count(problem, region), destination);
     const std::ptrdiff_t chunk = chunk_of(problem), weight = cell_weight(problem);
     if (plan.workers() == 1) {
-        StripWalk walk(plan, starts_here, boundary);
+        StripWalk walk(plan, starts_here, boundary, problem.memory);
         for (std::ptrdiff_t s = 0; s < plan.strips(); ++s) {
             if (sweep_strip(walk, s, chunk, weight, problem.watch)) throw Stopped();
             if (is_hopeless(problem, region, boundary)) return skip_rest(problem, plan, s + 1);
         }
         return;
     }
+    std::vector<SweepMemory> memories(static_cast<std::size_t>(plan.workers()));
     std::vector<StripWalk> walks;
-    walks.reserve(static_cast<std::size_t>(plan.workers()));
-    for (std::ptrdiff_t w = 0; w < plan.workers(); ++w)
-        walks.emplace_back(plan, starts_here, boundary);
+    walks.reserve(memories.size());
+    for (SweepMemory& memory : memories) walks.emplace_back(plan, starts_here, boundary, memory);
     Pipeline pipeline(plan.strips());
     run_workers(plan.workers(), problem.watch, [&](std::ptrdiff_t w, Watch& watch) {
         sweep_in_turn(walks[static_cast<std::size_t>(w)], chunk, weight, pipeline, watch);
@@ -176,7 +173,7 @@ double lone_cell(const SweepProblem& problem, std::ptrdiff_t row, std::ptrdiff_t
     return above[0];
 }
 
-Row last_row(const SweepProblem& problem) { return sweep_all(problem, {}); }
+const Row& last_row(const SweepProblem& problem) { return sweep_all(problem, {}); }
 
 void sweep_table(const SweepProblem& problem, double* table) {
     if (problem.band.is_limited()) {

@@ -18,6 +18,8 @@
 
 namespace curvewise::detail {
 
+struct SweepMemory;
+
 struct SweepProblem {
     const kernels::KernelSet& kernels;
     PackedPair curves;
@@ -28,6 +30,7 @@ struct SweepProblem {
     bool open_begin;
     std::ptrdiff_t workers;
     Watch& watch;
+    SweepMemory& memory;
     // With fewer cells for each, starting threads costs more than they save: it takes up to a
     // millisecond until a second core is at work.
     std::ptrdiff_t cells_per_worker = std::ptrdiff_t{1} << 22;
@@ -55,7 +58,9 @@ Region whole_table(const PackedPair& curves) noexcept;
 // A row of the table, with the room that a sweep needs behind it.
 class Row {
    public:
-    Row(std::ptrdiff_t columns, double value);
+    Row() noexcept = default;
+    Row(std::ptrdiff_t columns, double value) { assign(columns, value); }
+    void assign(std::ptrdiff_t columns, double value);
     double* data() noexcept { return row_.data(); }
     const double* data() const noexcept { return row_.data(); }
     double operator[](std::ptrdiff_t j) const noexcept { return row_.data()[j]; }
@@ -64,8 +69,16 @@ class Row {
     std::ptrdiff_t argmin() const noexcept;
 
    private:
-    std::ptrdiff_t columns_;
+    std::ptrdiff_t columns_ = 0;
     AlignedBuffer row_;
+};
+
+// What one thread needs to sweep, kept from one sweep to the next: where curves are short, getting
+// it anew takes as long as a good part of the sweep. O(m).
+struct SweepMemory {
+    AlignedBuffer lanes;
+    std::vector<std::ptrdiff_t> columns;
+    Row row;
 };
 
 // Where the codes of a strip's predecessors begin in an array of all of them.
@@ -99,7 +112,8 @@ struct CodeLayout {
 };
 
 // The whole table's last row; after giving up, values of which each is above `give_up_above`.
-Row last_row(const SweepProblem& problem);
+// It stands in the problem's memory until the next sweep.
+const Row& last_row(const SweepProblem& problem);
 
 // What the table would hold in a cell if its path began there: its ground distance.
 double lone_cell(const SweepProblem& problem, std::ptrdiff_t row, std::ptrdiff_t column);

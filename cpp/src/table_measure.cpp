@@ -61,7 +61,7 @@ void TableOptions::check_window(std::ptrdiff_t n, std::ptrdiff_t m) const {
 }
 
 TableProblem::TableProblem(const TableOptions& options, const PackedPair& curves,
-                           const RangeScale& range, Watch& watch)
+                           const RangeScale& range, Watch& watch, SweepMemory& memory)
     : range_(range),
       degree_(options.ground.metric == Metric::sqeuclidean ? 2 : 1),
       open_end_(options.open_end),
@@ -73,7 +73,8 @@ TableProblem::TableProblem(const TableOptions& options, const PackedPair& curves
              Band(curves.rows(), curves.columns(), options.window),
              options.open_begin,
              options.workers,
-             watch} {
+             watch,
+             memory} {
     if (options.recurrence != kernels::Recurrence::frechet) return;
     squared_ = sweep_.cost == kernels::Cost::euclidean ||
                sweep_.cost == kernels::Cost::euclidean_in_domain;
@@ -93,7 +94,7 @@ double TableProblem::distance(double cutoff) {
         // A little above its square, so that the rounding of squares and roots gives nothing up.
         sweep_.give_up_above = squared_ ? cutoff * cutoff * (1.0 + 1e-15) : cutoff;
     }
-    const Row bottom = last_row(sweep_);
+    const Row& bottom = last_row(sweep_);
     return restore(bottom[open_end_ ? bottom.argmin() : sweep_.curves.columns() - 1]);
 }
 
@@ -126,17 +127,17 @@ TableMeasure::Reference::Reference(const CheckedCurve& P)
 TableMeasure::Other::Other(const CheckedCurve& Q)
     : checked(Q), packed(Q.curve, RangeScale(1.0), PointOrder::reversed) {}
 
-double TableMeasure::operator()(const Reference& P, const Other& Q, double cutoff,
-                                std::ptrdiff_t workers, Watch& watch) const {
+double TableMeasure::operator()(const Reference& P, const Other& Q, const PairCall& call) const {
     const RangeScale range(std::max(P.checked.largest, Q.checked.largest));
     TableOptions options = options_;
-    options.workers = workers;
+    options.workers = call.workers;
     if (range.is_identity()) {
-        return TableProblem(options, {P.packed, Q.packed}, range, watch).distance(cutoff);
+        return TableProblem(options, {P.packed, Q.packed}, range, call.watch, call.memory)
+            .distance(call.cutoff);
     }
     const PackedCurve p(P.checked.curve, range, PointOrder::forward);
     const PackedCurve q(Q.checked.curve, range, PointOrder::reversed);
-    return TableProblem(options, {p, q}, range, watch).distance(cutoff);
+    return TableProblem(options, {p, q}, range, call.watch, call.memory).distance(call.cutoff);
 }
 
 }  // namespace curvewise::detail

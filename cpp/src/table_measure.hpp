@@ -37,7 +37,7 @@ struct TableOptions {
 class TableProblem {
    public:
     TableProblem(const TableOptions& options, const PackedPair& curves, const RangeScale& range,
-                 Watch& watch);
+                 Watch& watch, SweepMemory& memory);
 
     // One above `cutoff` may come back as any other that is.
     double distance(double cutoff = std::numeric_limits<double>::infinity());
@@ -65,7 +65,8 @@ auto with_table(const TableOptions& options, const CurveView& P, const CurveView
     const PackedCurve q(Q, range, PointOrder::reversed);
     Watch watch(control);
     watch.begin(P.size() * Q.size());
-    TableProblem problem(options, {p, q}, range, watch);
+    SweepMemory memory;
+    TableProblem problem(options, {p, q}, range, watch, memory);
     auto result = use(problem);
     watch.finish();
     return result;

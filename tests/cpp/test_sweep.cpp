@@ -137,6 +137,7 @@ class Comparison {
         for (const Level& level : available_levels()) {
             const check::Note note(level.name);
             curvewise::detail::Watch watch(nullptr);
+            curvewise::detail::SweepMemory memory;
             const SweepProblem problem{*level.kernels,
                                        {rows_, columns_},
                                        setup_.recurrence,
@@ -145,7 +146,8 @@ class Comparison {
                                        Band(P_.size(), Q_.size(), setup_.window),
                                        setup_.open_begin,
                                        setup_.workers,
-                                       watch};
+                                       watch,
+                                       memory};
             check_bottom(last_row(problem));
             check_table(problem);
             for (const std::ptrdiff_t max_codes : {1 << 24, 40}) {
