@@ -20,6 +20,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "curvewise/export.h"
+
 namespace curvewise {
 
 namespace detail {
@@ -27,7 +29,7 @@ class Watch;
 }
 
 // What a call throws whose Control was stopped. Its output arrays are then unspecified.
-class Stopped : public std::runtime_error {
+class CURVEWISE_EXPORT Stopped : public std::runtime_error {
    public:
     Stopped() : std::runtime_error("stopped before the work was done") {}
 };

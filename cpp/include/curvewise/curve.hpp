@@ -1,9 +1,26 @@
 // A curve as every function of the library takes it: a view of n points with dim coordinates,
-// owned by the caller, of any layout that two strides can describe. Costs nothing to copy.
+// owned by the caller, of any layout that two strides can describe. Costs nothing to copy; copies
+// no points, ever. What it views must live as long as it does.
+//
+//   CurveView(xy, 240, 2)               240 points, row-major: x0, y0, x1, y1, ...
+//   CurveView(xy, 240, 2, 1, 240)       column-major: all x, then all y
+//   CurveView(&rows[0].strain, n, 2, sizeof(Row) / sizeof(double), 1)
+//                                       two neighbouring members of a struct of doubles
+//   CurveView(points)                   a std::vector<std::array<double, 2>>
+//   curve_view(matrix)                  an Eigen matrix, map, block: curvewise/eigen.hpp
+//
+// A view itself checks nothing: the function that is given one does, and throws
+// std::invalid_argument, in words that name the argument and the place:
+// "Q[17, 1] is nan; curves must be finite". Reading one from any number of threads is safe while
+// nobody writes to its points.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
+
+#include "curvewise/export.h"
 
 namespace curvewise {
 
@@ -19,6 +36,15 @@ class CurveView {
               std::ptrdiff_t col_stride) noexcept
         : data_(data), n_(n), dim_(dim), row_stride_(row_stride), col_stride_(col_stride) {}
 
+    // Not explicit, so that every function takes the vector itself.
+    template <std::size_t D, class Allocator>
+    CurveView(const std::vector<std::array<double, D>, Allocator>& points) noexcept
+        : CurveView(points.empty() ? nullptr : points.front().data(),
+                    static_cast<std::ptrdiff_t>(points.size()), static_cast<std::ptrdiff_t>(D)) {
+        static_assert(D > 0 && sizeof(std::array<double, D>) == D * sizeof(double),
+                      "the points of the vector must lie side by side");
+    }
+
     double operator()(std::ptrdiff_t i, std::ptrdiff_t c) const noexcept {
         return data_[i * row_stride_ + c * col_stride_];
     }
@@ -28,7 +54,7 @@ class CurveView {
     bool is_flat() const noexcept { return dim_ == 1 && col_stride_ == 0; }
 
     // "(5, 2)", or "(5,)" for a flat list.
-    std::string shape() const;
+    CURVEWISE_EXPORT std::string shape() const;
 
    private:
     const double* data_;

@@ -4,13 +4,18 @@
 //
 //   sqrt(sum over i of ln(1 + |dx_i / x_scale|)^2 + ln(1 + |dy_i / y_scale|)^2)
 //
-// Not symmetric. Time O(n + m), memory O(n + m). Throws std::invalid_argument for a curve that is
-// not finite, has fewer than 2 points, other than 2 coordinates, or no length, and where the
-// scale is 0.
+// Without units, and not symmetric. Time O(n + m), memory O(n + m). Throws std::invalid_argument
+// for a curve that is not finite, has fewer than 2 points, other than 2 coordinates, or no length,
+// and where the scale is 0; and std::bad_alloc. Safe from any number of threads.
+//
+//   curvewise::CurveLengthOptions options;
+//   options.scale = curvewise::LengthScale::mean_abs;   // a loop, centred on zero
+//   const double value = curvewise::curve_length(experiment, simulation, options);
 #pragma once
 
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
+#include "curvewise/export.h"
 
 namespace curvewise {
 
@@ -25,12 +30,14 @@ struct CurveLengthOptions {
     LengthScale scale = LengthScale::mean;
 };
 
-double curve_length(const CurveView& P, const CurveView& Q, const CurveLengthOptions& options = {},
-                    Control* control = nullptr);
+CURVEWISE_EXPORT double curve_length(const CurveView& P, const CurveView& Q,
+                                     const CurveLengthOptions& options = {},
+                                     Control* control = nullptr);
 
-// Writes r_x to out[2 i] and r_y to out[2 i + 1] for every point of P; the measure is the
-// Euclidean norm of all of them.
-void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
-                            const CurveLengthOptions& options = {}, Control* control = nullptr);
+// For a least-squares solver: writes r_x to out[2 i] and r_y to out[2 i + 1] for every point of P,
+// 2 P.size() numbers; the measure is the Euclidean norm of all of them.
+CURVEWISE_EXPORT void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
+                                             const CurveLengthOptions& options = {},
+                                             Control* control = nullptr);
 
 }  // namespace curvewise

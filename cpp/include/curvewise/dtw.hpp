@@ -16,6 +16,7 @@
 #include "curvewise/alignment.hpp"
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
+#include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
 
 namespace curvewise {
@@ -35,16 +36,16 @@ struct DtwOptions {
     std::ptrdiff_t workers = 1;
 };
 
-double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options = {},
-           Control* control = nullptr);
+CURVEWISE_EXPORT double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options = {},
+                            Control* control = nullptr);
 
 // Among equal predecessors: diagonal, then (i-1, j), then (i, j-1). The sum of step weight
 // times ground distance along the path, in path order, equals the distance to the bit.
-Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& options = {},
-                   Control* control = nullptr);
+CURVEWISE_EXPORT Alignment dtw_path(const CurveView& P, const CurveView& Q,
+                                    const DtwOptions& options = {}, Control* control = nullptr);
 
 // Writes c to out[i * m + j]; infinity outside the window.
-void dtw_table(const CurveView& P, const CurveView& Q, double* out, const DtwOptions& options = {},
-               Control* control = nullptr);
+CURVEWISE_EXPORT void dtw_table(const CurveView& P, const CurveView& Q, double* out,
+                                const DtwOptions& options = {}, Control* control = nullptr);
 
 }  // namespace curvewise

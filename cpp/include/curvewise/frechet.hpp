@@ -13,6 +13,7 @@
 #include "curvewise/alignment.hpp"
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
+#include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
 
 namespace curvewise {
@@ -23,16 +24,17 @@ struct FrechetOptions {
     std::ptrdiff_t workers = 1;
 };
 
-double frechet(const CurveView& P, const CurveView& Q, const FrechetOptions& options = {},
-               Control* control = nullptr);
+CURVEWISE_EXPORT double frechet(const CurveView& P, const CurveView& Q,
+                                const FrechetOptions& options = {}, Control* control = nullptr);
 
 // Among equal predecessors: diagonal, then (i-1, j), then (i, j-1). The largest ground distance
 // along the path equals the distance to the bit.
-Alignment frechet_path(const CurveView& P, const CurveView& Q, const FrechetOptions& options = {},
-                       Control* control = nullptr);
+CURVEWISE_EXPORT Alignment frechet_path(const CurveView& P, const CurveView& Q,
+                                        const FrechetOptions& options = {},
+                                        Control* control = nullptr);
 
 // Writes c to out[i * m + j].
-void frechet_table(const CurveView& P, const CurveView& Q, double* out,
-                   const FrechetOptions& options = {}, Control* control = nullptr);
+CURVEWISE_EXPORT void frechet_table(const CurveView& P, const CurveView& Q, double* out,
+                                    const FrechetOptions& options = {}, Control* control = nullptr);
 
 }  // namespace curvewise

@@ -23,6 +23,7 @@
 #include "curvewise/curve.hpp"
 #include "curvewise/curve_length.hpp"
 #include "curvewise/dtw.hpp"
+#include "curvewise/export.h"
 #include "curvewise/frechet.hpp"
 #include "curvewise/pcm.hpp"
 
@@ -34,7 +35,7 @@ using Measure =
 
 // Whether d(P, Q) = d(Q, P): dtw without open ends, frechet, and (to rounding) area but with
 // Spacing::arc_length.
-bool is_symmetric(const Measure& measure) noexcept;
+CURVEWISE_EXPORT bool is_symmetric(const Measure& measure) noexcept;
 
 struct BatchOptions {
     // Threads for this call, -1 for one per core.
@@ -46,31 +47,32 @@ struct BatchOptions {
 // Writes the measure of XA[i] (as P) and XB[j] (as Q) to out[i * XB.size() + j]. Throws
 // std::invalid_argument for what the measure refuses, naming the curve (XA[3]), and for curves of
 // different dimension, before any work; std::bad_alloc; Stopped.
-void cdist(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
-           const Measure& measure, double* out, const BatchOptions& options = {},
-           Control* control = nullptr);
+CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
+                            const Measure& measure, double* out, const BatchOptions& options = {},
+                            Control* control = nullptr);
 
 // The same of one list with itself. Each pair of a symmetric measure is computed once, in the
 // order (i, j) with i < j, and the diagonal is 0.
-void cdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
-           const BatchOptions& options = {}, Control* control = nullptr);
+CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
+                            const BatchOptions& options = {}, Control* control = nullptr);
 
 // Writes the measure of X[i] and X[j] for i < j, row by row, k (k-1) / 2 values: the pair (i, j)
 // goes to out[i k - i (i+1) / 2 + j - i - 1]. For symmetric measures only. Throws as cdist does.
-void pdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
-           const BatchOptions& options = {}, Control* control = nullptr);
+CURVEWISE_EXPORT void pdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
+                            const BatchOptions& options = {}, Control* control = nullptr);
 
 // A curve P, checked, packed and scaled once, to be compared with others. Owns a copy of P. Cheap
 // to copy; may be called from any number of threads.
 class Prepared {
    public:
-    Prepared(const CurveView& P, const Measure& measure);
+    CURVEWISE_EXPORT Prepared(const CurveView& P, const Measure& measure);
 
     // The measure of P and Q. Throws as the measure does.
-    double operator()(const CurveView& Q, Control* control = nullptr) const;
+    CURVEWISE_EXPORT double operator()(const CurveView& Q, Control* control = nullptr) const;
     // Of P and each of Qs, in out[j], as cdist would.
-    void operator()(const std::vector<CurveView>& Qs, double* out, const BatchOptions& options = {},
-                    Control* control = nullptr) const;
+    CURVEWISE_EXPORT void operator()(const std::vector<CurveView>& Qs, double* out,
+                                     const BatchOptions& options = {},
+                                     Control* control = nullptr) const;
 
     class State;
 

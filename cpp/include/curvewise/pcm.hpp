@@ -13,6 +13,7 @@
 
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
+#include "curvewise/export.h"
 
 namespace curvewise {
 
@@ -33,9 +34,9 @@ struct PcmMatch {
     // nan.)
 };
 
-double pcm(const CurveView& P, const CurveView& Q, const PcmOptions& options = {},
-           Control* control = nullptr);
-PcmMatch pcm_match(const CurveView& P, const CurveView& Q, const PcmOptions& options = {},
-                   Control* control = nullptr);
+CURVEWISE_EXPORT double pcm(const CurveView& P, const CurveView& Q, const PcmOptions& options = {},
+                            Control* control = nullptr);
+CURVEWISE_EXPORT PcmMatch pcm_match(const CurveView& P, const CurveView& Q,
+                                    const PcmOptions& options = {}, Control* control = nullptr);
 
 }  // namespace curvewise

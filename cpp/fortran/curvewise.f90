@@ -1,0 +1,242 @@
+! curvewise for Fortran (2018): a thin module over the C interface, curvewise.h. A curve is an array
+! P(n, d) of doubles, points by coordinates, or any section of one: strides are passed on, nothing
+! is copied. The numbers are those of C++ and Python, to the last bit; what a measure means, costs
+! and refuses is written in the C++ header of its name.
+!
+!   use curvewise, only: dtw, dtw_options, symmetric2
+!   value = dtw(experiment, simulation)
+!   value = dtw(experiment, history(:, 2:3), dtw_options(step_pattern=symmetric2), stat, errmsg)
+!
+! As with allocate, an error is reported in stat (0: none) and errmsg where stat is given, and ends
+! the program with the message where it is not. All functions may be called from any thread. The
+! module is given as source, since a compiled one suits one compiler only: compile this file with
+! your own, and link the library.
+module curvewise
+    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int, c_intptr_t, &
+        c_loc, c_null_char, c_null_ptr, c_ptr, c_ptrdiff_t, c_size_t
+    implicit none
+    private
+    public :: area, curve_length, curvewise_version, dtw, frechet, normalize, pcm
+
+    integer(c_int), parameter, public :: euclidean = 0, sqeuclidean = 1, cityblock = 2, &
+        chebyshev = 3, minkowski = 4                        ! metric
+    integer(c_int), parameter, public :: symmetric1 = 0, symmetric2 = 1          ! step_pattern
+    integer(c_int), parameter, public :: spacing_distance = 0, spacing_x = 1, &
+        spacing_arc_length = 2                                                   ! spacing
+    integer(c_int), parameter, public :: rearrange = 0, split = 1                ! crossing
+    integer(c_int), parameter, public :: scale_mean = 0, scale_mean_abs = 1, scale_range = 2
+    integer(c_ptrdiff_t), parameter, public :: no_window = -1
+    integer(c_int), parameter, public :: invalid_argument = 1, no_memory = 2, failed = 3  ! stat
+
+    type, bind(C), public :: area_options
+        integer(c_int) :: spacing = spacing_distance
+        integer(c_int) :: crossing = rearrange
+        integer(c_int) :: squared = 0           ! not 0: sum the squared areas
+    end type
+
+    type, bind(C), public :: pcm_options
+        integer(c_ptrdiff_t) :: offsets = 200   ! at least 1
+        integer(c_int) :: continuous = 0        ! not 0: search all offsets
+    end type
+
+    type, bind(C), public :: frechet_options
+        integer(c_int) :: metric = euclidean
+        real(c_double) :: p = 2                 ! the order of minkowski
+        integer(c_ptrdiff_t) :: workers = 1     ! threads, -1 for one per core
+    end type
+
+    type, bind(C), public :: dtw_options
+        integer(c_int) :: metric = euclidean
+        real(c_double) :: p = 2
+        integer(c_int) :: step_pattern = symmetric1
+        integer(c_int) :: open_begin = 0        ! not 0: P is matched to a part of Q
+        integer(c_int) :: open_end = 0
+        integer(c_ptrdiff_t) :: window = no_window
+        integer(c_ptrdiff_t) :: workers = 1
+    end type
+
+    type, bind(C), public :: curve_length_options
+        integer(c_int) :: scale = scale_mean
+    end type
+
+    ! curvewise_curve and curvewise_error of the C interface.
+    type, bind(C) :: curve_view
+        type(c_ptr) :: data = c_null_ptr
+        integer(c_ptrdiff_t) :: n, dim, row_stride = 1, col_stride = 1
+    end type
+
+    type, bind(C) :: error_message
+        character(kind=c_char) :: text(256) = c_null_char
+    end type
+
+    ! An option argument that is absent is a null pointer: the defaults.
+    interface
+        integer(c_int) function c_area(P, Q, options, value, error) bind(C, name="curvewise_area")
+            import
+            type(curve_view), intent(in) :: P, Q
+            type(area_options), intent(in), optional :: options
+            real(c_double), intent(out) :: value
+            type(error_message), intent(out) :: error
+        end function
+
+        integer(c_int) function c_pcm(P, Q, options, value, error) bind(C, name="curvewise_pcm")
+            import
+            type(curve_view), intent(in) :: P, Q
+            type(pcm_options), intent(in), optional :: options
+            real(c_double), intent(out) :: value
+            type(error_message), intent(out) :: error
+        end function
+
+        integer(c_int) function c_frechet(P, Q, options, value, error) &
+            bind(C, name="curvewise_frechet")
+            import
+            type(curve_view), intent(in) :: P, Q
+            type(frechet_options), intent(in), optional :: options
+            real(c_double), intent(out) :: value
+            type(error_message), intent(out) :: error
+        end function
+
+        integer(c_int) function c_dtw(P, Q, options, value, error) bind(C, name="curvewise_dtw")
+            import
+            type(curve_view), intent(in) :: P, Q
+            type(dtw_options), intent(in), optional :: options
+            real(c_double), intent(out) :: value
+            type(error_message), intent(out) :: error
+        end function
+
+        integer(c_int) function c_curve_length(P, Q, options, value, error) &
+            bind(C, name="curvewise_curve_length")
+            import
+            type(curve_view), intent(in) :: P, Q
+            type(curve_length_options), intent(in), optional :: options
+            real(c_double), intent(out) :: value
+            type(error_message), intent(out) :: error
+        end function
+
+        integer(c_int) function c_normalize(P, C, out, error) bind(C, name="curvewise_normalize")
+            import
+            type(curve_view), intent(in) :: P, C
+            real(c_double), intent(out) :: out(*)
+            type(error_message), intent(out) :: error
+        end function
+
+        type(c_ptr) function c_version() bind(C, name="curvewise_version")
+            import
+        end function
+    end interface
+
+contains
+
+    real(c_double) function area(P, Q, options, stat, errmsg) result(value)
+        real(c_double), intent(in) :: P(:, :), Q(:, :)
+        type(area_options), intent(in), optional :: options
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        type(error_message) :: error
+        value = 0
+        call conclude(c_area(view(P), view(Q), options, value, error), error, stat, errmsg)
+    end function
+
+    real(c_double) function pcm(P, Q, options, stat, errmsg) result(value)
+        real(c_double), intent(in) :: P(:, :), Q(:, :)
+        type(pcm_options), intent(in), optional :: options
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        type(error_message) :: error
+        value = 0
+        call conclude(c_pcm(view(P), view(Q), options, value, error), error, stat, errmsg)
+    end function
+
+    real(c_double) function frechet(P, Q, options, stat, errmsg) result(value)
+        real(c_double), intent(in) :: P(:, :), Q(:, :)
+        type(frechet_options), intent(in), optional :: options
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        type(error_message) :: error
+        value = 0
+        call conclude(c_frechet(view(P), view(Q), options, value, error), error, stat, errmsg)
+    end function
+
+    real(c_double) function dtw(P, Q, options, stat, errmsg) result(value)
+        real(c_double), intent(in) :: P(:, :), Q(:, :)
+        type(dtw_options), intent(in), optional :: options
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        type(error_message) :: error
+        value = 0
+        call conclude(c_dtw(view(P), view(Q), options, value, error), error, stat, errmsg)
+    end function
+
+    real(c_double) function curve_length(P, Q, options, stat, errmsg) result(value)
+        real(c_double), intent(in) :: P(:, :), Q(:, :)
+        type(curve_length_options), intent(in), optional :: options
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        type(error_message) :: error
+        value = 0
+        call conclude(c_curve_length(view(P), view(Q), options, value, error), error, stat, errmsg)
+    end function
+
+    ! C minus P's minimum, divided by P's extent (where that is not 0), in `scaled`.
+    subroutine normalize(P, C, scaled, stat, errmsg)
+        real(c_double), intent(in) :: P(:, :), C(:, :)
+        real(c_double), allocatable, intent(out) :: scaled(:, :)
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        type(error_message) :: error
+        real(c_double), allocatable :: points(:, :)  ! as C has them: coordinates by points
+        allocate (points(size(C, 2), size(C, 1)))
+        call conclude(c_normalize(view(P), view(C), points, error), error, stat, errmsg)
+        scaled = transpose(points)
+    end subroutine
+
+    ! The version of the library that is linked, e.g. "0.1.0".
+    function curvewise_version() result(version)
+        character(:), allocatable :: version
+        character(kind=c_char), pointer :: text(:)
+        call c_f_pointer(c_version(), text, [32])
+        version = as_string(text)
+    end function
+
+    function view(P)
+        real(c_double), intent(in), target :: P(:, :)
+        type(curve_view) :: view
+        view%n = size(P, 1, c_ptrdiff_t)
+        view%dim = size(P, 2, c_ptrdiff_t)
+        if (size(P) == 0) return
+        view%data = c_loc(P(1, 1))
+        if (view%n > 1) view%row_stride = stride(P(1, 1), P(2, 1))
+        if (view%dim > 1) view%col_stride = stride(P(1, 1), P(1, 2))
+    end function
+
+    ! The distance in memory between two elements, in doubles.
+    integer(c_ptrdiff_t) function stride(a, b)
+        real(c_double), intent(in), target :: a, b
+        stride = (transfer(c_loc(b), 0_c_intptr_t) - transfer(c_loc(a), 0_c_intptr_t)) &
+            / (storage_size(a) / 8)
+    end function
+
+    subroutine conclude(status, error, stat, errmsg)
+        integer(c_int), intent(in) :: status
+        type(error_message), intent(in) :: error
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        character(:), allocatable :: message
+        message = as_string(error%text)
+        if (present(stat)) stat = status
+        if (status == 0) return
+        if (present(errmsg)) errmsg = message
+        if (.not. present(stat)) error stop message
+    end subroutine
+
+    function as_string(text) result(string)
+        character(kind=c_char), intent(in) :: text(:)
+        character(:), allocatable :: string
+        integer :: i
+        string = ''
+        do i = 1, size(text)
+            if (text(i) == c_null_char) exit
+            string = string // text(i)
+        end do
+    end function
+end module

@@ -1,0 +1,137 @@
+/* curvewise for C (C99), and through cpp/fortran/curvewise.f90 for Fortran: the five measures, the
+ * scaling that goes with them, and all pairs of many curves. What a measure means, costs and
+ * refuses is written in the C++ header of its name (area.hpp, pcm.hpp, frechet.hpp, dtw.hpp,
+ * curve_length.hpp, pairwise.hpp); the numbers are the same to the last bit.
+ *
+ *   curvewise_curve P = curvewise_rows(xy, 240, 2), Q = curvewise_rows(uv, 150, 2);
+ *   double value;
+ *   curvewise_error error;
+ *   if (curvewise_dtw(&P, &Q, NULL, &value, &error) != CURVEWISE_OK) puts(error.message);
+ *
+ * There is nothing to create or to free, and no state: all functions may be called from any number
+ * of threads. Curves are read where they are, never copied by the caller. Options given as NULL
+ * are the defaults; otherwise start from CURVEWISE_..._DEFAULTS, since a struct of zeros is not
+ * the default. Every function that can fail returns a curvewise_status, writes its result only if
+ * that is CURVEWISE_OK, and says what was wrong in `error`, which may be NULL. */
+#ifndef CURVEWISE_CURVEWISE_H
+#define CURVEWISE_CURVEWISE_H
+
+#include <stddef.h>
+
+#include "curvewise/export.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a call returns. */
+enum curvewise_status {
+    CURVEWISE_OK = 0,
+    CURVEWISE_INVALID_ARGUMENT = 1, /* a curve or an option is refused */
+    CURVEWISE_NO_MEMORY = 2,
+    CURVEWISE_FAILED = 3 /* anything else, e.g. CURVEWISE_ISA names a level this machine lacks */
+};
+
+/* One line, ended by a zero; a longer message is cut. Empty after CURVEWISE_OK. */
+typedef struct curvewise_error {
+    char message[256];
+} curvewise_error;
+
+/* n points of dim coordinates; coordinate c of point i is data[i * row_stride + c * col_stride].
+ * Strides count doubles and may be negative. */
+typedef struct curvewise_curve {
+    const double* data;
+    ptrdiff_t n, dim, row_stride, col_stride;
+} curvewise_curve;
+
+/* Row-major points: x0, y0, x1, y1, ... */
+CURVEWISE_EXPORT curvewise_curve curvewise_rows(const double* data, ptrdiff_t n, ptrdiff_t dim);
+
+/* The values of the int members of the options below. */
+enum curvewise_metric {
+    CURVEWISE_EUCLIDEAN,
+    CURVEWISE_SQEUCLIDEAN,
+    CURVEWISE_CITYBLOCK,
+    CURVEWISE_CHEBYSHEV,
+    CURVEWISE_MINKOWSKI
+};
+enum curvewise_step_pattern { CURVEWISE_SYMMETRIC1, CURVEWISE_SYMMETRIC2 };
+enum curvewise_spacing {
+    CURVEWISE_SPACING_DISTANCE,
+    CURVEWISE_SPACING_X,
+    CURVEWISE_SPACING_ARC_LENGTH
+};
+enum curvewise_crossing { CURVEWISE_REARRANGE, CURVEWISE_SPLIT };
+enum curvewise_length_scale { CURVEWISE_MEAN, CURVEWISE_MEAN_ABS, CURVEWISE_RANGE };
+
+typedef struct curvewise_area_options {
+    int spacing;  /* curvewise_spacing */
+    int crossing; /* curvewise_crossing */
+    int squared;  /* not 0: sum the squared areas */
+} curvewise_area_options;
+#define CURVEWISE_AREA_DEFAULTS \
+    { CURVEWISE_SPACING_DISTANCE, CURVEWISE_REARRANGE, 0 }
+
+typedef struct curvewise_pcm_options {
+    ptrdiff_t offsets; /* at least 1 */
+    int continuous;    /* not 0: search all offsets; `offsets` is not used */
+} curvewise_pcm_options;
+#define CURVEWISE_PCM_DEFAULTS \
+    { 200, 0 }
+
+typedef struct curvewise_frechet_options {
+    int metric;        /* curvewise_metric */
+    double p;          /* the order of CURVEWISE_MINKOWSKI; not used by other metrics */
+    ptrdiff_t workers; /* threads, -1 for one per core */
+} curvewise_frechet_options;
+#define CURVEWISE_FRECHET_DEFAULTS \
+    { CURVEWISE_EUCLIDEAN, 2.0, 1 }
+
+typedef struct curvewise_dtw_options {
+    int metric;
+    double p;
+    int step_pattern;  /* curvewise_step_pattern */
+    int open_begin;    /* not 0: P is matched to a part of Q that may begin anywhere */
+    int open_end;      /* not 0: ... that may end anywhere */
+    ptrdiff_t window;  /* Sakoe-Chiba band; CURVEWISE_NO_WINDOW for none */
+    ptrdiff_t workers; /* threads, -1 for one per core */
+} curvewise_dtw_options;
+#define CURVEWISE_NO_WINDOW (-1)
+#define CURVEWISE_DTW_DEFAULTS \
+    { CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1 }
+
+typedef struct curvewise_curve_length_options {
+    int scale; /* curvewise_length_scale */
+} curvewise_curve_length_options;
+#define CURVEWISE_CURVE_LENGTH_DEFAULTS \
+    { CURVEWISE_MEAN }
+
+/* The measures: one number, in *value. */
+CURVEWISE_EXPORT int curvewise_area(const curvewise_curve* P, const curvewise_curve* Q,
+                                    const curvewise_area_options* options, double* value,
+                                    curvewise_error* error);
+CURVEWISE_EXPORT int curvewise_pcm(const curvewise_curve* P, const curvewise_curve* Q,
+                                   const curvewise_pcm_options* options, double* value,
+                                   curvewise_error* error);
+CURVEWISE_EXPORT int curvewise_frechet(const curvewise_curve* P, const curvewise_curve* Q,
+                                       const curvewise_frechet_options* options, double* value,
+                                       curvewise_error* error);
+CURVEWISE_EXPORT int curvewise_dtw(const curvewise_curve* P, const curvewise_curve* Q,
+                                   const curvewise_dtw_options* options, double* value,
+                                   curvewise_error* error);
+CURVEWISE_EXPORT int curvewise_curve_length(const curvewise_curve* P, const curvewise_curve* Q,
+                                            const curvewise_curve_length_options* options,
+                                            double* value, curvewise_error* error);
+
+/* Writes C minus P's minimum, divided by P's extent, to out[i * dim + c] (pointwise.hpp). */
+CURVEWISE_EXPORT int curvewise_normalize(const curvewise_curve* P, const curvewise_curve* C,
+                                         double* out, curvewise_error* error);
+
+/* The version of the library that is linked, e.g. "0.1.0". */
+CURVEWISE_EXPORT const char* curvewise_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
