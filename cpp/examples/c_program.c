@@ -1,0 +1,54 @@
+/* The five measures of two loops from C99, and what an error looks like. */
+#include <curvewise/curvewise.h>
+#include <stdio.h>
+
+enum { n = 129, m = 65 };
+
+/* A closed loop: x a triangle wave, y a parabola on each branch; x0, y0, x1, y1, ... */
+static void loop(double* points, int count, double height) {
+    int i;
+    for (i = 0; i < count; ++i) {
+        const double t = 4.0 * i / (count - 1);
+        const double u = t < 2.0 ? t - 1.0 : 3.0 - t;
+        const double bow = height * (1.0 - u * u);
+        points[2 * i] = u;
+        points[2 * i + 1] = t < 2.0 ? u + bow : u - bow;
+    }
+}
+
+static int show(const char* name, int status, double value, const curvewise_error* error) {
+    if (status == CURVEWISE_OK) return printf("%s %.17g\n", name, value);
+    return printf("%s: %s\n", name, error->message);
+}
+
+int main(void) {
+    double p[2 * n], q[2 * m], value = 0.0;
+    curvewise_curve P, Q;
+    curvewise_dtw_options options = CURVEWISE_DTW_DEFAULTS;
+    curvewise_curve_length_options length = CURVEWISE_CURVE_LENGTH_DEFAULTS;
+    curvewise_error error;
+    int status;
+    loop(p, n, 0.5);
+    loop(q, m, 0.375);
+    P = curvewise_rows(p, n, 2);
+    Q = curvewise_rows(q, m, 2);
+
+    status = curvewise_area(&P, &Q, NULL, &value, &error); /* NULL: the defaults */
+    show("area", status, value, &error);
+    status = curvewise_pcm(&P, &Q, NULL, &value, &error);
+    show("pcm", status, value, &error);
+    status = curvewise_frechet(&P, &Q, NULL, &value, &error);
+    show("frechet", status, value, &error);
+    options.step_pattern = CURVEWISE_SYMMETRIC2;
+    options.window = 20;
+    status = curvewise_dtw(&P, &Q, &options, &value, &error);
+    show("dtw", status, value, &error);
+    length.scale = CURVEWISE_RANGE;
+    status = curvewise_curve_length(&P, &Q, &length, &value, &error);
+    show("curve_length", status, value, &error);
+
+    Q.n = 1; /* too short for an area */
+    status = curvewise_area(&P, &Q, NULL, &value, &error);
+    show("refused", status, value, &error);
+    return status == CURVEWISE_INVALID_ARGUMENT ? 0 : 1;
+}

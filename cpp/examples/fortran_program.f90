@@ -1,0 +1,55 @@
+! The five measures of two loops from Fortran, and what an error looks like.
+program fortran_program
+    use, intrinsic :: iso_fortran_env, only: real64
+    use curvewise, only: area, curve_length, curve_length_options, dtw, dtw_options, frechet, &
+        invalid_argument, normalize, pcm, scale_range, symmetric2
+    implicit none
+    real(real64) :: P(129, 2), history(3, 65), value
+    real(real64), allocatable :: scaled(:, :)
+    integer :: stat
+    character(80) :: message
+
+    P = loop(129, 0.5_real64)
+    ! As a material routine keeps it: strain, temperature and stress of each increment.
+    history = 1e6_real64
+    history(1:3:2, :) = transpose(loop(65, 0.375_real64))
+
+    associate (Q => loop(65, 0.375_real64))
+        call show('area', area(P, Q))
+        call show('pcm', pcm(P, Q))
+        call show('frechet', frechet(P, Q))
+        call show('dtw', dtw(P, Q, dtw_options(step_pattern=symmetric2, window=20)))
+        call show('curve_length', curve_length(P, Q, curve_length_options(scale=scale_range)))
+        call normalize(P, Q, scaled)
+        call show('scaled', dtw(P, scaled))
+        ! Sections are read where they are: every other point, and the points backwards.
+        call show('section', dtw(P(1::2, :), Q(65:1:-1, :)))
+    end associate
+    call show('flat', dtw(P(:, 2:2), reshape(history(3, :), [65, 1])))
+
+    value = area(P, history(:2, :), stat=stat, errmsg=message)
+    if (stat /= invalid_argument) error stop 'a curve of 65 coordinates was accepted'
+    print '(a)', 'refused: ' // trim(message)
+
+contains
+
+    ! A closed loop: x a triangle wave, y a parabola on each branch.
+    function loop(n, height) result(points)
+        integer, intent(in) :: n
+        real(real64), intent(in) :: height
+        real(real64) :: points(n, 2), t, u, bow
+        integer :: i
+        do i = 1, n
+            t = 4.0_real64 * (i - 1) / (n - 1)
+            u = merge(t - 1, 3 - t, t < 2)
+            bow = height * (1 - u * u)
+            points(i, :) = [u, merge(u + bow, u - bow, t < 2)]
+        end do
+    end function
+
+    subroutine show(name, value)
+        character(*), intent(in) :: name
+        real(real64), intent(in) :: value
+        print '(a, es26.16e3)', name // ' ', value
+    end subroutine
+end program
