@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from . import _core, datasets, reference
 from .compare import Comparison, compare
+from .embedding import get_include
 from .measures import (
     area,
     area_quads,
@@ -52,6 +53,7 @@ __all__ = [
     "frechet",
     "frechet_path",
     "frechet_table",
+    "get_include",
     "mae",
     "mse",
     "normalize",

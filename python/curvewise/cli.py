@@ -15,14 +15,15 @@ import json
 import math
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 from . import __version__, build_info
 from .compare import Comparison, Preset, compare
 from .csv_curves import read_curve
 from .datasets import hysteresis_pair
+from .embedding import get_cmake_dir, get_include
 
 __all__ = ["main"]
 
@@ -89,6 +90,20 @@ def _discard_output() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
+class _Print(argparse.Action):
+    """An option that prints what `text` returns and ends the program, as --version does."""
+
+    def __init__(
+        self, option_strings: Sequence[str], dest: str, text: Callable[[], str], help: str
+    ) -> None:
+        super().__init__(option_strings, dest, nargs=0, default=argparse.SUPPRESS, help=help)
+        self._text = text
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+        print(self._text())
+        parser.exit()
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="curvewise",
@@ -97,6 +112,18 @@ def _parser() -> argparse.ArgumentParser:
         epilog="Exit status: 0, 1 (bad data or files), 2 (usage).",
     )
     parser.add_argument("--version", action="version", version=f"%(prog)s {__version__}")
+    parser.add_argument(
+        "--cmakedir",
+        action=_Print,
+        text=get_cmake_dir,
+        help="print the folder for CMake's curvewise_DIR and exit",
+    )
+    parser.add_argument(
+        "--includes",
+        action=_Print,
+        text=lambda: f"-I{get_include()}",
+        help="print the flag that lets a compiler find the C++ and C headers and exit",
+    )
     commands = parser.add_subparsers(title="commands", metavar="command", required=True)
 
     command = commands.add_parser("compare", help="compare the curves in two text files")
