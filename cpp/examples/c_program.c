@@ -1,4 +1,4 @@
-/* The five measures of two loops from C99, and what an error looks like. */
+/* The five measures of two loops from C99, a batch, and what an error looks like. */
 #include <curvewise/curvewise.h>
 #include <stdio.h>
 
@@ -23,7 +23,8 @@ static int show(const char* name, int status, double value, const curvewise_erro
 
 int main(void) {
     double p[2 * n], q[2 * m], value = 0.0;
-    curvewise_curve P, Q;
+    curvewise_curve P, Q, curves[3];
+    double pairs[3];
     curvewise_dtw_options options = CURVEWISE_DTW_DEFAULTS;
     curvewise_curve_length_options length = CURVEWISE_CURVE_LENGTH_DEFAULTS;
     curvewise_error error;
@@ -40,12 +41,20 @@ int main(void) {
     status = curvewise_frechet(&P, &Q, NULL, &value, &error);
     show("frechet", status, value, &error);
     options.step_pattern = CURVEWISE_SYMMETRIC2;
-    options.window = 20;
+    options.window = 80;
     status = curvewise_dtw(&P, &Q, &options, &value, &error);
     show("dtw", status, value, &error);
     length.scale = CURVEWISE_RANGE;
     status = curvewise_curve_length(&P, &Q, &length, &value, &error);
     show("curve_length", status, value, &error);
+
+    curves[0] = P;
+    curves[1] = Q;
+    curves[2] = curvewise_rows(p, 60, 2); /* the beginning of P */
+    status = curvewise_pdist(curves, 3, CURVEWISE_DTW, &options, NULL, pairs, &error);
+    show("P_and_Q", status, pairs[0], &error);
+    show("P_and_beginning", status, pairs[1], &error);
+    show("Q_and_beginning", status, pairs[2], &error);
 
     Q.n = 1; /* too short for an area */
     status = curvewise_area(&P, &Q, NULL, &value, &error);

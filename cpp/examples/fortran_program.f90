@@ -1,31 +1,44 @@
-! The five measures of two loops from Fortran, and what an error looks like.
+! The five measures of two loops from Fortran, a batch, and what an error looks like.
 program fortran_program
+    use, intrinsic :: iso_c_binding, only: c_loc
     use, intrinsic :: iso_fortran_env, only: real64
-    use curvewise, only: area, curve_length, curve_length_options, dtw, dtw_options, frechet, &
-        invalid_argument, normalize, pcm, scale_range, symmetric2
+    use curvewise, only: area, cdist, curve_length, curve_length_options, curve_view, dtw, &
+        dtw_options, frechet, invalid_argument, measure_dtw, normalize, pcm, pdist, scale_range, &
+        symmetric2
     implicit none
-    real(real64) :: P(129, 2), history(3, 65), value
-    real(real64), allocatable :: scaled(:, :)
+    real(real64), target :: P(129, 2), Q(65, 2), history(3, 65)
+    real(real64), allocatable :: scaled(:, :), pairs(:), table(:, :)
+    type(dtw_options), target :: options = dtw_options(step_pattern=symmetric2, window=80)
+    type(curve_view) :: curves(3)
+    real(real64) :: value
     integer :: stat
     character(80) :: message
 
     P = loop(129, 0.5_real64)
+    Q = loop(65, 0.375_real64)
     ! As a material routine keeps it: strain, temperature and stress of each increment.
     history = 1e6_real64
-    history(1:3:2, :) = transpose(loop(65, 0.375_real64))
+    history(1:3:2, :) = transpose(Q)
 
-    associate (Q => loop(65, 0.375_real64))
-        call show('area', area(P, Q))
-        call show('pcm', pcm(P, Q))
-        call show('frechet', frechet(P, Q))
-        call show('dtw', dtw(P, Q, dtw_options(step_pattern=symmetric2, window=20)))
-        call show('curve_length', curve_length(P, Q, curve_length_options(scale=scale_range)))
-        call normalize(P, Q, scaled)
-        call show('scaled', dtw(P, scaled))
-        ! Sections are read where they are: every other point, and the points backwards.
-        call show('section', dtw(P(1::2, :), Q(65:1:-1, :)))
-    end associate
-    call show('flat', dtw(P(:, 2:2), reshape(history(3, :), [65, 1])))
+    call show('area', area(P, Q))
+    call show('pcm', pcm(P, Q))
+    call show('frechet', frechet(P, Q))
+    call show('dtw', dtw(P, Q, options))
+    call show('curve_length', curve_length(P, Q, curve_length_options(scale=scale_range)))
+    call normalize(P, Q, scaled)
+    call show('scaled', dtw(P, scaled))
+    ! Sections are read where they are: every other point, and the points backwards.
+    call show('section', dtw(P(1::2, :), Q(65:1:-1, :)))
+    call show('stress', dtw(P(:, 2:2), Q(:, 2:2)))
+    call show('history', dtw(transpose(history(1:3:2, :)), P))
+
+    curves = [curve_view(P), curve_view(Q), curve_view(P(:60, :))]
+    call pdist(curves, measure_dtw, pairs, c_loc(options))
+    call show('P_and_Q', pairs(1))
+    call show('P_and_beginning', pairs(2))
+    call show('Q_and_beginning', pairs(3))
+    call cdist(curves(:1), curves(2:), measure_dtw, table)
+    call show('table', table(1, 2))
 
     value = area(P, history(:2, :), stat=stat, errmsg=message)
     if (stat /= invalid_argument) error stop 'a curve of 65 coordinates was accepted'

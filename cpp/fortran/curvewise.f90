@@ -16,7 +16,7 @@ module curvewise
         c_loc, c_null_char, c_null_ptr, c_ptr, c_ptrdiff_t, c_size_t
     implicit none
     private
-    public :: area, curve_length, curvewise_version, dtw, frechet, normalize, pcm
+    public :: area, cdist, curve_length, curvewise_version, dtw, frechet, normalize, pcm, pdist
 
     integer(c_int), parameter, public :: euclidean = 0, sqeuclidean = 1, cityblock = 2, &
         chebyshev = 3, minkowski = 4                        ! metric
@@ -26,6 +26,8 @@ module curvewise
     integer(c_int), parameter, public :: rearrange = 0, split = 1                ! crossing
     integer(c_int), parameter, public :: scale_mean = 0, scale_mean_abs = 1, scale_range = 2
     integer(c_ptrdiff_t), parameter, public :: no_window = -1
+    integer(c_int), parameter, public :: measure_area = 0, measure_pcm = 1, measure_frechet = 2, &
+        measure_dtw = 3, measure_curve_length = 4                                ! measure
     integer(c_int), parameter, public :: invalid_argument = 1, no_memory = 2, failed = 3  ! stat
 
     type, bind(C), public :: area_options
@@ -59,11 +61,21 @@ module curvewise
         integer(c_int) :: scale = scale_mean
     end type
 
-    ! curvewise_curve and curvewise_error of the C interface.
-    type, bind(C) :: curve_view
+    type, bind(C), public :: batch_options
+        integer(c_ptrdiff_t) :: workers = 1     ! threads, -1 for one per core
+        real(c_double) :: cutoff = huge(1.0_c_double)  ! a value above it becomes infinity
+    end type
+
+    ! A curve among others, for cdist and pdist: curve_view(P), where P has the attribute target.
+    type, bind(C), public :: curve_view
+        private
         type(c_ptr) :: data = c_null_ptr
         integer(c_ptrdiff_t) :: n, dim, row_stride = 1, col_stride = 1
     end type
+
+    interface curve_view
+        module procedure view
+    end interface
 
     type, bind(C) :: error_message
         character(kind=c_char) :: text(256) = c_null_char
@@ -116,6 +128,30 @@ module curvewise
         integer(c_int) function c_normalize(P, C, out, error) bind(C, name="curvewise_normalize")
             import
             type(curve_view), intent(in) :: P, C
+            real(c_double), intent(out) :: out(*)
+            type(error_message), intent(out) :: error
+        end function
+
+        integer(c_int) function c_cdist(XA, na, XB, nb, measure, options, batch, out, error) &
+            bind(C, name="curvewise_cdist")
+            import
+            type(curve_view), intent(in) :: XA(*), XB(*)
+            integer(c_ptrdiff_t), value :: na, nb
+            integer(c_int), value :: measure
+            type(c_ptr), value :: options
+            type(batch_options), intent(in), optional :: batch
+            real(c_double), intent(out) :: out(*)
+            type(error_message), intent(out) :: error
+        end function
+
+        integer(c_int) function c_pdist(X, k, measure, options, batch, out, error) &
+            bind(C, name="curvewise_pdist")
+            import
+            type(curve_view), intent(in) :: X(*)
+            integer(c_ptrdiff_t), value :: k
+            integer(c_int), value :: measure
+            type(c_ptr), value :: options
+            type(batch_options), intent(in), optional :: batch
             real(c_double), intent(out) :: out(*)
             type(error_message), intent(out) :: error
         end function
@@ -189,6 +225,47 @@ contains
         call conclude(c_normalize(view(P), view(C), points, error), error, stat, errmsg)
         scaled = transpose(points)
     end subroutine
+
+    ! values(i, j) becomes the measure of XA(i) and XB(j). `options` is the c_loc of the measure's
+    ! options, e.g. of a dtw_options for measure_dtw.
+    subroutine cdist(XA, XB, measure, values, options, batch, stat, errmsg)
+        type(curve_view), intent(in) :: XA(:), XB(:)
+        integer(c_int), intent(in) :: measure
+        real(c_double), allocatable, intent(out) :: values(:, :)
+        type(c_ptr), intent(in), optional :: options
+        type(batch_options), intent(in), optional :: batch
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        type(error_message) :: error
+        real(c_double), allocatable :: rows(:, :)  ! as C has them
+        allocate (rows(size(XB), size(XA)))
+        call conclude(c_cdist(XA, size(XA, kind=c_ptrdiff_t), XB, size(XB, kind=c_ptrdiff_t), &
+            measure, given(options), batch, rows, error), error, stat, errmsg)
+        values = transpose(rows)
+    end subroutine
+
+    ! The measure of X(i) and X(j), i < j: (1, 2), (1, 3), ..., (2, 3), ... For symmetric measures.
+    subroutine pdist(X, measure, values, options, batch, stat, errmsg)
+        type(curve_view), intent(in) :: X(:)
+        integer(c_int), intent(in) :: measure
+        real(c_double), allocatable, intent(out) :: values(:)
+        type(c_ptr), intent(in), optional :: options
+        type(batch_options), intent(in), optional :: batch
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        type(error_message) :: error
+        integer(c_ptrdiff_t) :: k
+        k = size(X, kind=c_ptrdiff_t)
+        allocate (values(k * (k - 1) / 2))
+        call conclude(c_pdist(X, k, measure, given(options), batch, values, error), error, stat, &
+            errmsg)
+    end subroutine
+
+    type(c_ptr) function given(options)
+        type(c_ptr), intent(in), optional :: options
+        given = c_null_ptr
+        if (present(options)) given = options
+    end function
 
     ! The version of the library that is linked, e.g. "0.1.0".
     function curvewise_version() result(version)

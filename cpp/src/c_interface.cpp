@@ -5,6 +5,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "curvewise/curvewise.h"
 #include "curvewise/curvewise.hpp"
@@ -75,6 +76,52 @@ curvewise::CurveLengthOptions translate(const curvewise_curve_length_options& gi
     return {choice("scale", given.scale, curvewise::LengthScale::range)};
 }
 
+template <class Options, class Given>
+Options translate_or_default(const void* given) {
+    return given == nullptr ? Options{} : translate(*static_cast<const Given*>(given));
+}
+
+curvewise::Measure translate(int measure, const void* options) {
+    switch (measure) {
+        case CURVEWISE_AREA:
+            return translate_or_default<curvewise::AreaOptions, curvewise_area_options>(options);
+        case CURVEWISE_PCM:
+            return translate_or_default<curvewise::PcmOptions, curvewise_pcm_options>(options);
+        case CURVEWISE_FRECHET:
+            return translate_or_default<curvewise::FrechetOptions, curvewise_frechet_options>(
+                options);
+        case CURVEWISE_DTW:
+            return translate_or_default<curvewise::DtwOptions, curvewise_dtw_options>(options);
+        case CURVEWISE_CURVE_LENGTH:
+            return translate_or_default<curvewise::CurveLengthOptions,
+                                        curvewise_curve_length_options>(options);
+        default:
+            throw std::invalid_argument("unknown measure " + std::to_string(measure) +
+                                        "; choose from 0 to 4");
+    }
+}
+
+std::vector<CurveView> views(const curvewise_curve* curves, ptrdiff_t count, const char* name) {
+    if (count < 0) {
+        throw std::invalid_argument(std::string(name) + " has " + std::to_string(count) +
+                                    " curves; give a whole number >= 0");
+    }
+    if (count > 0) at(curves, name);
+    std::vector<CurveView> result;
+    result.reserve(static_cast<std::size_t>(count));
+    for (ptrdiff_t i = 0; i < count; ++i) {
+        const std::string place = std::string(name) + "[" + std::to_string(i) + "]";
+        result.push_back(view(curves + i, place.c_str()));
+    }
+    return result;
+}
+
+curvewise::BatchOptions translate(const curvewise_batch_options* given) {
+    curvewise::BatchOptions options;
+    if (given != nullptr) options = {given->workers, given->cutoff};
+    return options;
+}
+
 void report(curvewise_error* error, const char* message) noexcept {
     if (error != nullptr) std::snprintf(error->message, sizeof error->message, "%s", message);
 }
@@ -106,7 +153,7 @@ template <class Options, class Given, class Measure>
 int measured(const curvewise_curve* P, const curvewise_curve* Q, const Given* given, double* value,
              curvewise_error* error, Measure measure) noexcept {
     return guarded(error, [&] {
-        const Options options = given == nullptr ? Options{} : translate(*given);
+        const auto options = translate_or_default<Options, Given>(given);
         double* const out = written(value, "value");
         *out = measure(view(P, "P"), view(Q, "Q"), options);
     });
@@ -160,6 +207,25 @@ int curvewise_normalize(const curvewise_curve* P, const curvewise_curve* C, doub
                         curvewise_error* error) {
     return guarded(
         error, [&] { curvewise::normalize(view(P, "P"), view(C, "C"), written(out, "out"), "C"); });
+}
+
+int curvewise_cdist(const curvewise_curve* XA, ptrdiff_t na, const curvewise_curve* XB,
+                    ptrdiff_t nb, int measure, const void* options,
+                    const curvewise_batch_options* batch, double* out, curvewise_error* error) {
+    return guarded(error, [&] {
+        const std::vector<CurveView> a = views(XA, na, "XA"), b = views(XB, nb, "XB");
+        if (!a.empty() && !b.empty()) at(out, "out");
+        curvewise::cdist(a, b, translate(measure, options), out, translate(batch));
+    });
+}
+
+int curvewise_pdist(const curvewise_curve* X, ptrdiff_t k, int measure, const void* options,
+                    const curvewise_batch_options* batch, double* out, curvewise_error* error) {
+    return guarded(error, [&] {
+        const std::vector<CurveView> curves = views(X, k, "X");
+        if (k > 1) at(out, "out");
+        curvewise::pdist(curves, translate(measure, options), out, translate(batch));
+    });
 }
 
 const char* curvewise_version(void) { return curvewise::version; }

@@ -16,6 +16,7 @@
 #ifndef CURVEWISE_CURVEWISE_H
 #define CURVEWISE_CURVEWISE_H
 
+#include <math.h>
 #include <stddef.h>
 
 #include "curvewise/export.h"
@@ -126,6 +127,36 @@ CURVEWISE_EXPORT int curvewise_curve_length(const curvewise_curve* P, const curv
 /* Writes C minus P's minimum, divided by P's extent, to out[i * dim + c] (pointwise.hpp). */
 CURVEWISE_EXPORT int curvewise_normalize(const curvewise_curve* P, const curvewise_curve* C,
                                          double* out, curvewise_error* error);
+
+/* Many curves: one measure for all pairs, on several threads. `options` points to the options of
+ * that measure (to a curvewise_dtw_options for CURVEWISE_DTW), or is NULL. */
+enum curvewise_measure {
+    CURVEWISE_AREA,
+    CURVEWISE_PCM,
+    CURVEWISE_FRECHET,
+    CURVEWISE_DTW,
+    CURVEWISE_CURVE_LENGTH
+};
+
+typedef struct curvewise_batch_options {
+    ptrdiff_t
+        workers;   /* threads, -1 for one per core; those of the measure's options do not count */
+    double cutoff; /* a value above it becomes infinity, which may save its computation */
+} curvewise_batch_options;
+#define CURVEWISE_BATCH_DEFAULTS \
+    { 1, HUGE_VAL }
+
+/* Writes the measure of XA[i] (as P) and XB[j] (as Q) to out[i * nb + j]. */
+CURVEWISE_EXPORT int curvewise_cdist(const curvewise_curve* XA, ptrdiff_t na,
+                                     const curvewise_curve* XB, ptrdiff_t nb, int measure,
+                                     const void* options, const curvewise_batch_options* batch,
+                                     double* out, curvewise_error* error);
+
+/* Writes the measure of X[i] and X[j], i < j, row by row: k (k - 1) / 2 values, (0, 1), (0, 2), ...
+ * For symmetric measures: area, frechet, and dtw without open ends. */
+CURVEWISE_EXPORT int curvewise_pdist(const curvewise_curve* X, ptrdiff_t k, int measure,
+                                     const void* options, const curvewise_batch_options* batch,
+                                     double* out, curvewise_error* error);
 
 /* The version of the library that is linked, e.g. "0.1.0". */
 CURVEWISE_EXPORT const char* curvewise_version(void);
