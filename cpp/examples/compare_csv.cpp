@@ -1,6 +1,6 @@
-// compare_csv A.csv B.csv: the five measures of two loops, both scaled by the box of the first, as
-// `curvewise compare` gives them. A file has one point a line, in its first two columns, separated
-// by commas, semicolons or blanks; lines that do not begin with a number are skipped.
+// compare_csv A.csv B.csv [scaled|paper|raw]: the five measures of two loops, as `curvewise
+// compare` gives them. A file has one point a line, in its first two columns, separated by commas,
+// semicolons or blanks; lines that do not begin with a number are skipped.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -33,25 +33,26 @@ Points read(const char* file) {
     return points;
 }
 
-Points scaled(const Points& box, const Points& curve) {
-    Points result(curve.size());
-    curvewise::normalize(box, curve, result.empty() ? nullptr : result.front().data());
-    return result;
+curvewise::Preset preset(const std::string& name) {
+    if (name == "scaled") return curvewise::Preset::scaled;
+    if (name == "paper") return curvewise::Preset::paper;
+    if (name == "raw") return curvewise::Preset::raw;
+    throw std::runtime_error("unknown preset " + name + "; choose from scaled, paper, raw");
 }
 
 }  // namespace
 
 int main(int count, char** arguments) try {
-    if (count != 3) throw std::runtime_error("give two files");
+    if (count != 3 && count != 4)
+        throw std::runtime_error("give two files, and a preset if need be");
     const Points experiment = read(arguments[1]), simulation = read(arguments[2]);
-    const Points P = scaled(experiment, experiment), Q = scaled(experiment, simulation);
-    curvewise::CurveLengthOptions length;
-    length.scale = curvewise::LengthScale::mean_abs;  // loops are centred on zero
-    std::printf("area %.17g\n", curvewise::area(P, Q));
-    std::printf("pcm %.17g\n", curvewise::pcm(P, Q));
-    std::printf("frechet %.17g\n", curvewise::frechet(P, Q));
-    std::printf("dtw %.17g\n", curvewise::dtw(P, Q));
-    std::printf("curve_length %.17g\n", curvewise::curve_length(P, Q, length));
+    const curvewise::Comparison found =
+        curvewise::compare(experiment, simulation, preset(count == 4 ? arguments[3] : "scaled"));
+    std::printf("area %.17g\n", *found.area);
+    std::printf("pcm %.17g\n", *found.pcm);
+    std::printf("frechet %.17g\n", found.frechet);
+    std::printf("dtw %.17g\n", found.dtw);
+    std::printf("curve_length %.17g\n", *found.curve_length);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "compare_csv: %s\n", error.what());
     return 1;

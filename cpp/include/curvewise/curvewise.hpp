@@ -3,6 +3,7 @@
 
 #include "curvewise/area.hpp"
 #include "curvewise/build_info.hpp"
+#include "curvewise/compare.hpp"
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/curve_length.hpp"

@@ -1,0 +1,40 @@
+// All measures of a pair of curves at once, under conditions that make sense together.
+//
+//   const curvewise::Comparison found = curvewise::compare(experiment, simulation);
+//   std::printf("area %g, Fréchet %g\n", *found.area, found.frechet);
+//
+// Time O(n m) for frechet and dtw and O(200 (n + m)) for pcm; memory O(n + m).
+#pragma once
+
+#include <optional>
+
+#include "curvewise/control.hpp"
+#include "curvewise/curve.hpp"
+#include "curvewise/export.h"
+
+namespace curvewise {
+
+// The conditions under which each measure is computed.
+enum class Preset {
+    scaled,  // all on curves scaled by P's box (normalize), curve_length with mean_abs
+    paper,   // those of Table 4 of Jekel et al. (2018): area raw with Spacing::x; frechet, and dtw
+             // with symmetric2, on scaled curves; pcm and curve_length raw
+    raw      // every default, on the curves as they are
+};
+
+// One value for each measure. Those of the plane have none where curves have other than two
+// coordinates.
+struct Comparison {
+    std::optional<double> area;
+    std::optional<double> pcm;
+    double frechet = 0.0;
+    double dtw = 0.0;
+    std::optional<double> curve_length;
+};
+
+// Throws what the measures throw: std::invalid_argument, std::bad_alloc, Stopped. The control
+// watches one measure after the other, not their sum.
+CURVEWISE_EXPORT Comparison compare(const CurveView& P, const CurveView& Q,
+                                    Preset preset = Preset::scaled, Control* control = nullptr);
+
+}  // namespace curvewise
