@@ -1,5 +1,6 @@
 // All pairs of many curves on all cores, watched while it runs; and how a run is stopped.
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <curvewise/curvewise.hpp>
@@ -12,6 +13,7 @@ using Points = std::vector<std::array<double, 2>>;
 // A closed loop: x a triangle wave, y a parabola on each branch.
 Points loop(int n, double height) {
     Points points;
+    points.reserve(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i) {
         const double t = 4.0 * i / (n - 1);
         const double u = t < 2.0 ? t - 1.0 : 3.0 - t;

@@ -125,10 +125,10 @@ Points read(const char* file) {
 }
 
 void write(const char* file, const Points& points) {
-    std::FILE* const out = std::fopen(file, "w");
-    if (out == nullptr) throw std::runtime_error(std::string(file) + " cannot be written");
-    for (const auto& [strain, stress] : points) std::fprintf(out, "%.17g,%.17g\n", strain, stress);
-    if (std::fclose(out) != 0) throw std::runtime_error(std::string(file) + " cannot be written");
+    std::ofstream out(file);
+    out.precision(17);
+    for (const auto& [strain, stress] : points) out << strain << ',' << stress << '\n';
+    if (!out.flush()) throw std::runtime_error(std::string(file) + " cannot be written");
 }
 
 Constants exponential(const Constants& logarithms) {

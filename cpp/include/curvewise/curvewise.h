@@ -13,6 +13,7 @@
  * are the defaults; otherwise start from CURVEWISE_..._DEFAULTS, since a struct of zeros is not
  * the default. Every function that can fail returns a curvewise_status, writes its result only if
  * that is CURVEWISE_OK, and says what was wrong in `error`, which may be NULL. */
+/* NOLINTBEGIN(modernize-*,readability-identifier-naming): rules for C++ */
 #ifndef CURVEWISE_CURVEWISE_H
 #define CURVEWISE_CURVEWISE_H
 
@@ -166,3 +167,4 @@ CURVEWISE_EXPORT const char* curvewise_version(void);
 #endif
 
 #endif
+/* NOLINTEND(modernize-*,readability-identifier-naming) */
