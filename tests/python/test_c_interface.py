@@ -1,0 +1,257 @@
+"""The C interface, called from Python by ctypes: every option, and every way to be refused.
+
+The shared library is loaded beside the Python module, which has a copy of its own inside; both
+give the same bits.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import subprocess
+import sys
+from ctypes import POINTER, Structure, byref, c_char, c_double, c_int, c_ssize_t, c_void_p
+
+import numpy as np
+import pytest
+from programs import MARKS
+
+import curvewise
+
+pytestmark = MARKS
+
+OK, INVALID_ARGUMENT, NO_MEMORY, FAILED = range(4)
+METRICS = ["euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"]
+MEASURES = ["area", "pcm", "frechet", "dtw", "curve_length"]
+
+
+def structure(name: str, *fields: tuple[str, type]) -> type[Structure]:
+    return type(name, (Structure,), {"_fields_": list(fields)})
+
+
+Curve = structure(
+    "Curve", ("data", c_void_p), *((x, c_ssize_t) for x in ("n", "dim", "row_stride", "col_stride"))
+)
+Error = structure("Error", ("message", c_char * 256))
+Area = structure("Area", ("spacing", c_int), ("crossing", c_int), ("squared", c_int))
+Pcm = structure("Pcm", ("offsets", c_ssize_t), ("continuous", c_int))
+Frechet = structure("Frechet", ("metric", c_int), ("p", c_double), ("workers", c_ssize_t))
+Dtw = structure(
+    "Dtw",
+    ("metric", c_int),
+    ("p", c_double),
+    *((x, c_int) for x in ("step_pattern", "open_begin", "open_end")),
+    *((x, c_ssize_t) for x in ("window", "workers")),
+)
+CurveLength = structure("CurveLength", ("scale", c_int))
+Batch = structure("Batch", ("workers", c_ssize_t), ("cutoff", c_double))
+
+
+@pytest.fixture(scope="module")
+def library(prefix) -> ctypes.CDLL:
+    ending = "dylib" if sys.platform == "darwin" else "so"
+    return ctypes.CDLL(str(prefix("shared") / "lib" / f"libcurvewise.{ending}"))
+
+
+def view(points: np.ndarray) -> Structure:
+    """Return the curve that an array is, of whatever strides; the array must outlive it."""
+    strides = [stride // 8 for stride in points.strides]
+    return Curve(points.ctypes.data, *points.shape, *strides)
+
+
+def curves(*arrays: np.ndarray) -> ctypes.Array:
+    return (Curve * len(arrays))(*map(view, arrays))
+
+
+@pytest.fixture
+def call(library):
+    """Call a measure; return its value, or raise what the status and the message say."""
+
+    def measure(name: str, P, Q, options: Structure | None = None) -> float:
+        value, error = c_double(math.nan), Error()
+        given = None if options is None else byref(options)
+        function = getattr(library, f"curvewise_{name}")
+        p, q = (curve if curve is None else byref(view(curve)) for curve in (P, Q))
+        status = function(p, q, given, byref(value), byref(error))
+        message = error.message.decode()
+        assert (status == OK) == (message == "") == (not math.isnan(value.value))
+        if status == INVALID_ARGUMENT:
+            raise ValueError(message)
+        assert status == OK, message
+        return value.value
+
+    return measure
+
+
+random = np.random.default_rng(5)
+P, Q = (np.cumsum(random.normal(size=(n, 2)), axis=0) for n in (60, 45))
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_null_options_are_the_defaults(name, call) -> None:
+    assert call(name, P, Q) == getattr(curvewise, name)(P, Q)
+    assert call(name, P[::-2], np.asfortranarray(Q)) == getattr(curvewise, name)(P[::-2], Q)
+
+
+@pytest.mark.parametrize("metric", METRICS)
+def test_table_options(metric, call) -> None:
+    order = {"p": 3.5} if metric == "minkowski" else {}
+    code = METRICS.index(metric)
+    value = call("frechet", P, Q, Frechet(code, 3.5, 2))
+    assert value == curvewise.frechet(P, Q, metric=metric, **order)
+    for pattern, window in ((0, None), (1, None), (0, 7), (1, 20)):
+        options = Dtw(code, 3.5, pattern, 0, 0, -1 if window is None else window, 1)
+        expected = curvewise.dtw(
+            P, Q, metric=metric, step_pattern=f"symmetric{pattern + 1}", window=window, **order
+        )
+        assert call("dtw", P, Q, options) == expected
+    for begin, end in ((1, 0), (0, 1), (1, 1)):
+        expected = curvewise.dtw(
+            P, Q, metric=metric, open_begin=bool(begin), open_end=bool(end), **order
+        )
+        assert call("dtw", P, Q, Dtw(code, 3.5, 0, begin, end, -1, -1)) == expected
+
+
+def test_planar_options(call) -> None:
+    for spacing in ("distance", "x", "arc_length"):
+        for crossing in ("rearrange", "split"):
+            for squared in (False, True):
+                given = {"spacing": spacing, "crossing": crossing, "squared": squared}
+                codes = (
+                    ["distance", "x", "arc_length"].index(spacing),
+                    ["rearrange", "split"].index(crossing),
+                    int(squared),
+                )
+                assert call("area", P, Q, Area(*codes)) == curvewise.area(P, Q, **given)
+    assert call("pcm", P, Q, Pcm(17, 0)) == curvewise.pcm(P, Q, offsets=17)
+    assert call("pcm", P, Q, Pcm(0, 1)) == curvewise.pcm(P, Q, offsets="continuous")
+    for code, scale in enumerate(("mean", "mean_abs", "range")):
+        expected = curvewise.curve_length(P, Q, scale=scale)
+        assert call("curve_length", P, Q, CurveLength(code)) == expected
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "message"),
+    [
+        ("area", Area(3, 0, 0), "unknown spacing 3; choose from 0 to 2"),
+        ("area", Area(0, -1, 0), "unknown crossing -1; choose from 0 to 1"),
+        ("pcm", Pcm(0, 0), "offsets is 0; give a whole number >= 1, or 'continuous'"),
+        ("frechet", Frechet(5, 2.0, 1), "unknown metric 5; choose from 0 to 4"),
+        ("frechet", Frechet(4, 0.5, 1), "minkowski needs 1 <= p <= inf"),
+        ("frechet", Frechet(), "workers is 0"),
+        ("dtw", Dtw(), "workers is 0"),
+        ("dtw", Dtw(0, 2.0, 2, 0, 0, -1, 1), "unknown step_pattern 2; choose from 0 to 1"),
+        ("dtw", Dtw(0, 2.0, 1, 1, 0, -1, 1), "open_begin and open_end need step_pattern="),
+        ("curve_length", CurveLength(7), "unknown scale 7; choose from 0 to 2"),
+    ],
+)
+def test_options_refused(name, options, message, call) -> None:
+    with pytest.raises(ValueError, match=message):
+        call(name, P, Q, options)
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_curves_refused(name, call) -> None:
+    bad = Q.copy()
+    bad[17, 1] = math.nan
+    with pytest.raises(ValueError, match=r"^Q\[17, 1\] is nan; curves must be finite$"):
+        call(name, P, bad)
+    with pytest.raises(ValueError, match=r"^P is a null pointer$"):
+        call(name, None, Q)
+    nowhere = np.empty((0, 2))
+    with pytest.raises(ValueError, match=rf"^P has shape \(0, 2\); {name} needs at least"):
+        call(name, nowhere, Q)
+
+
+def test_null_data_and_results(library) -> None:
+    p, error = view(P), Error()
+    nothing = Curve(None, 5, 2, 2, 1)
+    value = c_double()
+    dtw = library.curvewise_dtw
+    assert dtw(byref(nothing), byref(p), None, byref(value), byref(error)) == INVALID_ARGUMENT
+    assert error.message == b"P->data is a null pointer"
+    assert dtw(byref(p), byref(p), None, None, byref(error)) == INVALID_ARGUMENT
+    assert error.message == b"value is a null pointer"
+    assert dtw(byref(p), byref(p), None, None, None) == INVALID_ARGUMENT
+    assert dtw(byref(p), byref(p), None, byref(value), None) == OK
+
+
+def test_normalize(library) -> None:
+    p, q, error = view(P), view(Q), Error()
+    out = np.empty_like(Q)
+    call = library.curvewise_normalize
+    pointer = out.ctypes.data_as(POINTER(c_double))
+    assert call(byref(p), byref(q), pointer, byref(error)) == OK
+    np.testing.assert_array_equal(out, curvewise.normalize(P, Q)[1])
+    one = view(Q[:, :1])
+    assert call(byref(p), byref(one), pointer, byref(error)) == INVALID_ARGUMENT
+    assert error.message.startswith(b"P has shape (60, 2) and C has shape (45, 1)")
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_batches(name, library) -> None:
+    XA, XB = [P[:20], P[10:50], Q], [Q[:30], P]
+    a, b, error = curves(*XA), curves(*XB), Error()
+    out = np.empty((3, 2))
+    pointer = out.ctypes.data_as(POINTER(c_double))
+    sizes = c_ssize_t(3), c_ssize_t(2)
+    code = MEASURES.index(name)
+    expected = curvewise.cdist(XA, XB, name)
+    cutoff = float(np.median(expected))
+    for batch in (None, Batch(2, math.inf), Batch(1, cutoff)):
+        status = library.curvewise_cdist(
+            a, sizes[0], b, sizes[1], code, None, batch and byref(batch), pointer, byref(error)
+        )
+        assert (status, error.message) == (OK, b"")
+        limit = math.inf if batch is None else batch.cutoff
+        np.testing.assert_array_equal(out, np.where(expected > limit, math.inf, expected))
+
+
+def test_batches_take_the_options_of_their_measure(library) -> None:
+    X = [P[:20], P[10:50], Q]
+    error, out = Error(), np.empty(3)
+    pointer, count = out.ctypes.data_as(POINTER(c_double)), c_ssize_t(3)
+    options = Dtw(2, 2.0, 1, 0, 0, -1, 1)
+    arguments = byref(options), None, pointer, byref(error)
+    assert library.curvewise_pdist(curves(*X), count, 3, *arguments) == OK
+    expected = curvewise.pdist(X, "dtw", metric="cityblock", step_pattern="symmetric2")
+    np.testing.assert_array_equal(out, expected)
+
+    def refused(curves_given, count, measure, pointer=pointer) -> str:
+        arguments = None, None, pointer, byref(error)
+        status = library.curvewise_pdist(curves_given, c_ssize_t(count), measure, *arguments)
+        assert status == INVALID_ARGUMENT
+        return error.message.decode()
+
+    assert refused(curves(*X), 3, 5) == "unknown measure 5; choose from 0 to 4"
+    assert refused(curves(*X), -1, 3) == "X has -1 curves; give a whole number >= 0"
+    assert refused(None, 3, 3) == "X is a null pointer"
+    assert refused(curves(*X), 3, 3, None) == "out is a null pointer"
+    assert "d(P, Q) = d(Q, P)" in refused(curves(*X), 3, 1)
+    holes = (Curve * 2)(view(P), Curve(None, 5, 2, 2, 1))
+    assert refused(holes, 2, 3) == "X[1]->data is a null pointer"
+
+
+def test_version(library) -> None:
+    library.curvewise_version.restype = ctypes.c_char_p
+    assert library.curvewise_version().decode() == curvewise.__version__
+
+
+def test_what_is_no_argument_is_a_failure(prefix, library) -> None:
+    """CURVEWISE_ISA names a level that no machine has."""
+    program = (
+        "import ctypes, sys\n"
+        "library = ctypes.CDLL(sys.argv[1])\n"
+        "point = (ctypes.c_double * 2)()\n"
+        "curve = (ctypes.c_ssize_t * 5)(ctypes.addressof(point), 1, 2, 2, 1)\n"
+        "error, value = ctypes.create_string_buffer(256), ctypes.c_double()\n"
+        "print(library.curvewise_dtw(curve, curve, None, ctypes.byref(value), error))\n"
+        "print(error.value.decode())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, library._name],
+        capture_output=True,
+        text=True,
+        env={"CURVEWISE_ISA": "v9"},
+    )
+    assert done.stdout.startswith(f"{FAILED}\nCURVEWISE_ISA is 'v9'; this machine has baseline")
