@@ -63,6 +63,7 @@ figure: Figure = comparison.plot()
 compiler: str = curvewise.build_info()["compiler"]
 levels: list[str] = curvewise.build_info()["instruction_sets"]
 version: str = curvewise.__version__
+include: str = curvewise.get_include()
 
 axes = figure.subplots()
 plotting.plot_area(P, Q, axes, spacing="x")
