@@ -1,4 +1,7 @@
-// A distance with the path that attains it (a warping path for DTW, a coupling for Fréchet).
+// A distance with the path that attains it (a warping path for DTW, a coupling for Fréchet), as
+// dtw_path and frechet_path return it.
+//
+//   for (const auto& [i, j] : alignment.path) draw_line(P(i, 0), P(i, 1), Q(j, 0), Q(j, 1));
 #pragma once
 
 #include <array>

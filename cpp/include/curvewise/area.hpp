@@ -3,7 +3,7 @@
 // quadrilateral i is (A[i], A[i+1], B[i+1], B[i]); the measure is the sum of their areas.
 // Symmetric to rounding, but with Spacing::arc_length. Time O(n + m + |n - m| log m), memory
 // O(n + m). Throws std::invalid_argument for a curve that is not finite, has fewer than 2 points
-// or other than 2 coordinates, and std::bad_alloc. Safe from any number of threads.
+// or other than 2 coordinates; std::bad_alloc; Stopped. Safe from any number of threads.
 //
 //   curvewise::AreaOptions options;
 //   options.spacing = curvewise::Spacing::x;   // raw stress and strain

@@ -6,7 +6,7 @@
 //
 // Without units, and not symmetric. Time O(n + m), memory O(n + m). Throws std::invalid_argument
 // for a curve that is not finite, has fewer than 2 points, other than 2 coordinates, or no length,
-// and where the scale is 0; and std::bad_alloc. Safe from any number of threads.
+// and where the scale is 0; std::bad_alloc; Stopped. Safe from any number of threads.
 //
 //   curvewise::CurveLengthOptions options;
 //   options.scale = curvewise::LengthScale::mean_abs;   // a loop, centred on zero

@@ -6,8 +6,13 @@
 // w = 1 for symmetric1, 2 for symmetric2 (Sakoe & Chiba 1978). Exact. Time O(n m); memory O(n + m)
 // for the distance and the path, 8 n m bytes for the table. Every function throws
 // std::invalid_argument for a curve that is empty or not finite, for curves of different
-// dimension, and for options out of range, with a message that says which and where; and
-// std::bad_alloc.
+// dimension, and for options out of range, with a message that says which and where;
+// std::bad_alloc; and Stopped. Safe from any number of threads.
+//
+//   curvewise::DtwOptions options;
+//   options.step_pattern = curvewise::StepPattern::symmetric2;
+//   options.window = 20;
+//   const double distance = curvewise::dtw(experiment, simulation, options);
 #pragma once
 
 #include <cstddef>

@@ -4,8 +4,11 @@
 //   c[i, j] = max(d(P_i, Q_j), min(c[i-1, j], c[i, j-1], c[i-1, j-1]))
 //
 // It is at most the longest edge of either curve above the continuous Fréchet distance. Exact.
-// Time O(n m); memory O(n + m) for the distance and the path, 8 n m bytes for the table. Throws as
-// dtw does.
+// Symmetric. Time O(n m); memory O(n + m) for the distance and the path, 8 n m bytes for the
+// table. Throws as dtw does. Safe from any number of threads.
+//
+//   const curvewise::Alignment coupling = curvewise::frechet_path(experiment, simulation);
+//   std::printf("%g in %zu steps\n", coupling.distance, coupling.path.size());
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,9 @@
-// The ground distance: how far apart two points are, for dtw and frechet.
+// The ground distance: how far apart two points are, for dtw and frechet, in any number of
+// coordinates. A p below 1, or nan, makes the function that is given it throw
+// std::invalid_argument.
+//
+//   curvewise::FrechetOptions options;
+//   options.ground = {curvewise::Metric::minkowski, 3.0};
 #pragma once
 
 #include <limits>

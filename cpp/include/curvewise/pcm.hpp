@@ -3,8 +3,12 @@
 // longer one, of length T, at an offset along it, vertex by vertex at equal arc length; the
 // measure is the smallest area between the two over the offsets 0 to T - S. Not symmetric (P's
 // box scales). A curve that is a piece of the other scores 0 by design: see PcmMatch::coverage.
-// Throws std::invalid_argument for a curve that is not finite, has fewer than 2 points, other
-// than 2 coordinates, or no length.
+// Memory O(n + m). Throws std::invalid_argument for a curve that is not finite, has fewer than 2
+// points, other than 2 coordinates, or no length; std::bad_alloc; and Stopped. Safe from any
+// number of threads.
+//
+//   const curvewise::PcmMatch match = curvewise::pcm_match(experiment, simulation);
+//   if (match.coverage < 0.5) std::puts("less than half of the longer curve is compared");
 #pragma once
 
 #include <array>
