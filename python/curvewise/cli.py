@@ -15,15 +15,16 @@ import json
 import math
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
 from . import __version__, build_info
-from .compare import Comparison, Preset, compare
+from .compare import PRESETS, Comparison, Preset, compare
 from .csv_curves import read_curve
 from .datasets import hysteresis_pair
 from .embedding import get_cmake_dir, get_include
+from .measures import curve_length_residuals, normalize
 
 __all__ = ["main"]
 
@@ -127,7 +128,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="command", required=True)
 
     command = commands.add_parser("compare", help="compare the curves in two text files")
-    command.set_defaults(run=_compare)
+    command.set_defaults(run=_compare, usage_error=command.error)
     command.add_argument("A", help="the reference, e.g. the experiment: one point per line")
     command.add_argument("B", help="the other curve, e.g. the simulation")
     command.add_argument(
@@ -150,6 +151,16 @@ def _parser() -> argparse.ArgumentParser:
     )
     command.add_argument("--json", action="store_true", help="print one JSON object")
     command.add_argument("--plot", metavar="FILE", help="write a picture, e.g. out.png or out.pdf")
+    command.add_argument(
+        "--output",
+        metavar="FILE",
+        help="write the bare values, one per line, for Dakota, LS-OPT, HyperStudy and the like",
+    )
+    command.add_argument(
+        "--residuals",
+        action="store_true",
+        help="write to the --output file the terms of curve_length, for least squares, instead",
+    )
 
     command = commands.add_parser("demo", help="compare the built-in hysteresis loops")
     command.set_defaults(run=_demo)
@@ -163,6 +174,8 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _compare(arguments: argparse.Namespace) -> int:
+    if arguments.residuals and not arguments.output:
+        arguments.usage_error("--residuals needs --output FILE, where to write them")
     if arguments.plot:
         _require_matplotlib()
     files = [arguments.A, arguments.B]
@@ -171,6 +184,9 @@ def _compare(arguments: argparse.Namespace) -> int:
         comparison = compare(P, Q, preset=arguments.preset, measures=arguments.measures)
     except ValueError as error:
         raise ValueError(f"{error} (P is {files[0]}, Q is {files[1]})") from error
+    if arguments.output:
+        numbers = _residuals(comparison) if arguments.residuals else comparison.values.values()
+        _write_numbers(numbers, arguments.output)
     if arguments.json:
         print(_to_json(comparison, files))
     else:
@@ -220,6 +236,21 @@ def _to_json(comparison: Comparison, files: list[str]) -> str:
     return json.dumps(
         {"files": files, "preset": comparison.preset, "n": n, "values": values}, indent=2
     )
+
+
+def _residuals(comparison: Comparison) -> list[float]:
+    """Return the terms of curve_length, x and y of one point after the other."""
+    condition = PRESETS[comparison.preset]["curve_length"]
+    P, Q = comparison.P, comparison.Q
+    if condition.scaled:
+        P, Q = normalize(P, Q)
+    residuals: list[float] = curve_length_residuals(P, Q, **condition.options).ravel().tolist()
+    return residuals
+
+
+def _write_numbers(numbers: Iterable[float], file: str) -> None:
+    """Write a number a line, with all its digits: an optimiser takes differences of them."""
+    Path(file).write_text("".join(f"{number:.17g}\n" for number in numbers), encoding="ascii")
 
 
 def _require_matplotlib() -> None:

@@ -358,3 +358,33 @@ def test_real_loops(run, data_dir, tmp_path, first, second):
     assert list(values) == MEASURES
     assert all(0.0 < value < np.inf for value in values.values())
     assert picture.read_bytes().startswith(PNG)
+
+
+def test_compare_writes_bare_values_for_an_optimiser(run, files):
+    status, out, error = run("compare", *files, "--measures", "dtw", "area", "--output", "f.txt")
+    assert (status, error) == (0, "")
+    assert "dtw" in out
+    expected = curvewise.compare(*map(read_curve, files))
+    with open("f.txt") as file:
+        assert [float(line) for line in file] == [expected["dtw"], expected["area"]]
+
+
+@pytest.mark.parametrize("preset", ["scaled", "paper", "raw"])
+def test_compare_writes_residuals_for_least_squares(run, files, preset):
+    keywords = ["--preset", preset, "--measures", "curve_length"]
+    status, _, error = run("compare", *files, *keywords, "--output", "f.txt", "--residuals")
+    assert (status, error) == (0, "")
+    residuals = np.loadtxt("f.txt")
+    P, Q = map(read_curve, files)
+    assert residuals.shape == (2 * len(P),)
+    value = curvewise.compare(P, Q, preset=preset)["curve_length"]
+    assert np.linalg.norm(residuals) == pytest.approx(value, rel=1e-14)
+
+
+def test_compare_writes_no_output_where_it_fails(run, files):
+    np.savetxt("B.csv", np.zeros((3, 2)))
+    assert_failed(run("compare", *files, "--output", "f.txt"), "B.csv")
+    assert not os.path.exists("f.txt")
+    status, _, error = run("compare", *files, "--residuals")
+    assert status == USAGE
+    assert "--residuals needs --output FILE" in error

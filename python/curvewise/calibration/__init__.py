@@ -1,0 +1,29 @@
+"""Identify the parameters of a model from measured curves: inverse analysis.
+
+An :class:`Objective` turns simulations into one number, :func:`identify` searches for the
+parameters that make it smallest, :func:`cross_validate` leaves out one loop after the other, and
+:func:`line_plot` shows the objectives between two sets of parameters. The method is that of Jekel,
+Venter, Venter, Stander, Haftka, "Similarity measures for identifying material parameters from
+hysteresis loops using inverse analysis", Int. J. Material Forming (2018). scipy and tqdm are
+needed: ``pip install "curvewise[calibration]"``.
+"""
+
+from .cross_validation import CrossValidation, Fold, cross_validate
+from .evaluations import Progress
+from .identification import Identification, identify
+from .line_plot import LinePlot, line_plot
+from .objective import MEASURES, Objective, Score
+
+__all__ = [
+    "MEASURES",
+    "CrossValidation",
+    "Fold",
+    "Identification",
+    "LinePlot",
+    "Objective",
+    "Progress",
+    "Score",
+    "cross_validate",
+    "identify",
+    "line_plot",
+]

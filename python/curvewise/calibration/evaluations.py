@@ -1,0 +1,226 @@
+"""Between an optimiser and the model: runs each point once, records it, and stops in time.
+
+An optimiser asks for the values of a batch of points. Points that this search has already
+evaluated, or that its history file holds, are looked up; the others are run, in parallel if the
+pool has several processes. Numbers are given in the order in which the optimiser asked, so that
+nothing that it sees depends on the number of processes or on what was run before an interruption.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._curves import Array
+from .curve_list import as_points, curve_list
+from .history import Evaluation, History
+from .model_pool import ModelPool, Outcome
+from .objective import Objective
+from .parameters import Point, Space
+
+__all__ = ["Evaluations", "Finish", "Progress", "SearchEndedError"]
+
+# A fraction of the value of simulations that are wrong by their loops' heights. The smallest value
+# of an objective is 0, for a perfect model, so no tolerance relative to it alone is ever met.
+_NEGLIGIBLE = 1e-7
+
+_log = logging.getLogger("curvewise.calibration")
+
+
+class Progress(NamedTuple):
+    """What a callback is told after every batch.
+
+    Attributes
+    ----------
+    evaluations : int
+        How many parameter sets have been evaluated.
+    parameters : dict of str to float
+        The best of them.
+    value : float
+        Its value.
+    """
+
+    evaluations: int
+    parameters: dict[str, float]
+    value: float
+
+
+class Finish(NamedTuple):
+    """How a search, or a stage of it, ended."""
+
+    converged: bool
+    message: str
+
+
+class SearchEndedError(Exception):
+    """The search is over before its method has converged; the message says why."""
+
+
+class Evaluations:
+    """The objective as a function of points of the unit cube.
+
+    Parameters
+    ----------
+    pool, objective, space, history
+        What runs the model, scores it, names the parameters and keeps the record.
+    limit : int or None
+        How many parameter sets to evaluate at most.
+    callback : callable or None
+        Told the progress after every batch; a true result ends the search.
+    bar : object
+        A tqdm progress bar.
+    """
+
+    def __init__(
+        self,
+        pool: ModelPool,
+        objective: Objective,
+        space: Space,
+        history: History,
+        *,
+        limit: int | None,
+        callback: Callable[[Progress], Any] | None,
+        bar: Any,
+    ) -> None:
+        self.objective = objective
+        self._pool, self._space, self._history = pool, space, history
+        self._limit, self._callback, self._bar = limit, callback, bar
+        self._done: dict[Point, Evaluation] = {}
+        self._units: dict[Point, Array] = {}
+        self._best: Point | None = None
+        self._best_simulations: Any = None
+        self._log_level = logging.WARNING  # of the first failure; all are kept anyway
+
+    @property
+    def dimensions(self) -> int:
+        """How many parameters there are."""
+        return len(self._space.names)
+
+    @property
+    def negligible(self) -> float:
+        """Differences of the objective below this do not count."""
+        return _NEGLIGIBLE * float(self.objective.weights @ self.objective.scales)
+
+    @property
+    def done(self) -> list[Evaluation]:
+        """Every evaluation so far, in order."""
+        return list(self._done.values())
+
+    @property
+    def best(self) -> Evaluation:
+        """The evaluation with the smallest value, the first among equals."""
+        assert self._best is not None
+        return self._done[self._best]
+
+    @property
+    def best_unit(self) -> Array:
+        """Where in the unit cube the best evaluation is."""
+        assert self._best is not None
+        return self._units[self._best]
+
+    def stage(self, name: str) -> None:
+        """Show the name of a stage of the search beside the progress."""
+        self._bar.set_description(name)
+
+    def values(self, units: Array) -> Array:
+        """Return the objective at points of the unit cube, shape (count, dimensions)."""
+        return np.array([e.value for e in self.evaluated(units)])
+
+    def value(self, unit: Array) -> float:
+        """Return the objective at one point."""
+        return self.evaluated(unit[np.newaxis])[0].value
+
+    def best_simulations(self) -> Any:
+        """Return the simulations at the best point; runs the model again if it has to."""
+        if self._best_simulations is None:
+            ((_, outcome),) = self._pool.run([self._space.dictionary(self.best.point)])
+            self._best_simulations = outcome.simulations
+        return self._best_simulations
+
+    def evaluated(self, units: Array, *, keep_simulations: bool = False) -> list[Evaluation]:
+        """Return the evaluations of points; run those that are not known.
+
+        Parameters
+        ----------
+        units : ndarray, shape (count, dimensions)
+            Points of the unit cube.
+        keep_simulations : bool
+            Keep the curves of simulations that succeed, in the history file too. A method that
+            wants them must ask for them every time.
+
+        Raises
+        ------
+        SearchEndedError
+            The limit is reached, or the callback asks for it.
+        RuntimeError
+            No simulation of the first batch has succeeded.
+        """
+        points = [self._space.point(unit) for unit in units]
+        new = list(dict.fromkeys(p for p in points if p not in self._done))
+        batch = new if self._limit is None else new[: self._limit - len(self._done)]
+        for point, unit in zip(points, units, strict=True):
+            self._units.setdefault(point, np.array(unit))
+        if batch:
+            is_first = not self._done
+            self._run(batch, keep_simulations)
+            if is_first and all(e.failed for e in self._done.values()):
+                raise RuntimeError(
+                    f"no simulation succeeded, of {len(self._done)} that the search begins with; "
+                    f"the first: {next(iter(self._done.values())).message}"
+                )
+            self._report()
+        if len(batch) < len(new):
+            raise SearchEndedError(f"max_evaluations = {self._limit} reached")
+        return [self._done[point] for point in points]
+
+    def _run(self, batch: list[Point], keep_simulations: bool) -> None:
+        first = len(self._done) + 1
+        finished: dict[Point, Evaluation] = {}
+        simulations: dict[Point, Any] = {}
+        for i, point in enumerate(batch):
+            if point in self._history.saved:
+                finished[point] = replace(self._history.saved[point], number=first + i)
+        self._bar.update(len(finished))
+        missing = [(first + i, p) for i, p in enumerate(batch) if p not in finished]
+        parameters = [self._space.dictionary(point) for _, point in missing]
+        for k, outcome in self._pool.run(parameters):
+            number, point = missing[k]
+            finished[point] = self._judged(number, point, outcome, keep_simulations)
+            simulations[point] = outcome.simulations
+            self._history.write(finished[point])
+            self._bar.update()
+        for point in batch:
+            self._done[point] = finished[point]
+            if self._best is None or finished[point].value < self.best.value:
+                self._best = point
+                self._best_simulations = simulations.get(point)
+
+    def _judged(
+        self, number: int, point: Point, outcome: Outcome, keep_simulations: bool
+    ) -> Evaluation:
+        simulations = outcome.simulations
+        if outcome.message:  # in full, as the objective would give it for an exception
+            simulations = None
+        score = self.objective.score(simulations)
+        message = outcome.message or "; ".join(score.failures)
+        if message:
+            _log.log(self._log_level, "evaluation %d failed: %s", number, message)
+            self._log_level = logging.DEBUG
+        curves = None
+        if keep_simulations and not message:
+            curves = tuple(as_points(curve, "Q").copy() for curve in curve_list(simulations))
+        seconds = outcome.seconds
+        return Evaluation(number, point, score.value, bool(message), seconds, message, curves)
+
+    def _report(self) -> None:
+        best = self.best
+        self._bar.set_postfix(best=f"{best.value:.4g}", refresh=False)
+        if self._callback is None:
+            return
+        parameters = self._space.dictionary(best.point)
+        if self._callback(Progress(len(self._done), parameters, best.value)):
+            raise SearchEndedError("the callback ended the search")

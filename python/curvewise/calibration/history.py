@@ -1,0 +1,184 @@
+"""The history file: every evaluation of the model, from which an interrupted search resumes.
+
+A CSV file. Its first line, a comment, holds the settings of the search as JSON; then come a header
+and one line per evaluation, in the order in which they were finished, numbers as %.17g, which
+gives a double back bit for bit. Every line is flushed when it is written, so that a search that is
+killed loses the evaluations that were running and no other; half a line at the end is cut off.
+Methods that learn more from a simulation than its value have the curves appended as base64.
+"""
+
+from __future__ import annotations
+
+import base64
+import csv
+import io
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .._curves import Array
+from .parameters import Point
+
+__all__ = ["Evaluation", "History", "as_records"]
+
+# A row may hold the curves of several loops: more than csv's default of 128 kB for a cell.
+_LARGEST_CELL = 2**31 - 1
+
+_TITLE = "# curvewise identification "
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """One run of the model and what the objective made of it."""
+
+    number: int
+    point: Point
+    value: float
+    failed: bool
+    seconds: float
+    message: str = ""
+    simulations: tuple[Array, ...] | None = None
+
+
+class History:
+    """Evaluations saved by an earlier run, and the file to which new ones are appended.
+
+    Parameters
+    ----------
+    path : path-like or None
+        None: nothing is read or written.
+    settings : mapping
+        What must be the same for an evaluation to be used again; JSON can hold it.
+    names : tuple of str
+        The parameters.
+
+    Raises
+    ------
+    ValueError
+        The file is not a history, or one of a search with other settings.
+    OSError
+        The file cannot be read or written.
+    """
+
+    def __init__(
+        self,
+        path: str | os.PathLike[str] | None,
+        settings: Mapping[str, Any],
+        names: tuple[str, ...],
+    ) -> None:
+        self.saved: dict[Point, Evaluation] = {}
+        self._file: io.TextIOWrapper | None = None
+        if path is None:
+            return
+        text = json.dumps(settings, default=repr)
+        header = ("evaluation", *names, "value", "failed", "seconds", "message", "simulations")
+        if not self._load(Path(path), json.loads(text), header):
+            with open(path, "w", encoding="utf-8", newline="") as file:
+                file.write(_TITLE + text + "\n")
+                csv.writer(file, lineterminator="\n").writerow(header)
+        self._file = open(path, "a", encoding="utf-8", newline="")  # noqa: SIM115 (close() does)
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._file is not None:
+            self._file.close()
+
+    def write(self, evaluation: Evaluation) -> None:
+        """Append an evaluation to the file, at once."""
+        if self._file is None:
+            return
+        row = [
+            evaluation.number,
+            *(f"{value:.17g}" for value in (*evaluation.point, evaluation.value)),
+            int(evaluation.failed),
+            f"{evaluation.seconds:.6g}",
+            evaluation.message,
+            "" if evaluation.simulations is None else _encoded(evaluation.simulations),
+        ]
+        csv.writer(self._file, lineterminator="\n").writerow(row)
+        self._file.flush()
+
+    def _load(self, path: Path, settings: dict[str, Any], header: tuple[str, ...]) -> bool:
+        """Read the file; return whether there is anything in it."""
+        try:
+            content = path.read_bytes()
+        except FileNotFoundError:
+            return False
+        complete = content[: content.rfind(b"\n") + 1]
+        title, _, table = complete.decode("utf-8", errors="replace").partition("\n")
+        if content and not content.startswith(_TITLE.encode()):
+            raise ValueError(f"{path} is not a history; give the name of a file to be made")
+        csv.field_size_limit(_LARGEST_CELL)
+        rows = list(csv.reader(io.StringIO(table)))
+        if not rows:  # empty, or killed while it was made
+            return False
+        _check_settings(path, json.loads(title.removeprefix(_TITLE)), settings)
+        for line, row in enumerate(rows[1:], 3):
+            try:
+                evaluation = _parsed(row, len(header))
+            except ValueError as error:
+                raise ValueError(f"{path}, line {line}: {error}; delete the line") from error
+            self.saved[evaluation.point] = evaluation
+        if len(complete) < len(content):
+            os.truncate(path, len(complete))
+        return True
+
+
+def _check_settings(path: Path, found: dict[str, Any], wanted: dict[str, Any]) -> None:
+    for key in wanted:
+        if found.get(key) != wanted[key]:
+            raise ValueError(
+                f"{path} is the history of another search: its {key} is {found.get(key)!r}, "
+                f"not {wanted[key]!r}; give another file"
+            )
+
+
+def _parsed(row: list[str], width: int) -> Evaluation:
+    if len(row) != width:
+        raise ValueError(f"there are {len(row)} columns, not {width}")
+    number, *values, failed, seconds, message, simulations = row
+    *point, value = map(float, values)
+    return Evaluation(
+        int(number),
+        tuple(point),
+        value,
+        failed == "1",
+        float(seconds),
+        message,
+        _decoded(simulations) if simulations else None,
+    )
+
+
+def _encoded(curves: tuple[Array, ...]) -> str:
+    """Return curves as text: the shape of each, and its float64 numbers in base64."""
+    return " ".join(
+        f"{'x'.join(map(str, curve.shape))}:{base64.b64encode(curve.tobytes()).decode()}"
+        for curve in curves
+    )
+
+
+def _decoded(text: str) -> tuple[Array, ...]:
+    curves = []
+    for part in text.split(" "):
+        shape, _, numbers = part.partition(":")
+        curve = np.frombuffer(base64.b64decode(numbers))
+        curves.append(curve.reshape(tuple(map(int, shape.split("x")))))
+    return tuple(curves)
+
+
+def as_records(evaluations: list[Evaluation], names: tuple[str, ...]) -> np.recarray[Any, Any]:
+    """Return evaluations as a numpy record array with a field for every parameter."""
+    fields = [
+        ("evaluation", np.int64),
+        *((name, np.float64) for name in names),
+        ("value", np.float64),
+        ("failed", np.bool_),
+        ("seconds", np.float64),
+    ]
+    rows = [(e.number, *e.point, e.value, e.failed, e.seconds) for e in evaluations]
+    return np.array(rows, dtype=fields).view(np.recarray)

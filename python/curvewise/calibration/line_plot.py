@@ -1,0 +1,184 @@
+"""Objectives along the straight line between two sets of parameters.
+
+Whether a measure has one minimum or many, and whether it is smooth, decides which optimiser works;
+the line between the optima of two measures shows it (the paper's appendix B). Cost: one run of the
+model for every point of the line, whatever the number of measures.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from .. import _drawing as drawing
+from .._curves import Array
+from ..compare import PRESETS, Preset
+from ._extra import required
+from .model_pool import Model, ModelPool
+from .objective import Objective
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["LinePlot", "line_plot"]
+
+
+class LinePlot(NamedTuple):
+    """What `line_plot` returns.
+
+    Attributes
+    ----------
+    data : numpy.recarray
+        A row for every point: ``t`` (0 at `a`, 1 at `b`), then for every objective its value and
+        its value scaled to [0, 1], the latter as ``<name>_scaled``; nan where it failed.
+    figure : matplotlib.figure.Figure
+        The scaled values against t.
+    """
+
+    data: np.recarray[Any, Any]
+    figure: Figure
+
+
+def line_plot(
+    objectives: Any,
+    model: Model,
+    a: Mapping[str, float],
+    b: Mapping[str, float],
+    *,
+    points: int = 101,
+    measures: Sequence[str] | None = None,
+    preset: Preset = "scaled",
+    weights: Sequence[float] | None = None,
+    workers: int = 1,
+    progress: bool = True,
+) -> LinePlot:
+    """Compute and draw objectives along the line between two parameter sets.
+
+    Parameters
+    ----------
+    objectives : mapping of str to Objective, or array_like, or sequence of array_like
+        The objectives by name; or the experiments, from which one is made for each of
+        `measures`.
+    model : callable
+        As for :func:`identify`.
+    a, b : mapping of str to float
+        The ends of the line, with the same parameters.
+    points : int, default 101
+        How many points of the line, with its ends.
+    measures : sequence of str, optional
+        For experiments: by default all five in the plane, frechet and dtw otherwise.
+    preset, weights
+        For experiments: as for :class:`Objective`.
+    workers : int, default 1
+        Processes in which the model runs at the same time; -1 for one per core.
+    progress : bool, default True
+        Show a progress bar (tqdm).
+
+    Returns
+    -------
+    LinePlot
+        The data and the figure.
+
+    Raises
+    ------
+    ValueError
+        `a` and `b` differ in their parameters; `points` is below 2; as for :class:`Objective`.
+    ImportError
+        matplotlib or tqdm is missing.
+
+    Notes
+    -----
+    Scaled means: minus its smallest value on the line, divided by its range on the line, so that
+    all objectives go from 0 to 1 whatever their units.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from curvewise.calibration import line_plot
+    >>> x = np.linspace(0, 1, 20)
+    >>> def line(p):
+    ...     return np.column_stack((x, p["slope"] * x))
+    >>> data, figure = line_plot(
+    ...     line({"slope": 2}), line, {"slope": 1}, {"slope": 3}, points=5, progress=False
+    ... )
+    >>> data.area_scaled.round(3).tolist()
+    [1.0, 0.5, 0.0, 0.5, 1.0]
+    """
+    if set(a) != set(b):
+        raise ValueError(f"a has parameters {', '.join(a)} and b {', '.join(b)}; give the same")
+    if points < 2:
+        raise ValueError(f"points is {points}; give at least 2")
+    with drawing.matplotlib_required():
+        from matplotlib.figure import Figure
+    if isinstance(objectives, Mapping):
+        named = dict(objectives)
+    else:
+        named = _objectives(objectives, measures, preset, weights)
+    t = np.linspace(0.0, 1.0, points)
+    line = [{key: (1.0 - s) * a[key] + s * b[key] for key in a} for s in t.tolist()]
+    values = _values(named, model, line, workers, progress)
+    data = _records(t, values)
+    figure = Figure(figsize=(7, 4.2), layout="constrained")
+    ax = figure.subplots()
+    for name in named:
+        ax.plot(t, data[f"{name}_scaled"], linewidth=1.2, label=name)
+    ax.set(xlabel="position on the line from a to b", ylabel="objective, scaled on the line")
+    figure.legend(loc="outside upper center", ncols=len(named), frameon=False)
+    return LinePlot(data, figure)
+
+
+def _objectives(
+    experiments: Any,
+    measures: Sequence[str] | None,
+    preset: Preset,
+    weights: Sequence[float] | None,
+) -> dict[str, Objective]:
+    if measures is None:
+        first = Objective(experiments, "frechet", preset=preset).experiments[0]
+        in_plane = first.shape[1] == 2
+        measures = list(PRESETS["scaled"]) if in_plane else ["frechet", "dtw"]
+    return {name: Objective(experiments, name, preset=preset, weights=weights) for name in measures}
+
+
+def _values(
+    objectives: dict[str, Objective],
+    model: Model,
+    line: list[dict[str, float]],
+    workers: int,
+    progress: bool,
+) -> dict[str, Array]:
+    """Run the model along the line, and return the values of every objective."""
+    values = {name: np.full(len(line), np.nan) for name in objectives}
+    with ModelPool(model, workers) as pool:
+        outcomes = pool.run(line)
+        if progress:
+            outcomes = required("tqdm.auto").tqdm(outcomes, total=len(line), unit="run")
+        for i, outcome in outcomes:
+            for name, objective in objectives.items():
+                score = objective.score(outcome.simulations)
+                if not score.failures:
+                    values[name][i] = score.value
+    return values
+
+
+def _records(t: Array, values: dict[str, Array]) -> np.recarray[Any, Any]:
+    columns = {"t": t}
+    for name, raw in values.items():
+        columns[name] = raw
+        columns[f"{name}_scaled"] = _scaled(raw)
+    data = np.empty(len(t), dtype=[(name, np.float64) for name in columns])
+    for name, column in columns.items():
+        data[name] = column
+    return data.view(np.recarray)
+
+
+def _scaled(values: Array) -> Array:
+    """Return values minus their minimum, over their range; failed ones are left out."""
+    good = values[np.isfinite(values)]
+    if not good.size:
+        return values
+    extent = np.ptp(good)
+    scaled: Array = (values - good.min()) / (extent if extent > 0 else 1.0)
+    return scaled

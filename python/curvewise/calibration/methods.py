@@ -1,0 +1,149 @@
+"""The methods that `identify` knows, each of one or two stages that minimise over the unit cube.
+
+scipy does the work, but for the response surfaces. What is set here differently from scipy's
+defaults follows from the objective: it has kinks (a sum of absolute values, a maximum) and jumps,
+so no method but least squares takes its gradient; and its smallest value is 0 for a perfect model,
+so that a tolerance relative to the value alone would never be met.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from .._curves import Array
+from ._extra import required
+from .domain_reduction import domain_reduction
+from .evaluations import Evaluations, Finish
+from .nelder_mead import nelder_mead
+
+__all__ = ["METHODS", "search"]
+
+
+def search(
+    evaluations: Evaluations,
+    method: str,
+    start: Array | None,
+    seed: int,
+    options: Mapping[str, Any],
+) -> Finish:
+    """Run a method's stages, each from the best point of the one before."""
+    stages = METHODS[method]
+    for name, stage in stages.items():
+        evaluations.stage(name)
+        chosen = options if len(stages) == 1 else options.get(name, {})
+        finish = stage(evaluations, start, seed, **chosen)
+        start = evaluations.best_unit
+    return finish
+
+
+def _differential_evolution(
+    evaluations: Evaluations, start: Array | None, seed: int, **options: Any
+) -> Finish:
+    """Global search by scipy's differential evolution, a generation at a time.
+
+    Not polished: scipy's polish takes gradients. The tolerance `atol` on the spread of the
+    population ends the search where it only goes on halving a value that is 0 to all purposes; a
+    population on one level of a landscape of steps has no spread, which ends it too.
+    """
+    function = required("scipy.optimize").differential_evolution
+    # scipy 1.15 renamed `seed`; a Generator means the same under both names.
+    seed_name = "rng" if "rng" in inspect.signature(function).parameters else "seed"
+    settings = {
+        "x0": start,
+        "atol": evaluations.negligible,
+        "updating": "deferred",
+        "polish": False,
+        **options,
+        "vectorized": True,
+        seed_name: np.random.default_rng(seed),
+    }
+    wrong: list[Exception] = []
+
+    def values(units: Array) -> Array:
+        try:
+            return evaluations.values(np.atleast_2d(units.T))
+        except (TypeError, ValueError) as error:
+            wrong.append(error)
+            raise
+
+    try:
+        result = function(values, [(0.0, 1.0)] * evaluations.dimensions, **settings)
+    except (RuntimeError, TypeError):
+        if wrong:  # with the model; scipy takes it for a mistake in calling scipy
+            raise wrong[0] from None
+        raise
+    return Finish(bool(result.success), str(result.message))
+
+
+def _nelder_mead(
+    evaluations: Evaluations,
+    start: Array | None,
+    seed: int,
+    *,
+    size: float = 0.1,
+    restarts: int = 10,
+    **options: Any,
+) -> Finish:
+    """Local search by Nelder and Mead's simplex, restarted."""
+    k = evaluations.dimensions
+    negligible = evaluations.negligible
+    _, finish = nelder_mead(
+        evaluations.value,
+        np.full(k, 0.5) if start is None else start,
+        (np.zeros(k), np.ones(k)),
+        np.random.default_rng(seed),
+        negligible=negligible,
+        size=size,
+        restarts=restarts,
+        **{"xatol": 1e-6, "fatol": negligible, **options},
+    )
+    return finish
+
+
+def _least_squares(
+    evaluations: Evaluations, start: Array | None, seed: int, **options: Any
+) -> Finish:
+    """Local search by scipy's trust-region least squares on the terms of the measure.
+
+    Derivatives by differences of 1e-6 of the bounds' range: models iterate, and do not give the
+    16 digits that scipy's own step relies on.
+    """
+    k = evaluations.dimensions
+    step = 1e-6
+    objective = evaluations.objective
+
+    def residuals(unit: Array) -> Array:
+        (evaluation,) = evaluations.evaluated(unit[np.newaxis], keep_simulations=True)
+        return objective.residuals(evaluation.simulations)
+
+    def jacobian(unit: Array) -> Array:
+        # All columns in one batch; backwards at the upper bound.
+        steps = np.where(unit + step > 1.0, -step, step)
+        units = np.vstack((unit, unit + np.diag(steps)))
+        base, *moved = (
+            objective.residuals(e.simulations)
+            for e in evaluations.evaluated(units, keep_simulations=True)
+        )
+        return np.column_stack([(r - base) / h for r, h in zip(moved, steps, strict=True)])
+
+    result = required("scipy.optimize").least_squares(
+        residuals,
+        np.full(k, 0.5) if start is None else start,
+        jacobian,
+        bounds=(0.0, 1.0),
+        **{"x_scale": "jac", "xtol": 1e-9, "ftol": 1e-12, "gtol": 1e-12, **options},
+    )
+    return Finish(bool(result.success), str(result.message))
+
+
+METHODS: dict[str, dict[str, Callable[..., Finish]]] = {
+    "sdrm+de": {"sdrm": domain_reduction, "de": _differential_evolution},
+    "de": {"de": _differential_evolution},
+    "sdrm": {"sdrm": domain_reduction},
+    "nelder-mead": {"nelder-mead": _nelder_mead},
+    "least_squares": {"least_squares": _least_squares},
+}

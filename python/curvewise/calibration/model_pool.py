@@ -1,0 +1,212 @@
+"""Runs a model, in this process or in several, and turns what it raises into an outcome.
+
+With one worker the model is called here. With more, a pool of processes is started once and each
+gets the model once, pickled; outcomes come as they are finished. Ctrl-C stops the model in every
+process: workers raise KeyboardInterrupt while the model runs, so that it can end what it started
+(a solver, say), and ignore it while they are idle. A worker that dies (killed, or crashed in the
+model's compiled code) takes the pool with it; the points under way are then run again one by one,
+each in a fresh process, so that only the one that kills its process counts as failed. Workers end
+by themselves when the process that started them is killed.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import pickle
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from typing import Any, NamedTuple, TypeAlias
+
+__all__ = ["Model", "ModelPool", "Outcome"]
+
+Model: TypeAlias = Callable[[dict[str, float]], Any]
+
+_LONGEST_MESSAGE = 500
+_PATIENCE = 5.0  # seconds that a model has to end after Ctrl-C before its process is ended
+
+
+class Outcome(NamedTuple):
+    """What came of one call of the model: simulations, or the message of a failure."""
+
+    simulations: Any
+    message: str
+    seconds: float
+
+
+class ModelPool:
+    """A model and the processes that run it; a context manager.
+
+    Parameters
+    ----------
+    model : callable
+        Called with a dict of parameters.
+    workers : int
+        Processes: at least 1 (the model is called in this process), or -1 for one per core.
+
+    Raises
+    ------
+    ValueError
+        `workers` is out of range; the model cannot be sent to another process.
+    """
+
+    def __init__(self, model: Model, workers: int = 1) -> None:
+        if not callable(model):
+            raise TypeError(f"the model is {type(model).__name__}; it must be callable")
+        if workers == 0 or workers < -1:
+            raise ValueError(f"workers is {workers}; give at least 1, or -1 for one per core")
+        self._workers = (os.cpu_count() or 1) if workers == -1 else workers
+        self._model = model
+        self._pickled = b"" if self._workers == 1 else _pickled(model)
+        self._pool: ProcessPoolExecutor | None = None
+        self._processes: list[Any] = []
+
+    def __enter__(self) -> ModelPool:
+        if self._workers > 1:
+            self._start(self._workers)
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if self._pool is None:
+            return
+        if kind is None:
+            self._pool.shutdown()
+        else:
+            self._stop()
+        self._pool = None
+
+    def run(self, parameters: Sequence[dict[str, float]]) -> Iterator[tuple[int, Outcome]]:
+        """Call the model for every dict; yield index and outcome as they are finished."""
+        if self._pool is None:
+            for i, values in enumerate(parameters):
+                yield i, _called(self._model, values)
+            return
+        futures: dict[Future[Outcome], int] = {}
+        lost = []
+        for i, values in enumerate(parameters):
+            try:
+                futures[self._pool.submit(_call_in_worker, values)] = i
+            except BrokenProcessPool:
+                lost.append(i)
+        for future in as_completed(futures):
+            i = futures[future]
+            outcome = _result(future)
+            if outcome is None:
+                lost.append(i)
+            else:
+                yield i, outcome
+        if lost:
+            yield from self._run_one_by_one(parameters, sorted(lost))
+
+    def _run_one_by_one(
+        self, parameters: Sequence[dict[str, float]], indices: list[int]
+    ) -> Iterator[tuple[int, Outcome]]:
+        for i in indices:
+            self._restart(1)
+            started = time.perf_counter()
+            assert self._pool is not None
+            outcome = _result(self._pool.submit(_call_in_worker, parameters[i]))
+            yield (
+                i,
+                outcome or Outcome(None, "the worker process died", time.perf_counter() - started),
+            )
+        self._restart(self._workers)
+
+    def _start(self, workers: int) -> None:
+        before = set(multiprocessing.active_children())
+        self._pool = ProcessPoolExecutor(
+            workers, initializer=_prepare_worker, initargs=(self._pickled,)
+        )
+        # All of them now: later, with other threads about, forking would be unsafe.
+        for future in [self._pool.submit(time.sleep, 0.01) for _ in range(workers)]:
+            future.result()
+        self._processes = [p for p in multiprocessing.active_children() if p not in before]
+
+    def _restart(self, workers: int) -> None:
+        if self._pool is not None:
+            self._pool.shutdown()
+        self._start(workers)
+
+    def _stop(self) -> None:
+        """End all processes, giving the model the chance to end what it started."""
+        assert self._pool is not None
+        for process in self._processes:
+            if process.is_alive() and os.name == "posix":
+                os.kill(process.pid, signal.SIGINT)
+        self._pool.shutdown(wait=False, cancel_futures=True)
+        deadline = time.monotonic() + _PATIENCE
+        for process in self._processes:
+            process.join(max(0.0, deadline - time.monotonic()))
+            if process.is_alive():
+                process.terminate()
+
+
+def _pickled(model: Model) -> bytes:
+    try:
+        return pickle.dumps(model)
+    except (pickle.PicklingError, AttributeError, TypeError) as error:
+        raise ValueError(
+            f"the model cannot be sent to other processes ({error}); define it at the top level "
+            "of a module, not as a lambda or inside a function, or use workers=1"
+        ) from error
+
+
+def _called(model: Model, parameters: dict[str, float]) -> Outcome:
+    started = time.perf_counter()
+    try:
+        simulations, message = model(dict(parameters)), ""
+    except Exception as error:  # whatever a model raises is a failed simulation
+        simulations, message = None, " ".join(f"{type(error).__name__}: {error}".split())
+    return Outcome(simulations, message[:_LONGEST_MESSAGE], time.perf_counter() - started)
+
+
+def _result(future: Future[Outcome]) -> Outcome | None:
+    """Return the outcome, or None where the process died."""
+    try:
+        return future.result()
+    except BrokenProcessPool:
+        return None
+
+
+# What follows runs in the worker processes.
+
+_worker: dict[str, Any] = {"model": None, "running": False}
+
+
+def _prepare_worker(pickled: bytes) -> None:
+    _worker["model"] = pickle.loads(pickled)
+    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:  # as it is in the background
+        signal.signal(signal.SIGINT, _interrupt)
+
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """End this process when the one that started it was killed; concurrent.futures does not."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    started_by = os.getppid()
+    # A forked worker holds the pipe by which an older one would notice: hence the other test.
+    while parent.is_alive() and os.getppid() == started_by:
+        parent.join(1.0)
+    if os.name == "posix":
+        os.kill(os.getpid(), signal.SIGINT)  # the model may have a solver to end
+        time.sleep(_PATIENCE)
+    os._exit(1)
+
+
+def _interrupt(number: int, frame: object) -> None:
+    if _worker["running"]:
+        raise KeyboardInterrupt
+
+
+def _call_in_worker(parameters: dict[str, float]) -> Outcome:
+    _worker["running"] = True
+    try:
+        return _called(_worker["model"], parameters)
+    finally:
+        _worker["running"] = False

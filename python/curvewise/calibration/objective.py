@@ -1,0 +1,376 @@
+"""From simulations to one number: the weighted sum of a measure over several loops.
+
+The experiments are checked and scaled once, when an objective is made; what is wrong with them is
+an error then. What is wrong with a simulation later is not: an optimiser tries parameters at which
+the model fails, and has to be told that they are bad, so a failed simulation has a finite, large
+value. A simulation that has the wrong shape is neither: the model is hooked up wrongly, which no
+parameters will cure, and that is an error. Cost: that of the measure, for every loop.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+
+from .. import measures as _measures
+from .._curves import Array
+from ..compare import PRESETS, Condition, Preset
+from ..pairwise import MeasureName, Prepared
+from ..results import PcmMatch
+from .common_x import check_common_x, differences, squared_differences
+from .curve_list import as_points, curve_list
+
+__all__ = ["MEASURES", "Objective", "Score"]
+
+MEASURES = ("area", "pcm", "frechet", "dtw", "curve_length", "sum_of_squares")
+
+# A failed loop has this many times the value of a simulation that is wrong by the loop's height.
+_FAILURE = 1e6
+
+
+class Score(NamedTuple):
+    """What an objective makes of one set of simulations.
+
+    Attributes
+    ----------
+    value : float
+        The weighted sum of the terms.
+    terms : ndarray, shape (loops,)
+        The value of the measure, or the penalty, for every loop.
+    failures : tuple of str
+        For every failed loop a line that says why.
+    """
+
+    value: float
+    terms: Array
+    failures: tuple[str, ...]
+
+
+class Objective:
+    """The weighted sum of a measure over one or several loops; what an optimiser minimises.
+
+    Parameters
+    ----------
+    experiments : array_like, shape (n, d), or sequence of such
+        One measured curve or several. A list whose items are points or numbers is one curve;
+        several series are arrays of shape (n, 1).
+    measure : {"area", "pcm", "frechet", "dtw", "curve_length", "sum_of_squares"}
+        "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
+        the experiment's x: for data with a common x, which must not turn back.
+    preset : {"scaled", "paper", "raw"}
+        As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
+        that loops, and x and y, count alike; sum_of_squares is raw in the other two.
+    weights : sequence of float, optional
+        A factor for every loop, not negative; 1 if not given.
+    failure_value : float, optional
+        The term of a loop whose simulation failed, finite and positive. By default 10⁶ times
+        what the measure gives for a simulation that is its experiment moved up by its own
+        height, which fits every measure and unit.
+    min_coverage : float, default 0.5
+        For "pcm": a simulation shorter than this fraction of its experiment's length (both
+        scaled) counts as failed, since partial curve mapping scores a piece of the curve well.
+        An experiment that is a piece of its simulation is what it is made for, and passes.
+    **options
+        Options of the measure, which override the preset's.
+
+    Attributes
+    ----------
+    experiments : tuple of ndarray
+        As given, in float64 and of shape (n, d).
+    weights, failure_value, scales : ndarray, shape (loops,)
+        The factors; the terms of failed loops; the values, by measure, of simulations that are
+        wrong by the loop's height.
+    failures : int
+        How many simulations have failed so far, counted by loop.
+
+    Raises
+    ------
+    ValueError
+        An unknown measure, preset or option; an experiment that the measure refuses; a wrong
+        number of weights.
+    TypeError
+        An experiment does not hold real numbers; an option that the measure does not have.
+
+    Notes
+    -----
+    A call takes the time and memory of the measure for every loop. The paper's section 3 sums
+    over loops with equal weights.
+
+    Examples
+    --------
+    >>> from curvewise.calibration import Objective
+    >>> objective = Objective([(0, 0), (1, 2), (2, 0)], "area", preset="raw")
+    >>> objective([(0, 1), (1, 3), (2, 1)])
+    2.0
+    >>> objective(None), objective.failures  # a simulation that failed
+    (4000000.0, 1)
+    """
+
+    def __init__(
+        self,
+        experiments: Any,
+        measure: str = "area",
+        *,
+        preset: Preset = "scaled",
+        weights: Sequence[float] | None = None,
+        failure_value: float | None = None,
+        min_coverage: float = 0.5,
+        **options: Any,
+    ) -> None:
+        if measure not in MEASURES:
+            raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(MEASURES)}")
+        if preset not in PRESETS:
+            raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
+        if not 0.0 <= min_coverage <= 1.0:
+            raise ValueError(f"min_coverage is {min_coverage}; it must be from 0 to 1")
+        self.measure = measure
+        self.preset = preset
+        self.options = dict(options)
+        self.min_coverage = min_coverage
+        self.failures = 0
+        condition = _condition(preset, measure)
+        options = {**condition.options, **options}
+        curves = curve_list(experiments)
+        names = ["P"] if len(curves) == 1 else [f"experiments[{i}]" for i in range(len(curves))]
+        self._loops = [
+            _Loop(curve, name, measure, condition.scaled, options, min_coverage)
+            for curve, name in zip(curves, names, strict=True)
+        ]
+        self.experiments = tuple(loop.experiment for loop in self._loops)
+        self.weights = _checked_weights(weights, len(self._loops))
+        self.scales = np.array([loop.scale for loop in self._loops])
+        self.failure_value = _checked_failure_value(failure_value, self.scales)
+
+    def __call__(self, simulations: Any) -> float:
+        """Return the weighted sum of the terms.
+
+        Parameters
+        ----------
+        simulations : array_like, or sequence of array_like
+            A curve for every experiment, in the same order; None or an exception in the place
+            of one that failed, or of all of them.
+        """
+        return self.score(simulations).value
+
+    def terms(self, simulations: Any) -> Array:
+        """Return the value of the measure for every loop, without the weights."""
+        return self.score(simulations).terms
+
+    def score(self, simulations: Any) -> Score:
+        """Return value and terms, and why simulations failed; count those in `failures`.
+
+        Raises
+        ------
+        ValueError
+            The number of simulations, or their dimension, is not that of the experiments.
+        TypeError
+            A simulation does not hold real numbers.
+        """
+        score = self.predicted(simulations)
+        self.failures += len(score.failures)
+        return score
+
+    def predicted(self, simulations: Any) -> Score:
+        """Return what `score` returns, but count nothing: for curves no model has computed."""
+        terms = np.empty(len(self._loops))
+        failures = []
+        for i, simulation in enumerate(self._matched(simulations)):
+            try:
+                terms[i] = self._loops[i].value(simulation)
+            except FailedSimulationError as error:
+                terms[i] = self.failure_value[i]
+                failures.append(self._located(str(error), i))
+        return Score(float(self.weights @ terms), terms, tuple(failures))
+
+    def residuals(self, simulations: Any) -> Array:
+        """Return what `scipy.optimize.least_squares` squares and adds up.
+
+        That is the differences whose squares make up the terms, loop after loop, each times the
+        square root of the loop's weight. Those of a failed loop are equal and add up to its
+        failure value (squared for curve_length, whose value is the root of a sum).
+
+        Parameters
+        ----------
+        simulations
+            As for a call.
+
+        Raises
+        ------
+        ValueError
+            The measure is not "curve_length" or "sum_of_squares"; as for `score`.
+        """
+        if self.measure not in ("curve_length", "sum_of_squares"):
+            raise ValueError(
+                f"measure {self.measure!r} is not a sum of squares; "
+                "least squares needs 'curve_length' or 'sum_of_squares'"
+            )
+        parts = []
+        for i, simulation in enumerate(self._matched(simulations)):
+            loop = self._loops[i]
+            try:
+                part = loop.residuals(simulation)
+            except FailedSimulationError:
+                total = self.failure_value[i]
+                total = total if self.measure == "sum_of_squares" else total**2
+                part = np.full(loop.residual_count, math.sqrt(total / loop.residual_count))
+            parts.append(math.sqrt(self.weights[i]) * part)
+        return np.concatenate(parts)
+
+    def _matched(self, simulations: Any) -> list[Any]:
+        """Return one simulation for every experiment."""
+        count = len(self._loops)
+        if simulations is None or isinstance(simulations, BaseException):
+            return [simulations] * count
+        curves = curve_list(simulations)
+        if len(curves) != count:
+            raise ValueError(
+                f"there are {len(curves)} simulations and {count} experiments; "
+                "the model must return a curve for every experiment"
+            )
+        return curves
+
+    def _located(self, message: str, i: int) -> str:
+        return message if len(self._loops) == 1 else f"loop {i}: {message}"
+
+
+class FailedSimulationError(Exception):
+    """A simulation has no value; the message says why."""
+
+
+class _Loop:
+    """One experiment, checked and scaled, ready to be compared with simulations."""
+
+    def __init__(
+        self,
+        experiment: Any,
+        name: str,
+        measure: str,
+        scaled: bool,
+        options: dict[str, Any],
+        min_coverage: float,
+    ) -> None:
+        self.experiment = as_points(experiment, name).copy()
+        self._min_coverage = min_coverage
+        try:
+            (P,) = _measures.normalize(self.experiment)  # refuses what is empty or not finite
+            self._box = _box(self.experiment) if scaled else None
+            self._P = P if scaled else self.experiment
+            if measure == "sum_of_squares":
+                check_common_x(self._P)
+            self._value, self._residuals = _functions(measure, self._P, options)
+            # Fails here, not at the first simulation, for an experiment or option it refuses.
+            value = self._value(_moved_up(self._P))
+            self.scale = value.value if isinstance(value, PcmMatch) else value
+        except ValueError as error:
+            prefix = "" if name == "P" else f"{name}, as P: "
+            raise ValueError(f"{prefix}{error}") from error
+        if not math.isfinite(self.scale):
+            raise ValueError(f"{name}: the measure overflows; give the curve in larger units")
+        self.residual_count = len(self._P) * (2 if measure == "curve_length" else 1)
+
+    def value(self, simulation: Any) -> float:
+        """Return the value of the measure, or raise FailedSimulationError."""
+        Q = self._checked(simulation)
+        try:
+            value = self._value(Q)
+        except ValueError as error:
+            raise FailedSimulationError(str(error)) from error
+        if isinstance(value, PcmMatch):
+            value = self._covered(value)
+        if not math.isfinite(value):
+            raise FailedSimulationError(f"the value of the measure is {value}")
+        return value
+
+    def residuals(self, simulation: Any) -> Array:
+        """Return the differences that the measure squares, or raise FailedSimulationError."""
+        Q = self._checked(simulation)
+        try:
+            return self._residuals(Q).ravel()
+        except ValueError as error:
+            raise FailedSimulationError(str(error)) from error
+
+    def _checked(self, simulation: Any) -> Array:
+        if simulation is None:
+            raise FailedSimulationError("no simulation")
+        if isinstance(simulation, BaseException):
+            raise FailedSimulationError(f"{type(simulation).__name__}: {simulation}")
+        if np.iscomplexobj(simulation):  # what Python makes of a root of a negative number
+            raise FailedSimulationError("the simulation is complex")
+        Q = as_points(simulation, "Q")
+        if Q.size == 0:
+            raise FailedSimulationError("the simulation is empty")
+        if Q.shape[1] != self.experiment.shape[1]:
+            raise ValueError(
+                f"a simulation has shape {Q.shape} and its experiment {self.experiment.shape}; "
+                "they must have the same number of coordinates"
+            )
+        if self._box is not None:
+            low, extent = self._box
+            with np.errstate(over="ignore", invalid="ignore"):  # reported by the measure
+                Q = (Q - low) / extent
+        return Q
+
+    def _covered(self, match: PcmMatch) -> float:
+        """Return the value of a match; too short a simulation is FailedSimulationError."""
+        if match.mapped == "Q" and match.coverage < self._min_coverage:
+            raise FailedSimulationError(
+                f"the simulation has {match.coverage:.3g} of the experiment's length, "
+                f"min_coverage is {self._min_coverage:g}"
+            )
+        return match.value
+
+
+def _functions(
+    measure: str, P: Array, options: dict[str, Any]
+) -> tuple[Callable[[Array], float | PcmMatch], Callable[[Array], Array]]:
+    """Return the measure, and the residuals where it has them, as functions of Q alone."""
+    if measure == "sum_of_squares":
+        if options:
+            raise TypeError(f"sum_of_squares has no options, but {', '.join(options)} given")
+        return partial(squared_differences, P), partial(differences, P)
+    residuals = partial(_measures.curve_length_residuals, P, **options)
+    if measure == "pcm":  # for its coverage
+        return partial(_measures.pcm_match, P, **options), residuals
+    return Prepared(P, cast(MeasureName, measure), **options), residuals
+
+
+def _condition(preset: Preset, measure: str) -> Condition:
+    if measure == "sum_of_squares":
+        return Condition(preset == "scaled", {})
+    return PRESETS[preset][measure]
+
+
+def _box(curve: Array) -> tuple[Array, Array]:
+    low = curve.min(axis=0)
+    extent = curve.max(axis=0) - low
+    return low, np.where(extent == 0, 1.0, extent)
+
+
+def _moved_up(curve: Array) -> Array:
+    """Return the curve, moved along its last coordinate by its extent there."""
+    moved = curve.copy()
+    moved[:, -1] += np.ptp(moved[:, -1]) or 1.0
+    return moved
+
+
+def _checked_weights(weights: Sequence[float] | None, count: int) -> Array:
+    if weights is None:
+        return np.ones(count)
+    array = np.asarray(weights, dtype=np.float64)
+    if array.shape != (count,):
+        raise ValueError(f"weights has shape {array.shape}; give one for each of {count} loops")
+    if not (np.isfinite(array).all() and (array >= 0).all() and array.any()):
+        raise ValueError("weights must be finite, not negative, and not all 0")
+    return array
+
+
+def _checked_failure_value(failure_value: float | None, scales: Array) -> Array:
+    if failure_value is None:
+        return _FAILURE * scales
+    if not 0.0 < failure_value < math.inf:
+        raise ValueError(f"failure_value is {failure_value}; it must be finite and above 0")
+    return np.full(len(scales), float(failure_value))

@@ -1,0 +1,251 @@
+"""Objectives: values, weights, presets, and what becomes of failed simulations."""
+
+from __future__ import annotations
+
+import math
+import pickle
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import curvewise
+from curvewise.calibration import MEASURES, Objective
+
+EXPERIMENT, SIMULATION = curvewise.datasets.hysteresis_pair()
+BRANCH = EXPERIMENT[:60]  # the first loading: x does not turn back
+OTHER = SIMULATION[:120] * [1.0, 1.1]
+FIVE = [name for name in MEASURES if name != "sum_of_squares"]
+
+
+@pytest.mark.parametrize("preset", ["scaled", "paper", "raw"])
+@pytest.mark.parametrize("measure", FIVE)
+def test_value_is_that_of_compare(measure, preset):
+    expected = curvewise.compare(EXPERIMENT, SIMULATION, preset=preset)[measure]
+    objective = Objective(EXPERIMENT, measure, preset=preset)
+    assert objective(SIMULATION) == expected
+    assert objective([SIMULATION]) == expected
+    assert objective.failures == 0
+
+
+@pytest.mark.parametrize("measure", FIVE)
+def test_weighted_sum_over_loops(measure):
+    loops = [EXPERIMENT, EXPERIMENT[:150]]
+    objective = Objective(loops, measure, weights=[2.0, 0.5])
+    terms = objective.terms([SIMULATION, OTHER])
+    expected = [
+        curvewise.compare(P, Q)[measure] for P, Q in zip(loops, [SIMULATION, OTHER], strict=True)
+    ]
+    assert terms.tolist() == expected
+    assert objective([SIMULATION, OTHER]) == 2.0 * terms[0] + 0.5 * terms[1]
+
+
+def test_options_override_those_of_the_preset():
+    objective = Objective(EXPERIMENT, "dtw", preset="paper", step_pattern="symmetric1")
+    assert objective(SIMULATION) == curvewise.compare(EXPERIMENT, SIMULATION)["dtw"]
+    objective = Objective(EXPERIMENT, "area", preset="paper", crossing="split")
+    expected = curvewise.area(EXPERIMENT, SIMULATION, spacing="x", crossing="split")
+    assert objective(SIMULATION) == expected
+
+
+def test_sum_of_squares_interpolates_at_the_experiments_x():
+    P = np.array([(0.0, 0.0), (1.0, 1.0), (2.0, 4.0)])
+    Q = np.array([(0.0, 1.0), (2.0, 5.0)])
+    assert Objective(P, "sum_of_squares", preset="raw")(Q) == 1.0 + 4.0 + 1.0
+    assert Objective(P, "sum_of_squares")(Q) == 6.0 / 16.0  # scaled by the extent in y
+    assert Objective(P[::-1], "sum_of_squares", preset="raw")(Q) == 6.0
+    assert Objective(P, "sum_of_squares", preset="raw")(Q[::-1]) == 6.0
+
+
+@pytest.mark.parametrize(
+    ("simulation", "reason"),
+    [
+        ([(0.0, 0.0), (1.0, 0.0)], "covers x from 0 to 1"),
+        ([(0.0, 0.0), (2.0, 0.0), (1.0, 0.0)], "turns back"),
+        ([(0.0, 0.0), (2.0, math.nan)], "not finite"),
+    ],
+)
+def test_sum_of_squares_does_not_make_up_what_was_not_simulated(simulation, reason):
+    objective = Objective([(0, 0), (1, 1), (2, 4)], "sum_of_squares", preset="raw")
+    (message,) = objective.score(np.array(simulation)).failures
+    assert reason in message
+    assert objective(simulation) == objective.failure_value[0]
+
+
+def test_sum_of_squares_refuses_a_loop():
+    with pytest.raises(ValueError, match="x of P turns back"):
+        Objective(EXPERIMENT, "sum_of_squares")
+
+
+FAILED = {
+    "none": None,
+    "exception": RuntimeError("died"),
+    "nan": np.array([(0.0, 0.0), (1.0, math.nan)]),
+    "inf": np.array([(0.0, 0.0), (math.inf, 1.0)]),
+    "one point": np.zeros((1, 2)),
+    "empty": np.empty((0, 2)),
+    "empty list": [],
+    "complex": np.array([(0.0, 0.0), (1.0, 1j)]),
+}
+
+
+@pytest.mark.parametrize("measure", ["area", "pcm", "curve_length"])
+@pytest.mark.parametrize("name", FAILED)
+def test_failed_simulation_has_a_finite_penalty_and_is_counted(name, measure):
+    objective = Objective(EXPERIMENT, measure)
+    value = objective(FAILED[name])
+    assert value == objective.failure_value[0]
+    assert math.isfinite(value)
+    assert objective.failures == 1
+    assert value > 1e4 * objective(OTHER)  # a bad simulation is better than none
+
+
+@pytest.mark.parametrize("measure", FIVE)
+def test_one_failed_loop_of_two(measure):
+    objective = Objective([EXPERIMENT, EXPERIMENT], measure, weights=[1.0, 3.0])
+    terms, failures = objective.score([SIMULATION, None])[1:]
+    assert terms[0] == Objective(EXPERIMENT, measure)(SIMULATION)
+    assert terms[1] == objective.failure_value[1]
+    assert failures == ("loop 1: no simulation",)
+    assert objective.failures == 1
+    objective(None)
+    objective(RuntimeError("both"))
+    assert objective.failures == 1 + 2 + 2
+
+
+@pytest.mark.parametrize("measure", MEASURES)
+@pytest.mark.parametrize("preset", ["scaled", "raw"])
+def test_penalty_grows_with_the_units(measure, preset):
+    small, large = (
+        Objective(BRANCH * [1.0, factor], measure, preset=preset).failure_value[0]
+        for factor in (1.0, 1e3)
+    )
+    grows = preset == "raw" and measure not in ("pcm", "curve_length")
+    assert (large > 100 * small) if grows else large == pytest.approx(small)
+
+
+def test_penalty_can_be_given():
+    objective = Objective([EXPERIMENT, EXPERIMENT], failure_value=7.0, weights=[1, 2])
+    assert objective(None) == 21.0
+
+
+def test_pcm_needs_coverage():
+    objective = Objective(EXPERIMENT, "pcm", min_coverage=0.5)
+    died_early = EXPERIMENT[:60]  # follows the experiment to the point, then ends
+    assert curvewise.pcm(EXPERIMENT, died_early) < 0.02
+    assert objective(died_early) == objective.failure_value[0]
+    assert "min_coverage is 0.5" in objective.score(died_early).failures[0]
+    assert Objective(EXPERIMENT, "pcm", min_coverage=0.0)(died_early) < 0.02
+
+
+def test_pcm_of_a_piece_of_an_experiment_passes():
+    objective = Objective(EXPERIMENT[100:140], "pcm", min_coverage=0.9)
+    assert objective(EXPERIMENT) < 0.1
+    assert objective.failures == 0
+
+
+@pytest.mark.parametrize(
+    ("experiments", "count"),
+    [
+        ([(0, 0), (1, 1)], 1),
+        (((0, 0), (1, 1)), 1),
+        ([np.array([0.0, 0.0]), np.array([1.0, 1.0])], 1),
+        (np.zeros((3, 4, 2)) + np.arange(4)[:, np.newaxis], 3),
+        ([[(0, 0), (1, 1)], [(0, 0), (1, 2)]], 2),
+        ([EXPERIMENT, BRANCH], 2),
+        (pd.DataFrame(EXPERIMENT, columns=["strain", "stress"]), 1),
+        ([pd.DataFrame(EXPERIMENT), BRANCH], 2),
+    ],
+)
+def test_one_curve_or_several(experiments, count):
+    objective = Objective(experiments, "dtw")
+    assert len(objective.experiments) == count
+    assert objective(list(objective.experiments)) == 0.0
+
+
+def test_experiment_is_copied():
+    curve = EXPERIMENT.copy()
+    objective = Objective(curve)
+    before = objective(SIMULATION)
+    curve[:] = 0.0
+    assert objective(SIMULATION) == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (([(0, 0), (1, math.nan)],), r"P\[1, 1\] is nan"),
+        (([EXPERIMENT, [(0, 0), (1, math.inf)]],), r"experiments\[1\], as P: P\[1, 1\] is inf"),
+        (([(0, 0)],), r"P has shape \(1, 2\); area needs at least 2 points"),
+        ((np.empty((0, 2)),), r"P has shape \(0, 2\)"),
+        ((np.zeros((4, 3)),), r"\(4, 3\)"),
+        ((EXPERIMENT, "shape"), "unknown measure 'shape'; choose from area, pcm"),
+    ],
+)
+def test_wrong_experiments_and_measures_are_refused(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        Objective(*arguments)
+
+
+@pytest.mark.parametrize(
+    ("keywords", "message"),
+    [
+        ({"preset": "nice"}, "unknown preset 'nice'; choose from scaled, paper, raw"),
+        ({"weights": [1, 2]}, r"weights has shape \(2,\); give one for each of 1 loops"),
+        ({"weights": [-1]}, "not negative"),
+        ({"failure_value": math.inf}, "finite and above 0"),
+        ({"min_coverage": 2}, "from 0 to 1"),
+        ({"spacing": "wide"}, "spacing"),
+    ],
+)
+def test_wrong_options_are_refused(keywords, message):
+    with pytest.raises(ValueError, match=message):
+        Objective(EXPERIMENT, "area", **keywords)
+
+
+def test_an_option_that_the_measure_lacks_is_refused():
+    with pytest.raises(TypeError, match="window"):
+        Objective(EXPERIMENT, "area", window=3)
+    with pytest.raises(TypeError, match="sum_of_squares has no options"):
+        Objective(BRANCH, "sum_of_squares", window=3)
+
+
+def test_a_model_hooked_up_wrongly_is_an_error():
+    objective = Objective([EXPERIMENT, BRANCH])
+    with pytest.raises(ValueError, match="there are 3 simulations and 2 experiments"):
+        objective([SIMULATION] * 3)
+    with pytest.raises(ValueError, match=r"shape \(5, 3\) and its experiment \(241, 2\)"):
+        objective([np.zeros((5, 3)), SIMULATION])
+    with pytest.raises(TypeError, match="real numbers"):
+        objective([np.array([["a", "b"]]), SIMULATION])
+
+
+@pytest.mark.parametrize("measure", ["curve_length", "sum_of_squares"])
+def test_residuals_add_up_to_the_value(measure):
+    objective = Objective([BRANCH, BRANCH], measure, weights=[1.0, 3.0])
+    simulations = [BRANCH * [1.0, 1.1], BRANCH * [1.0, 0.8]]
+    squares = objective.residuals(simulations) ** 2
+    terms = objective.terms(simulations)
+    if measure == "curve_length":
+        terms = terms**2
+    assert squares.sum() == pytest.approx(terms[0] + 3.0 * terms[1], rel=1e-12)
+    failed = objective.residuals(None)
+    assert failed.shape == squares.shape
+    penalty = objective.failure_value ** (2 if measure == "curve_length" else 1)
+    assert (failed**2).sum() == pytest.approx(penalty[0] + 3.0 * penalty[1])
+
+
+def test_residuals_of_other_measures_are_refused():
+    with pytest.raises(ValueError, match="'area' is not a sum of squares"):
+        Objective(EXPERIMENT, "area").residuals(SIMULATION)
+
+
+@pytest.mark.parametrize("measure", FIVE)
+def test_objective_can_be_pickled(measure):
+    objective = Objective(EXPERIMENT, measure)
+    assert pickle.loads(pickle.dumps(objective))(SIMULATION) == objective(SIMULATION)
+
+
+def test_series():
+    objective = Objective(EXPERIMENT[:, 1], "dtw", preset="raw")
+    assert objective(SIMULATION[:, 1]) == curvewise.dtw(EXPERIMENT[:, 1], SIMULATION[:, 1])
