@@ -1,9 +1,10 @@
-"""Where the golden data is: beside the project, or in the folder CURVEWISE_DATA names."""
+"""What the tests share: among it the golden data, in ../shared/data or CURVEWISE_DATA."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+import signal
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -11,6 +12,14 @@ import pytest
 from programs import install
 
 ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def ctrl_c_is_heard() -> Iterator[None]:
+    """Have SIGINT raise KeyboardInterrupt: a process started in the background ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture(scope="session")
