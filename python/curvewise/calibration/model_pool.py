@@ -174,7 +174,7 @@ def _result(future: Future[Outcome]) -> Outcome | None:
 
 # What follows runs in the worker processes.
 
-_worker: dict[str, Any] = {"model": None, "running": False}
+_worker: dict[str, Any] = {"model": None, "running": False, "interrupted": False}
 
 
 def _prepare_worker(pickled: bytes) -> None:
@@ -200,11 +200,16 @@ def _end_with_parent() -> None:
 
 
 def _interrupt(number: int, frame: object) -> None:
+    _worker["interrupted"] = True
     if _worker["running"]:
         raise KeyboardInterrupt
 
 
 def _call_in_worker(parameters: dict[str, float]) -> Outcome:
+    # The executor hands out a call or two in advance, which can no longer be cancelled: a solver
+    # started for one of them would outlive this process.
+    if _worker["interrupted"]:
+        raise KeyboardInterrupt
     _worker["running"] = True
     try:
         return _called(_worker["model"], parameters)
