@@ -8,6 +8,7 @@ hysteresis loops using inverse analysis", Int. J. Material Forming (2018). scipy
 needed: ``pip install "curvewise[calibration]"``.
 """
 
+from .command_model import CommandModel, SolverError
 from .cross_validation import CrossValidation, Fold, cross_validate
 from .evaluations import Progress
 from .identification import Identification, identify
@@ -16,6 +17,7 @@ from .objective import MEASURES, Objective, Score
 
 __all__ = [
     "MEASURES",
+    "CommandModel",
     "CrossValidation",
     "Fold",
     "Identification",
@@ -23,6 +25,7 @@ __all__ = [
     "Objective",
     "Progress",
     "Score",
+    "SolverError",
     "cross_validate",
     "identify",
     "line_plot",

@@ -1,0 +1,379 @@
+"""An external solver as a model: a deck from templates, a process, a curve from its results.
+
+Every set of parameters has a scratch folder of its own. The templates are written there, filled in;
+the command runs there under a time limit, in a process group of its own; and a function of the
+user's reads the curves. Nothing is shared between calls, so any number of them may run side by
+side, in threads or in processes. The cost of a call is the solver's; what is added is a few
+milliseconds, and at most 50 ms until the end of the process is noticed.
+
+Placeholders are written as in LS-OPT, ``<<E>>``: solvers give ``$``, ``{}``, ``%``, ``&``, ``*``
+and ``#`` a meaning, but none of them two angle brackets.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import os
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from .._curves import Array, as_curve
+
+__all__ = ["CommandModel", "SolverError"]
+
+Curves: TypeAlias = Array | list[Array]
+
+LOG = "command.log"
+
+_GRACE = 2.0  # seconds between SIGTERM, on which solvers return their licence, and SIGKILL
+_PLACEHOLDER = re.compile(r"<<(.*?)>>")
+_INSIDE = re.compile(r"\s*([A-Za-z_]\w*)\s*(?::\s*(.*?)\s*)?")
+_WIDTH = re.compile(r"(?:.?[<>=^])?[-+ ]?z?#?0?(\d+)")
+
+
+class SolverError(RuntimeError):
+    """A run of the solver failed; the text says how, and where its log is."""
+
+
+class CommandModel:
+    r"""A model that runs an external program: call it with parameters, get its curves.
+
+    Templates hold placeholders with a parameter's name:
+
+    ``<<E>>``
+        the shortest text that reads back as the same number;
+    ``<<E:10>>``
+        a field of 10 characters, with as many digits as fit, and always a decimal point: for
+        decks with fixed columns;
+    ``<<E:12.4e>>``
+        any of Python's format specifications. A number that is longer than a width given is an
+        error, as it would move the columns behind it.
+
+    A template without placeholders, such as a mesh that the deck includes, is copied as it is.
+
+    Parameters
+    ----------
+    template_files : path or sequence of paths
+        Files to write into each run's folder, under the same name. They are read once, here.
+    command : sequence of str
+        The program and its arguments, run in that folder, without a shell. Must wait for the
+        solver's end (Abaqus: ``interactive``).
+    read : callable
+        ``read(folder)`` is given the folder (a ``Path``) after the program has ended with exit
+        code 0, and returns a curve, an array of shape (n, d), or a list of such arrays. It should
+        raise where results are incomplete. A function of a module can be pickled, a lambda not.
+    parameters : sequence of str
+        The names of the parameters, so that a misspelt placeholder is found before the first run.
+    timeout : float
+        Seconds after which a run is stopped, with all processes it has started.
+    environment : mapping of str to str, optional
+        Variables to set beside those of this process, e.g. ``{"OMP_NUM_THREADS": "1"}``.
+    scratch : path, optional
+        Where the folders are made; by default the system's folder for temporary files.
+    keep : bool
+        Keep the folders of runs that succeeded, too.
+
+    Raises
+    ------
+    ValueError
+        A placeholder that is no parameter, or is malformed; a parameter without placeholder; two
+        templates of one name; no command; a time-out that is not positive.
+    FileNotFoundError
+        A template, the scratch folder or the program does not exist.
+
+    Notes
+    -----
+    A call raises `SolverError` when the program cannot be started, ends with another exit code
+    than 0 or by a signal, takes longer than `timeout`, or when `read` fails or returns something
+    other than curves of finite numbers. The folder is then kept, with all the program has printed
+    in ``command.log``, which the error names. When a call ends, in whichever way (Ctrl-C
+    included), so do all processes of the run's group (on Windows: the program itself).
+
+    Parameters may also be text, which is inserted as it is, e.g. a table of a hardening curve
+    that a function has made of two numbers before it calls the model.
+
+    Examples
+    --------
+    >>> import sys, tempfile
+    >>> from pathlib import Path
+    >>> import numpy as np
+    >>> from curvewise.calibration import CommandModel
+    >>> deck = "open('curve.txt', 'w').write('0 0\\n1 <<E:10>>\\n')"
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     template = Path(folder, "solver.py")
+    ...     _ = template.write_text(deck)
+    ...     model = CommandModel(
+    ...         template,
+    ...         [sys.executable, "solver.py"],
+    ...         lambda folder: np.loadtxt(folder / "curve.txt"),
+    ...         parameters=["E"],
+    ...         timeout=60,
+    ...     )
+    >>> model({"E": 205.5}).tolist()
+    [[0.0, 0.0], [1.0, 205.5]]
+    """
+
+    def __init__(
+        self,
+        template_files: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
+        command: Sequence[str],
+        read: Callable[[Path], Array | Sequence[Array]],
+        *,
+        parameters: Sequence[str],
+        timeout: float,
+        environment: Mapping[str, str] | None = None,
+        scratch: str | os.PathLike[str] | None = None,
+        keep: bool = False,
+    ) -> None:
+        if isinstance(command, str) or not command:
+            raise ValueError(f"command is {command!r}; give a list: the program and its arguments")
+        if not timeout > 0:
+            raise ValueError(f"timeout is {timeout!r}; give a positive number of seconds")
+        if isinstance(parameters, str):
+            raise ValueError(f"parameters is {parameters!r}; give a list of names")
+        program = shutil.which(command[0])
+        if program is None:
+            raise FileNotFoundError(
+                f"there is no program {command[0]!r}; install it, or give its path"
+            )
+        if scratch is not None and not Path(scratch).is_dir():
+            raise FileNotFoundError(
+                f"there is no folder {os.fspath(scratch)!r} for scratch; make it"
+            )
+        self.parameters = tuple(parameters)
+        self.command = [os.path.abspath(program), *command[1:]]  # the run's folder is another one
+        self.read = read
+        self.timeout = float(timeout)
+        self.environment = dict(environment or {})
+        self.scratch = None if scratch is None else Path(scratch).resolve()
+        self.keep = keep
+        self._templates = _read_templates(template_files)
+        _check_names(self._templates, self.parameters)
+
+    def __call__(self, parameters: Mapping[str, float | str]) -> Curves:
+        """Run the program with these parameters and return its curves.
+
+        Parameters
+        ----------
+        parameters : mapping of str to float or str
+            A value for each of the model's parameters, and for nothing else.
+
+        Returns
+        -------
+        ndarray or list of ndarray
+            What `read` returned, in float64.
+
+        Raises
+        ------
+        SolverError
+            The run failed; the text names its log.
+        ValueError
+            A parameter is missing, unknown, not finite, or does not fit its field.
+
+        Notes
+        -----
+        As for the class.
+        """
+        files = self._fill(parameters)
+        folder = Path(tempfile.mkdtemp(prefix="curvewise_", dir=self.scratch))
+        keep = self.keep
+        try:
+            for name, content in files:
+                (folder / name).write_bytes(content)
+            self._run(folder)
+            return self._read(folder)
+        except Exception:  # not KeyboardInterrupt: nothing is wrong with that run
+            keep = True
+            raise
+        finally:
+            if not keep:
+                shutil.rmtree(folder, ignore_errors=True)  # a file left behind spoils no result
+
+    def _fill(self, parameters: Mapping[str, float | str]) -> list[tuple[str, bytes]]:
+        if set(parameters) != set(self.parameters):
+            raise ValueError(
+                f"got parameters {', '.join(parameters) or '(none)'}; "
+                f"the model's are {', '.join(self.parameters)}"
+            )
+        for name, value in parameters.items():
+            if not isinstance(value, str) and not math.isfinite(value):
+                raise ValueError(f"parameter {name} is {value}; parameters must be finite")
+        return [(template.name, template.fill(parameters)) for template in self._templates]
+
+    def _run(self, folder: Path) -> None:
+        program, log = Path(self.command[0]).name, folder / LOG
+        begin = time.monotonic()
+        with log.open("wb") as output:
+            try:
+                process = subprocess.Popen(
+                    self.command,
+                    cwd=folder,
+                    env={**os.environ, **self.environment},
+                    stdin=subprocess.DEVNULL,
+                    stdout=output,
+                    stderr=subprocess.STDOUT,
+                    start_new_session=True,
+                )
+            except OSError as error:
+                raise SolverError(f"{program} did not start: {error}; folder: {folder}") from error
+            try:
+                code = process.wait(self.timeout)
+            except subprocess.TimeoutExpired:
+                raise SolverError(
+                    f"{program} took longer than {self.timeout:g} s and was stopped; log: {log}"
+                ) from None
+            finally:
+                _end_group(process)
+        if code != 0:
+            how = f"was killed by signal {-code}" if code < 0 else f"ended with exit code {code}"
+            seconds = time.monotonic() - begin
+            raise SolverError(f"{program} {how} after {seconds:.1f} s; log: {log}")
+
+    def _read(self, folder: Path) -> Curves:
+        try:
+            curves = self.read(folder)
+            if isinstance(curves, (list, tuple)):
+                return [_checked(curve, f"curves[{i}]") for i, curve in enumerate(curves)]
+            return _checked(curves, "the curve")
+        except Exception as error:  # whatever the user's function stumbles over
+            raise SolverError(
+                f"the results cannot be read: {type(error).__name__}: {error}; log: {folder / LOG}"
+            ) from error
+
+
+class _Placeholder(NamedTuple):
+    """One ``<<name:format>>`` of a template."""
+
+    name: str
+    format: str
+    place: str
+
+
+class _Template(NamedTuple):
+    """A file to fill in, cut at its placeholders: one text more than there are placeholders."""
+
+    name: str
+    texts: list[str]
+    placeholders: list[_Placeholder]
+
+    def fill(self, parameters: Mapping[str, float | str]) -> bytes:
+        parts = self.texts[:1]
+        for placeholder, text in zip(self.placeholders, self.texts[1:], strict=True):
+            try:
+                parts.append(_format(parameters[placeholder.name], placeholder.format))
+            except ValueError as error:
+                raise ValueError(f"{placeholder.place}: {error}") from None
+            parts.append(text)
+        return "".join(parts).encode("utf-8", "surrogateescape")
+
+
+def _read_templates(
+    files: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
+) -> list[_Template]:
+    paths = [Path(files)] if isinstance(files, (str, os.PathLike)) else [Path(f) for f in files]
+    names = [path.name for path in paths]
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f"two templates are called {name}; rename one")
+        if name == LOG:
+            raise ValueError(f"a template is called {LOG}, as the log is; rename it")
+    for path in paths:
+        if not path.is_file():
+            raise FileNotFoundError(f"there is no template {os.fspath(path)!r}")
+    return [_parse(path) for path in paths]
+
+
+def _parse(path: Path) -> _Template:
+    # Bytes rather than text, as line ends and what other encodings a deck's comments have stay.
+    whole = path.read_bytes().decode("utf-8", "surrogateescape")
+    texts, placeholders, end, line = [], [], 0, 1
+    for match in _PLACEHOLDER.finditer(whole):
+        texts.append(whole[end : match.start()])
+        line += texts[-1].count("\n")
+        place = f"{path.name}, line {line}: {match.group()}"
+        inside = _INSIDE.fullmatch(match.group(1))
+        if inside is None:
+            raise ValueError(f"{place} is malformed; write <<name>> or <<name:10.4g>>")
+        placeholders.append(_Placeholder(inside.group(1), inside.group(2) or "", place))
+        end = match.end()
+    return _Template(path.name, [*texts, whole[end:]], placeholders)
+
+
+def _check_names(templates: Sequence[_Template], parameters: Sequence[str]) -> None:
+    """Hold the placeholders against the parameters, and try every format."""
+    used = set()
+    for placeholder in (p for template in templates for p in template.placeholders):
+        used.add(placeholder.name)
+        if placeholder.name not in parameters:
+            raise ValueError(
+                f"{placeholder.place} is no parameter; the parameters are {', '.join(parameters)}"
+            )
+        try:
+            format(1.0, placeholder.format)
+        except ValueError:
+            raise ValueError(
+                f"{placeholder.place} has no format of a number; write e.g. <<name:10.4g>>"
+            ) from None
+    for name in parameters:
+        if name not in used:
+            raise ValueError(f"no template has a placeholder <<{name}>>; add it or drop {name}")
+
+
+def _format(value: float | str, spec: str) -> str:
+    if isinstance(value, str):
+        return format(value, spec)
+    if not spec:
+        return repr(float(value))  # of a numpy float, repr would show the type
+    if spec.isdecimal():
+        return _fit(float(value), int(spec))
+    text = format(float(value), spec)
+    width = _WIDTH.match(spec)
+    if width and len(text) > int(width.group(1)):
+        raise ValueError(f"{text} is longer than the field; choose another format or bounds")
+    return text
+
+
+def _fit(value: float, width: int) -> str:
+    for digits in range(17, 0, -1):
+        text = f"{value:#.{digits}g}"
+        if len(text) <= width:
+            return text.rjust(width)
+    raise ValueError(f"{value!r} does not fit; widen the field or narrow the bounds")
+
+
+def _checked(curve: object, name: str) -> Array:
+    array = as_curve(curve, name)
+    if array.size == 0 or not np.isfinite(array).all():
+        raise ValueError(f"{name} is {'empty' if array.size == 0 else 'not finite'}")
+    return array
+
+
+def _end_group(process: subprocess.Popen[bytes]) -> None:
+    """End the program and whatever it has started, if that is still running."""
+    try:
+        if process.poll() is None:
+            _signal_group(process, "SIGTERM")
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(_GRACE)
+    finally:  # also when Ctrl-C is pressed once more
+        _signal_group(process, "SIGKILL")
+        process.wait()
+
+
+def _signal_group(process: subprocess.Popen[bytes], name: str) -> None:
+    if os.name == "posix":
+        # The group outlives the program while it has members; macOS refuses where all are zombies.
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.Signals[name])
+    else:
+        process.kill()
