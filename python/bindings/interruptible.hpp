@@ -11,13 +11,8 @@ namespace curvewise::bindings {
 
 namespace py = pybind11;
 
-// Calls function(Control*) without the interpreter's lock, where that is worth its cost: `steps` is
-// the number of elementary steps ahead. Signals are handled on the main thread, where Python
-// delivers them; the exception that a handler, or `progress(done, total)`, raises ends the call.
-template <class Function>
-auto interruptible(double steps, const py::object& progress, Function function);
-
-// Raises what a handler raised, if the call was stopped by one.
+// The Control of one call from Python. An exception raised by a signal's handler, or by
+// `progress(done, total)`, stops the call and stays set in this thread until it is back.
 class PythonControl {
    public:
     explicit PythonControl(const py::object& progress)
@@ -36,7 +31,7 @@ class PythonControl {
         return main.attr("ident").cast<unsigned long>() == PyThread_get_thread_ident();
     }
 
-    // Whether to go on. An exception stays set in this thread until the call is back.
+    // Whether to go on.
     bool report(std::int64_t done, std::int64_t total) {
         const py::gil_scoped_acquire lock;
         if (handles_signals_ && PyErr_CheckSignals() != 0) return false;
@@ -52,6 +47,9 @@ class PythonControl {
     Control control_;
 };
 
+// Calls function(Control*) without the interpreter's lock, where that is worth its cost: `steps` is
+// the number of elementary steps ahead. Signals are handled on the main thread, where Python
+// delivers them.
 template <class Function>
 auto interruptible(double steps, const py::object& progress, Function function) {
     constexpr double worth_unlocking = 5e3;  // about 50 µs at the slowest rate there is
