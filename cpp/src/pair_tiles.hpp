@@ -34,6 +34,7 @@ class PairTiles {
     PairTiles(const Sizes& rows, const Sizes& columns, PairSet set, Steps steps,
               std::ptrdiff_t workers);
 
+    PairSet set() const noexcept { return set_; }
     const std::vector<Tile>& tiles() const noexcept { return tiles_; }
     // The work of all pairs.
     std::int64_t total() const noexcept { return total_; }
