@@ -1,0 +1,69 @@
+"""What the scripts share beside the problems: their options, tables, pictures and results.md.
+
+Every script replaces its own sections of results.md, each between two comments that name it; the
+text around them is written by hand.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+HERE = Path(__file__).resolve().parent
+SCRATCH = HERE.parents[1] / "build" / "paper"  # not under version control
+
+
+class Run:
+    """One run of a script: its options, and what it prints and writes."""
+
+    def __init__(self, description: str | None, **defaults: int) -> None:
+        """Read the command line; `defaults` are further whole-number options."""
+        parser = argparse.ArgumentParser(description=(description or "").partition("\n")[0])
+        parser.add_argument("--quick", action="store_true", help="small searches, for CI")
+        parser.add_argument(
+            "--output",
+            type=Path,
+            metavar="DIR",
+            help="where results.md, figures and histories go; default: figures and results "
+            "beside this script, with --quick all in build/paper/quick",
+        )
+        parser.add_argument("--workers", type=int, default=1, help="processes; default 1")
+        for name, value in defaults.items():
+            parser.add_argument(f"--{name}", type=int, default=value, help=f"default {value}")
+        self.options = parser.parse_args()
+        self.quick: bool = self.options.quick
+        self.workers: int = self.options.workers
+        self.output: Path = self.options.output or (SCRATCH / "quick" if self.quick else HERE)
+        self.output.mkdir(parents=True, exist_ok=True)
+        # Histories are large: beside results.md only where that was asked for.
+        self.histories = (self.options.output or SCRATCH) / "histories"
+        self._start = time.perf_counter()
+
+    def section(self, name: str, text: str) -> None:
+        """Print a section and put it into results.md, in the place of the one of that name."""
+        print(f"\n{text}\n[{time.perf_counter() - self._start:.0f} s]", flush=True)
+        file = self.output / "results.md"
+        before = file.read_text() if file.exists() else ""
+        begin, end = f"<!-- {name}: begin -->\n", f"<!-- {name}: end -->\n"
+        head, found, rest = before.partition(begin)
+        _, _, tail = rest.partition(end)
+        separator = "" if found or not head else "\n"
+        file.write_text(f"{head}{separator}{begin}{text.strip()}\n{end}{tail}")
+
+    def picture(self, name: str, figure: Figure) -> None:
+        """Save a figure as a PNG of modest size."""
+        file = self.output / f"{name}.png"
+        figure.savefig(file, dpi=90)
+        print(f"written: {file}", flush=True)
+
+
+def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a Markdown table, its first column to the left, the others to the right."""
+    rule = ["---", *["---:"] * (len(header) - 1)]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in (header, rule, *rows))
