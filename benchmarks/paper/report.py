@@ -7,6 +7,7 @@ text around them is written by hand.
 from __future__ import annotations
 
 import argparse
+import tempfile
 import time
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -30,8 +31,8 @@ class Run:
             "--output",
             type=Path,
             metavar="DIR",
-            help="where results.md, figures and histories go; default: figures and results "
-            "beside this script, with --quick all in build/paper/quick",
+            help="where results.md and the pictures go; default: beside this script, with "
+            "--quick build/paper/quick",
         )
         parser.add_argument("--workers", type=int, default=1, help="processes; default 1")
         for name, value in defaults.items():
@@ -41,8 +42,10 @@ class Run:
         self.workers: int = self.options.workers
         self.output: Path = self.options.output or (SCRATCH / "quick" if self.quick else HERE)
         self.output.mkdir(parents=True, exist_ok=True)
-        # Histories are large: beside results.md only where that was asked for.
-        self.histories = (self.options.output or SCRATCH) / "histories"
+        # Histories are large, and resume long runs: not beside results.md, and not of quick ones.
+        self._scratch = tempfile.TemporaryDirectory() if self.quick else None
+        self.histories = Path(self._scratch.name) if self._scratch else SCRATCH / "histories"
+        self.histories.mkdir(parents=True, exist_ok=True)
         self._start = time.perf_counter()
 
     def section(self, name: str, text: str) -> None:
