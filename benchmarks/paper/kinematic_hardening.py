@@ -62,7 +62,7 @@ def main() -> None:
     model = HardeningModel.of_the_paper()
     run.section("material_point", point_table(model))
 
-    effort = Effort(popsize=10, generations=200)
+    effort = Effort(popsize=5, generations=100)
     if run.quick:
         effort = Effort("de", popsize=3, generations=15, restarts=0, evaluations=200)
     tests = {"virtual": model(TRUTH), "true": test_loops()}
@@ -92,7 +92,7 @@ def main() -> None:
 
 def cross_validation(run: Run, model: HardeningModel) -> dict[str, CrossValidation]:
     """Leave each loop out in turn, for each measure."""
-    effort = Effort("de", popsize=2, generations=4) if run.quick else Effort("sdrm")
+    effort = Effort("de", popsize=2, generations=4) if run.quick else Effort("de", 5, 100)
     bounds = hardening_bounds()
     return cross_validate_all(
         [Task(measure, model, test_loops(), bounds, measure, 0, effort) for measure in MEASURES],

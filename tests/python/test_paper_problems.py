@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib
 import math
+import os
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -174,3 +176,46 @@ def test_noise_has_the_deviation_asked_for(problems: ModuleType) -> None:
     added = np.concatenate([b - a for a, b in zip(loops, noisy, strict=True)])
     assert not added[:, 0].any()
     assert added[:, 1].std() == pytest.approx(35.0, rel=0.1)
+
+
+def test_filter_keeps_parabolas_and_turning_points(problems: ModuleType) -> None:
+    """Second order, branch by branch: it returns a piecewise parabola as it is."""
+    pytest.importorskip("curvewise.calibration")
+    table6 = importlib.import_module("table6")
+    x = np.concatenate((np.linspace(0, 1, 60), np.linspace(1, 0.5, 40)))
+    curve = np.column_stack((x, np.where(np.arange(100) < 60, x**2, 4 * x - 3)))
+    assert table6.filtered(curve, 11) == pytest.approx(curve, abs=1e-12)
+    noisy = curve + np.random.default_rng(0).normal(0, [0, 0.1], (100, 2))
+    assert np.abs(table6.filtered(noisy, 11) - curve).mean() < np.abs(noisy - curve).mean() / 1.5
+
+
+def test_smoothness_counts_minima_and_steps(problems: ModuleType) -> None:
+    pytest.importorskip("curvewise.calibration")
+    smoothness = importlib.import_module("table6").smoothness
+    t = np.linspace(-1, 1, 2001)
+    minima, variation, step = smoothness(np.abs(t))
+    assert (minima, variation) == (1, pytest.approx(1.0))
+    assert step < 2e-3
+    assert smoothness(t**2 + 0.3 * np.cos(20 * t))[0] > 4
+    assert smoothness(t + (t > 0))[2] == pytest.approx(1 / 3, rel=0.01)
+    assert smoothness(t)[:2] == (1, pytest.approx(1.0))  # its minimum is at an end
+
+
+@pytest.mark.parametrize(
+    "script", ["straight_line", "load_unload", "kinematic_hardening", "partial", "table6"]
+)
+def test_quick_run(problems: ModuleType, tmp_path: Path, script: str) -> None:
+    """It succeeds, and what it writes a second time takes the place of the first."""
+    if "CURVEWISE_PAPER" not in os.environ:
+        pytest.skip("all scripts take over a minute: set CURVEWISE_PAPER=1")
+    command = [sys.executable, str(SCRIPTS / f"{script}.py"), "--quick", f"--output={tmp_path}"]
+    texts = []
+    for _ in range(2 if script == "straight_line" else 1):
+        done = subprocess.run(command, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        texts.append((tmp_path / "results.md").read_text())
+    assert len(set(texts)) == 1
+    assert texts[0].count(": begin -->") == texts[0].count(": end -->") > 0
+    pictures = list(tmp_path.glob("*.png"))
+    assert pictures
+    assert all(1_000 < picture.stat().st_size < 150_000 for picture in pictures)
