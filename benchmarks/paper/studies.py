@@ -99,9 +99,13 @@ def _all(
         tqdm(total=len(tasks), unit="task") as bar,
     ):
         running = {pool.submit(function, task, histories): task.name for task in tasks}
-        for future in as_completed(running):
-            done[running[future]] = future.result()
-            bar.update()
+        try:
+            for future in as_completed(running):
+                done[running[future]] = future.result()
+                bar.update()
+        except BaseException:  # Ctrl-C above all: the pool would finish what is queued
+            pool.shutdown(cancel_futures=True)
+            raise
     return {task.name: done[task.name] for task in tasks}
 
 
