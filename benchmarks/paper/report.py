@@ -7,6 +7,7 @@ text around them is written by hand.
 from __future__ import annotations
 
 import argparse
+import io
 import tempfile
 import time
 from collections.abc import Iterable, Sequence
@@ -60,9 +61,14 @@ class Run:
         file.write_text(f"{head}{separator}{begin}{text.strip()}\n{end}{tail}")
 
     def picture(self, name: str, figure: Figure) -> None:
-        """Save a figure as a PNG of modest size."""
+        """Save a figure as a PNG of modest size: of 256 colours, enough for lines."""
+        from PIL import Image
+
         file = self.output / f"{name}.png"
-        figure.savefig(file, dpi=90)
+        pixels = io.BytesIO()
+        figure.savefig(pixels, dpi=90, facecolor="white")
+        image = Image.open(pixels).convert("RGB")
+        image.quantize(256, dither=Image.Dither.NONE).save(file, optimize=True)
         print(f"written: {file}", flush=True)
 
 
