@@ -58,12 +58,12 @@ DIGITS = {"area": ".1f", "pcm": ".4f", "frechet": ".3f", "dtw": ".1f", "curve_le
 
 def main() -> None:
     """Identify, print, draw, write; fail where an optimum is worse than it must be."""
-    run = Run(__doc__)
+    run = Run(__doc__, workers=1)
     model = HardeningModel.of_the_paper()
     run.section("material_point", point_table(model))
 
     efforts = dict.fromkeys(("true", *NOISE), Effort(popsize=5, generations=100))
-    # With SDRM's optimum in its population, DTW and Fréchet settle in a narrow valley at H = 1.
+    # With SDRM's optimum in its population, DTW and Fréchet settle in side valleys.
     efforts["virtual"] = Effort("de", popsize=10)
     if run.quick:
         quick = Effort("de", popsize=3, generations=15, restarts=0, evaluations=200)
@@ -82,7 +82,7 @@ def main() -> None:
         for data, loops in tests.items()
         for measure in MEASURES
     ]
-    results = identify_all(tasks, run.histories, run.workers)
+    results = identify_all(tasks, run.histories, run.options.workers)
     found = {data: {m: results[f"hardening_{data}_{m}"] for m in MEASURES} for data in tests}
 
     run.section("hardening_virtual", virtual_table(found["virtual"]))
@@ -110,7 +110,7 @@ def cross_validation(run: Run, model: HardeningModel) -> dict[str, CrossValidati
             for m in MEASURES
         ],
         run.histories,
-        run.workers,
+        run.options.workers,
     )
     return dict(zip(MEASURES, validations.values(), strict=True))
 

@@ -34,7 +34,7 @@ REQUIRED = 1e-3  # how exactly the true parameters must be found
 
 def main() -> None:
     """Identify, print, draw, write; fail where a measure does not find the true parameters."""
-    run = Run(__doc__, seeds=10)
+    run = Run(__doc__, workers=1, seeds=10)
     seeds = 1 if run.quick else run.options.seeds
     effort = Effort("de", 20, restarts=20) if run.quick else Effort(popsize=40, restarts=20)
     tasks = [
@@ -51,7 +51,7 @@ def main() -> None:
         for measure in MEASURES
         for seed in range(seeds)
     ]
-    found = identify_all(tasks, run.histories, run.workers)
+    found = identify_all(tasks, run.histories, run.options.workers)
     exact, noisy = (
         {m: [found[f"load_unload_{data}_{m}_{s}"] for s in range(seeds)] for m in MEASURES}
         for data in ("true", "noise")

@@ -45,7 +45,7 @@ KEPT = (1.0, 0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2)
 
 def main() -> None:
     """Identify from a piece, cut the simulation, print, draw, write."""
-    run = Run(__doc__, seeds=3)
+    run = Run(__doc__, workers=1, seeds=3)
     exact, noisy = (identified(run, noise=noise) for noise in (False, True))
     run.section("partial_piece", piece_table(exact, noisy))
     cut = cut_values()
@@ -71,7 +71,7 @@ def identified(run: Run, *, noise: bool) -> dict[str, Found]:
         for name, (measure, options, _) in METHODS.items()
         for seed in range(1 if run.quick else run.options.seeds)
     }
-    found = identify_all(list(tasks.values()), run.histories, run.workers)
+    found = identify_all(list(tasks.values()), run.histories, run.options.workers)
     fits: dict[str, Found] = {}
     for (name, _), task in tasks.items():
         fit = found[task.name]

@@ -35,12 +35,10 @@ class Run:
             help="where results.md and the pictures go; default: beside this script, with "
             "--quick build/paper/quick",
         )
-        parser.add_argument("--workers", type=int, default=1, help="processes; default 1")
         for name, value in defaults.items():
             parser.add_argument(f"--{name}", type=int, default=value, help=f"default {value}")
         self.options = parser.parse_args()
         self.quick: bool = self.options.quick
-        self.workers: int = self.options.workers
         self.output: Path = self.options.output or (SCRATCH / "quick" if self.quick else HERE)
         self.output.mkdir(parents=True, exist_ok=True)
         # Histories are large, and resume long runs: not beside results.md, and not of quick ones.

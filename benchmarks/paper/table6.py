@@ -104,7 +104,7 @@ CASES: dict[str, Callable[[np.random.Generator], Array]] = {
 
 def main() -> None:
     """Fit, scan, print, draw, write."""
-    run = Run(__doc__, samples=10, lines=12)
+    run = Run(__doc__, workers=1, samples=10, lines=12)
     samples = 1 if run.quick else run.options.samples
     lines = 3 if run.quick else run.options.lines
     run.section("table6_shift", shift_table(shifts(run, samples)))
@@ -143,7 +143,7 @@ def shifts(run: Run, samples: int) -> dict[tuple[str, str], list[Found]]:
         for case in CASES
         for number in range(samples)
     }
-    found = identify_all(list(tasks.values()), run.histories, run.workers)
+    found = identify_all(list(tasks.values()), run.histories, run.options.workers)
     return {
         (name, case): [found[tasks[name, case, k].name] for k in range(samples)]
         for name in VARIANTS
