@@ -207,7 +207,7 @@ def test_smoothness_counts_minima_and_steps(problems: ModuleType) -> None:
 def test_quick_run(problems: ModuleType, tmp_path: Path, script: str) -> None:
     """It succeeds, and what it writes a second time takes the place of the first."""
     if "CURVEWISE_PAPER" not in os.environ:
-        pytest.skip("all scripts take over a minute: set CURVEWISE_PAPER=1")
+        pytest.skip("the scripts take a minute: set CURVEWISE_PAPER=1")
     command = [sys.executable, str(SCRIPTS / f"{script}.py"), "--quick", f"--output={tmp_path}"]
     texts = []
     for _ in range(2 if script == "straight_line" else 1):
