@@ -7,9 +7,9 @@
 namespace curvewise::detail {
 namespace {
 
-// Enough for every thread to have its share to within a percent or two; a tile of 32 x 32 pairs is
+// So many that no thread waits long for another when the tiles run out; a tile of 32 x 32 pairs is
 // large enough for its curves to be used again while they are in the cache.
-constexpr double tiles_per_worker = 64.0;
+constexpr double tiles_per_worker = 512.0;
 constexpr double max_edge = 32.0;
 constexpr double max_tiles = 2e5;
 
