@@ -26,7 +26,7 @@ def random_walk(n: int, dim: int, seed: int) -> np.ndarray:
 
 
 def calls() -> dict[str, Callable[[], object]]:
-    P, Q = random_walk(200_000, 2, 1), random_walk(200_000, 2, 2)
+    P, Q = random_walk(100_000, 2, 1), random_walk(100_000, 2, 2)
     high, other_high = random_walk(5_000, 1000, 3), random_walk(5_000, 1000, 4)
     many = [random_walk(100, 2, seed) for seed in range(20_000)]
     long = [random_walk(30_000, 2, seed) for seed in range(20)]
@@ -34,15 +34,15 @@ def calls() -> dict[str, Callable[[], object]]:
     table = P[:20_000]
     huge = random_walk(5_000_000, 2, 7)
     return {
-        "dtw, 200,000 points": lambda: curvewise.dtw(P, Q),
-        "dtw, 200,000 points, 2 workers": lambda: curvewise.dtw(P, Q, workers=2),
+        "dtw, 100,000 points": lambda: curvewise.dtw(P, Q),
+        "dtw, 100,000 points, 2 workers": lambda: curvewise.dtw(P, Q, workers=2),
         "frechet, minkowski, 2 workers": lambda: curvewise.frechet(
             P, Q, metric="minkowski", p=3, workers=2
         ),
         "dtw, 5,000 points, 1000-D, minkowski": lambda: curvewise.dtw(
             high, other_high, metric="minkowski", p=3
         ),
-        "dtw_path, 200,000 points, 2 workers": lambda: curvewise.dtw_path(P, Q, workers=2),
+        "dtw_path, 100,000 points, 2 workers": lambda: curvewise.dtw_path(P, Q, workers=2),
         "frechet_table, 20,000 points": lambda: curvewise.frechet_table(table, table),
         "pcm continuous on a zigzag": lambda: curvewise.pcm(
             zigzag, zigzag[:4401], offsets="continuous"
@@ -50,7 +50,7 @@ def calls() -> dict[str, Callable[[], object]]:
         "pdist, 20,000 x 100 points": lambda: curvewise.pdist(many, "frechet"),
         "pdist, 20,000 x 100 points, 2 workers": lambda: curvewise.pdist(many, workers=2),
         "pdist, 20 x 30,000 points, 2 workers": lambda: curvewise.pdist(long, workers=2),
-        "cdist of one pair, 200,000 points, 2 workers": lambda: curvewise.cdist(
+        "cdist of one pair, 100,000 points, 2 workers": lambda: curvewise.cdist(
             [P], [Q], workers=2
         ),
         "cdist with pcm, 2 workers": lambda: curvewise.cdist(many, measure="pcm", workers=2),
@@ -59,7 +59,7 @@ def calls() -> dict[str, Callable[[], object]]:
         "curve_length, 5,000,000 points": lambda: [
             curvewise.curve_length(huge, huge, scale="range") for _ in "ab"
         ],
-        "Prepared, 200,000 points": lambda: curvewise.Prepared(P, "frechet")(Q),
+        "Prepared, 100,000 points": lambda: curvewise.Prepared(P, "frechet")(Q),
     }
 
 
