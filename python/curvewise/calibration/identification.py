@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._curves import Array
-from ..compare import PRESETS, Preset
+from .._options import Preset
+from ..measures.registry import default_measures
 from ._extra import required
 from .curve_list import as_points, curve_list
 from .evaluations import Evaluations, Finish, Progress, SearchEndedError
@@ -344,9 +345,8 @@ def _settings(objective: Objective) -> dict[str, Any]:
 
 def _measures(objective: Objective, simulations: Any, value: float) -> dict[str, float]:
     """Return the value of simulations under every measure."""
-    in_plane = objective.experiments[0].shape[1] == 2
     values = {}
-    for name in PRESETS[objective.preset] if in_plane else ("frechet", "dtw"):
+    for name in default_measures(objective.experiments[0]):
         if name == objective.measure:
             values[name] = value
             continue

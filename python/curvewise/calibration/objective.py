@@ -16,17 +16,20 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from .. import measures as _measures
 from .._curves import Array
-from ..compare import PRESETS, Condition, Preset
-from ..pairwise import MeasureName, Prepared
+from .._docstrings import filled, listed
+from .._options import MeasureName, Preset
+from ..measures import curve_length_residuals, normalize, pcm_match, registry
+from ..measures.registry import PRESETS, Condition
+from ..pairwise import Prepared
+from ..reference.scaling import box
 from ..results import PcmMatch
 from .common_x import check_common_x, differences, squared_differences
 from .curve_list import as_points, curve_list
 
 __all__ = ["MEASURES", "Objective", "Score"]
 
-MEASURES = ("area", "pcm", "frechet", "dtw", "curve_length", "sum_of_squares")
+MEASURES = (*registry.MEASURES, "sum_of_squares")
 
 # A failed loop has this many times the value of a simulation that is wrong by the loop's height.
 _FAILURE = 1e6
@@ -50,6 +53,7 @@ class Score(NamedTuple):
     failures: tuple[str, ...]
 
 
+@filled(measures=listed(MEASURES))
 class Objective:
     """The weighted sum of a measure over one or several loops; what an optimiser minimises.
 
@@ -58,7 +62,7 @@ class Objective:
     experiments : array_like, shape (n, d), or sequence of such
         One measured curve or several. A list whose items are points or numbers is one curve;
         several series are arrays of shape (n, 1).
-    measure : {"area", "pcm", "frechet", "dtw", "curve_length", "sum_of_squares"}
+    measure : {measures}
         "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
         the experiment's x: for data with a common x, which must not turn back.
     preset : {"scaled", "paper", "raw"}
@@ -256,8 +260,8 @@ class _Loop:
         self.experiment = as_points(experiment, name).copy()
         self._min_coverage = min_coverage
         try:
-            (P,) = _measures.normalize(self.experiment)  # refuses what is empty or not finite
-            self._box = _box(self.experiment) if scaled else None
+            (P,) = normalize(self.experiment)  # refuses what is empty or not finite
+            self._box = box(self.experiment) if scaled else None
             self._P = P if scaled else self.experiment
             if measure == "sum_of_squares":
                 check_common_x(self._P)
@@ -332,9 +336,9 @@ def _functions(
         if options:
             raise TypeError(f"sum_of_squares has no options, but {', '.join(options)} given")
         return partial(squared_differences, P), partial(differences, P)
-    residuals = partial(_measures.curve_length_residuals, P, **options)
+    residuals = partial(curve_length_residuals, P, **options)
     if measure == "pcm":  # for its coverage
-        return partial(_measures.pcm_match, P, **options), residuals
+        return partial(pcm_match, P, **options), residuals
     return Prepared(P, cast(MeasureName, measure), **options), residuals
 
 
@@ -342,12 +346,6 @@ def _condition(preset: Preset, measure: str) -> Condition:
     if measure == "sum_of_squares":
         return Condition(preset == "scaled", {})
     return PRESETS[preset][measure]
-
-
-def _box(curve: Array) -> tuple[Array, Array]:
-    low = curve.min(axis=0)
-    extent = curve.max(axis=0) - low
-    return low, np.where(extent == 0, 1.0, extent)
 
 
 def _moved_up(curve: Array) -> Array:

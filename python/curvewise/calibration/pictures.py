@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .. import _drawing as drawing
+from ..plotting import drawing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

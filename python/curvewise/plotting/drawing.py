@@ -9,18 +9,19 @@ module is.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from contextlib import AbstractContextManager
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ._curves import Array, CurveLike, as_curves
-from .measures import normalize
+from .._curves import Array, CurveLike, as_curves
+from .._extras import extra
+from ..measures import normalize
+from ..measures.registry import WARPINGS, WarpingInfo
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.collections import LineCollection
+    from matplotlib.collections import Collection, LineCollection
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
@@ -32,15 +33,29 @@ ACCENT_COLOUR = "#000000"
 MAX_LINKS = 80  # more lines than this merge into a grey mass
 
 
-@contextmanager
-def matplotlib_required() -> Iterator[None]:
+class CurveArtists(NamedTuple):
+    """The artists of a picture of two curves.
+
+    Attributes
+    ----------
+    P, Q : matplotlib.lines.Line2D
+        The curves.
+    between : matplotlib.collections.Collection
+        A PolyCollection of quadrilaterals or a LineCollection of lines between points.
+    accent : matplotlib.lines.Line2D or None
+        Fréchet: the pair whose distance is the value. PCM: the stretch of the longer curve on
+        which the shorter one sits. Otherwise None.
+    """
+
+    P: Line2D
+    Q: Line2D
+    between: Collection
+    accent: Line2D | None = None
+
+
+def matplotlib_required() -> AbstractContextManager[None]:
     """Say how to get matplotlib where an import of it fails."""
-    try:
-        yield
-    except ImportError as error:
-        raise ImportError(
-            'pictures need matplotlib, which is not installed: pip install "curvewise[plot]"'
-        ) from error
+    return extra("plot", "pictures need matplotlib, which is not installed")
 
 
 def measured_and_drawn(
@@ -53,10 +68,11 @@ def measured_and_drawn(
     return (measured[0], measured[1]), (P, Q)
 
 
-def check_measure(measure: str) -> None:
-    """Refuse a measure that has no path."""
-    if measure not in ("dtw", "frechet"):
-        raise ValueError(f"unknown measure {measure!r}; choose from dtw, frechet")
+def warping(measure: str) -> WarpingInfo:
+    """Return the measure of a name; refuse one that has no path and no table."""
+    if not isinstance(measure, str) or measure not in WARPINGS:
+        raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(sorted(WARPINGS))}")
+    return WARPINGS[measure]
 
 
 def draw_curves(ax: Axes, P: Array, Q: Array, *, apart: bool = False) -> tuple[Line2D, Line2D]:
@@ -104,19 +120,6 @@ def evenly(links: Array) -> Array:
     shown = np.linspace(0, len(links) - 1, min(len(links), MAX_LINKS))
     chosen: Array = links[shown.round().astype(np.intp)]
     return chosen
-
-
-def box(curve: Array) -> tuple[Array, Array]:
-    """Return the smallest coordinates, and the extents that `normalize` divides by."""
-    low = curve.min(axis=0)
-    extent = curve.max(axis=0) - low
-    return low, np.where(extent == 0, 1.0, extent)
-
-
-def arc_length(curve: Array) -> Array:
-    """Return the length along the curve at each of its points."""
-    edges = np.linalg.norm(np.diff(curve, axis=0), axis=1)
-    return np.concatenate([[0.0], np.cumsum(edges)])
 
 
 def panels(figure: Figure, dim: int, count: int) -> tuple[Axes, list[Axes]]:
