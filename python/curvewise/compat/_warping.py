@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any, cast
+from typing import Any, cast, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -21,8 +21,6 @@ from ..measures import Metric, dtw_table, frechet
 from ._arrays import RealArray
 
 __all__ = ["dtw", "dtw_path", "frechet_dist"]
-
-_PARAMETER_FREE_METRICS = ("euclidean", "sqeuclidean", "cityblock", "chebyshev")
 
 
 def dtw(
@@ -217,7 +215,7 @@ def _is_compiled(metric: str | Callable[..., float], options: dict[str, Any]) ->
     if metric == "minkowski" and options.keys() == {"p"}:
         p = options["p"]
         return isinstance(p, (int, float, np.integer, np.floating)) and bool(p >= 1)
-    return not options and metric in (*_PARAMETER_FREE_METRICS, "minkowski")
+    return not options and metric in get_args(Metric)
 
 
 def _is_finite(P: Array, Q: Array) -> bool:

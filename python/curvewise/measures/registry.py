@@ -45,9 +45,9 @@ class MeasureInfo:
     Attributes
     ----------
     name : str
-        By which users choose it.
+        The name by which users choose it.
     title : str
-        Over its picture.
+        The title of its picture.
     function, reference : callable
         The measure, compiled and in plain numpy.
     planar : bool
@@ -60,9 +60,9 @@ class MeasureInfo:
     scaled, paper : Condition
         How the presets of these names compute it.
     residuals : callable, optional
-        Of measures that are the norm of a vector: the function that returns the vector.
+        The function that returns the vector of which the measure is the norm, where it is one.
     scales_itself : bool
-        Whether it scales both curves by P's box whatever they are.
+        Whether it always scales both curves by P's box, so that a preset need not.
     """
 
     name: MeasureName
