@@ -106,7 +106,7 @@ def test_add_subdirectory_leaks_nothing(tmp_path) -> None:
         folder,
         work,
         f"-DCMAKE_PREFIX_PATH={PURELIB.as_posix()}",
-        f"-DCMAKE_PROJECT_tool_INCLUDE={ROOT / 'tests/embed/leaks.cmake'}",
+        f"-DCMAKE_PROJECT_tool_INCLUDE={ROOT / 'tests/python/embedding/leaks.cmake'}",
         "-DCMAKE_CXX_FLAGS=-Ofast -march=native",
         "-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON",
         "-DCMAKE_UNITY_BUILD=ON",
