@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Callable, Iterator
-from functools import cache
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from programs import install
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -29,9 +27,3 @@ def data_dir() -> Path:
     if not folder.is_dir():
         pytest.skip(f"no golden data in {folder}: set CURVEWISE_DATA to the folder that has it")
     return folder
-
-
-@pytest.fixture(scope="session")
-def prefix(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """Return what gives the prefix where the "static" or "shared" C++ library is installed."""
-    return cache(lambda kind: install(tmp_path_factory.mktemp(kind), shared=kind == "shared"))
