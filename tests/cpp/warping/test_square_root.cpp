@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "check.hpp"
-#include "dispatch.hpp"
+#include "warping/dispatch.hpp"
 #include "square_roots.hpp"
 
 namespace {

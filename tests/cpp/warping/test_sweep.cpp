@@ -10,10 +10,11 @@
 
 #include "check.hpp"
 #include "curves.hpp"
-#include "dispatch.hpp"
 #include "oracle.hpp"
-#include "path.hpp"
-#include "sweep.hpp"
+#include "warping/dispatch.hpp"
+#include "warping/ground_distance.hpp"
+#include "warping/path.hpp"
+#include "warping/sweep.hpp"
 
 namespace {
 
@@ -136,7 +137,7 @@ class Comparison {
     void run() const {
         for (const Level& level : available_levels()) {
             const check::Note note(level.name);
-            curvewise::detail::Watch watch(nullptr);
+            curvewise::detail::Poller poller(nullptr);
             curvewise::detail::SweepMemory memory;
             const SweepProblem problem{*level.kernels,
                                        {rows_, columns_},
@@ -146,7 +147,7 @@ class Comparison {
                                        Band(P_.size(), Q_.size(), setup_.window),
                                        setup_.open_begin,
                                        setup_.workers,
-                                       watch,
+                                       poller,
                                        memory};
             check_bottom(last_row(problem));
             check_table(problem);
