@@ -4,9 +4,9 @@
 #include <limits>
 #include <new>
 
-#include "runtime/allocation_error.hpp"
 #include "check.hpp"
 #include "curves/range_scale.hpp"
+#include "runtime/allocation_error.hpp"
 
 namespace {
 
