@@ -3,7 +3,7 @@
 Options are given by name; those left out have the defaults that ``measures()`` returns.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any, Literal, SupportsIndex, TypeAlias, TypedDict
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 _Array: TypeAlias = npt.NDArray[np.float64]
 _Path: TypeAlias = npt.NDArray[np.int64]
-_Options: TypeAlias = Mapping[str, Any]
+_Options: TypeAlias = dict[str, Any]
 _Report: TypeAlias = Callable[[int, int], object]
 
 class BuildInfo(TypedDict):
@@ -24,6 +24,7 @@ class BuildInfo(TypedDict):
 def build_info() -> BuildInfo: ...
 def measures() -> dict[str, dict[str, Any]]: ...
 def choices() -> dict[str, tuple[str, ...]]: ...
+def presets() -> dict[str, dict[str, tuple[bool, dict[str, Any]]]]: ...
 def area(P: _Array, Q: _Array, options: _Options, /) -> float: ...
 def area_quads(P: _Array, Q: _Array, options: _Options, /) -> tuple[_Array, _Array]: ...
 def pcm(P: _Array, Q: _Array, options: _Options, /) -> float: ...

@@ -1,8 +1,8 @@
 """What the options of the measures can be, and what they are where they are not given.
 
 The measures and the reference, which must not know of each other, both take choices and defaults
-from here, and :mod:`curvewise._docstrings` takes the choices that it lists. The compiled library
-has its own; ``_core.choices()`` and ``_core.measures()`` say which, and a test holds the two
+from here, and so do the docstrings that list them. The compiled library has its own, which
+``_core.choices()``, ``_core.measures()`` and ``_core.presets()`` return; a test holds the two
 together.
 """
 
@@ -38,7 +38,7 @@ LengthScale: TypeAlias = Literal["mean", "mean_abs", "range"]
 
 
 class Default:
-    """The value of every option of a measure that is not given."""
+    """The value of each option that is not given."""
 
     metric: Final[Metric] = "euclidean"
     p: Final[Order] = None

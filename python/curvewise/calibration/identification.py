@@ -23,7 +23,7 @@ from .evaluations import Evaluations, Finish, Progress, SearchEndedError
 from .history import Evaluation, History, as_records
 from .methods import METHODS, search
 from .model_pool import Model, ModelPool
-from .objective import Objective
+from .objective import LEAST_SQUARES, Objective
 from .parameters import Space
 
 if TYPE_CHECKING:
@@ -314,10 +314,10 @@ def _result(
 def _check_method(method: str, measure: str, method_options: dict[str, Any]) -> None:
     if method not in METHODS:
         raise ValueError(f"unknown method {method!r}; choose from {', '.join(METHODS)}")
-    if method == "least_squares" and measure not in ("curve_length", "sum_of_squares"):
+    if method == "least_squares" and measure not in LEAST_SQUARES:
         raise ValueError(
             f"measure {measure!r} is not a sum of squares; method 'least_squares' needs "
-            "measure='curve_length' or 'sum_of_squares'"
+            f"measure={' or '.join(map(repr, LEAST_SQUARES))}"
         )
     stages = METHODS[method]
     if len(stages) > 1 and not set(method_options) <= set(stages):

@@ -9,7 +9,9 @@ module is.
 
 from __future__ import annotations
 
+import math
 from contextlib import AbstractContextManager
+from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -128,12 +130,12 @@ def panels(figure: Figure, dim: int, count: int) -> tuple[Axes, list[Axes]]:
         figure.set_size_inches(9, 2.4 * (1 + count))
         main, *others = figure.subplots(1 + count, 1, sharex=True, squeeze=False)[:, 0]
     elif dim == 2:  # a large one, with small ones to its right and below it
-        rows = 2 if count <= 2 else 3
+        rows = 2 + math.ceil(max(0, count - 2) / 3)
         figure.set_size_inches(11, 2.9 * rows)
         grid = figure.add_gridspec(rows, 3)
         main = figure.add_subplot(grid[:2, :2])
-        cells = [(0, 2), (1, 2), (2, 0), (2, 1), (2, 2)][:count]
-        others = [figure.add_subplot(grid[cell]) for cell in cells]
+        cells = [(0, 2), (1, 2), *product(range(2, rows), range(3))]
+        others = [figure.add_subplot(grid[cell]) for cell in cells[:count]]
     else:
         figure.set_size_inches(4.2 * (1 + count), 4)
         main, *others = figure.subplots(1, 1 + count, squeeze=False)[0]
