@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from .._curves import Array
-from ..compare import Preset
+from .._options import Preset
 from .curve_list import as_points, curve_list
 from .identification import Identification, identify
 from .model_pool import Model

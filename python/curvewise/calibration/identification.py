@@ -15,14 +15,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._curves import Array
-from ..compare import PRESETS, Preset
+from .._options import Preset
+from ..measures.registry import default_measures
 from ._extra import required
 from .curve_list import as_points, curve_list
 from .evaluations import Evaluations, Finish, Progress, SearchEndedError
 from .history import Evaluation, History, as_records
 from .methods import METHODS, search
 from .model_pool import Model, ModelPool
-from .objective import Objective
+from .objective import LEAST_SQUARES, Objective
 from .parameters import Space
 from .pictures import loops_and_convergence
 
@@ -312,10 +313,10 @@ def _result(
 def _check_method(method: str, measure: str, method_options: dict[str, Any]) -> None:
     if method not in METHODS:
         raise ValueError(f"unknown method {method!r}; choose from {', '.join(METHODS)}")
-    if method == "least_squares" and measure not in ("curve_length", "sum_of_squares"):
+    if method == "least_squares" and measure not in LEAST_SQUARES:
         raise ValueError(
             f"measure {measure!r} is not a sum of squares; method 'least_squares' needs "
-            "measure='curve_length' or 'sum_of_squares'"
+            f"measure={' or '.join(map(repr, LEAST_SQUARES))}"
         )
     stages = METHODS[method]
     if len(stages) > 1 and not set(method_options) <= set(stages):
@@ -343,9 +344,8 @@ def _settings(objective: Objective) -> dict[str, Any]:
 
 def _measures(objective: Objective, simulations: Any, value: float) -> dict[str, float]:
     """Return the value of simulations under every measure."""
-    in_plane = objective.experiments[0].shape[1] == 2
     values = {}
-    for name in PRESETS[objective.preset] if in_plane else ("frechet", "dtw"):
+    for name in default_measures(objective.experiments[0]):
         if name == objective.measure:
             values[name] = value
             continue

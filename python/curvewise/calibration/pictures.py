@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .. import _drawing as drawing
 from .._curves import Array
+from ..plotting import drawing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
