@@ -78,8 +78,8 @@ def cdist(
     serve as well as its processes. Memory: the graph holds a copy of the curves; a worker holds
     those of its blocks. A cluster warns of a graph above 10 MB
     (``distributed.admin.large-graph-warning-threshold``); here that is the curves themselves, which
-    are sent once. The bar of ``dask.diagnostics.ProgressBar`` or the cluster's dashboard show the progress.
-    A block is not interrupted; cancelling waits for those that have begun.
+    are sent once. The bar of ``dask.diagnostics.ProgressBar`` or the cluster's dashboard shows the
+    progress. A block is not interrupted; cancelling waits for those that have begun.
 
     Examples
     --------

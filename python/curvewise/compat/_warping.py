@@ -2,9 +2,10 @@
 
 The metrics that the compiled library knows go to it (:func:`curvewise.dtw_table`,
 :func:`curvewise.frechet`): the same recurrence (symmetric1), and the same bits for all of them
-except minkowski. For every other metric, and for curves with nan or inf, ``scipy.spatial.distance.cdist`` gives the
-costs and the cumulative table is filled here along anti-diagonals, whose cells depend on earlier
-ones only. O(n·m) time and memory; the Fréchet distance from the library takes O(n + m) memory.
+except minkowski. For every other metric, and for curves with nan or inf,
+``scipy.spatial.distance.cdist`` gives the costs, and the cumulative table is filled here along
+anti-diagonals, whose cells depend on earlier ones only. O(n·m) time and memory; the Fréchet
+distance from the library takes O(n + m) memory.
 """
 
 from __future__ import annotations
