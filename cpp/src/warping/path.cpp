@@ -78,9 +78,13 @@ class PathFinder {
 
     // The row above the part.
     Row entry(const Part& part) const {
-        const bool anywhere = part.starts_here && problem_.open_begin;
-        Row row(part.region.columns, anywhere ? 0.0 : infinity);
-        row[0] = part.starts_here ? 0.0 : part.value_above;
+        Row row;
+        if (part.starts_here) {
+            assign_start(problem_, part.region.columns, row);
+        } else {
+            row.assign(part.region.columns, infinity);
+            row[0] = part.value_above;
+        }
         return row;
     }
 

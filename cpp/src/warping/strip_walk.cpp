@@ -43,6 +43,7 @@ enum Lanes : std::ptrdiff_t { values = 0, costs = 3, origins = 4, count = 7 };
 }  // namespace
 
 std::ptrdiff_t worker_count(const SweepProblem& problem, const Region& region) noexcept {
+    if (problem.columns.cost_to_go() != nullptr) return 1;
     const std::ptrdiff_t useful = region.rows * region.columns / problem.cells_per_worker;
     return std::max<std::ptrdiff_t>(1, std::min(problem.workers, useful));
 }
@@ -57,7 +58,7 @@ StripPlan::StripPlan(const SweepProblem& problem, const Region& region, std::ptr
       workers_(std::min(workers, (region.rows + height_ - 1) / height_)) {}
 
 ColumnRange StripPlan::columns(std::ptrdiff_t row) const noexcept {
-    const ColumnRange range = problem_->band.columns(region_.first_row + row);
+    const ColumnRange range = problem_->columns.columns(region_.first_row + row);
     return {std::max<std::ptrdiff_t>(range.first - region_.first_column, 0),
             std::min(range.last - region_.first_column, region_.columns - 1)};
 }
@@ -87,6 +88,10 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, 
     strip_.origin_boundary = plan.destination_.origins;
     strip_.code_stride = plan.height_;
     strip_.table_stride = region.columns;
+    const LiveColumns& live = plan.problem_->columns;
+    if (live.cost_to_go() != nullptr) {
+        narrower_ = StripNarrower(*live.cost_to_go(), *live.swept(), region.columns);
+    }
 }
 
 void StripWalk::enter(std::ptrdiff_t strip) noexcept {
@@ -98,13 +103,15 @@ void StripWalk::enter(std::ptrdiff_t strip) noexcept {
         columns_[k] = range.first;
         columns_[plan_->height_ + k] = range.last;
     }
+    const bool is_dead = narrower_.is_on() && !narrower_.enter(strip_, row, columns_);
     strip_.low_lane = 0;
     strip_.high_lane = -1;
     strip_.next_diagonal = strip_.first_column[0];
     first_diagonal_ = strip_.next_diagonal;
-    end_diagonal_ = strip_.last_column[strip_.rows - 1] + strip_.rows;
+    end_diagonal_ = is_dead ? first_diagonal_ : strip_.last_column[strip_.rows - 1] + strip_.rows;
     counted_ = 0;
     at_start_ = starts_here_ && strip == 0;
+    is_last_ = row + strip_.rows == plan_->region_.rows;
     aim(strip);
 }
 
@@ -142,14 +149,36 @@ std::int64_t StripWalk::advance(std::ptrdiff_t end) noexcept {
         strip_.before_last[0] = infinity;
         at_start_ = false;
     }
-    advance_(strip_, end, fill_);
-    const double share = static_cast<double>(end - first_diagonal_) /
+    if (narrower_.is_on()) {
+        advance_narrowing(end);
+    } else {
+        advance_(strip_, end, fill_);
+    }
+    const double share = static_cast<double>(strip_.next_diagonal - first_diagonal_) /
                          static_cast<double>(end_diagonal_ - first_diagonal_);
     const auto count = static_cast<std::int64_t>(share * static_cast<double>(strip_.rows) *
                                                  static_cast<double>(strip_.columns));
     const std::int64_t more = count - counted_;
     counted_ = count;
     return more;
+}
+
+void StripWalk::advance_narrowing(std::ptrdiff_t end) noexcept {
+    std::ptrdiff_t* const last_column = columns_ + plan_->height_;
+    while (strip_.next_diagonal < end) {
+        advance_(strip_, std::min(strip_.next_diagonal + StripNarrower::stride, end), fill_);
+        if (!narrower_.narrow(strip_, columns_, last_column)) {
+            end_diagonal_ = strip_.next_diagonal;
+            return;
+        }
+    }
+}
+
+std::int64_t StripWalk::leave() {
+    if (narrower_.is_on()) {
+        narrower_.leave(strip_, strip_.first_column, strip_.last_column, is_last_);
+    }
+    return strip_.rows * strip_.columns - counted_;
 }
 
 CodeLayout::CodeLayout(const SweepProblem& problem, const Region& region) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "warping/kernels/strip.hpp"
+#include "warping/strip_narrower.hpp"
 #include "warping/sweep_problem.hpp"
 
 namespace curvewise::detail {
@@ -51,9 +52,12 @@ class alignas(128) StripWalk {
     StripWalk(const StripPlan& plan, bool starts_here, double* boundary, SweepMemory& memory);
 
     void enter(std::ptrdiff_t strip) noexcept;
-    // Up to the diagonal `end`. Returns the share of the strip's rows times all columns of the
-    // region that this is: what a caller counts as done, whatever the band leaves out.
+    // Up to the diagonal `end`, or to where the strip turns out to end. Returns the share of the
+    // strip's rows times all columns of the region that this is: what a caller counts as done,
+    // whatever the band leaves out.
     std::int64_t advance(std::ptrdiff_t end) noexcept;
+    // After the last diagonal. Returns the rest of that share.
+    std::int64_t leave();
 
     std::ptrdiff_t first_diagonal_of(std::ptrdiff_t strip) const noexcept {
         return plan_->columns(strip * plan_->height()).first;
@@ -67,6 +71,7 @@ class alignas(128) StripWalk {
 
    private:
     void aim(std::ptrdiff_t strip) noexcept;
+    void advance_narrowing(std::ptrdiff_t end) noexcept;
 
     const StripPlan* plan_;
     bool starts_here_;
@@ -76,10 +81,12 @@ class alignas(128) StripWalk {
     kernels::AdvanceFunction advance_;
     kernels::CostFunction fill_;
     kernels::Strip strip_{};
+    StripNarrower narrower_;
     std::ptrdiff_t first_diagonal_ = 0;
     std::ptrdiff_t end_diagonal_ = 0;
     std::int64_t counted_ = 0;
     bool at_start_ = false;
+    bool is_last_ = false;
 };
 
 }  // namespace curvewise::detail

@@ -32,7 +32,7 @@ bool sweep_strip(StripWalk& walk, std::ptrdiff_t strip, std::ptrdiff_t chunk, st
         const std::ptrdiff_t end = std::min(walk.next_diagonal() + chunk, walk.end_diagonal());
         if (poller.count_steps(walk.advance(end), weight)) return true;
     }
-    return false;
+    return poller.count_steps(walk.leave(), weight);
 }
 
 bool is_hopeless(const SweepProblem& problem, const Region& region, const double* row) noexcept {
@@ -66,10 +66,8 @@ void sweep_in_turn(StripWalk& walk, std::ptrdiff_t chunk, std::ptrdiff_t weight,
 
 // All of the table; returns its last row.
 const Row& sweep_all(const SweepProblem& problem, const Destination& destination) {
-    // The virtual row above the table: 0 where a path may begin.
     Row& row = problem.memory.row;
-    row.assign(problem.curves.columns(), problem.open_begin ? 0.0 : infinity);
-    row[0] = 0.0;
+    assign_start(problem, problem.curves.columns(), row);
     sweep(problem, whole_table(problem.curves), !problem.open_begin, row.data(), destination);
     return row;
 }
@@ -101,7 +99,7 @@ void sweep(const SweepProblem& problem, const Region& region, bool starts_here, 
 
 double lone_cell(const SweepProblem& problem, std::ptrdiff_t row, std::ptrdiff_t column) {
     SweepProblem cell = problem;
-    cell.band = Band(1, 1, std::nullopt);
+    cell.columns = Band(1, 1, std::nullopt);
     Row above(1, 0.0);
     sweep(cell, {row, 1, column, 1}, true, above.data(), {});
     return above[0];
@@ -110,7 +108,7 @@ double lone_cell(const SweepProblem& problem, std::ptrdiff_t row, std::ptrdiff_t
 const Row& last_row(const SweepProblem& problem) { return sweep_all(problem, {}); }
 
 void sweep_table(const SweepProblem& problem, double* table) {
-    if (problem.band.is_limited()) {
+    if (problem.columns.is_limited()) {
         std::fill_n(table, problem.curves.rows() * problem.curves.columns(), infinity);
     }
     Destination destination;

@@ -1,6 +1,7 @@
 #include "warping/sweep_problem.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace curvewise::detail {
 
@@ -16,6 +17,12 @@ void Row::assign(std::ptrdiff_t columns, double value) {
 
 std::ptrdiff_t Row::argmin() const noexcept {
     return std::min_element(row_.data(), row_.data() + columns_) - row_.data();
+}
+
+void assign_start(const SweepProblem& problem, std::ptrdiff_t columns, Row& row) {
+    row.assign(columns, std::numeric_limits<double>::infinity());
+    const std::ptrdiff_t begun = problem.open_begin ? problem.columns.columns(0).last + 1 : 1;
+    std::fill_n(row.data(), std::min(begun, columns), 0.0);
 }
 
 }  // namespace curvewise::detail

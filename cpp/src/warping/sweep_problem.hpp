@@ -8,8 +8,8 @@
 
 #include "runtime/aligned_buffer.hpp"
 #include "runtime/poller.hpp"
-#include "warping/band.hpp"
 #include "warping/kernels/strip.hpp"
+#include "warping/live_columns.hpp"
 #include "warping/packed_curve.hpp"
 
 namespace curvewise::detail {
@@ -50,7 +50,7 @@ struct SweepProblem {
     kernels::Recurrence recurrence;
     kernels::Cost cost;
     double minkowski_p;
-    Band band;
+    LiveColumns columns;
     bool open_begin;
     std::ptrdiff_t workers;
     Poller& poller;
@@ -71,6 +71,9 @@ struct Region {
 };
 
 Region whole_table(const PackedPair& curves) noexcept;
+// The virtual row above the table, its first columns: 0 where a path may begin. Beyond what the
+// first row holds it stays infinite, as a row that reaches further right must find it.
+void assign_start(const SweepProblem& problem, std::ptrdiff_t columns, Row& row);
 
 // Where the codes of a strip's predecessors begin in an array of all of them.
 struct StripCodes {

@@ -8,6 +8,7 @@ determine the parameters. Cost: as many identifications as there are loops.
 
 from __future__ import annotations
 
+import inspect
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -170,12 +171,9 @@ def cross_validate(
     return CrossValidation(tuple(folds), identification.measure, identification.preset)
 
 
-# Keywords of `identify` that do not change what a simulation is worth.
-_SEARCH_KEYWORDS = frozenset(
-    (
-        *("method", "seed", "workers", "progress", "callback", "start"),
-        *("max_evaluations", "method_options"),
-    )
+# Keywords of `identify` that do not change what a simulation is worth: those `Objective` lacks.
+_SEARCH_KEYWORDS = (
+    inspect.signature(identify).parameters.keys() - inspect.signature(Objective).parameters.keys()
 )
 
 

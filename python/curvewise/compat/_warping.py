@@ -1,10 +1,11 @@
 """Dynamic time warping and the discrete Fréchet distance in similaritymeasures' names.
 
 The metrics that the compiled library knows go to it (:func:`curvewise.dtw_table`,
-:func:`curvewise.frechet`): the same recurrence (symmetric1), the same bits for all but minkowski.
-For every other metric, and for curves with nan or inf, ``scipy.spatial.distance.cdist`` gives the
-costs and the cumulative table is filled here along anti-diagonals, whose cells depend on earlier
-ones only. O(n·m) time and memory, but O(n + m) memory for the Fréchet distance in the library.
+:func:`curvewise.frechet`): the same recurrence (symmetric1), and the same bits for all of them
+except minkowski. For every other metric, and for curves with nan or inf,
+``scipy.spatial.distance.cdist`` gives the costs, and the cumulative table is filled here along
+anti-diagonals, whose cells depend on earlier ones only. O(n·m) time and memory; the Fréchet
+distance from the library takes O(n + m) memory.
 """
 
 from __future__ import annotations

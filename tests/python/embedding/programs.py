@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 PURELIB = Path(sysconfig.get_path("purelib"))
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"]
 
@@ -43,9 +43,11 @@ def compiler(*names: str) -> str:
     pytest.skip(f"no {' or '.join(names)}")
 
 
-def output(*command: str | Path, cwd: Path | None = None, **environment: str) -> str:
-    """Run a command and return what it printed; fail with all that it printed."""
-    done = subprocess.run(
+def run(
+    *command: str | Path, cwd: Path | None = None, **environment: str
+) -> subprocess.CompletedProcess[str]:
+    """Run a command; keep all that it printed, and its status."""
+    return subprocess.run(
         [str(part) for part in command],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
@@ -54,6 +56,11 @@ def output(*command: str | Path, cwd: Path | None = None, **environment: str) ->
         cwd=cwd,
         env={**os.environ, **environment},
     )
+
+
+def output(*command: str | Path, cwd: Path | None = None, **environment: str) -> str:
+    """Run a command and return what it printed; fail with all that it printed."""
+    done = run(*command, cwd=cwd, **environment)
     if done.returncode != 0:
         pytest.fail(f"{' '.join(map(str, command))}\n{done.stdout}", pytrace=False)
     return done.stdout
@@ -86,22 +93,6 @@ def write_page(folder: Path, *names: str) -> Path:
     for name in names:
         (folder / Path(name).name).write_text(shown[name], encoding="utf-8")
     return folder
-
-
-def install(work: Path, *, shared: bool) -> Path:
-    """Build and install the library; return its prefix, moved away from where it was put."""
-    build(
-        ROOT,
-        work / "build",
-        f"-DCMAKE_PREFIX_PATH={PURELIB.as_posix()}",
-        f"-DBUILD_SHARED_LIBS={'ON' if shared else 'OFF'}",
-        f"-DCMAKE_INSTALL_PREFIX={work / 'first'}",
-        "-DCMAKE_INSTALL_LIBDIR=lib",
-        "-DCURVEWISE_WARNINGS_AS_ERRORS=ON",
-    )
-    output(tool("cmake"), "--install", work / "build")
-    shutil.rmtree(work / "build")
-    return (work / "first").rename(work / "moved")
 
 
 def eigen() -> Path:

@@ -1,8 +1,9 @@
 // The strip sweep against a plain scan of the table, row by row: last row, whole table and paths,
 // to the bit, at every instruction-set level of this machine, in one thread and in several, with
-// paths found in one table and by divide and conquer. The sizes are those around a SIMD vector of
-// 2, 4 or 8 doubles and around the strips' heights (32 rows with a table, 256 without); half of the
-// data is small integers, so that most cells have equal predecessors.
+// paths found in one table and by divide and conquer, and with the columns narrowed to what a path
+// of the given cost may visit. The sizes are those around a SIMD vector of 2, 4 or 8 doubles and
+// around the strips' heights (32 rows with a table, 256 without); half of the data is small
+// integers, so that most cells have equal predecessors.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,10 +11,11 @@
 
 #include "check.hpp"
 #include "curves.hpp"
-#include "dispatch.hpp"
 #include "oracle.hpp"
-#include "path.hpp"
-#include "sweep.hpp"
+#include "warping/dispatch.hpp"
+#include "warping/ground_distance.hpp"
+#include "warping/path.hpp"
+#include "warping/sweep.hpp"
 
 namespace {
 
@@ -22,6 +24,7 @@ using curvewise::Metric;
 using curvewise::detail::available_levels;
 using curvewise::detail::Band;
 using curvewise::detail::Level;
+using curvewise::detail::LiveColumns;
 using curvewise::detail::PackedCurve;
 using curvewise::detail::PointOrder;
 using curvewise::detail::RangeScale;
@@ -129,6 +132,7 @@ class Comparison {
           Q_(Q),
           setup_(setup),
           expected_(P, Q, setup),
+          band_(P.size(), Q.size(), setup.window),
           rows_(P, RangeScale(1.0), PointOrder::forward),
           columns_(Q, RangeScale(1.0), PointOrder::reversed),
           cost_(curvewise::detail::canonical_cost(setup.ground, {rows_, columns_})) {}
@@ -136,20 +140,14 @@ class Comparison {
     void run() const {
         for (const Level& level : available_levels()) {
             const check::Note note(level.name);
-            curvewise::detail::Watch watch(nullptr);
+            curvewise::detail::Poller poller(nullptr);
             curvewise::detail::SweepMemory memory;
-            const SweepProblem problem{*level.kernels,
-                                       {rows_, columns_},
-                                       setup_.recurrence,
-                                       cost_,
-                                       setup_.ground.p,
-                                       Band(P_.size(), Q_.size(), setup_.window),
-                                       setup_.open_begin,
-                                       setup_.workers,
-                                       watch,
-                                       memory};
+            const SweepProblem problem{
+                *level.kernels, {rows_, columns_}, setup_.recurrence, cost_,  setup_.ground.p,
+                band_,          setup_.open_begin, setup_.workers,    poller, memory};
             check_bottom(last_row(problem));
             check_table(problem);
+            if (setup_.is_exact()) check_narrowed(problem);
             for (const std::ptrdiff_t max_codes : {1 << 24, 40}) {
                 check_path(problem, false, max_codes);
                 if (!setup_.window) check_path(problem, true, max_codes);
@@ -171,6 +169,60 @@ class Comparison {
             const bool in_band = oracle::is_allowed(P_.size(), Q_.size(), i, j, setup_.window);
             if (in_band) check_value(bottom[j], i, j);
         }
+    }
+
+    // Narrowed with the largest cost that leaves the path in, one that leaves more, and one that
+    // leaves nothing; then the path within what was left.
+    void check_narrowed(SweepProblem problem) const {
+        const LiveColumns band = problem.columns;
+        const double value = expected_.value(P_.size() - 1, Q_.size() - 1);
+        const std::vector<double> after_row = suffix_sums(P_.size(), [&](auto i) {
+            return smallest(Q_.size(), [&](auto j) { return ground_distance(i, j); });
+        });
+        const std::vector<double> after_column = suffix_sums(Q_.size(), [&](auto j) {
+            return smallest(P_.size(), [&](auto i) { return ground_distance(i, j); });
+        });
+        for (const double most : {value, 1.25 * value, 0.75 * value}) {
+            const curvewise::detail::CostToGo cost_to_go{
+                most, 1.0 - 0x1p-40, after_row.data() + 1, after_column.data() + 1,
+                setup_.recurrence == Recurrence::dtw_symmetric2};
+            curvewise::detail::SweptColumns swept;
+            problem.columns = LiveColumns(band_, cost_to_go, swept);
+            const double narrowed = last_row(problem)[Q_.size() - 1];
+            if (most < value) {
+                CHECK(narrowed > most);
+                continue;
+            }
+            CHECK_EQUAL(narrowed, value);
+            // The count is of cells, each once, except that a band's slope is not followed.
+            CHECK(swept.cells > 0);
+            if (!setup_.window) CHECK(swept.cells <= P_.size() * Q_.size());
+            problem.columns = LiveColumns(band_, swept);
+            check_path(problem, false, 40);
+        }
+        problem.columns = band;
+    }
+
+    // From the sum of all to the empty one; 0 for Fréchet, where nothing adds up.
+    template <class Term>
+    std::vector<double> suffix_sums(std::ptrdiff_t count, Term term) const {
+        std::vector<double> sums(static_cast<std::size_t>(count + 1), 0.0);
+        if (setup_.recurrence == Recurrence::frechet) return sums;
+        for (std::ptrdiff_t k = count - 1; k >= 0; --k) {
+            sums[static_cast<std::size_t>(k)] = term(k) + sums[static_cast<std::size_t>(k + 1)];
+        }
+        return sums;
+    }
+
+    template <class Term>
+    static double smallest(std::ptrdiff_t count, Term term) {
+        double least = infinity;
+        for (std::ptrdiff_t k = 0; k < count; ++k) least = std::min(least, term(k));
+        return least;
+    }
+
+    double ground_distance(std::ptrdiff_t i, std::ptrdiff_t j) const {
+        return oracle::ground_distance(setup_.ground, P_, i, Q_, j);
     }
 
     // A double behind the table's end must stay as it is.
@@ -213,6 +265,7 @@ class Comparison {
     const Curve& Q_;
     const Setup& setup_;
     RowScan expected_;
+    Band band_;
     PackedCurve rows_;
     PackedCurve columns_;
     curvewise::kernels::Cost cost_;

@@ -1,8 +1,9 @@
 """curvewise.compat gives the names, signatures and numbers of similaritymeasures 1.5.0.
 
-That package is not needed here. Its numbers come from the golden data and, where a case has no
-golden pair (integer curves, vertical segments, further columns), as literals that it printed; the
-area is also compared with plain loops over its definition, written below.
+Its numbers come from the golden data and, where a case has no golden pair (integer curves, vertical
+segments, further columns), as literals that it printed; the area is also compared with plain loops
+over its definition, written below. Where that package is installed, as it is by the extra "test",
+random curves of every kind are compared with it, bit for bit.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import curvewise
 import curvewise.compat as similaritymeasures
 
 Array = npt.NDArray[Any]
@@ -193,7 +195,8 @@ def area_by_loops(exp: Array, num: Array) -> float:
         k = lengths.index(max(lengths))
         (x0, y0), (x1, y1) = sorted(shorter[k : k + 2], key=lambda point: point[0])
         x = (x0 + x1) / 2
-        y = (y1 - y0) / (x1 - x0) * (x - x0) + y0 if x0 < x1 else (y0 + y1) / 2
+        # A vertical segment has its first point repeated: what numpy.interp makes of two equal x.
+        y = (y1 - y0) / (x1 - x0) * (x - x0) + y0 if x0 < x1 else shorter[k][1]
         shorter.insert(k + 1, [x, y])
     quads = zip(pairwise(longer), pairwise(shorter), strict=True)
     return math.fsum(quad_area([a, b, c, d]) for (a, b), (d, c) in quads)
@@ -233,11 +236,80 @@ def test_area_truncates_midpoints_of_integer_curves() -> None:
 def test_area_of_vertical_segments_further_columns_and_single_points() -> None:
     zigzag = np.array([[0.0, 0], [1, 1], [2, 2], [3, 1], [4, 0]])
     vertical = np.array([[0.0, 0], [0, 3], [1, 3]])
-    assert similaritymeasures.area_between_two_curves(zigzag, vertical) == 5.25
-    assert similaritymeasures.area_between_two_curves(vertical, zigzag) == 5.25
+    assert similaritymeasures.area_between_two_curves(zigzag, vertical) == 6.0
+    assert similaritymeasures.area_between_two_curves(vertical, zigzag) == 6.0
     exp, num = np.c_[PF, [0, 1, 0, 1, 0, 1]], np.c_[QF, [0, 9, 0]]
     assert similaritymeasures.area_between_two_curves(exp, num) == 14.75
     assert similaritymeasures.area_between_two_curves(PF[:1], QF[:1]) == 0.0
+
+
+def test_area_repeats_the_first_point_of_a_vertical_segment() -> None:
+    """Where curvewise.area bisects: 0.75 there and 0.25 here."""
+    exp = np.array([[0, 0], [0, 1], [1, 1]], dtype=float)
+    num = np.array([[0, 0], [0, 1], [0, 2], [0.5, 1], [1, 1], [1, 0.9]])
+    assert similaritymeasures.area_between_two_curves(exp, num) == 0.75
+    assert curvewise.area(exp, num) == 0.25
+    up, down = np.array([[1.0, 0.0], [1.0, 4.0]]), np.array([[1.0, 4.0], [1.0, 0.0]])
+    aside = np.column_stack([np.full(5, 3.0), np.arange(5.0)])
+    assert similaritymeasures.area_between_two_curves(up, aside) == 8.0
+    assert similaritymeasures.area_between_two_curves(down, aside) == 8.0
+
+
+def random_curve(kind: str, n: int, random: np.random.Generator) -> Array:
+    """Return a curve with what makes an area's refinement hard: equal x, equal points, ties."""
+    if kind == "grid":
+        return random.integers(-3, 4, (n, 2)).astype(float)
+    if kind == "runs of equal x":
+        x = np.repeat(random.integers(-2, 3, n), 3)[:n]
+        return np.column_stack([x, random.integers(-2, 3, n)]).astype(float)
+    if kind == "one x":
+        return np.column_stack([np.full(n, 1.5), random.normal(size=n)])
+    if kind == "repeated points":
+        return np.repeat(random.integers(-2, 3, (n, 2)).astype(float), 2, axis=0)[:n]
+    if kind == "integers":
+        return random.integers(-5, 6, (n, 2))
+    if kind == "small integers":
+        return random.integers(-100, 100, (n, 2)).astype(np.int8)
+    if kind == "float32":
+        return random.normal(size=(n, 2)).astype(np.float32)
+    if kind == "further columns":
+        return random.integers(-3, 4, (n, 4)).astype(float)
+    assert kind == "walk"
+    return random.normal(size=(n, 2)).cumsum(axis=0)
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")  # of that package: nan, overflowing integers
+@pytest.mark.parametrize(
+    "kind",
+    [
+        *("grid", "runs of equal x", "one x", "repeated points", "integers", "small integers"),
+        *("float32", "further columns", "walk"),
+    ],
+)
+def test_the_bits_of_that_package(kind: str) -> None:
+    theirs = pytest.importorskip(
+        "similaritymeasures", reason="no similaritymeasures: pip install similaritymeasures==1.5.0"
+    )
+    if theirs.__version__ != similaritymeasures.__version__:
+        pytest.skip(f"similaritymeasures is {theirs.__version__}, the numbers are those of 1.5.0")
+    random = np.random.default_rng(len(kind))
+    for i in range(150):
+        exp, num = (random_curve(kind, n, random) for n in random.integers(2, 40, 2))
+        values = [bits(similaritymeasures, exp, num, with_pcm=i % 10 == 0)]
+        values.append(bits(theirs, exp, num, with_pcm=i % 10 == 0))
+        assert np.array_equal(*values, equal_nan=True), (exp, num)
+
+
+def bits(package: Any, exp: Array, num: Array, *, with_pcm: bool) -> Array:
+    """Return what a package gives for two curves; partial curve mapping takes it milliseconds."""
+    values = [
+        package.area_between_two_curves(exp, num),
+        package.curve_length_measure(exp, num),
+        package.get_arc_length(exp)[0],
+    ]
+    if with_pcm:
+        values += [package.pcm(exp, num, flag) for flag in (False, True)]
+    return np.array(values)
 
 
 def test_polygons_and_quadrilaterals() -> None:

@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from test_calibration_history import assert_same
+from test_history import assert_same
 
 import curvewise
 from curvewise.calibration import identify

@@ -4,9 +4,9 @@
 #include <limits>
 #include <new>
 
-#include "allocation_error.hpp"
 #include "check.hpp"
-#include "checks.hpp"
+#include "curves/range_scale.hpp"
+#include "runtime/allocation_error.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "check.hpp"
 #include "curves.hpp"
-#include "offset_search.hpp"
+#include "planar/offset_search.hpp"
 
 namespace {
 
@@ -23,7 +23,7 @@ using curvewise::detail::RangeScale;
 using test::Curve;
 using test::Random;
 
-curvewise::detail::Watch unwatched(nullptr);
+curvewise::detail::Poller unpolled(nullptr);
 
 ArcCurve arc_curve(const Curve& curve) { return ArcCurve(polyline(curve, RangeScale(1.0))); }
 
@@ -87,11 +87,11 @@ double exact_minimum(const ArcCurve& shorter, const ArcCurve& longer) {
 }
 
 void check_best(const ArcCurve& shorter, const ArcCurve& longer) {
-    const Offset best = best_of_all(shorter, longer, unwatched);
+    const Offset best = best_of_all(shorter, longer, unpolled);
     const double S = shorter.length(), slack = longer.length() - S;
     CHECK(best.at >= 0.0 && best.at <= slack);
     CHECK_CLOSE(best.area + S, area_at(shorter, longer, best.at) + S, 1e-12);
-    CHECK(best.area <= best_of_grid(shorter, longer, 200, unwatched).area);
+    CHECK(best.area <= best_of_grid(shorter, longer, 200, unpolled).area);
     const double exact = exact_minimum(shorter, longer);
     const check::Note note("area " + std::to_string(best.area) + ", " +
                            std::to_string((best.area - exact) / S) + " S above the exact one");
@@ -127,12 +127,12 @@ void a_piece_of_the_other() {
         const std::ptrdiff_t first = random.index(60), last = first + 3 + random.index(18);
         const ArcCurve piece = arc_curve(whole.part(first, last)), longer = arc_curve(whole);
         const check::Note note("points " + std::to_string(first) + " to " + std::to_string(last));
-        const Offset best = best_of_all(piece, longer, unwatched);
+        const Offset best = best_of_all(piece, longer, unpolled);
         CHECK(best.area < 1e-9);
         CHECK(best.area <= 2e-12 * piece.length());
         CHECK(std::abs(best.at - longer.arc_lengths()[static_cast<std::size_t>(first)]) < 1e-9);
         const double S = piece.length(), T = longer.length();
-        CHECK(best_of_grid(piece, longer, 200, unwatched).area <= S * (T - S) / 398.0);
+        CHECK(best_of_grid(piece, longer, 200, unpolled).area <= S * (T - S) / 398.0);
     }
 }
 
@@ -141,7 +141,7 @@ void a_plateau() {
     const ArcCurve p = arc_curve({{0.0, 0.0}, {1.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}});
     const ArcCurve q =
         arc_curve({{3.0, 0.0}, {4.0, 0.0}, {3.0, 0.0}, {4.0, 0.0}, {3.0, 0.0}, {4.0, 0.0}});
-    CHECK_CLOSE(best_of_all(p, q, unwatched).area, 9.0, 1e-14);
+    CHECK_CLOSE(best_of_all(p, q, unpolled).area, 9.0, 1e-14);
     check_best(p, q);
 }
 
@@ -150,7 +150,7 @@ void a_plateau() {
 void one_segment() {
     const ArcCurve p = arc_curve({{0.0, 3.0}, {2.0, 3.0}});
     const ArcCurve q = arc_curve({{-3.0, 0.0}, {1.0, 3.0}, {5.0, 0.0}});
-    const Offset best = best_of_all(p, q, unwatched);
+    const Offset best = best_of_all(p, q, unpolled);
     CHECK_CLOSE(best.at, 4.0, 1e-6);
     CHECK_CLOSE(best.area, 2.0 * std::hypot(0.2, 0.6), 1e-12);
 }
@@ -165,25 +165,26 @@ void the_grid() {
             const double offset = slack * static_cast<double>(k) / static_cast<double>(count - 1);
             smallest = std::min(smallest, area_at(p, q, offset));
         }
-        CHECK_CLOSE(best_of_grid(p, q, count, unwatched).area, smallest, 1e-12);
+        CHECK_CLOSE(best_of_grid(p, q, count, unpolled).area, smallest, 1e-12);
     }
-    CHECK_EQUAL(best_of_grid(p, q, 1, unwatched).at, 0.0);
+    CHECK_EQUAL(best_of_grid(p, q, 1, unpolled).at, 0.0);
     // The first of equals: along a parallel, every offset is as good.
     const ArcCurve low = arc_curve({{0.0, 0.0}, {1.0, 0.0}, {0.0, 0.0}});
     const ArcCurve loop = arc_curve({{0.0, 0.0}, {1.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}, {0.0, 0.0}});
-    CHECK_EQUAL(best_of_grid(low, loop, 3, unwatched).at, 0.0);
-    CHECK_EQUAL(best_of_all(low, loop, unwatched).at, 0.0);
+    CHECK_EQUAL(best_of_grid(low, loop, 3, unpolled).at, 0.0);
+    CHECK_EQUAL(best_of_all(low, loop, unpolled).at, 0.0);
     // No room to move.
-    CHECK_EQUAL(best_of_grid(p, p, 200, unwatched).area, 0.0);
-    CHECK_EQUAL(best_of_all(p, p, unwatched).area, 0.0);
+    CHECK_EQUAL(best_of_grid(p, p, 200, unpolled).area, 0.0);
+    CHECK_EQUAL(best_of_all(p, p, unpolled).area, 0.0);
 }
 
 void walking_forward() {
     const ArcCurve curve = arc_curve({{0.0, 0.0}, {2.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {2.0, 1.0}});
-    ArcPosition position(curve);
+    ArcPosition position(curve.arc_lengths());
     const auto at = [&](double u) {
         position.move_to(u);
-        return std::vector<double>{position.point().x, position.point().y};
+        const Point point = position.point_on(curve.points());
+        return std::vector<double>{point.x, point.y};
     };
     CHECK_EQUAL(at(0.0), (std::vector<double>{0, 0}));
     CHECK_EQUAL(at(0.5), (std::vector<double>{0.5, 0}));

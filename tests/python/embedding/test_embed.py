@@ -2,11 +2,13 @@
 
 The programs, project files and commands are those of docs/embedding.md; what they print equals
 what Python computes, to the last bit. `pytest -m embed` runs these tests and those of the examples
-alone; together they build the library four times (static, shared, inside two other projects).
+alone; together they build the library three times (static, shared, inside a project of other
+flags).
 """
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -106,7 +108,7 @@ def test_add_subdirectory_leaks_nothing(tmp_path) -> None:
         folder,
         work,
         f"-DCMAKE_PREFIX_PATH={PURELIB.as_posix()}",
-        f"-DCMAKE_PROJECT_tool_INCLUDE={ROOT / 'tests/embed/leaks.cmake'}",
+        f"-DCMAKE_PROJECT_tool_INCLUDE={ROOT / 'tests/python/embedding/leaks.cmake'}",
         "-DCMAKE_CXX_FLAGS=-Ofast -march=native",
         "-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON",
         "-DCMAKE_UNITY_BUILD=ON",
@@ -116,17 +118,14 @@ def test_add_subdirectory_leaks_nothing(tmp_path) -> None:
     assert not (tmp_path / "prefix").exists()
 
 
-def test_fetch_content(tmp_path) -> None:
-    """As a shared library, which a project may ask for all that it fetches to be."""
-    folder = write_page(tmp_path / "tool", "main.cpp", "fetch_content/CMakeLists.txt")
-    (tmp_path / "curvewise").symlink_to(ROOT)
-    build(
-        folder,
-        tmp_path / "build",
-        f"-DCMAKE_PREFIX_PATH={PURELIB.as_posix()}",
-        "-DBUILD_SHARED_LIBS=ON",
-    )
-    assert_tool_right(output(tmp_path / "build" / "tool"))
+def test_fetch_content(built) -> None:
+    """As a shared library, which a project may ask for all that it fetches to be.
+
+    conftest.py builds it; the tests of the prefix "shared" use what it installs.
+    """
+    done = json.loads((built("shared") / "printed.json").read_text(encoding="utf-8"))
+    assert done["status"] == 0
+    assert_tool_right(done["printed"])
 
 
 def python(*arguments: str) -> str:

@@ -17,7 +17,7 @@ import pytest
 
 import curvewise
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "benchmarks" / "paper"
+SCRIPTS = Path(__file__).resolve().parents[3] / "benchmarks" / "paper"
 
 STEEL = {
     "CB": 640.0,

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import curvewise
 
-USER_FILE = Path(__file__).resolve().parents[1] / "typing" / "every_public_function.py"
+USER_FILE = Path(__file__).resolve().parents[2] / "typing" / "every_public_function.py"
 
 
 def test_mypy_strict_accepts_every_public_function(tmp_path: Path) -> None:

@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "check.hpp"
-#include "dispatch.hpp"
 #include "square_roots.hpp"
+#include "warping/dispatch.hpp"
 
 namespace {
 

@@ -8,7 +8,8 @@
 
 #include "check.hpp"
 #include "curves.hpp"
-#include "refinement.hpp"
+#include "curves/arc_length.hpp"
+#include "planar/refinement.hpp"
 
 namespace {
 
@@ -24,14 +25,14 @@ using curvewise::detail::RangeScale;
 using test::Curve;
 using test::Random;
 
-curvewise::detail::Watch unwatched(nullptr);
+curvewise::detail::Poller unpolled(nullptr);
 
 const RangeScale as_they_are(1.0);
 
 Polyline points_of(const Curve& curve) { return polyline(curve, as_they_are); }
 
 FacingCurves facing_curves(const Curve& P, const Curve& Q, Spacing spacing) {
-    return face(P, Q, as_they_are, spacing, unwatched);
+    return face(P, Q, as_they_are, spacing, unpolled);
 }
 
 std::vector<double> numbers(const Polyline& curve) {

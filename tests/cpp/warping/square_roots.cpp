@@ -3,13 +3,13 @@
 
 #include <Eigen/Core>
 
-#include "kernels/strip.hpp"
+#include "warping/kernels/strip.hpp"
 
 namespace {
 
 using curvewise::kernels::padding;
 
-#include "kernels/square_root.inl.hpp"
+#include "warping/kernels/square_root.inl.hpp"
 
 void square_roots(const double* x, double* y, std::ptrdiff_t n) noexcept {
     for (std::ptrdiff_t i = 0; i < n; i += width) store(y + i, FastRoot::of(load(x + i)));
