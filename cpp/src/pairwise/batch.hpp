@@ -41,6 +41,9 @@ class BatchMeasure {
     BatchMeasure& operator=(BatchMeasure&&) = delete;
     virtual ~BatchMeasure() = default;
 
+    // Throws what rectangle(), or square(), would throw before its work.
+    virtual void check(const CurveList& XA, const CurveList& XB) const = 0;
+    virtual void check(const CurveList& X) const = 0;
     // Of one pair.
     virtual double value(const CurveView& P, const CurveView& Q, Control* control) const = 0;
     // Every curve of one list with every curve of the other.

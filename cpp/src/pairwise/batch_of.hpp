@@ -65,6 +65,19 @@ class BatchOf final : public BatchMeasure {
         return evaluate(measure_, P, Q, control);
     }
 
+    void check(const CurveList& XA, const CurveList& XB) const override {
+        if (XA.size() == 0 || XB.size() == 0) return;
+        check_shapes(measure_.requirements(), XA, XB);
+        Sides(measure_, checked(XA), checked(XB));
+    }
+
+    void check(const CurveList& X) const override {
+        if (X.size() == 0) return;
+        check_shapes(measure_.requirements(), X);
+        const std::vector<CheckedCurve> curves = checked(X);
+        Sides(measure_, curves, curves);
+    }
+
     void rectangle(const CurveList& XA, const CurveList& XB, const PairDestination& destination,
                    const BatchOptions& options, Control* control) const override {
         if (XA.size() == 0 || XB.size() == 0) return;
@@ -93,18 +106,29 @@ class BatchOf final : public BatchMeasure {
         run(curves, curves, set, destination, options, control);
     }
 
+    // Both sides, prepared.
+    struct Sides {
+        Sides(const M& measure, const std::vector<CheckedCurve>& P,
+              const std::vector<CheckedCurve>& Q)
+            : row_sizes(sizes_of(P)), column_sizes(sizes_of(Q)) {
+            check_all_sizes(measure, row_sizes, column_sizes);
+            rows = prepare_all<PreparedP>(P);
+            columns = prepare_all<PreparedQ>(Q);
+            for (const PreparedP& row : rows) measure.check_p(row);
+        }
+        Sizes row_sizes;
+        Sizes column_sizes;
+        std::vector<PreparedP> rows;
+        std::vector<PreparedQ> columns;
+    };
+
     void run(const std::vector<CheckedCurve>& rows, const std::vector<CheckedCurve>& columns,
              PairSet set, const PairDestination& destination, const BatchOptions& options,
              Control* control) const {
-        const Sizes row_sizes = sizes_of(rows), column_sizes = sizes_of(columns);
-        check_all_sizes(measure_, row_sizes, column_sizes);
-        const auto prepared_rows = prepare_all<PreparedP>(rows);
-        const auto prepared_columns = prepare_all<PreparedQ>(columns);
-        for (const PreparedP& row : prepared_rows) measure_.check_p(row);
-        const PairTiles tiles(row_sizes, column_sizes, set, M::steps,
+        const Sides sides(measure_, rows, columns);
+        const PairTiles tiles(sides.row_sizes, sides.column_sizes, set, M::steps,
                               resolve_workers(options.workers));
-        PairRun<M>(measure_, prepared_rows, prepared_columns, tiles, destination, options)
-            .run(control);
+        PairRun<M>(measure_, sides.rows, sides.columns, tiles, destination, options).run(control);
     }
 
     M measure_;

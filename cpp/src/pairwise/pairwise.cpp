@@ -34,6 +34,15 @@ double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q, 
     return batch_of(measure)->value(P, Q, control);
 }
 
+void check_batch(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
+                 const Measure& measure) {
+    batch_of(measure)->check({XA, "XA"}, {XB, "XB"});
+}
+
+void check_batch(const std::vector<CurveView>& X, const Measure& measure) {
+    batch_of(measure)->check({X, "XA"});
+}
+
 void cdist(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
            const Measure& measure, double* out, const BatchOptions& options, Control* control) {
     check_options(options);
