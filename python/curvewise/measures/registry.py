@@ -144,8 +144,6 @@ PRESETS: dict[str, dict[str, Condition]] = {
     preset: {name: Condition(*condition) for name, condition in conditions.items()}
     for preset, conditions in _core.presets().items()
 }
-    for preset in get_args(Preset)
-}
 
 
 def default_measures(curve: Array) -> list[str]:
