@@ -1,0 +1,112 @@
+// The hooks of BatchMeasure for one measure class (see measure.hpp). Instantiated by each measure's
+// own file.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "pairwise/batch.hpp"
+#include "pairwise/evaluate.hpp"
+#include "pairwise/measure.hpp"
+
+namespace curvewise::detail {
+
+template <class M>
+class BatchOf final : public BatchMeasure {
+   public:
+    explicit BatchOf(const M& measure) : measure_(measure) {}
+
+    double value(const CurveView& P, const CurveView& Q, Control* control) const override {
+        return evaluate(measure_, P, Q, control);
+    }
+
+    double value(const Rows& rows, const CheckedCurve& Q, Poller& poller) const override {
+        const PreparedP& p = sides(rows).front();
+        poller.begin(M::steps(p.checked.curve.size(), 1, Q.curve.size()));
+        const PreparedQ q(Q);
+        Memory memory;
+        return measure_(p, q, {std::numeric_limits<double>::infinity(), 1, poller, memory});
+    }
+
+    Requirements requirements() const noexcept override { return measure_.requirements(); }
+
+    void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const override {
+        measure_.check_sizes(n, m);
+    }
+
+    std::unique_ptr<const Rows> prepare_rows(const std::vector<CheckedCurve>& P) const override {
+        return std::make_unique<PreparedRows>(P);
+    }
+
+    void check_rows(const Rows& rows) const override {
+        for (const PreparedP& row : sides(rows)) measure_.check_p(row);
+    }
+
+    std::unique_ptr<const PairValues> pairs(const Rows& rows,
+                                            const std::vector<CheckedCurve>& Q) const override {
+        return std::make_unique<Pairs>(measure_, sides(rows), Q);
+    }
+
+   private:
+    using PreparedP = typename M::PreparedP;
+    using PreparedQ = typename M::PreparedQ;
+    using Memory = typename M::Memory;
+
+    template <class Side>
+    static std::vector<Side> prepare_all(const std::vector<CheckedCurve>& curves) {
+        std::vector<Side> result;
+        result.reserve(curves.size());
+        for (const CheckedCurve& curve : curves) result.emplace_back(curve);
+        return result;
+    }
+
+    struct PreparedRows final : Rows {
+        explicit PreparedRows(const std::vector<CheckedCurve>& P)
+            : sides(prepare_all<PreparedP>(P)) {}
+        std::vector<PreparedP> sides;
+    };
+
+    static const std::vector<PreparedP>& sides(const Rows& rows) noexcept {
+        return static_cast<const PreparedRows&>(rows).sides;
+    }
+
+    class Pairs final : public PairValues {
+       public:
+        Pairs(const M& measure, const std::vector<PreparedP>& rows,
+              const std::vector<CheckedCurve>& Q)
+            : measure_(measure), rows_(rows), columns_(prepare_all<PreparedQ>(Q)) {}
+
+        bool is_swept() const noexcept override { return M::is_swept; }
+        PairTiles::Steps steps() const noexcept override { return M::steps; }
+        std::ptrdiff_t row_points(std::ptrdiff_t i) const noexcept override {
+            return rows_[static_cast<std::size_t>(i)].checked.curve.size();
+        }
+        std::ptrdiff_t column_points(std::ptrdiff_t j) const noexcept override {
+            return columns_[static_cast<std::size_t>(j)].checked.curve.size();
+        }
+        std::unique_ptr<ThreadMemory> make_memory() const override {
+            return std::make_unique<OwnMemory>();
+        }
+        double value(std::ptrdiff_t i, std::ptrdiff_t j, const PairCall& call) const override {
+            Memory& memory = static_cast<OwnMemory&>(call.memory).content;
+            return measure_(rows_[static_cast<std::size_t>(i)],
+                            columns_[static_cast<std::size_t>(j)],
+                            {call.cutoff, call.workers, call.poller, memory});
+        }
+
+       private:
+        struct OwnMemory final : ThreadMemory {
+            Memory content;
+        };
+
+        const M& measure_;
+        const std::vector<PreparedP>& rows_;
+        std::vector<PreparedQ> columns_;
+    };
+
+    M measure_;
+};
+
+}  // namespace curvewise::detail

@@ -1,0 +1,78 @@
+// All pairs of two prepared lists of curves. Threads take tiles of pairs from a common counter.
+// Before that, where a few pairs are so large that sharing out whole pairs would leave threads
+// idle, each of these is swept by all threads together.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "curvewise/pairwise.hpp"
+#include "pairwise/pair_tiles.hpp"
+#include "runtime/poller.hpp"
+
+namespace curvewise::detail {
+
+// Where the value of pair (i, j) goes.
+class PairDestination {
+   public:
+    enum class Shape { matrix, mirrored, condensed };
+
+    PairDestination(double* out, std::size_t columns, Shape shape) noexcept
+        : out_(out), columns_(static_cast<std::ptrdiff_t>(columns)), shape_(shape) {}
+
+    void write(std::ptrdiff_t i, std::ptrdiff_t j, double value) const noexcept {
+        if (shape_ == Shape::condensed) {
+            out_[i * columns_ - i * (i + 1) / 2 + j - i - 1] = value;
+            return;
+        }
+        out_[i * columns_ + j] = value;
+        if (shape_ == Shape::mirrored) out_[j * columns_ + i] = value;
+    }
+
+   private:
+    double* out_;
+    std::ptrdiff_t columns_;
+    Shape shape_;
+};
+
+// What one thread keeps from one pair to the next.
+class ThreadMemory {
+   public:
+    ThreadMemory() = default;
+    ThreadMemory(const ThreadMemory&) = delete;
+    ThreadMemory(ThreadMemory&&) = delete;
+    ThreadMemory& operator=(const ThreadMemory&) = delete;
+    ThreadMemory& operator=(ThreadMemory&&) = delete;
+    virtual ~ThreadMemory() = default;
+};
+
+// How a pair is computed.
+struct PairCall {
+    double cutoff;  // a value above it may come back as any other that is
+    std::ptrdiff_t workers;
+    Poller& poller;
+    ThreadMemory& memory;
+};
+
+// The pairs of prepared rows and columns, whatever the measure.
+class PairValues {
+   public:
+    PairValues() = default;
+    PairValues(const PairValues&) = delete;
+    PairValues(PairValues&&) = delete;
+    PairValues& operator=(const PairValues&) = delete;
+    PairValues& operator=(PairValues&&) = delete;
+    virtual ~PairValues() = default;
+
+    virtual bool is_swept() const noexcept = 0;
+    virtual PairTiles::Steps steps() const noexcept = 0;
+    virtual std::ptrdiff_t row_points(std::ptrdiff_t i) const noexcept = 0;
+    virtual std::ptrdiff_t column_points(std::ptrdiff_t j) const noexcept = 0;
+    virtual std::unique_ptr<ThreadMemory> make_memory() const = 0;
+    virtual double value(std::ptrdiff_t i, std::ptrdiff_t j, const PairCall& call) const = 0;
+};
+
+void run_pairs(const PairValues& pairs, const PairTiles& tiles, const PairDestination& destination,
+               const BatchOptions& options, Control* control);
+
+}  // namespace curvewise::detail

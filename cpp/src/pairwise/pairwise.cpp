@@ -1,0 +1,99 @@
+#include "curvewise/pairwise.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "pairwise/batch.hpp"
+#include "runtime/workers.hpp"
+
+namespace curvewise {
+namespace {
+
+using detail::CurveList;
+using detail::PairDestination;
+
+std::unique_ptr<const detail::BatchMeasure> batch_of(const Measure& measure) {
+    return std::visit([](const auto& options) { return detail::batch_measure(options); }, measure);
+}
+
+void check_options(const BatchOptions& options) {
+    detail::resolve_workers(options.workers);
+    if (!(options.cutoff >= 0.0)) {
+        throw std::invalid_argument("cutoff is " + std::to_string(options.cutoff) +
+                                    "; give a number >= 0");
+    }
+}
+
+}  // namespace
+
+bool is_symmetric(const Measure& measure) noexcept {
+    return std::visit([](const auto& options) { return options.is_symmetric(); }, measure);
+}
+
+double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q, Control* control) {
+    return batch_of(measure)->value(P, Q, control);
+}
+
+void check_batch(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
+                 const Measure& measure) {
+    check_batch(*batch_of(measure), {XA, "XA"}, {XB, "XB"});
+}
+
+void check_batch(const std::vector<CurveView>& X, const Measure& measure) {
+    check_batch(*batch_of(measure), {X, "XA"});
+}
+
+void cdist(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
+           const Measure& measure, double* out, const BatchOptions& options, Control* control) {
+    check_options(options);
+    const PairDestination matrix(out, XB.size(), PairDestination::Shape::matrix);
+    compute_batch(*batch_of(measure), {XA, "XA"}, {XB, "XB"}, {matrix, options, control});
+}
+
+void cdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
+           const BatchOptions& options, Control* control) {
+    check_options(options);
+    const bool halves = is_symmetric(measure);
+    if (halves) {
+        for (std::size_t i = 0; i < X.size(); ++i) out[i * X.size() + i] = 0.0;
+    }
+    const PairDestination destination(
+        out, X.size(), halves ? PairDestination::Shape::mirrored : PairDestination::Shape::matrix);
+    compute_batch(*batch_of(measure), {X, "XA"},
+                  halves ? detail::PairSet::triangle : detail::PairSet::rectangle,
+                  {destination, options, control});
+}
+
+void pdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
+           const BatchOptions& options, Control* control) {
+    if (!is_symmetric(measure)) {
+        throw std::invalid_argument(
+            "pdist needs a measure for which d(P, Q) = d(Q, P), which this one with these options "
+            "is not; use cdist");
+    }
+    check_options(options);
+    const PairDestination condensed(out, X.size(), PairDestination::Shape::condensed);
+    compute_batch(*batch_of(measure), {X, "X"}, detail::PairSet::triangle,
+                  {condensed, options, control});
+}
+
+class Prepared::State : public detail::PreparedCurve {
+   public:
+    using PreparedCurve::PreparedCurve;
+};
+
+Prepared::Prepared(const CurveView& P, const Measure& measure)
+    : state_(std::make_shared<const State>(batch_of(measure), P)) {}
+
+double Prepared::operator()(const CurveView& Q, Control* control) const {
+    return state_->value(Q, control);
+}
+
+void Prepared::operator()(const std::vector<CurveView>& Qs, double* out,
+                          const BatchOptions& options, Control* control) const {
+    check_options(options);
+    const PairDestination row(out, Qs.size(), PairDestination::Shape::matrix);
+    state_->values({Qs, "Q"}, {row, options, control});
+}
+
+}  // namespace curvewise

@@ -1,0 +1,152 @@
+"""What the package knows of each measure, in one table.
+
+The command line, compare, the batches, the pictures, the objectives of a calibration and the
+self-check go through this table, and have no list of measures of their own. What draws a measure,
+and its reference, are named and not imported, so that ``import curvewise`` stays fast.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from typing import Any, NamedTuple
+
+from .. import _core
+from .._curves import Array
+from .._options import MeasureName
+from ..results import Alignment
+from .area import area
+from .curve_length import curve_length, curve_length_residuals
+from .dtw import dtw, dtw_path, dtw_table
+from .frechet import frechet, frechet_path, frechet_table
+from .pcm import pcm
+
+__all__ = [
+    "MEASURES",
+    "PRESETS",
+    "WARPINGS",
+    "Condition",
+    "MeasureInfo",
+    "Warping",
+    "default_measures",
+]
+
+
+class Condition(NamedTuple):
+    """How a preset computes one measure: on curves scaled by P's box or not, with what options."""
+
+    scaled: bool
+    options: dict[str, Any]
+
+
+class Warping(NamedTuple):
+    """What more there is of a measure that is read off a table of all pairs of points."""
+
+    path: Callable[..., Alignment]
+    table: Callable[..., Array]
+
+
+class MeasureInfo(NamedTuple):
+    """One measure.
+
+    Attributes
+    ----------
+    name : str
+        The name by which users choose it, and that of the function in the reference.
+    title : str
+        The title of its picture.
+    function : callable
+        The measure.
+    planar : bool
+        Whether it is for curves in the plane only, or for any dimension.
+    symmetric : bool
+        Whether P and Q may change places, with the default options.
+    picture : str
+        The function of :mod:`curvewise.plotting` that draws it.
+    warping : Warping, optional
+        The functions that return the path and the table, where there is a table.
+    residuals : callable, optional
+        The function that returns the vector of which the measure is the norm, where it is one.
+    scales_itself : bool
+        Whether it always scales both curves by P's box, so that a preset need not.
+    """
+
+    name: MeasureName
+    title: str
+    function: Callable[..., float]
+    planar: bool
+    symmetric: bool
+    picture: str
+    warping: Warping | None = None
+    residuals: Callable[..., Array] | None = None
+    scales_itself: bool = False
+
+    @property
+    def reference(self) -> Callable[..., float]:
+        """The same in plain numpy."""
+        function: Callable[..., float] = getattr(import_module("curvewise.reference"), self.name)
+        return function
+
+
+MEASURES: Mapping[str, MeasureInfo] = {
+    info.name: info
+    for info in (
+        MeasureInfo(
+            name="area",
+            title="Area",
+            function=area,
+            planar=True,
+            symmetric=True,
+            picture="plot_area",
+        ),
+        MeasureInfo(
+            name="pcm",
+            title="Partial curve mapping",
+            function=pcm,
+            planar=True,
+            symmetric=False,
+            picture="plot_pcm",
+            scales_itself=True,
+        ),
+        MeasureInfo(
+            name="frechet",
+            title="Fréchet",
+            function=frechet,
+            planar=False,
+            symmetric=True,
+            picture="plot_alignment",
+            warping=Warping(frechet_path, frechet_table),
+        ),
+        MeasureInfo(
+            name="dtw",
+            title="DTW",
+            function=dtw,
+            planar=False,
+            symmetric=True,
+            picture="plot_alignment",
+            warping=Warping(dtw_path, dtw_table),
+        ),
+        MeasureInfo(
+            name="curve_length",
+            title="Curve length",
+            function=curve_length,
+            planar=True,
+            symmetric=False,
+            picture="plot_curve_length",
+            residuals=curve_length_residuals,
+        ),
+    )
+}
+
+WARPINGS = {name: info.warping for name, info in MEASURES.items() if info.warping}
+
+PRESETS: dict[str, dict[str, Condition]] = {
+    preset: {name: Condition(*condition) for name, condition in conditions.items()}
+    for preset, conditions in _core.presets().items()
+}
+
+
+def default_measures(curve: Array) -> list[str]:
+    """Return the measures that suit a curve: in the plane all, else those of any dimension."""
+    in_plane = curve.ndim == 2 and curve.shape[1] == 2
+    return [name for name, info in MEASURES.items() if in_plane or not info.planar]
