@@ -81,10 +81,11 @@ class CostBounds {
                 they_add_};
     }
 
-    // Of a whole path.
+    // Of a whole path, whose first cell is paid for once.
     double all() const noexcept {
-        const double rows = after_row_.front(), columns = after_column_.front();
-        return they_add_ ? rows + columns : std::max(rows, columns);
+        const double rows = after_row_[0], columns = after_column_[0];
+        return they_add_ ? std::max(rows + after_column_[1], after_row_[1] + columns)
+                         : std::max(rows, columns);
     }
 
    private:
