@@ -17,6 +17,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "block.hpp"
+
 namespace curvewise::kernels {
 
 // Lanes may be computed past the last active one, up to a whole SIMD vector: every array that a
@@ -87,6 +89,9 @@ struct KernelSet {
     AdvanceFunction (*advance)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
                                Output output) noexcept;
     CostFunction (*fill)(Cost cost) noexcept;
+    // Null for a ground distance without bounds.
+    ReachFunction (*reach)(Cost cost, std::ptrdiff_t dim) noexcept;
+    ValueFunction (*values)(Cost cost, std::ptrdiff_t dim) noexcept;
 };
 
 extern const KernelSet baseline;

@@ -8,8 +8,9 @@
 namespace curvewise::kernels {
 namespace {
 #include "sweep.inl.hpp"
+#include "block.inl.hpp"
 }  // namespace
 
-const KernelSet v3 = {select_advance, select_fill};
+const KernelSet v3 = {select_advance, select_fill, select_reach, select_values};
 
 }  // namespace curvewise::kernels
