@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -21,7 +21,7 @@ namespace {
 namespace detail = curvewise::detail;
 using curvewise::CurveView;
 using curvewise::kernels::Recurrence;
-using detail::FrechetRecord;
+using detail::PruningRecord;
 using detail::SweepProblem;
 
 std::vector<double> read(const std::string& name) {
@@ -41,9 +41,9 @@ double median(std::vector<double> times) {
 
 template <class Call>
 double seconds(Call call) {
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();  // of the processor: other programs may run
     call();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 void time_pair(const std::string& name) {
@@ -68,26 +68,27 @@ void time_pair(const std::string& name) {
                                memory};
     double full = infinity, pruned = infinity;
     std::vector<double> full_times, pruned_times;
-    FrechetRecord record;
+    PruningRecord record;
     const int samples = cells < 5e7 ? 15 : cells < 1e9 ? 7 : 3;
     for (int sample = 0; sample < samples; ++sample) {
         if (cells < 2e10 && (sample == 0 || cells < 3e9)) {
             full_times.push_back(seconds([&] { full = last_row(problem)[Q.size() - 1]; }));
         }
         pruned_times.push_back(seconds([&] {
-            record = FrechetRecord();
-            pruned = frechet_pruned(problem.kernels, problem.curves, problem.cost, infinity, watch,
-                                    record);
+            record = PruningRecord();
+            const std::optional<double> found = frechet_pruned(
+                problem.kernels, problem.curves, problem.cost, infinity, watch, record);
+            pruned = found ? *found : last_row(problem)[Q.size() - 1];
         }));
     }
     const double fast = median(pruned_times);
     const double slow = full_times.empty() ? 0.0 : median(full_times);
     std::printf(
-        "%-22s %8td %8td %10.3f ms %10.3f ms %7.2f x  swept %6.3f %% blocks %lld tries %d"
-        "  trees %.3f bound %.3f search %.3f ms%s\n",
+        "%-22s %8td %8td %10.3f ms %10.3f ms %7.2f x  swept %6.3f %% blocks %lld passes %d + %d"
+        "  bounds %.3f search %.3f ms%s\n",
         name.c_str(), P.size(), Q.size(), slow * 1e3, fast * 1e3, slow / fast,
-        100.0 * static_cast<double>(record.counts.swept_cells) / cells,
-        static_cast<long long>(record.counts.blocks), record.tries, record.tree_seconds * 1e3,
+        100.0 * static_cast<double>(record.swept_cells) / cells,
+        static_cast<long long>(record.blocks), record.reach_passes, record.value_passes,
         record.bound_seconds * 1e3, record.search_seconds * 1e3,
         full_times.empty() || full == pruned ? "" : "  DIFFERENT");
     std::fflush(stdout);

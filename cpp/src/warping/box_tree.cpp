@@ -1,6 +1,23 @@
 #include "warping/box_tree.hpp"
 
+#include <utility>
+
 namespace curvewise::detail {
+namespace {
+
+// The smallest and the largest, in three steps of independent comparisons.
+std::pair<double, double> range_of_eight(const double* x) noexcept {
+    static_assert(BoxTree::leaf_points == 8);
+    double low[4], high[4];
+    for (int k = 0; k < 4; ++k) {
+        low[k] = std::min(x[k], x[k + 4]);
+        high[k] = std::max(x[k], x[k + 4]);
+    }
+    return {std::min(std::min(low[0], low[2]), std::min(low[1], low[3])),
+            std::max(std::max(high[0], high[2]), std::max(high[1], high[3]))};
+}
+
+}  // namespace
 
 BoxTree::BoxTree(const PackedCurve& curve, PointOrder order)
     : points_(curve, order), size_(curve.size()), dim_(curve.dim()) {
@@ -21,16 +38,17 @@ void BoxTree::enclose_points(std::ptrdiff_t box) noexcept {
     double* const low = bounds_.data() + box * 2 * dim_;
     double* const high = low + dim_;
     const std::ptrdiff_t first = box * leaf_points;
-    const std::ptrdiff_t end = std::min(first + leaf_points, size_);
+    const std::ptrdiff_t count = std::min(leaf_points, size_ - first);
     for (std::ptrdiff_t c = 0; c < dim_; ++c) {
-        double lowest = points_(first, c), highest = lowest;
-        for (std::ptrdiff_t i = first + 1; i < end; ++i) {
-            const double x = points_(i, c);
-            lowest = std::min(lowest, x);
-            highest = std::max(highest, x);
+        const double* const x = points_.span(first, count, c);
+        if (count == leaf_points) {
+            const auto [lowest, highest] = range_of_eight(x);
+            low[c] = lowest;
+            high[c] = highest;
+        } else {
+            low[c] = *std::min_element(x, x + count);
+            high[c] = *std::max_element(x, x + count);
         }
-        low[c] = lowest;
-        high[c] = highest;
     }
 }
 

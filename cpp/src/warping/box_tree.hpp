@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "kernels/strip.hpp"
@@ -28,6 +30,11 @@ class PointAccess {
           step_(order == PointOrder::reversed ? -1 : 1) {}
     double operator()(std::ptrdiff_t point, std::ptrdiff_t coordinate) const noexcept {
         return first_[coordinate * stride_ + point * step_];
+    }
+    // A coordinate of `count` points from `point` on, in the order in which they are stored.
+    const double* span(std::ptrdiff_t point, std::ptrdiff_t count,
+                       std::ptrdiff_t coordinate) const noexcept {
+        return first_ + coordinate * stride_ + (step_ > 0 ? point : 1 - point - count);
     }
 
    private:
@@ -160,10 +167,14 @@ class NearestSearch {
         for (std::ptrdiff_t level = 0; level + 1 < tree_.levels(); ++level, box /= 2) {
             if (best_.distance <= enough_) break;
             const std::ptrdiff_t sibling = box ^ 1;
+            ++boxes_;
             if (sibling < tree_.boxes(level)) descend(level, sibling, distance_to(level, sibling));
         }
         return best_;
     }
+
+    // Looked at by all searches, an account of their time.
+    std::int64_t boxes() const noexcept { return boxes_; }
 
    private:
     double distance_to(std::ptrdiff_t level, std::ptrdiff_t box) const noexcept {
@@ -179,6 +190,7 @@ class NearestSearch {
 
     void descend(std::ptrdiff_t level, std::ptrdiff_t box, double distance) noexcept {
         if (!(distance < best_.distance) || best_.distance <= enough_) return;
+        boxes_ += 2;
         if (level == 0) return look_at_points(box);
         std::ptrdiff_t near = 2 * box, far = near + 1;
         double to_near = distance_to(level - 1, near);
@@ -206,6 +218,7 @@ class NearestSearch {
     std::ptrdiff_t i_ = 0;
     double enough_ = 0.0;
     Nearest best_{};
+    std::int64_t boxes_ = 0;
 };
 
 // The distance of every point of a curve of `count` points to the nearest of the tree's: the

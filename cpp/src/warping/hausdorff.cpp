@@ -9,8 +9,14 @@ namespace {
 template <class Norm>
 class DirectedBound {
    public:
-    DirectedBound(const BoxTree& from, const BoxTree& to, double bound, Watch& watch) noexcept
-        : from_(from), to_(to), search_(from.points(), to), bound_(bound), watch_(watch) {}
+    DirectedBound(const BoxTree& from, const BoxTree& to, double bound, double most_cells,
+                  Watch& watch) noexcept
+        : from_(from),
+          to_(to),
+          search_(from.points(), to),
+          bound_(bound),
+          most_boxes_(static_cast<std::int64_t>(most_cells / cells_per_box)),
+          watch_(watch) {}
 
     double raise() {
         // First a few points from all along the curve: the sooner the bound is high, the less is
@@ -22,6 +28,7 @@ class DirectedBound {
         const std::ptrdiff_t level = std::min(run_level, from_.levels() - 1);
         start_ = 0;
         for (std::ptrdiff_t run = 0; run < from_.boxes(level); ++run) {
+            if (search_.boxes() > most_boxes_) break;
             cover(level, run);
             if (run % runs_per_poll == 0 && watch_.poll()) throw Stopped();
         }
@@ -32,6 +39,8 @@ class DirectedBound {
     static constexpr std::ptrdiff_t samples = 64;
     static constexpr std::ptrdiff_t run_level = 3;
     static constexpr std::ptrdiff_t runs_per_poll = 8;
+    // The time of a box that is looked at in a search, in that of cells of a sweep.
+    static constexpr double cells_per_box = 20.0;
 
     void look_at(std::ptrdiff_t i) noexcept {
         const Nearest nearest = search_(i, start_, bound_);
@@ -68,21 +77,19 @@ class DirectedBound {
     const BoxTree& to_;
     NearestSearch<Norm> search_;
     double bound_;
+    std::int64_t most_boxes_;
     Watch& watch_;
     std::ptrdiff_t start_ = 0;  // the point found last
 };
 
 }  // namespace
 
-double hausdorff_bound(const BoxTree& P, const BoxTree& Q, kernels::Cost cost, Watch& watch) {
+double hausdorff_bound(const BoxTree& P, const BoxTree& Q, kernels::Cost cost, double bound,
+                       double most_cells, Watch& watch) {
     return with_norm(cost, [&](auto norm) {
         using Norm = decltype(norm);
-        const std::ptrdiff_t dim = P.dim();
-        const double first = point_distance<Norm>(P.points(), 0, Q.points(), 0, dim);
-        const double last =
-            point_distance<Norm>(P.points(), P.size() - 1, Q.points(), Q.size() - 1, dim);
-        const double bound = DirectedBound<Norm>(P, Q, std::max(first, last), watch).raise();
-        return DirectedBound<Norm>(Q, P, bound, watch).raise();
+        const double raised = DirectedBound<Norm>(P, Q, bound, most_cells / 2, watch).raise();
+        return DirectedBound<Norm>(Q, P, raised, most_cells / 2, watch).raise();
     });
 }
 

@@ -1,7 +1,7 @@
 // A lower bound of the discrete Fréchet distance: each point of either curve is matched to some
-// point of the other, so the distance is at least that of any point to its nearest, and that of
-// the two first points and of the two last. The largest of these, the discrete Hausdorff distance
-// joined with the ends, is often the Fréchet distance of similar curves itself.
+// point of the other, so the distance is at least that of any point to its nearest. The
+// largest of these, the discrete Hausdorff distance, is often the Fréchet distance of similar
+// curves itself.
 //
 // Only the largest is wanted: a search ends at the first point within the bound found so far
 // (Taha & Hanbury 2015, "early breaking"), and a run of points is done with when one point of the
@@ -15,8 +15,10 @@
 
 namespace curvewise::detail {
 
-// The bound, in the ground distance `cost`: the distance of a pair of points, to the bit. Throws
+// `bound`, a lower bound that is known already, raised to the distance of every point to its
+// nearest, to the bit, or to less where that takes longer than some `most_cells` of a sweep. Throws
 // Stopped where the watch says so; counts nothing as done.
-double hausdorff_bound(const BoxTree& P, const BoxTree& Q, kernels::Cost cost, Watch& watch);
+double hausdorff_bound(const BoxTree& P, const BoxTree& Q, kernels::Cost cost, double bound,
+                       double most_cells, Watch& watch);
 
 }  // namespace curvewise::detail
