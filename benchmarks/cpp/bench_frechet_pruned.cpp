@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "curvewise/curvewise.hpp"
-#include "dispatch.hpp"
-#include "sweep.hpp"
+#include "warping/dispatch.hpp"
 #include "warping/frechet_pruned.hpp"
+#include "warping/sweep.hpp"
 
 namespace {
 
@@ -54,17 +54,17 @@ void time_pair(const std::string& name) {
     const double cells = static_cast<double>(P.size()) * static_cast<double>(Q.size());
     const detail::PackedCurve rows(P, detail::RangeScale(1.0), detail::PointOrder::forward);
     const detail::PackedCurve columns(Q, detail::RangeScale(1.0), detail::PointOrder::reversed);
-    detail::Watch watch(nullptr);
+    detail::Poller poller(nullptr);
     detail::SweepMemory memory;
     const SweepProblem problem{*detail::active_level().kernels,
                                {rows, columns},
                                Recurrence::frechet,
-                               curvewise::kernels::Cost::sqeuclidean,
+                               {curvewise::Metric::sqeuclidean, false},
                                2.0,
                                detail::Band(P.size(), Q.size(), std::nullopt),
                                false,
                                1,
-                               watch,
+                               poller,
                                memory};
     double full = infinity, pruned = infinity;
     std::vector<double> full_times, pruned_times;
@@ -77,7 +77,7 @@ void time_pair(const std::string& name) {
         pruned_times.push_back(seconds([&] {
             record = PruningRecord();
             const std::optional<double> found = frechet_pruned(
-                problem.kernels, problem.curves, problem.cost, infinity, watch, record);
+                problem.kernels, problem.curves, problem.cost.metric, infinity, poller, record);
             pruned = found ? *found : last_row(problem)[Q.size() - 1];
         }));
     }

@@ -20,15 +20,14 @@ import numpy as np
 
 from . import _core, pairwise
 from ._curves import Array, as_curve_list
+from ._extras import extra
 from .pairwise import Curves, Measure
 
-try:
+with extra("dask", "curvewise.dask needs dask"):
     # Absolute, so these are the packages of that name and not this module.
     import dask.array as dask_array
     from dask.base import tokenize
     from dask.highlevelgraph import HighLevelGraph
-except ImportError as error:
-    raise ImportError('curvewise.dask needs dask: pip install "curvewise[dask]"') from error
 
 __all__ = ["cdist"]
 
@@ -98,8 +97,8 @@ def cdist(
     _refuse_local_only(options)
     mirrored = False
     if not callable(measure):
-        name, values = pairwise._named(measure, options)
-        mirrored = _core.is_symmetric(name, values) and XB is None  # it checks the values too
+        name = pairwise._check_names(measure, options)
+        mirrored = _core.is_symmetric(name, options) and XB is None  # it checks the options too
         _check_curves(rows, None if XB is None else columns, name, options)
     size = _block_size(block, rows, columns)
     token = tokenize(rows, columns, measure, limit, options, size, mirrored)
@@ -219,8 +218,8 @@ def _check_curves(
     line = np.array([np.zeros(dim), np.ones(dim)])
     # Neither a band, which a line does not fit, nor a long search.
     cheap = {"window": None} if measure == "dtw" else {"offsets": 1} if measure == "pcm" else {}
-    _, values = pairwise._named(measure, {**options, **cheap})
-    _core.cdist(rows, [line], measure, values, np.empty(len(rows)), 1, np.inf, None)
+    options = {**options, **cheap}
+    _core.cdist(rows, [line], measure, options, np.empty(len(rows)), 1, np.inf, None)
     if columns is None:
         return
     for j, curve in enumerate(columns):
@@ -229,7 +228,7 @@ def _check_curves(
                 f"XA[0] has shape {rows[0].shape} and XB[{j}] has shape {curve.shape}; "
                 "both need the same number of coordinates"
             )
-    _core.cdist([line], columns, measure, values, np.empty(len(columns)), 1, np.inf, None)
+    _core.cdist([line], columns, measure, options, np.empty(len(columns)), 1, np.inf, None)
 
 
 def _dimension(curve: Array) -> int:

@@ -21,9 +21,9 @@
 #include <cstdint>
 
 #include "curvewise/control.hpp"
-#include "kernels/block.hpp"
+#include "runtime/poller.hpp"
 #include "warping/box_tree.hpp"
-#include "watch.hpp"
+#include "warping/kernels/block.hpp"
 
 namespace curvewise::detail {
 
@@ -51,8 +51,8 @@ template <class Norm, class Front>
 class BlockRecursion {
    public:
     BlockRecursion(const BoxTree& P, const BoxTree& Q, double lower, double upper, Front& front,
-                   Watch& watch) noexcept
-        : P_(P), Q_(Q), lower_(lower), upper_(upper), front_(front), watch_(watch) {}
+                   Poller& poller) noexcept
+        : P_(P), Q_(Q), lower_(lower), upper_(upper), front_(front), poller_(poller) {}
 
     // `corner`: what leads into the first cell.
     void run(typename Front::Value corner) {
@@ -88,7 +88,7 @@ class BlockRecursion {
             split(p, q, corner);
             return;
         }
-        if (watch_.poll()) throw Stopped();
+        if (poller_.poll()) throw Stopped();
     }
 
     // The longer side, or both where they are alike. What leads into the first cell of a part is
@@ -120,7 +120,7 @@ class BlockRecursion {
     double lower_;
     double upper_;
     Front& front_;
-    Watch& watch_;
+    Poller& poller_;
     BlockCounts counts_;
 };
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "aligned_buffer.hpp"
+#include "runtime/aligned_buffer.hpp"
 #include "warping/block_recursion.hpp"
 
 namespace curvewise::detail {

@@ -62,19 +62,19 @@ void BoxTree::enclose_boxes(std::ptrdiff_t level, std::ptrdiff_t box) noexcept {
 }
 
 void nearest_distances(const PointAccess& from, std::ptrdiff_t count, const BoxTree& tree,
-                       kernels::Cost cost, Watch& watch, double* distances) {
+                       Metric metric, Poller& poller, double* distances) {
     constexpr double nothing_is_enough = -std::numeric_limits<double>::infinity();
-    // Searches between two looks at the watch: a search of all points of a tree of 10^5 takes as
+    // Searches between two polls: a search of all points of a tree of 10^5 takes as
     // long as a few thousand short ones.
     constexpr std::ptrdiff_t searches = 64;
-    with_norm(cost, [&](auto norm) {
+    with_norm(metric, [&](auto norm) {
         NearestSearch<decltype(norm)> search(from, tree);
         std::ptrdiff_t start = 0;
         for (std::ptrdiff_t i = 0; i < count; ++i) {
             const Nearest nearest = search(i, start, nothing_is_enough);
             distances[i] = nearest.distance;
             start = nearest.point;
-            if (i % searches == 0 && watch.poll()) throw Stopped();
+            if (i % searches == 0 && poller.poll()) throw Stopped();
         }
     });
 }

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/strip.hpp"
-#include "packed_curve.hpp"
-#include "watch.hpp"
+#include "runtime/poller.hpp"
+#include "warping/kernels/strip.hpp"
+#include "warping/packed_curve.hpp"
 
 namespace curvewise::detail {
 
@@ -96,17 +96,17 @@ struct MaximumNorm {
 };
 
 // Whether box distances bound those of points.
-inline bool has_box_bounds(kernels::Cost cost) noexcept { return cost != kernels::Cost::minkowski; }
+inline bool has_box_bounds(Metric metric) noexcept { return metric != Metric::minkowski; }
 
 // Calls use(norm) with the norm of a ground distance that has box bounds, as a type.
 template <class Use>
-auto with_norm(kernels::Cost cost, Use use) {
-    switch (cost) {
-        case kernels::Cost::sqeuclidean:
+auto with_norm(Metric metric, Use use) {
+    switch (metric) {
+        case Metric::sqeuclidean:
             return use(SquaresNorm{});
-        case kernels::Cost::cityblock:
+        case Metric::cityblock:
             return use(SumNorm{});
-        case kernels::Cost::chebyshev:
+        case Metric::chebyshev:
             return use(MaximumNorm{});
         default:
             return use(EuclideanNorm{});
@@ -223,9 +223,9 @@ class NearestSearch {
 
 // The distance of every point of a curve of `count` points to the nearest of the tree's: the
 // smallest entry of each row (or column) of the table of ground distances, to the bit. Each search
-// starts from the last one's answer. Throws Stopped where the watch says so; counts nothing as
+// starts from the last one's answer. Throws Stopped where the poller says so; counts nothing as
 // done.
 void nearest_distances(const PointAccess& from, std::ptrdiff_t count, const BoxTree& tree,
-                       kernels::Cost cost, Watch& watch, double* distances);
+                       Metric metric, Poller& poller, double* distances);
 
 }  // namespace curvewise::detail

@@ -33,7 +33,7 @@ double sweep_coarsely(const std::vector<double>& cost, std::ptrdiff_t columns, V
 
 }  // namespace
 
-CoarseTable::CoarseTable(const BoxTree& P, const BoxTree& Q, kernels::Cost cost,
+CoarseTable::CoarseTable(const BoxTree& P, const BoxTree& Q, Metric metric,
                          std::ptrdiff_t most_boxes) {
     std::ptrdiff_t p = std::min(block_level, P.levels() - 1),
                    q = std::min(block_level, Q.levels() - 1);
@@ -42,7 +42,7 @@ CoarseTable::CoarseTable(const BoxTree& P, const BoxTree& Q, kernels::Cost cost,
     columns_ = Q.boxes(q);
     smallest_.reserve(static_cast<std::size_t>(rows_ * columns_));
     largest_.reserve(smallest_.capacity());
-    with_norm(cost, [&](auto norm) {
+    with_norm(metric, [&](auto norm) {
         using Norm = decltype(norm);
         for (std::ptrdiff_t i = 0; i < rows_; ++i) {
             for (std::ptrdiff_t j = 0; j < columns_; ++j) {

@@ -9,15 +9,15 @@
 #include <cstddef>
 #include <vector>
 
-#include "kernels/strip.hpp"
 #include "warping/box_tree.hpp"
+#include "warping/kernels/strip.hpp"
 
 namespace curvewise::detail {
 
 class CoarseTable {
    public:
     // Of at most some `most_boxes` pairs of boxes.
-    CoarseTable(const BoxTree& P, const BoxTree& Q, kernels::Cost cost, std::ptrdiff_t most_boxes);
+    CoarseTable(const BoxTree& P, const BoxTree& Q, Metric metric, std::ptrdiff_t most_boxes);
 
     double lower() const noexcept { return lower_; }
     double upper() const noexcept { return upper_; }

@@ -42,27 +42,27 @@ class Stopwatch {
 template <class Norm>
 class FrechetSearch {
    public:
-    FrechetSearch(const kernels::KernelSet& kernels, const PackedPair& curves, kernels::Cost cost,
-                  double cutoff, Watch& watch, PruningRecord& record, Persistence persistence)
+    FrechetSearch(const kernels::KernelSet& kernels, const PackedPair& curves, Metric metric,
+                  double cutoff, Poller& poller, PruningRecord& record, Persistence persistence)
         : kernels_(kernels),
           curves_(curves),
-          cost_(cost),
+          metric_(metric),
           cutoff_(cutoff),
-          watch_(watch),
+          poller_(poller),
           record_(record),
           gives_up_(persistence == Persistence::while_it_pays),
           cells_(static_cast<double>(curves.rows()) * static_cast<double>(curves.columns())),
           P_(curves.p, PointOrder::forward),
           Q_(curves.q, PointOrder::reversed),
-          coarse_(P_, Q_, cost, most_boxes()) {}
+          coarse_(P_, Q_, metric, most_boxes()) {}
 
     std::optional<double> value() {
         const bool is_promising = find_bounds();
-        record_.bound_seconds += watch_time_.lap();
+        record_.bound_seconds += stopwatch_.lap();
         if (record_.lower > cutoff_) return infinity;
         const std::optional<double> found =
             is_promising ? search() : std::optional<double>(std::nullopt);
-        record_.search_seconds += watch_time_.lap();
+        record_.search_seconds += stopwatch_.lap();
         return found;
     }
 
@@ -93,7 +93,7 @@ class FrechetSearch {
         upper() = coarse_.upper();
         // As on noise, whose boxes all lie over each other.
         if (gives_up_ && coarse_.undecided_share(lower(), lower()) > 0.8) return false;
-        lower() = hausdorff_bound(P_, Q_, cost_, lower(), cells_ * small_share / 2, watch_);
+        lower() = hausdorff_bound(P_, Q_, metric_, lower(), cells_ * small_share / 2, poller_);
         return true;
     }
 
@@ -102,7 +102,7 @@ class FrechetSearch {
         const PointArray p{curves_.p.data(), curves_.p.stride(), 1};
         const PointArray q{curves_.q.data() + Q_.size() - 1, curves_.q.stride(), -1};
         ReachFront front(p, P_.size(), q, Q_.size(), P_.dim(), threshold,
-                         kernels_.reach(cost_, P_.dim()));
+                         kernels_.reach(metric_, P_.dim()));
         run(front, threshold, threshold, true);
         ++record_.reach_passes;
         return front.is_reached();
@@ -110,7 +110,7 @@ class FrechetSearch {
 
     // The last cell, which must be above `lower` or at it, and at most `upper`.
     double value_between(double lower, double upper) {
-        ValueFront front(curves_, upper, kernels_.values(cost_, P_.dim()));
+        ValueFront front(curves_, upper, kernels_.values(metric_, P_.dim()));
         run(front, lower, upper, lower);
         ++record_.value_passes;
         return front.last_cell();
@@ -118,7 +118,7 @@ class FrechetSearch {
 
     template <class Front>
     void run(Front& front, double lower, double upper, typename Front::Value corner) {
-        BlockRecursion<Norm, Front> recursion(P_, Q_, lower, upper, front, watch_);
+        BlockRecursion<Norm, Front> recursion(P_, Q_, lower, upper, front, poller_);
         recursion.run(corner);
         record_.blocks += recursion.counts().blocks;
         record_.swept_cells += recursion.counts().swept_cells;
@@ -169,12 +169,12 @@ class FrechetSearch {
 
     const kernels::KernelSet& kernels_;
     PackedPair curves_;
-    kernels::Cost cost_;
+    Metric metric_;
     double cutoff_;
-    Watch& watch_;
+    Poller& poller_;
     PruningRecord& record_;
     bool gives_up_;
-    Stopwatch watch_time_;
+    Stopwatch stopwatch_;
     double cells_;
     BoxTree P_;
     BoxTree Q_;
@@ -184,15 +184,15 @@ class FrechetSearch {
 }  // namespace
 
 std::optional<double> frechet_pruned(const kernels::KernelSet& kernels, const PackedPair& curves,
-                                     kernels::Cost cost, double cutoff, Watch& watch,
+                                     Metric metric, double cutoff, Poller& poller,
                                      PruningRecord& record, Persistence persistence) {
     // Below, trees and bounds take longer than they save.
     constexpr std::ptrdiff_t fewest_cells = 1 << 19;
     const bool is_short = curves.rows() * curves.columns() < fewest_cells;
-    if (kernels.reach(cost, curves.dim()) == nullptr) return std::nullopt;
+    if (kernels.reach(metric, curves.dim()) == nullptr) return std::nullopt;
     if (is_short && persistence == Persistence::while_it_pays) return std::nullopt;
-    return with_norm(cost, [&](auto norm) {
-        return FrechetSearch<decltype(norm)>(kernels, curves, cost, cutoff, watch, record,
+    return with_norm(metric, [&](auto norm) {
+        return FrechetSearch<decltype(norm)>(kernels, curves, metric, cutoff, poller, record,
                                              persistence)
             .value();
     });

@@ -14,10 +14,10 @@
 #include <limits>
 #include <optional>
 
-#include "kernels/strip.hpp"
-#include "packed_curve.hpp"
+#include "runtime/poller.hpp"
 #include "warping/block_recursion.hpp"
-#include "watch.hpp"
+#include "warping/kernels/strip.hpp"
+#include "warping/packed_curve.hpp"
 
 namespace curvewise::detail {
 
@@ -35,11 +35,11 @@ struct PruningRecord {
 
 enum class Persistence { while_it_pays, to_the_end };
 
-// The last value of the Fréchet table over `cost`, or infinity where it is above `cutoff`. Nothing
-// where the ground distance has no bounds or, unless told to go to the end, where the full sweep
-// is expected to be faster. Throws Stopped where the watch says so.
+// The last value of the Fréchet table over `metric`, or infinity where it is above `cutoff`.
+// Nothing where the ground distance has no bounds or, unless told to go to the end, where the full
+// sweep is expected to be faster. Throws Stopped where the poller says so.
 std::optional<double> frechet_pruned(const kernels::KernelSet& kernels, const PackedPair& curves,
-                                     kernels::Cost cost, double cutoff, Watch& watch,
+                                     Metric metric, double cutoff, Poller& poller,
                                      PruningRecord& record,
                                      Persistence persistence = Persistence::while_it_pays);
 

@@ -10,13 +10,13 @@ template <class Norm>
 class DirectedBound {
    public:
     DirectedBound(const BoxTree& from, const BoxTree& to, double bound, double most_cells,
-                  Watch& watch) noexcept
+                  Poller& poller) noexcept
         : from_(from),
           to_(to),
           search_(from.points(), to),
           bound_(bound),
           most_boxes_(static_cast<std::int64_t>(most_cells / cells_per_box)),
-          watch_(watch) {}
+          poller_(poller) {}
 
     double raise() {
         // First a few points from all along the curve: the sooner the bound is high, the less is
@@ -30,7 +30,7 @@ class DirectedBound {
         for (std::ptrdiff_t run = 0; run < from_.boxes(level); ++run) {
             if (search_.boxes() > most_boxes_) break;
             cover(level, run);
-            if (run % runs_per_poll == 0 && watch_.poll()) throw Stopped();
+            if (run % runs_per_poll == 0 && poller_.poll()) throw Stopped();
         }
         return bound_;
     }
@@ -78,18 +78,18 @@ class DirectedBound {
     NearestSearch<Norm> search_;
     double bound_;
     std::int64_t most_boxes_;
-    Watch& watch_;
+    Poller& poller_;
     std::ptrdiff_t start_ = 0;  // the point found last
 };
 
 }  // namespace
 
-double hausdorff_bound(const BoxTree& P, const BoxTree& Q, kernels::Cost cost, double bound,
-                       double most_cells, Watch& watch) {
-    return with_norm(cost, [&](auto norm) {
+double hausdorff_bound(const BoxTree& P, const BoxTree& Q, Metric metric, double bound,
+                       double most_cells, Poller& poller) {
+    return with_norm(metric, [&](auto norm) {
         using Norm = decltype(norm);
-        const double raised = DirectedBound<Norm>(P, Q, bound, most_cells / 2, watch).raise();
-        return DirectedBound<Norm>(Q, P, raised, most_cells / 2, watch).raise();
+        const double raised = DirectedBound<Norm>(P, Q, bound, most_cells / 2, poller).raise();
+        return DirectedBound<Norm>(Q, P, raised, most_cells / 2, poller).raise();
     });
 }
 

@@ -9,16 +9,16 @@
 // small part of the O((n + m) log(n + m)) of searches for every point.
 #pragma once
 
-#include "kernels/strip.hpp"
+#include "runtime/poller.hpp"
 #include "warping/box_tree.hpp"
-#include "watch.hpp"
+#include "warping/kernels/strip.hpp"
 
 namespace curvewise::detail {
 
 // `bound`, a lower bound that is known already, raised to the distance of every point to its
 // nearest, to the bit, or to less where that takes longer than some `most_cells` of a sweep. Throws
-// Stopped where the watch says so; counts nothing as done.
-double hausdorff_bound(const BoxTree& P, const BoxTree& Q, kernels::Cost cost, double bound,
-                       double most_cells, Watch& watch);
+// Stopped where the poller says so; counts nothing as done.
+double hausdorff_bound(const BoxTree& P, const BoxTree& Q, Metric metric, double bound,
+                       double most_cells, Poller& poller);
 
 }  // namespace curvewise::detail
