@@ -191,8 +191,16 @@ class Comparison {
     double swept(const Level& level, Metric metric) const {
         Poller poller(nullptr);
         SweepMemory memory;
-        const SweepProblem problem{
-            *level.kernels, pair(), Recurrence::frechet, {metric, false}, false, 1, poller, memory};
+        const SweepProblem problem{*level.kernels,
+                                   pair(),
+                                   Recurrence::frechet,
+                                   {metric, false},
+                                   2.0,
+                                   Band(rows_.size(), columns_.size(), std::nullopt),
+                                   false,
+                                   1,
+                                   poller,
+                                   memory};
         return last_row(problem)[columns_.size() - 1];
     }
 
