@@ -76,8 +76,7 @@ void time_pair(const std::string& name) {
         }
         pruned_times.push_back(seconds([&] {
             record = PruningRecord();
-            const std::optional<double> found = frechet_pruned(
-                problem.kernels, problem.curves, problem.cost.metric, infinity, poller, record);
+            const std::optional<double> found = frechet_pruned(problem, {}, record);
             pruned = found ? *found : last_row(problem)[Q.size() - 1];
         }));
     }

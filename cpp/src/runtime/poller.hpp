@@ -37,6 +37,8 @@ class Poller {
         if (effort_ < effort_between_polls) return control_->stopped();
         return poll();
     }
+    // Takes back steps that have been counted, and are to be done again in another way.
+    void take_back(std::int64_t steps) noexcept { uncounted_ -= steps; }
     // For loops over points: polls in every 2^16th iteration and throws Stopped.
     void poll_in_loop(std::size_t i) {
         if ((i & 0xffff) == 0 && poll()) throw Stopped();

@@ -50,17 +50,29 @@ struct BlockCounts {
 template <class Norm, class Front>
 class BlockRecursion {
    public:
+    // All of it counts as `steps` of work.
     BlockRecursion(const BoxTree& P, const BoxTree& Q, double lower, double upper, Front& front,
-                   Poller& poller) noexcept
-        : P_(P), Q_(Q), lower_(lower), upper_(upper), front_(front), poller_(poller) {}
+                   Poller& poller, std::int64_t steps) noexcept
+        : P_(P),
+          Q_(Q),
+          lower_(lower),
+          upper_(upper),
+          front_(front),
+          poller_(poller),
+          steps_(steps) {}
 
     // `corner`: what leads into the first cell.
     void run(typename Front::Value corner) {
         visit({P_.levels() - 1, 0}, {Q_.levels() - 1, 0}, corner);
+        poller_.count_steps(steps_ - counted_steps_, 0);
     }
     const BlockCounts& counts() const noexcept { return counts_; }
 
    private:
+    // Some 20 µs of work; a block that is only looked at takes as long as some swept cells.
+    static constexpr std::int64_t effort_between_polls = 1 << 16;
+    static constexpr std::int64_t effort_of_a_block = 256;
+
     struct Box {
         std::ptrdiff_t level;
         std::ptrdiff_t index;
@@ -77,18 +89,40 @@ class BlockRecursion {
         const Runs rows = runs(P_, p), columns = runs(Q_, q);
         const double* const p_box = P_.box(p.level, p.index);
         const double* const q_box = Q_.box(q.level, q.index);
+        std::int64_t effort = effort_of_a_block;
         if (!front_.is_entered(rows, columns, corner) ||
             smallest_distance<Norm>(p_box, q_box, P_.dim()) > upper_) {
             front_.block(rows, columns);
         } else if (largest_distance<Norm>(p_box, q_box, P_.dim()) <= lower_) {
             front_.pass(rows, columns, corner);
         } else if (p.level <= block_level && q.level <= block_level) {
-            counts_.swept_cells += front_.sweep(rows.first, columns.first, corner);
+            const std::int64_t cells = front_.sweep(rows.first, columns.first, corner);
+            counts_.swept_cells += cells;
+            effort += cells * P_.dim();
         } else {
             split(p, q, corner);
             return;
         }
+        settle(points_in(P_, rows) * points_in(Q_, columns), effort);
+    }
+
+    // Counts cells that are done, and polls now and then.
+    void settle(double cells, std::int64_t effort) {
+        settled_cells_ += cells;
+        effort_ += effort;
+        if (effort_ < effort_between_polls) return;
+        effort_ = 0;
+        const double share =
+            settled_cells_ / (static_cast<double>(P_.size()) * static_cast<double>(Q_.size()));
+        const auto steps = static_cast<std::int64_t>(share * static_cast<double>(steps_));
+        poller_.count_steps(steps - counted_steps_, 0);
+        counted_steps_ = steps;
         if (poller_.poll()) throw Stopped();
+    }
+
+    static double points_in(const BoxTree& tree, const Runs& runs) noexcept {
+        return static_cast<double>(std::min(runs.end * kernels::block_side, tree.size()) -
+                                   runs.first * kernels::block_side);
     }
 
     // The longer side, or both where they are alike. What leads into the first cell of a part is
@@ -122,6 +156,10 @@ class BlockRecursion {
     Front& front_;
     Poller& poller_;
     BlockCounts counts_;
+    std::int64_t steps_;
+    double settled_cells_ = 0.0;
+    std::int64_t counted_steps_ = 0;
+    std::int64_t effort_ = 0;
 };
 
 }  // namespace curvewise::detail

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "warping/block_recursion.hpp"
 #include "warping/block_values.hpp"
 #include "warping/coarse_table.hpp"
 #include "warping/hausdorff.hpp"
@@ -42,26 +43,25 @@ class Stopwatch {
 template <class Norm>
 class FrechetSearch {
    public:
-    FrechetSearch(const kernels::KernelSet& kernels, const PackedPair& curves, Metric metric,
-                  double cutoff, Poller& poller, PruningRecord& record, Persistence persistence)
-        : kernels_(kernels),
-          curves_(curves),
-          metric_(metric),
-          cutoff_(cutoff),
-          poller_(poller),
+    FrechetSearch(const SweepProblem& problem, const PruningOptions& options, PruningRecord& record)
+        : kernels_(problem.kernels),
+          curves_(problem.curves),
+          metric_(problem.cost.metric),
+          poller_(problem.poller),
+          options_(options),
           record_(record),
-          gives_up_(persistence == Persistence::while_it_pays),
-          cells_(static_cast<double>(curves.rows()) * static_cast<double>(curves.columns())),
-          P_(curves.p, PointOrder::forward),
-          Q_(curves.q, PointOrder::reversed),
-          coarse_(P_, Q_, metric, most_boxes()) {}
+          cells_(static_cast<double>(curves_.rows()) * static_cast<double>(curves_.columns())),
+          P_(curves_.p, PointOrder::forward),
+          Q_(curves_.q, PointOrder::reversed),
+          coarse_(P_, Q_, metric_, most_boxes()) {}
 
     std::optional<double> value() {
         const bool is_promising = find_bounds();
         record_.bound_seconds += stopwatch_.lap();
-        if (record_.lower > cutoff_) return infinity;
+        if (record_.lower > options_.cutoff) return infinity;
         const std::optional<double> found =
             is_promising ? search() : std::optional<double>(std::nullopt);
+        if (!found) poller_.take_back(counted_steps_);
         record_.search_seconds += stopwatch_.lap();
         return found;
     }
@@ -92,7 +92,7 @@ class FrechetSearch {
                                                          Q_.size() - 1, dim)));
         upper() = coarse_.upper();
         // As on noise, whose boxes all lie over each other.
-        if (gives_up_ && coarse_.undecided_share(lower(), lower()) > 0.8) return false;
+        if (options_.gives_up && coarse_.undecided_share(lower(), lower()) > 0.8) return false;
         lower() = hausdorff_bound(P_, Q_, metric_, lower(), cells_ * small_share / 2, poller_);
         return true;
     }
@@ -118,7 +118,10 @@ class FrechetSearch {
 
     template <class Front>
     void run(Front& front, double lower, double upper, typename Front::Value corner) {
-        BlockRecursion<Norm, Front> recursion(P_, Q_, lower, upper, front, poller_);
+        // Half of what is left: nobody knows whether this pass will be the last.
+        const std::int64_t steps = (options_.steps - counted_steps_) / 2;
+        counted_steps_ += steps;
+        BlockRecursion<Norm, Front> recursion(P_, Q_, lower, upper, front, poller_, steps);
         recursion.run(corner);
         record_.blocks += recursion.counts().blocks;
         record_.swept_cells += recursion.counts().swept_cells;
@@ -127,24 +130,24 @@ class FrechetSearch {
     // Raises the lower bound until the distance is found.
     std::optional<double> search() {
         double factor = first_factor;
-        double threshold = std::min(lower(), cutoff_);
+        double threshold = std::min(lower(), options_.cutoff);
         while (lower() < upper()) {
             if (!is_worth_trying(threshold)) return std::nullopt;
             if (is_within(threshold)) {
                 upper() = threshold;
                 break;
             }
-            if (threshold >= cutoff_) return infinity;
+            if (threshold >= options_.cutoff) return infinity;
             lower() = threshold;
             threshold = lower() > 0.0 ? lower() * factor : upper() * smallest_step;
-            threshold = std::min(std::min(threshold, upper()), cutoff_);
+            threshold = std::min(std::min(threshold, upper()), options_.cutoff);
             factor *= factor;
         }
         if (lower() < upper()) {
-            if (gives_up_ && value_share(lower(), upper()) > 1.0) return std::nullopt;
+            if (options_.gives_up && value_share(lower(), upper()) > 1.0) return std::nullopt;
             lower() = upper() = value_between(lower(), upper());
         }
-        return lower() > cutoff_ ? infinity : lower();
+        return lower() > options_.cutoff ? infinity : lower();
     }
 
     // What the search has taken, as a share of the full sweep.
@@ -156,7 +159,7 @@ class FrechetSearch {
 
     // Whether to find out if the distance is at most `threshold`, and to go on from there.
     bool is_worth_trying(double threshold) const {
-        if (!gives_up_) return true;
+        if (!options_.gives_up) return true;
         const double share = reach_share(threshold);
         if (spent() + share <= small_share) return true;
         return spent() + share <= risked_share &&
@@ -170,11 +173,11 @@ class FrechetSearch {
     const kernels::KernelSet& kernels_;
     PackedPair curves_;
     Metric metric_;
-    double cutoff_;
     Poller& poller_;
+    const PruningOptions& options_;
     PruningRecord& record_;
-    bool gives_up_;
     Stopwatch stopwatch_;
+    std::int64_t counted_steps_ = 0;
     double cells_;
     BoxTree P_;
     BoxTree Q_;
@@ -183,18 +186,16 @@ class FrechetSearch {
 
 }  // namespace
 
-std::optional<double> frechet_pruned(const kernels::KernelSet& kernels, const PackedPair& curves,
-                                     Metric metric, double cutoff, Poller& poller,
-                                     PruningRecord& record, Persistence persistence) {
+std::optional<double> frechet_pruned(const SweepProblem& problem, const PruningOptions& options,
+                                     PruningRecord& record) {
     // Below, trees and bounds take longer than they save.
     constexpr std::ptrdiff_t fewest_cells = 1 << 19;
-    const bool is_short = curves.rows() * curves.columns() < fewest_cells;
-    if (kernels.reach(metric, curves.dim()) == nullptr) return std::nullopt;
-    if (is_short && persistence == Persistence::while_it_pays) return std::nullopt;
+    const PackedPair& curves = problem.curves;
+    const Metric metric = problem.cost.metric;
+    if (problem.kernels.reach(metric, curves.dim()) == nullptr) return std::nullopt;
+    if (options.gives_up && curves.rows() * curves.columns() < fewest_cells) return std::nullopt;
     return with_norm(metric, [&](auto norm) {
-        return FrechetSearch<decltype(norm)>(kernels, curves, metric, cutoff, poller, record,
-                                             persistence)
-            .value();
+        return FrechetSearch<decltype(norm)>(problem, options, record).value();
     });
 }
 

@@ -14,10 +14,7 @@
 #include <limits>
 #include <optional>
 
-#include "runtime/poller.hpp"
-#include "warping/block_recursion.hpp"
-#include "warping/kernels/strip.hpp"
-#include "warping/packed_curve.hpp"
+#include "warping/sweep_problem.hpp"
 
 namespace curvewise::detail {
 
@@ -33,14 +30,20 @@ struct PruningRecord {
     double search_seconds = 0.0;
 };
 
-enum class Persistence { while_it_pays, to_the_end };
+struct PruningOptions {
+    // A value above it may come back as infinity.
+    double cutoff = std::numeric_limits<double>::infinity();
+    // Whether to go on where the full sweep is expected to be faster.
+    bool gives_up = true;
+    // What the whole search counts as, for the poller.
+    std::int64_t steps = 0;
+};
 
-// The last value of the Fréchet table over `metric`, or infinity where it is above `cutoff`.
-// Nothing where the ground distance has no bounds or, unless told to go to the end, where the full
-// sweep is expected to be faster. Throws Stopped where the poller says so.
-std::optional<double> frechet_pruned(const kernels::KernelSet& kernels, const PackedPair& curves,
-                                     Metric metric, double cutoff, Poller& poller,
-                                     PruningRecord& record,
-                                     Persistence persistence = Persistence::while_it_pays);
+// The last value of the Fréchet table, or infinity where it is above the cutoff. Nothing where the
+// ground distance has no bounds, or where it gives up; nothing is then counted. Looks at the
+// problem's curves, its ground distance, its kernels and its poller only. Throws Stopped where
+// the poller says so.
+std::optional<double> frechet_pruned(const SweepProblem& problem, const PruningOptions& options,
+                                     PruningRecord& record);
 
 }  // namespace curvewise::detail

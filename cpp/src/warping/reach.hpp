@@ -17,13 +17,21 @@ struct PointArray {
     std::ptrdiff_t step;
 };
 
+// For each run of either curve, runs of the other that hold all of its cells that have been
+// reached.
+struct ReachedRuns {
+    std::vector<Runs> of_p;
+    std::vector<Runs> of_q;
+};
+
 class ReachFront {
    public:
     using Value = bool;
 
-    // P has step 1.
+    // P has step 1. `reached` is filled where it is not null.
     ReachFront(const PointArray& P, std::ptrdiff_t n, const PointArray& Q, std::ptrdiff_t m,
-               std::ptrdiff_t dim, double threshold, kernels::ReachFunction reach);
+               std::ptrdiff_t dim, double threshold, kernels::ReachFunction reach,
+               ReachedRuns* reached = nullptr);
 
     bool is_entered(const Runs& p, const Runs& q, bool corner) const noexcept;
     void block(const Runs& p, const Runs& q) noexcept;
@@ -40,6 +48,7 @@ class ReachFront {
    private:
     using Words = std::vector<std::uint64_t>;
 
+    void note_reached(const Runs& p, const Runs& q) noexcept;
     static bool is_last_set(const Words& words, std::ptrdiff_t run) noexcept {
         return words[static_cast<std::size_t>(run - 1)] >> 63;
     }
@@ -49,6 +58,7 @@ class ReachFront {
     std::ptrdiff_t n_;
     std::ptrdiff_t m_;
     kernels::ReachFunction reach_;
+    ReachedRuns* reached_;
     kernels::ReachBlock block_{};
     Words p_;  // bit i: whether the last cell swept of point i has been reached
     Words q_;

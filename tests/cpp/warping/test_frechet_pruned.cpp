@@ -12,7 +12,9 @@
 #include "check.hpp"
 #include "curves.hpp"
 #include "warping/dispatch.hpp"
+#include "warping/frechet_corridor.hpp"
 #include "warping/frechet_pruned.hpp"
+#include "warping/path.hpp"
 #include "warping/sweep.hpp"
 
 namespace {
@@ -20,17 +22,19 @@ namespace {
 using curvewise::Metric;
 using curvewise::detail::available_levels;
 using curvewise::detail::Band;
+using curvewise::detail::frechet_corridor;
 using curvewise::detail::frechet_pruned;
 using curvewise::detail::Level;
+using curvewise::detail::LiveColumns;
 using curvewise::detail::PackedCurve;
-using curvewise::detail::PackedPair;
-using curvewise::detail::Persistence;
+using curvewise::detail::Path;
 using curvewise::detail::PointOrder;
 using curvewise::detail::Poller;
 using curvewise::detail::PruningRecord;
 using curvewise::detail::RangeScale;
 using curvewise::detail::SweepMemory;
 using curvewise::detail::SweepProblem;
+using curvewise::detail::SweptColumns;
 using curvewise::kernels::Recurrence;
 using test::Curve;
 using test::Random;
@@ -178,21 +182,10 @@ class Comparison {
 
    private:
     void compare(const Level& level, Metric metric) const {
-        const double expected = swept(level, metric);
-        CHECK_EQUAL(pruned(level, metric, infinity), expected);
-        CHECK_EQUAL(pruned(level, metric, expected), expected);
-        CHECK_EQUAL(pruned(level, metric, expected * 1.3), expected);
-        if (expected > 0.0) {
-            CHECK_EQUAL(pruned(level, metric, std::nextafter(expected, 0.0)), infinity);
-            CHECK_EQUAL(pruned(level, metric, expected * 0.7), infinity);
-        }
-    }
-
-    double swept(const Level& level, Metric metric) const {
         Poller poller(nullptr);
         SweepMemory memory;
         const SweepProblem problem{*level.kernels,
-                                   pair(),
+                                   {rows_, columns_},
                                    Recurrence::frechet,
                                    {metric, false},
                                    2.0,
@@ -201,21 +194,39 @@ class Comparison {
                                    1,
                                    poller,
                                    memory};
-        return last_row(problem)[columns_.size() - 1];
+        const double expected = last_row(problem)[columns_.size() - 1];
+        CHECK_EQUAL(pruned(problem, infinity), expected);
+        CHECK_EQUAL(pruned(problem, expected), expected);
+        CHECK_EQUAL(pruned(problem, expected * 1.3), expected);
+        if (expected > 0.0) {
+            CHECK_EQUAL(pruned(problem, std::nextafter(expected, 0.0)), infinity);
+            CHECK_EQUAL(pruned(problem, expected * 0.7), infinity);
+        }
+        compare_paths(problem, expected);
     }
 
-    double pruned(const Level& level, Metric metric, double cutoff) const {
-        Poller poller(nullptr);
+    static double pruned(const SweepProblem& problem, double cutoff) {
         PruningRecord record;
-        const std::optional<double> value = frechet_pruned(*level.kernels, pair(), metric, cutoff,
-                                                           poller, record, Persistence::to_the_end);
+        const std::optional<double> value = frechet_pruned(problem, {cutoff, false, 0}, record);
         CHECK(value.has_value());
         if (!value) return -1.0;
         CHECK(record.lower <= record.upper);
         return *value;
     }
 
-    PackedPair pair() const { return {rows_, columns_}; }
+    // Read off from one table of predecessors, and by divide and conquer.
+    static void compare_paths(const SweepProblem& problem, double value) {
+        const SweptColumns corridor = frechet_corridor(problem, value);
+        SweepProblem narrow = problem;
+        narrow.columns = LiveColumns(
+            Band(problem.curves.rows(), problem.curves.columns(), std::nullopt), corridor);
+        for (const std::ptrdiff_t max_codes : {1 << 24, 400}) {
+            const Path expected = find_path(problem, false, max_codes);
+            const Path path = find_path(narrow, false, max_codes);
+            CHECK_EQUAL(path.value, value);
+            CHECK_EQUAL(path.pairs, expected.pairs);
+        }
+    }
 
     PackedCurve rows_;
     PackedCurve columns_;

@@ -32,6 +32,8 @@ struct ReachBlock {
     std::uint64_t above;
     std::uint64_t beside;
     bool corner;
+    // Whether any cell of the block has been reached; set on the way out.
+    bool is_reached;
 };
 
 // The values of a block of the table, max(d, min(up, left, diagonal)). Row k is a point of the

@@ -60,6 +60,7 @@ void reach(ReachBlock& block) noexcept {
                                           block.down_stride, block.dim};
     std::uint64_t reached = block.above, last_column = 0;
     std::uint64_t corner = block.corner ? 1 : 0;
+    block.is_reached = false;
     for (std::ptrdiff_t j = 0; j < block.rows; ++j) {
         const std::uint64_t before = block.beside >> j & 1;
         const std::uint64_t entered = (reached | reached << 1 | corner | before) & all;
@@ -80,6 +81,7 @@ void reach(ReachBlock& block) noexcept {
             open &= all;
             const std::uint64_t seeds = entered & open;
             reached = open & (((open + seeds) ^ open) | seeds);
+            block.is_reached |= reached != 0;
         }
         last_column |= (reached >> (block.columns - 1) & 1) << j;
         distance.down += block.down_step;
