@@ -78,7 +78,8 @@ _LAZY = ("calibration", "compat", "dask", "plotting")
 
 pass_on((getattr(measures, name) for name in reference.__all__), reference)
 
-if not TYPE_CHECKING:  # which would take every misspelt attribute for one
+# Hidden from type checkers, which would otherwise accept every misspelt attribute.
+if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> Any:
         """Import a submodule that ``import curvewise`` leaves out to be fast."""
@@ -88,7 +89,7 @@ if not TYPE_CHECKING:  # which would take every misspelt attribute for one
 
 
 def __dir__() -> list[str]:
-    # Without dask, whose import fails where dask is not installed: help() imports all of these.
+    # help() imports all of these, and the import of curvewise.dask fails where dask is missing.
     return sorted({*globals(), *_LAZY} - {"dask"})
 
 

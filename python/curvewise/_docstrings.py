@@ -54,8 +54,9 @@ def filled(**lists: str) -> Callable[[Documented], Documented]:
 def pass_on(functions: Iterable[Callable[..., Any]], target: Any) -> None:
     """Give each function's docstring to the function of its name in the module `target`.
 
-    What the target's function has itself as docstring becomes the Notes. Examples call the target
-    instead of the package, and the parameter ``workers`` is left out where the target has none.
+    The docstring that the target's function has in its source becomes the Notes. The examples
+    call the target instead of the package, and the parameter ``workers`` is left out where the
+    target's function does not have it.
     """
     package, _, module = target.__name__.rpartition(".")
     for function in functions:

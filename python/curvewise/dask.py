@@ -54,8 +54,8 @@ def cdist(
         As for :func:`curvewise.cdist`. A callable must be one that the scheduler's workers can
         unpickle; cloudpickle takes lambdas to them too.
     block : int, optional
-        Curves per block, at least 1: a block has so many rows and columns. If not given, as many
-        as have some 32,000 points: about a second of dtw or frechet a block.
+        Curves per block, at least 1: a block has this many rows and columns. If not given, as many
+        as have some 32,000 points together: about a second of dtw or frechet a block.
 
     Returns
     -------
@@ -66,7 +66,7 @@ def cdist(
     Raises
     ------
     ValueError, TypeError
-        As for :func:`curvewise.cdist`, at once and not when the blocks are computed (but for a
+        As for :func:`curvewise.cdist`, at once and not when the blocks are computed (except for a
         `window` that admits no path); a `block` below 1; one of `out`, `progress` and `workers`.
     ImportError
         dask is not installed: ``pip install "curvewise[dask]"``.
@@ -77,9 +77,9 @@ def cdist(
     block. Each block runs on one thread and releases the interpreter's lock, so that dask's threads
     serve as well as its processes. Memory: the graph holds a copy of the curves; a worker holds
     those of its blocks. A cluster warns of a graph above 10 MB
-    (``distributed.admin.large-graph-warning-threshold``), which then has only its curves to send,
-    once. The bar of ``dask.diagnostics.ProgressBar`` or the cluster's dashboard show the progress.
-    A block is not interrupted; cancelling waits for those that have begun.
+    (``distributed.admin.large-graph-warning-threshold``); here that is the curves themselves, which
+    are sent once. The bar of ``dask.diagnostics.ProgressBar`` or the cluster's dashboard shows the
+    progress. A block is not interrupted; cancelling waits for those that have begun.
 
     Examples
     --------
@@ -207,7 +207,7 @@ def _refuse_local_only(options: dict[str, Any]) -> None:
 def _check_curves(
     rows: list[Array], columns: list[Array] | None, measure: str, options: dict[str, Any]
 ) -> None:
-    """Refuse what a block would refuse, which cannot say where in the whole list the curve is.
+    """Refuse what a block would refuse: a block cannot say where in the whole list a curve is.
 
     The compiled library checks whatever it computes; so each curve is compared with a line of two
     points, in linear time.

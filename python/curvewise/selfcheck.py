@@ -146,7 +146,7 @@ def _pairs(info: MeasureInfo, seed: str) -> Iterator[tuple[Array, Array]]:
     dimensions = (2,) if info.planar else _DIMENSIONS
     shapes = [(int(rng.choice(sizes)), int(rng.choice(sizes))) for _ in range(6)]
     shapes += [(300, 170)] if info.planar else _TALL
-    # Off the origin, since curve_length may divide by the mean.
+    # The curves are not centred on zero, since curve_length may divide by their mean.
     centre = 3.0 if info.planar else 0.0
     for n, m in shapes:
         for dim in dimensions:

@@ -1,10 +1,10 @@
 """From simulations to one number: the weighted sum of a measure over several loops.
 
 The experiments are checked and scaled once, when an objective is made; what is wrong with them is
-an error then. What is wrong with a simulation later is not: an optimiser tries parameters at which
-the model fails, and has to be told that they are bad, so a failed simulation has a finite, large
-value. A simulation that has the wrong shape is neither: the model is hooked up wrongly, which no
-parameters will cure, and that is an error. Cost: that of the measure, for every loop.
+an error then. What is wrong with a simulation later is no error: an optimiser tries parameters at
+which the model fails, and has to be told that they are bad, so a failed simulation has a finite,
+large value. A simulation of the wrong shape is an error: the model is hooked up wrongly, which no
+parameters will cure. Cost: that of the measure, for every loop.
 """
 
 from __future__ import annotations

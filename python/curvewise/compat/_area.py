@@ -307,7 +307,7 @@ def _is_simple(x: RealArray, y: RealArray) -> npt.NDArray[np.bool_]:
 
 
 def _turns_one_way(dx: RealArray, dy: RealArray) -> npt.NDArray[np.bool_]:
-    """Tell for edge vectors of shape (..., 4) whether all but one turn have the same sense."""
+    """Tell for edge vectors of shape (..., 4) whether at least three turns have the same sense."""
     cross = dx * np.roll(dy, -1, axis=-1) - dy * np.roll(dx, -1, axis=-1)
     simple: npt.NDArray[np.bool_] = (np.sum(cross >= 0, axis=-1) > 2) | (
         np.sum(cross <= 0, axis=-1) > 2

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple, get_args
+from typing import Any, NamedTuple
 
-from .. import reference
+from .. import _core, reference
 from .._curves import Array
-from .._options import MeasureName, Preset
+from .._options import MeasureName
 from ..results import Alignment
 from .area import area
 from .curve_length import curve_length, curve_length_residuals
@@ -45,9 +45,9 @@ class MeasureInfo:
     Attributes
     ----------
     name : str
-        By which users choose it.
+        The name by which users choose it.
     title : str
-        Over its picture.
+        The title of its picture.
     function, reference : callable
         The measure, compiled and in plain numpy.
     planar : bool
@@ -57,12 +57,10 @@ class MeasureInfo:
     picture : str
         The function of :mod:`curvewise.plotting` that draws it; by name, since that module is
         imported where something is drawn and not before.
-    scaled, paper : Condition
-        How the presets of these names compute it.
     residuals : callable, optional
-        Of measures that are the norm of a vector: the function that returns the vector.
+        The function that returns the vector of which the measure is the norm, where it is one.
     scales_itself : bool
-        Whether it scales both curves by P's box whatever they are.
+        Whether it always scales both curves by P's box, so that a preset need not.
     """
 
     name: MeasureName
@@ -72,15 +70,8 @@ class MeasureInfo:
     planar: bool
     symmetric: bool
     picture: str
-    scaled: Condition
-    paper: Condition
     residuals: Callable[..., Array] | None = None
     scales_itself: bool = False
-
-    @property
-    def raw(self) -> Condition:
-        """How the preset of this name computes it: every default, on the curves as they are."""
-        return Condition(False, {})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -108,8 +99,6 @@ MEASURES: Mapping[str, MeasureInfo] = {
             planar=True,
             symmetric=True,
             picture="plot_area",
-            scaled=Condition(True, {}),
-            paper=Condition(False, {"spacing": "x"}),
         ),
         MeasureInfo(
             name="pcm",
@@ -119,8 +108,6 @@ MEASURES: Mapping[str, MeasureInfo] = {
             planar=True,
             symmetric=False,
             picture="plot_pcm",
-            scaled=Condition(True, {}),
-            paper=Condition(False, {}),
             scales_itself=True,
         ),
         WarpingInfo(
@@ -131,8 +118,6 @@ MEASURES: Mapping[str, MeasureInfo] = {
             planar=False,
             symmetric=True,
             picture="plot_alignment",
-            scaled=Condition(True, {}),
-            paper=Condition(True, {}),
             path=frechet_path,
             table=frechet_table,
         ),
@@ -144,8 +129,6 @@ MEASURES: Mapping[str, MeasureInfo] = {
             planar=False,
             symmetric=True,
             picture="plot_alignment",
-            scaled=Condition(True, {}),
-            paper=Condition(True, {"step_pattern": "symmetric2"}),
             path=dtw_path,
             table=dtw_table,
         ),
@@ -157,8 +140,6 @@ MEASURES: Mapping[str, MeasureInfo] = {
             planar=True,
             symmetric=False,
             picture="plot_curve_length",
-            scaled=Condition(True, {"scale": "mean_abs"}),
-            paper=Condition(False, {}),
             residuals=curve_length_residuals,
         ),
     )
@@ -167,8 +148,8 @@ MEASURES: Mapping[str, MeasureInfo] = {
 WARPINGS = {name: info for name, info in MEASURES.items() if isinstance(info, WarpingInfo)}
 
 PRESETS: dict[str, dict[str, Condition]] = {
-    preset: {name: getattr(info, preset) for name, info in MEASURES.items()}
-    for preset in get_args(Preset)
+    preset: {name: Condition(*condition) for name, condition in conditions.items()}
+    for preset, conditions in _core.presets().items()
 }
 
 
