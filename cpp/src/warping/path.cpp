@@ -41,7 +41,7 @@ class PathFinder {
 
     // Appends the part's path, from its end to its beginning, and returns its last value.
     double find(const Part& part) {
-        if (part.region.rows == 1 || part.region.rows * part.region.columns <= max_codes_) {
+        if (part.region.rows == 1 || codes_of(part.region) <= max_codes_) {
             return read_off(part);
         }
         const std::ptrdiff_t upper_rows = part.region.rows / 2;
@@ -75,6 +75,12 @@ class PathFinder {
         std::ptrdiff_t end_column;
         double end_value;
     };
+
+    // Of a table whose columns are limited, only these take codes.
+    std::ptrdiff_t codes_of(const Region& region) const {
+        const bool is_limited = problem_.columns.is_limited();
+        return is_limited ? CodeLayout(problem_, region).size : region.rows * region.columns;
+    }
 
     // The row above the part.
     Row entry(const Part& part) const {
