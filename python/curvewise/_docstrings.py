@@ -35,7 +35,15 @@ p : float, 1 <= p <= inf, optional
     "workers": """\
 workers : int
     Threads for this call: at least 1, or -1 for one per core. Never changes the result.""",
+    "prune": """\
+prune : bool
+    Whether to leave out what cannot matter of the table. Never changes the result.""",
+    "cutoff": """\
+cutoff : float >= 0, optional
+    A distance above it is inf, and is found to be so early.""",
 }
+# What the reference does not have: it computes the plain table in one thread.
+_NOT_OF_THE_REFERENCE = ("workers", "prune", "cutoff")
 
 
 def filled(**lists: str) -> Callable[[Documented], Documented]:
@@ -55,8 +63,8 @@ def pass_on(functions: Iterable[Callable[..., Any]], target: Any) -> None:
     """Give each function's docstring to the function of its name in the module `target`.
 
     The docstring that the target's function has in its source becomes the Notes. The examples
-    call the target instead of the package, and the parameter ``workers`` is left out where the
-    target's function does not have it.
+    call the target instead of the package, and parameters that only the measures have are left
+    out.
     """
     package, _, module = target.__name__.rpartition(".")
     for function in functions:
@@ -64,8 +72,9 @@ def pass_on(functions: Iterable[Callable[..., Any]], target: Any) -> None:
         doc, notes = inspect.getdoc(function), inspect.getdoc(heir)
         if doc is None or notes is None:  # python -OO
             continue
-        if "workers" not in inspect.signature(heir).parameters:
-            doc = doc.replace(f"{_SHARED['workers']}\n", "").replace(", workers\n", "\n")
+        for name in reversed(_NOT_OF_THE_REFERENCE):
+            if name not in inspect.signature(heir).parameters:
+                doc = doc.replace(f"{_SHARED[name]}\n", "").replace(f", {name}\n", "\n")
         head, _, tail = doc.partition("\nNotes\n-----\n")
         examples = tail[tail.index("\n\nExamples\n") :]
         examples = examples.replace(f"import {package}\n", f"from {package} import {module}\n")

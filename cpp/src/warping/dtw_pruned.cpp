@@ -201,7 +201,9 @@ class DtwSearch {
    public:
     DtwSearch(const SweepProblem& problem, const DtwPruningOptions& options,
               DtwPruningRecord& record)
-        : problem_(problem), options_(options), record_(record) {}
+        : problem_(problem), options_(options), record_(record) {
+        problem_.give_up_above = infinity;  // the narrowed sweep knows better
+    }
 
     std::optional<double> value() {
         if (!find_upper_bound()) return std::nullopt;
@@ -238,11 +240,18 @@ class DtwSearch {
         const IndexPairs path = coarse_path(coarse.problem());
         record_.path_seconds = stopwatch_.lap();
         const bool has_cutoff = options_.cutoff < infinity;
-        if (options_.gives_up && coarse_share_ > most_live_share && !has_cutoff) return false;
+        if (options_.gives_up && !is_alike() && !has_cutoff) return false;
         record_.upper = value_around(path, coarse.problem());
         record_.upper_seconds = stopwatch_.lap();
         if (!options_.gives_up || options_.cutoff < record_.upper) return true;
-        return coarse_share_ <= most_live_share && record_.upper < infinity;
+        return is_alike() && record_.upper < infinity;
+    }
+
+    // Judged by the coarse table. A full sweep is shared out among threads, where it is long.
+    bool is_alike() const noexcept {
+        const std::ptrdiff_t useful = cells(problem_) / problem_.cells_per_worker;
+        const std::ptrdiff_t threads = std::clamp<std::ptrdiff_t>(useful, 1, problem_.workers);
+        return coarse_share_ * static_cast<double>(threads) <= most_live_share;
     }
 
     // The best path of a coarse problem; none where it was too long, and gave up itself.
@@ -287,7 +296,7 @@ class DtwSearch {
         return *std::min_element(row.data() + last.first, row.data() + last.last + 1);
     }
 
-    const SweepProblem& problem_;
+    SweepProblem problem_;
     const DtwPruningOptions& options_;
     DtwPruningRecord& record_;
     Stopwatch stopwatch_;
@@ -319,6 +328,8 @@ std::optional<Path> dtw_path_pruned(const SweepProblem& problem, const DtwPrunin
     if (!value || *value > options.cutoff) return std::nullopt;
     SweepProblem within = problem;
     within.columns = LiveColumns(problem.columns, search.swept());
+    // Threads are worth their start by the cells that are left.
+    within.cells_per_worker *= std::max<std::int64_t>(1, cells(problem) / search.swept().cells);
     return find_path(within, options.open_end);
 }
 

@@ -37,7 +37,9 @@ class PathFinder {
 
     // Appends the part's path, from its end to its beginning, and returns its last value.
     double find(const Part& part) {
-        if (is_small(part.region)) return read_off(part);
+        if (part.region.rows == 1 || codes_of(part.region) <= max_codes_) {
+            return read_off(part);
+        }
         const std::ptrdiff_t upper_rows = part.region.rows / 2;
         const Meeting meeting = meet(part, upper_rows);
         Part lower = part;
@@ -70,9 +72,10 @@ class PathFinder {
         double end_value;
     };
 
-    bool is_small(const Region& region) const {
-        if (region.rows == 1 || region.rows * region.columns <= max_codes_) return true;
-        return problem_.columns.is_limited() && CodeLayout(problem_, region).size <= max_codes_;
+    // Of a table whose columns are limited, only these take codes.
+    std::ptrdiff_t codes_of(const Region& region) const {
+        const bool is_limited = problem_.columns.is_limited();
+        return is_limited ? CodeLayout(problem_, region).size : region.rows * region.columns;
     }
 
     // In the last row, beside whose columns anything may stand.
