@@ -329,7 +329,8 @@ std::optional<Path> dtw_path_pruned(const SweepProblem& problem, const DtwPrunin
     SweepProblem within = problem;
     within.columns = LiveColumns(problem.columns, search.swept());
     // Threads are worth their start by the cells that are left.
-    within.cells_per_worker *= cells(problem) / std::max<std::int64_t>(search.swept().cells, 1);
+    const std::int64_t swept = std::max<std::int64_t>(search.swept().cells, 1);
+    within.cells_per_worker *= std::max<std::int64_t>(cells(problem) / swept, 1);
     return find_path(within, options.open_end);
 }
 
