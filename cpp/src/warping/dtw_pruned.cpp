@@ -13,8 +13,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// With fewer cells, a full sweep takes less time than the bounds.
-constexpr std::ptrdiff_t fewest_cells = std::ptrdiff_t{1} << 18;
+// With fewer cells, to find out that curves are not alike would take more than some 3 % of the full
+// sweep's time.
+constexpr std::ptrdiff_t fewest_cells = 900'000;
 
 // Where more of a coarse table is live, the full sweep of the fine one is expected to be as fast.
 constexpr double most_live_share = 0.6;
@@ -108,7 +109,7 @@ class CoarseProblem {
           q_(view(q_points_, fine), RangeScale(1.0), PointOrder::reversed),
           problem_{fine.kernels,     {p_, q_},      fine.recurrence, fine.cost,
                    fine.minkowski_p, columns(fine), false,           1,
-                   fine.poller,      memory_} {}
+                   fine.poller,      fine.memory} {}
 
     SweepProblem& problem() noexcept { return problem_; }
 
@@ -161,7 +162,6 @@ class CoarseProblem {
     PackedCurve p_;
     PackedCurve q_;
     SweptColumns band_;
-    SweepMemory memory_;
     SweepProblem problem_;
 };
 
@@ -239,6 +239,7 @@ class DtwSearch {
         CoarseProblem coarse(problem_, options_.decimation);
         const IndexPairs path = coarse_path(coarse.problem());
         record_.path_seconds = stopwatch_.lap();
+        printf("coarse share %.3f of %td\n", coarse_share_, coarse.problem().curves.rows());
         const bool has_cutoff = options_.cutoff < infinity;
         if (options_.gives_up && !is_alike() && !has_cutoff) return false;
         record_.upper = value_around(path, coarse.problem());
@@ -281,7 +282,7 @@ class DtwSearch {
     double value_around(const IndexPairs& path, const SweepProblem& coarse) {
         SweptColumns corridor;
         if (!path.empty()) {
-            corridor.rows = corridor_around(path, coarse, problem_, options_.decimation);
+            corridor.rows = corridor_around(path, coarse, problem_, corridor_reach());
         }
         if (corridor.rows.empty()) return infinity;
         for (const ColumnRange& range : corridor.rows) {
@@ -294,6 +295,12 @@ class DtwSearch {
         if (!options_.open_end) return row[problem_.curves.columns() - 1];
         const ColumnRange last = corridor.rows.back();
         return *std::min_element(row.data() + last.first, row.data() + last.last + 1);
+    }
+
+    // Wide enough for the best path between two points of the coarse one, and wider where the
+    // corridor is a smaller part of the table.
+    std::ptrdiff_t corridor_reach() const noexcept {
+        return options_.decimation / 2 + problem_.curves.columns() / 4096;
     }
 
     SweepProblem problem_;

@@ -35,7 +35,7 @@ struct DtwPruningOptions {
     bool gives_up = true;
     // One point in so many is left at the next coarser level; up to so many cells, a coarse table
     // is swept as a whole.
-    std::ptrdiff_t decimation = 16;
+    std::ptrdiff_t decimation = 24;
     std::ptrdiff_t most_coarse_cells = std::ptrdiff_t{1} << 18;
 };
 

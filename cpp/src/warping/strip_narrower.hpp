@@ -4,6 +4,7 @@
 // between live ones are swept. Time O(1) a lane that is dropped, O(w) a strip of w live columns.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "warping/kernels/strip.hpp"
@@ -14,7 +15,9 @@ namespace curvewise::detail {
 class StripNarrower {
    public:
     // Diagonals between two looks: each lets the live lanes grow by one, and looks at those lanes.
-    static constexpr std::ptrdiff_t stride = 16;
+    static std::ptrdiff_t stride(const kernels::Strip& strip) noexcept {
+        return std::clamp<std::ptrdiff_t>(strip.rows / 8, 2, 16);
+    }
 
     StripNarrower() noexcept = default;
     StripNarrower(const CostToGo& cost_to_go, SweptColumns& swept, std::ptrdiff_t columns) noexcept

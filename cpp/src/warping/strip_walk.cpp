@@ -165,8 +165,9 @@ std::int64_t StripWalk::advance(std::ptrdiff_t end) noexcept {
 
 void StripWalk::advance_narrowing(std::ptrdiff_t end) noexcept {
     std::ptrdiff_t* const last_column = columns_ + plan_->height_;
+    const std::ptrdiff_t stride = StripNarrower::stride(strip_);
     while (strip_.next_diagonal < end) {
-        advance_(strip_, std::min(strip_.next_diagonal + StripNarrower::stride, end), fill_);
+        advance_(strip_, std::min(strip_.next_diagonal + stride, end), fill_);
         if (!narrower_.narrow(strip_, columns_, last_column)) {
             end_diagonal_ = strip_.next_diagonal;
             return;
