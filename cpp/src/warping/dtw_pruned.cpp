@@ -17,6 +17,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // sweep's time.
 constexpr std::ptrdiff_t fewest_cells = 900'000;
 
+// The table's cells for each that is swept, roughly: threads are worth their start by these.
+constexpr std::ptrdiff_t expected_pruning = 16;
+
 // Where more of a coarse table is live, the full sweep of the fine one is expected to be as fast.
 constexpr double most_live_share = 0.6;
 
@@ -230,6 +233,7 @@ class DtwSearch {
         SweepProblem narrowed = problem;
         swept_ = SweptColumns();
         narrowed.columns = LiveColumns(problem.columns, cost_to_go, swept_);
+        narrowed.cells_per_worker *= expected_pruning;
         return last_value(narrowed, options_.open_end);
     }
 
@@ -239,7 +243,6 @@ class DtwSearch {
         CoarseProblem coarse(problem_, options_.decimation);
         const IndexPairs path = coarse_path(coarse.problem());
         record_.path_seconds = stopwatch_.lap();
-        printf("coarse share %.3f of %td\n", coarse_share_, coarse.problem().curves.rows());
         const bool has_cutoff = options_.cutoff < infinity;
         if (options_.gives_up && !is_alike() && !has_cutoff) return false;
         record_.upper = value_around(path, coarse.problem());
@@ -248,11 +251,13 @@ class DtwSearch {
         return is_alike() && record_.upper < infinity;
     }
 
-    // Judged by the coarse table. A full sweep is shared out among threads, where it is long.
+    // Judged by the coarse table. More than two threads are of use to the full sweep alone, whose
+    // strips are longer.
     bool is_alike() const noexcept {
         const std::ptrdiff_t useful = cells(problem_) / problem_.cells_per_worker;
-        const std::ptrdiff_t threads = std::clamp<std::ptrdiff_t>(useful, 1, problem_.workers);
-        return coarse_share_ * static_cast<double>(threads) <= most_live_share;
+        const std::ptrdiff_t threads =
+            std::clamp<std::ptrdiff_t>(useful, 2, std::max<std::ptrdiff_t>(problem_.workers, 2));
+        return coarse_share_ * static_cast<double>(threads) / 2.0 <= most_live_share;
     }
 
     // The best path of a coarse problem; none where it was too long, and gave up itself.

@@ -49,7 +49,7 @@ class LiveColumns {
     LiveColumns(const LiveColumns& base, const SweptColumns& kept) noexcept
         : band_(base.band_), kept_(kept.rows.data()) {}
     // `base`, narrowed strip by strip to the cells that are live; `swept` says what was left. Both
-    // must outlive the sweep, which has one thread and covers the whole table.
+    // must outlive the sweep, which covers the whole table.
     LiveColumns(const LiveColumns& base, const CostToGo& cost_to_go, SweptColumns& swept) noexcept
         : band_(base.band_), kept_(base.kept_), cost_to_go_(&cost_to_go), swept_(&swept) {}
 
