@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -48,6 +49,11 @@ struct DtwOptions {
     bool open_end = false;
     // Threads for this call, -1 for one per core. Never changes a result.
     std::ptrdiff_t workers = 1;
+    // Whether to leave out what cannot matter of the table. Never changes a result.
+    bool prune = true;
+    // A distance above it, at least 0, becomes infinity, and is found to be so early. Paths and
+    // tables do not look at it; batches have one of their own besides.
+    double cutoff = std::numeric_limits<double>::infinity();
 
     constexpr bool is_symmetric() const noexcept { return !open_begin && !open_end; }
     // The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
@@ -64,6 +70,8 @@ void visit_options(DtwOptions& options, Visit&& visit) {
     visit("open_begin", options.open_begin);
     visit("open_end", options.open_end);
     visit("workers", options.workers, workers_range);
+    visit("prune", options.prune);
+    visit("cutoff", options.cutoff, cutoff_range);
 }
 
 CURVEWISE_EXPORT double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options = {},

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 
 #include "curvewise/alignment.hpp"
@@ -30,6 +31,12 @@ struct FrechetOptions {
     GroundDistance ground;
     // Threads for this call, -1 for one per core. Never changes a result.
     std::ptrdiff_t workers = 1;
+    // Whether to leave out what cannot matter of the table: similar curves then take nearly linear
+    // time. Never changes a result.
+    bool prune = true;
+    // A distance above it, at least 0, becomes infinity, and is found to be so early. Paths and
+    // tables do not look at it; batches have one of their own besides.
+    double cutoff = std::numeric_limits<double>::infinity();
 
     static constexpr bool is_symmetric() noexcept { return true; }
     // The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
@@ -42,6 +49,8 @@ template <class Visit>
 void visit_options(FrechetOptions& options, Visit&& visit) {
     visit(options.ground);
     visit("workers", options.workers, workers_range);
+    visit("prune", options.prune);
+    visit("cutoff", options.cutoff, cutoff_range);
 }
 
 CURVEWISE_EXPORT double frechet(const CurveView& P, const CurveView& Q,

@@ -105,6 +105,8 @@ curvewise::FrechetOptions translate(const curvewise_frechet_options& given) {
     curvewise::FrechetOptions options;
     options.ground = ground_distance(given.metric, given.p);
     options.workers = given.workers;
+    options.prune = given.prune != 0;
+    options.cutoff = given.cutoff;
     return options;
 }
 
@@ -116,6 +118,8 @@ curvewise::DtwOptions translate(const curvewise_dtw_options& given) {
     options.open_begin = given.open_begin != 0;
     options.open_end = given.open_end != 0;
     options.workers = given.workers;
+    options.prune = given.prune != 0;
+    options.cutoff = given.cutoff;
     return options;
 }
 

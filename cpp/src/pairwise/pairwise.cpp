@@ -18,10 +18,7 @@ std::unique_ptr<const detail::BatchMeasure> batch_of(const Measure& measure) {
 
 void check_options(const BatchOptions& options) {
     detail::resolve_workers(options.workers);
-    if (!(options.cutoff >= 0.0)) {
-        throw std::invalid_argument("cutoff is " + std::to_string(options.cutoff) +
-                                    "; give a number >= 0");
-    }
+    detail::check_cutoff(options.cutoff);
 }
 
 }  // namespace

@@ -19,6 +19,9 @@
 #include "pairwise/evaluate.hpp"
 #include "runtime/workers.hpp"
 #include "warping/dispatch.hpp"
+#include "warping/dtw_pruned.hpp"
+#include "warping/frechet_corridor.hpp"
+#include "warping/frechet_pruned.hpp"
 #include "warping/ground_distance.hpp"
 #include "warping/path.hpp"
 #include "warping/sweep.hpp"
@@ -47,10 +50,13 @@ struct WarpingOptions {
     std::optional<std::ptrdiff_t> window = std::nullopt;
     bool open_begin = false;
     bool open_end = false;
+    bool prune = false;
+    double cutoff = infinity;
 };
 
 WarpingOptions checked(const DtwOptions& options) {
     detail::check_ground_distance(options.ground);
+    detail::check_cutoff(options.cutoff);
     if (options.window) detail::check_whole_number("window", *options.window, window_range);
     const bool is_symmetric1 = options.step_pattern == StepPattern::symmetric1;
     if (options.open_begin || options.open_end) {
@@ -68,13 +74,19 @@ WarpingOptions checked(const DtwOptions& options) {
         detail::resolve_workers(options.workers),
         options.window,
         options.open_begin,
-        options.open_end};
+        options.open_end,
+        options.prune,
+        options.cutoff};
 }
 
 WarpingOptions checked(const FrechetOptions& options) {
     detail::check_ground_distance(options.ground);
-    return {options.measure, kernels::Recurrence::frechet, options.ground,
-            detail::resolve_workers(options.workers)};
+    detail::check_cutoff(options.cutoff);
+    return {options.measure, kernels::Recurrence::frechet,
+            options.ground,  detail::resolve_workers(options.workers),
+            std::nullopt,    false,
+            false,           options.prune,
+            options.cutoff};
 }
 
 // Two packed curves, and the table between them.
@@ -85,6 +97,7 @@ class WarpingProblem {
         : range_(range),
           degree_(detail::degree(options.ground.metric)),
           open_end_(options.open_end),
+          prune_(options.prune),
           sweep_{*detail::active_level().kernels,
                  curves,
                  options.recurrence,
@@ -111,14 +124,16 @@ class WarpingProblem {
             // up.
             sweep_.give_up_above = squared_ ? cutoff * cutoff * (1.0 + 1e-15) : cutoff;
         }
+        if (const std::optional<double> value = pruned_value()) return restore(*value);
         const Row& bottom = last_row(sweep_);
         return restore(bottom[open_end_ ? bottom.argmin() : sweep_.curves.columns() - 1]);
     }
 
     Alignment alignment() const {
         sweep_.poller.begin(2 * sweep_.curves.rows() * sweep_.curves.columns());
-        Path path = find_path(sweep_, open_end_);
-        return {restore(path.value), std::move(path.pairs)};
+        std::optional<Path> path = pruned_path();
+        if (!path) path = find_path(sweep_, open_end_);
+        return {restore(path->value), std::move(path->pairs)};
     }
 
     void write_table(double* out) const {
@@ -136,6 +151,40 @@ class WarpingProblem {
         return range_.restore(squared_ ? std::sqrt(value) : value, degree_);
     }
 
+    bool is_frechet() const noexcept { return sweep_.recurrence == kernels::Recurrence::frechet; }
+
+    // Nothing where pruning is off, or does not pay.
+    std::optional<double> pruned_value() const {
+        if (!prune_) return std::nullopt;
+        if (is_frechet()) {
+            detail::PruningRecord record;
+            const std::int64_t steps = sweep_.curves.rows() * sweep_.curves.columns();
+            return frechet_pruned(sweep_, {sweep_.give_up_above, true, steps}, record);
+        }
+        detail::DtwPruningRecord record;
+        return dtw_pruned(sweep_, {sweep_.give_up_above, open_end_}, record);
+    }
+
+    std::optional<Path> pruned_path() const {
+        if (!prune_) return std::nullopt;
+        if (is_frechet()) return frechet_path_in_corridor();
+        detail::DtwPruningRecord record;
+        return dtw_path_pruned(sweep_, {infinity, open_end_}, record);
+    }
+
+    std::optional<Path> frechet_path_in_corridor() const {
+        detail::PruningRecord record;
+        const std::optional<double> value = frechet_pruned(sweep_, {}, record);
+        if (!value) return std::nullopt;
+        const detail::SweptColumns corridor = frechet_corridor(sweep_, *value);
+        SweepProblem narrow = sweep_;
+        const std::ptrdiff_t n = sweep_.curves.rows(), m = sweep_.curves.columns();
+        narrow.columns = {detail::Band(n, m, std::nullopt), corridor};
+        // Threads are worth their start by the cells that are left.
+        narrow.cells_per_worker *= std::max<std::int64_t>(1, n * m / corridor.cells);
+        return find_path(narrow, open_end_);
+    }
+
     // Every path holds the first and the last cell, unless an end is open.
     bool ends_are_within(double cutoff) const {
         const std::ptrdiff_t n = sweep_.curves.rows(), m = sweep_.curves.columns();
@@ -147,6 +196,7 @@ class WarpingProblem {
     int degree_;            // of homogeneity in the coordinates
     bool squared_ = false;  // the table holds squares of the values
     bool open_end_;
+    bool prune_;
     SweepProblem sweep_;
 };
 
@@ -199,8 +249,10 @@ class WarpingMeasure {
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
                       const detail::Call<Memory>& call) const {
-        return with_problem(P, Q, call,
-                            [&](WarpingProblem& problem) { return problem.distance(call.cutoff); });
+        const double cutoff = std::min(call.cutoff, options_.cutoff);
+        const double value = with_problem(
+            P, Q, call, [&](WarpingProblem& problem) { return problem.distance(cutoff); });
+        return value > options_.cutoff ? infinity : value;
     }
 
    private:

@@ -5,7 +5,7 @@ Sakoe & Chiba (1978); open ends: Müller (2007). Time O(n m), memory O(n + m) ex
 
 from __future__ import annotations
 
-from typing import SupportsIndex
+from typing import SupportsFloat, SupportsIndex
 
 from .. import _core
 from .._curves import Array, CurveLike, as_curves
@@ -28,6 +28,8 @@ def dtw(
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
     workers: SupportsIndex = Default.workers,
+    prune: bool = Default.prune,
+    cutoff: SupportsFloat | None = Default.cutoff,
 ) -> float:
     """Dynamic time warping: the smallest sum of ground distances along a warping path.
 
@@ -47,6 +49,8 @@ def dtw(
         Subsequence DTW: P is matched to a part of Q, which may begin, or end, anywhere. Not
         normalised by length. With "symmetric1" and without a window only.
     {workers}
+    {prune}
+    {cutoff}
 
     Returns
     -------
@@ -88,6 +92,8 @@ def dtw(
             "open_begin": open_begin,
             "open_end": open_end,
             "workers": workers,
+            "prune": prune,
+            "cutoff": cutoff,
         },
     )
 
@@ -103,12 +109,13 @@ def dtw_path(
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
     workers: SupportsIndex = Default.workers,
+    prune: bool = Default.prune,
 ) -> Alignment:
     """Dynamic time warping with a warping path that attains it.
 
     Parameters
     ----------
-    P, Q, metric, p, step_pattern, window, open_begin, open_end, workers
+    P, Q, metric, p, step_pattern, window, open_begin, open_end, workers, prune
         As for :func:`dtw`.
 
     Returns
@@ -147,6 +154,7 @@ def dtw_path(
                 "open_begin": open_begin,
                 "open_end": open_end,
                 "workers": workers,
+                "prune": prune,
             },
         )
     )

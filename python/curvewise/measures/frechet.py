@@ -5,7 +5,7 @@ Eiter & Mannila (1994). Time O(n m), memory O(n + m) except for the table.
 
 from __future__ import annotations
 
-from typing import SupportsIndex
+from typing import SupportsFloat, SupportsIndex
 
 from .. import _core
 from .._curves import Array, CurveLike, as_curves
@@ -24,6 +24,8 @@ def frechet(
     metric: Metric = Default.metric,
     p: Order = Default.p,
     workers: SupportsIndex = Default.workers,
+    prune: bool = Default.prune,
+    cutoff: SupportsFloat | None = Default.cutoff,
 ) -> float:
     """Discrete Fréchet distance: the shortest leash for two walks along the points.
 
@@ -34,6 +36,8 @@ def frechet(
     {metric}
     {p}
     {workers}
+    {prune}
+    {cutoff}
 
     Returns
     -------
@@ -61,7 +65,11 @@ def frechet(
     3.0
     """
     P, Q = as_curves(P, Q)
-    return _core.frechet(P, Q, {"metric": metric, "p": p, "workers": workers})
+    return _core.frechet(
+        P,
+        Q,
+        {"metric": metric, "p": p, "workers": workers, "prune": prune, "cutoff": cutoff},
+    )
 
 
 def frechet_path(
@@ -71,12 +79,13 @@ def frechet_path(
     metric: Metric = Default.metric,
     p: Order = Default.p,
     workers: SupportsIndex = Default.workers,
+    prune: bool = Default.prune,
 ) -> Alignment:
     """Discrete Fréchet distance with a coupling that attains it.
 
     Parameters
     ----------
-    P, Q, metric, p, workers
+    P, Q, metric, p, workers, prune
         As for :func:`frechet`.
 
     Returns
@@ -103,7 +112,8 @@ def frechet_path(
     [[0, 0], [1, 0], [2, 1]]
     """
     P, Q = as_curves(P, Q)
-    return Alignment(*_core.frechet_path(P, Q, {"metric": metric, "p": p, "workers": workers}))
+    options = {"metric": metric, "p": p, "workers": workers, "prune": prune}
+    return Alignment(*_core.frechet_path(P, Q, options))
 
 
 def frechet_table(
