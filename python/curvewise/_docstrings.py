@@ -70,23 +70,9 @@ def inherit(function: Callable[..., Any], measure: Callable[..., Any]) -> None:
         return
     for name in reversed(_NOT_OF_THE_REFERENCE):
         if name not in inspect.signature(function).parameters:
-            doc = doc.replace(f"{_SHARED[name]}
-", "").replace(f", {name}
-", "
-")
-    head, _, tail = doc.partition("
-Notes
------
-")
-    examples = tail[tail.index("
-
-Examples
-") :]
-    examples = examples.replace("import curvewise
-", "from curvewise import reference
-")
+            doc = doc.replace(f"{_SHARED[name]}\n", "").replace(f", {name}\n", "\n")
+    head, _, tail = doc.partition("\nNotes\n-----\n")
+    examples = tail[tail.index("\n\nExamples\n") :]
+    examples = examples.replace("import curvewise\n", "from curvewise import reference\n")
     examples = examples.replace("curvewise.", "reference.")
-    function.__doc__ = f"{head}
-Notes
------
-{notes}{examples}"
+    function.__doc__ = f"{head}\nNotes\n-----\n{notes}{examples}"

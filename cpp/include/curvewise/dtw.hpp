@@ -26,6 +26,7 @@
 #include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
 #include "curvewise/options.hpp"
+#include "curvewise/warping_info.hpp"
 
 namespace curvewise {
 
@@ -85,6 +86,10 @@ CURVEWISE_EXPORT Alignment dtw_path(const CurveView& P, const CurveView& Q,
 // Writes c to out[i * m + j]; infinity outside the window.
 CURVEWISE_EXPORT void dtw_table(const CurveView& P, const CurveView& Q, double* out,
                                 const DtwOptions& options = {}, Control* control = nullptr);
+
+// The distance, with how it was found (see docs/performance.md).
+CURVEWISE_EXPORT WarpingInfo dtw_info(const CurveView& P, const CurveView& Q,
+                                      const DtwOptions& options = {}, Control* control = nullptr);
 
 // For code that serves all measures alike (measure.hpp).
 inline double evaluate(const DtwOptions& options, const CurveView& P, const CurveView& Q,

@@ -21,6 +21,7 @@
 #include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
 #include "curvewise/options.hpp"
+#include "curvewise/warping_info.hpp"
 
 namespace curvewise {
 
@@ -65,6 +66,11 @@ CURVEWISE_EXPORT Alignment frechet_path(const CurveView& P, const CurveView& Q,
 // Writes c to out[i * m + j].
 CURVEWISE_EXPORT void frechet_table(const CurveView& P, const CurveView& Q, double* out,
                                     const FrechetOptions& options = {}, Control* control = nullptr);
+
+// The distance, with how it was found (see docs/performance.md).
+CURVEWISE_EXPORT WarpingInfo frechet_info(const CurveView& P, const CurveView& Q,
+                                          const FrechetOptions& options = {},
+                                          Control* control = nullptr);
 
 // For code that serves all measures alike (measure.hpp).
 inline double evaluate(const FrechetOptions& options, const CurveView& P, const CurveView& Q,

@@ -5,6 +5,7 @@
 // before the rounding of sqrt can make two of them equal. Time O(n m), memory O(n + m), except for
 // the table.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -129,6 +130,31 @@ class WarpingProblem {
         return restore(bottom[open_end_ ? bottom.argmin() : sweep_.curves.columns() - 1]);
     }
 
+    // The distance, and how it was found.
+    WarpingInfo info() {
+        const Clock::time_point start = Clock::now();
+        WarpingInfo info;
+        std::optional<double> value;
+        if (prune_) value = is_frechet() ? frechet_with_info(info) : dtw_with_info(info);
+        info.pruned = value.has_value();
+        if (!value) {
+            for (std::ptrdiff_t i = 0; i < sweep_.curves.rows(); ++i) {
+                const detail::ColumnRange columns = sweep_.columns.columns(i);
+                info.cells_swept += columns.last - columns.first + 1;
+            }
+            const Clock::time_point before = Clock::now();
+            const Row& bottom = last_row(sweep_);
+            value = bottom[open_end_ ? bottom.argmin() : sweep_.curves.columns() - 1];
+            info.phases.push_back({"full sweep", seconds_since(before)});
+        }
+        info.value = restore(*value);
+        info.share =
+            static_cast<double>(info.cells_swept) / (static_cast<double>(sweep_.curves.rows()) *
+                                                     static_cast<double>(sweep_.curves.columns()));
+        info.phases.push_back({"all", seconds_since(start)});
+        return info;
+    }
+
     Alignment alignment() const {
         sweep_.poller.begin(2 * sweep_.curves.rows() * sweep_.curves.columns());
         std::optional<Path> path = pruned_path();
@@ -147,6 +173,35 @@ class WarpingProblem {
     }
 
    private:
+    using Clock = std::chrono::steady_clock;
+    static double seconds_since(Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    }
+
+    std::optional<double> frechet_with_info(WarpingInfo& info) const {
+        detail::PruningRecord record;
+        const std::int64_t steps = sweep_.curves.rows() * sweep_.curves.columns();
+        const auto value = frechet_pruned(sweep_, {infinity, true, steps}, record);
+        info.cells_swept = record.swept_cells;
+        info.lower = restore(record.lower);
+        info.upper = restore(record.upper);
+        info.phases = {{"bounds", record.bound_seconds}, {"search", record.search_seconds}};
+        return value;
+    }
+
+    std::optional<double> dtw_with_info(WarpingInfo& info) const {
+        detail::DtwPruningRecord record;
+        const auto value = dtw_pruned(sweep_, {infinity, open_end_}, record);
+        info.cells_swept = record.swept_cells + record.corridor_cells;
+        info.lower = restore(record.lower);
+        info.upper = restore(record.upper);
+        info.phases = {{"coarse path", record.path_seconds},
+                       {"upper bound", record.upper_seconds},
+                       {"lower bounds", record.lower_seconds},
+                       {"sweep", record.sweep_seconds}};
+        return value;
+    }
+
     double restore(double value) const noexcept {
         return range_.restore(squared_ ? std::sqrt(value) : value, degree_);
     }
@@ -268,6 +323,15 @@ Alignment path(const WarpingMeasure& measure, const CurveView& P, const CurveVie
         });
 }
 
+WarpingInfo info(const WarpingMeasure& measure, const CurveView& P, const CurveView& Q,
+                 Control* control) {
+    return detail::with_pair(
+        measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
+            return measure.with_problem(p, q, call,
+                                        [](WarpingProblem& problem) { return problem.info(); });
+        });
+}
+
 void table(const WarpingMeasure& measure, const CurveView& P, const CurveView& Q, double* out,
            Control* control) {
     detail::with_pair(measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
@@ -295,6 +359,16 @@ Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& opt
 Alignment frechet_path(const CurveView& P, const CurveView& Q, const FrechetOptions& options,
                        Control* control) {
     return path(WarpingMeasure(options), P, Q, control);
+}
+
+WarpingInfo dtw_info(const CurveView& P, const CurveView& Q, const DtwOptions& options,
+                     Control* control) {
+    return info(WarpingMeasure(options), P, Q, control);
+}
+
+WarpingInfo frechet_info(const CurveView& P, const CurveView& Q, const FrechetOptions& options,
+                         Control* control) {
+    return info(WarpingMeasure(options), P, Q, control);
 }
 
 void dtw_table(const CurveView& P, const CurveView& Q, double* out, const DtwOptions& options,

@@ -11,9 +11,9 @@ from .. import _core
 from .._curves import Array, CurveLike, as_curves
 from .._docstrings import filled
 from .._options import Default, Metric, Order
-from ..results import Alignment
+from ..results import Alignment, WarpingInfo
 
-__all__ = ["frechet", "frechet_path", "frechet_table"]
+__all__ = ["frechet", "frechet_info", "frechet_path", "frechet_table"]
 
 
 @filled()
@@ -70,6 +70,49 @@ def frechet(
         Q,
         {"metric": metric, "p": p, "workers": workers, "prune": prune, "cutoff": cutoff},
     )
+
+
+def frechet_info(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    workers: SupportsIndex = Default.workers,
+    prune: bool = Default.prune,
+) -> WarpingInfo:
+    """Discrete Fréchet distance, with how much of the table it took and why.
+
+    Parameters
+    ----------
+    P, Q, metric, p, workers, prune
+        As for :func:`frechet`.
+
+    Returns
+    -------
+    WarpingInfo
+        The value, the cells that were swept and their share of the table, the bounds, and the
+        seconds by phase.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`frechet`.
+
+    Notes
+    -----
+    As for :func:`frechet`, whose value it has.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> info = curvewise.frechet_info([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 3)])
+    >>> info.value, info.cells_swept, info.share  # short curves are swept as a whole
+    (3.0, 6, 1.0)
+    """
+    P, Q = as_curves(P, Q)
+    options = {"metric": metric, "p": p, "workers": workers, "prune": prune}
+    return WarpingInfo(*_core.frechet_info(P, Q, options))
 
 
 def frechet_path(
