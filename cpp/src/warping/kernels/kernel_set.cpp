@@ -9,6 +9,7 @@
 namespace curvewise::kernels {
 namespace {
 #include "sweep.inl.hpp"
+
 #include "block.inl.hpp"
 }  // namespace
 
