@@ -65,7 +65,7 @@ struct Pair {
     double cells() const {
         return static_cast<double>(rows.size()) * static_cast<double>(columns.size());
     }
-    int samples() const { return cells() < 5e7 ? 15 : cells() < 1e9 ? 7 : 3; }
+    int samples() const { return cells() < 5e6 ? 51 : cells() < 5e7 ? 15 : cells() < 1e9 ? 7 : 3; }
 
     std::vector<double> p;
     std::vector<double> q;

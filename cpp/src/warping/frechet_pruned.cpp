@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <type_traits>
 
 #include "warping/block_recursion.hpp"
 #include "warping/block_values.hpp"
 #include "warping/coarse_table.hpp"
 #include "warping/hausdorff.hpp"
 #include "warping/reach.hpp"
+#include "warping/sweep.hpp"
 
 namespace curvewise::detail {
 namespace {
@@ -25,6 +28,7 @@ constexpr double block_cost = 64.0;  // of one that is looked at, besides
 constexpr double small_share = 0.02;
 constexpr double risked_share = 0.25;
 constexpr double worthwhile_share = 0.8;
+constexpr double hopeless_share = 1.2;
 
 class Stopwatch {
    public:
@@ -40,11 +44,37 @@ class Stopwatch {
     Clock::time_point start_ = Clock::now();
 };
 
+// One point of every `step`, in the order in which the curve is stored.
+PackedCurve decimated(const PackedCurve& curve, std::ptrdiff_t step) {
+    const CurveView points(curve.data(), (curve.size() + step - 1) / step, curve.dim(), step,
+                           curve.stride());
+    return {points, RangeScale(1.0), PointOrder::forward};
+}
+
+// The distance of decimated curves: near that of the curves, neither above nor below.
+double decimated_distance(const SweepProblem& problem, std::ptrdiff_t step) {
+    const PackedCurve p = decimated(problem.curves.p, step), q = decimated(problem.curves.q, step);
+    Poller poller(nullptr);
+    SweepMemory memory;
+    const SweepProblem small{problem.kernels,
+                             {p, q},
+                             problem.recurrence,
+                             problem.cost,
+                             problem.minkowski_p,
+                             Band(p.size(), q.size(), std::nullopt),
+                             false,
+                             1,
+                             poller,
+                             memory};
+    return last_row(small)[q.size() - 1];
+}
+
 template <class Norm>
 class FrechetSearch {
    public:
     FrechetSearch(const SweepProblem& problem, const PruningOptions& options, PruningRecord& record)
-        : kernels_(problem.kernels),
+        : problem_(problem),
+          kernels_(problem.kernels),
           curves_(problem.curves),
           metric_(problem.cost.metric),
           poller_(problem.poller),
@@ -58,10 +88,14 @@ class FrechetSearch {
     std::optional<double> value() {
         const bool is_promising = find_bounds();
         record_.bound_seconds += stopwatch_.lap();
-        if (record_.lower > options_.cutoff) return infinity;
-        const std::optional<double> found =
-            is_promising ? search() : std::optional<double>(std::nullopt);
+        std::optional<double> found;
+        if (record_.lower > options_.cutoff) {
+            found = infinity;
+        } else if (is_promising) {
+            found = search();
+        }
         if (!found) poller_.take_back(counted_steps_);
+        if (found) poller_.count_steps(options_.steps - counted_steps_, 0);
         record_.search_seconds += stopwatch_.lap();
         return found;
     }
@@ -72,7 +106,7 @@ class FrechetSearch {
 
     // Blocks of `block_side`, which say exactly what a recursion will sweep, or larger ones.
     std::ptrdiff_t most_boxes() const noexcept {
-        constexpr std::ptrdiff_t most = 1 << 16;
+        constexpr std::ptrdiff_t most = 1 << 14;
         return std::min(runs_of(P_.size()) * runs_of(Q_.size()), most);
     }
 
@@ -91,8 +125,8 @@ class FrechetSearch {
                                     point_distance<Norm>(P_.points(), P_.size() - 1, Q_.points(),
                                                          Q_.size() - 1, dim)));
         upper() = coarse_.upper();
-        // As on noise, whose boxes all lie over each other.
-        if (options_.gives_up && coarse_.undecided_share(lower(), lower()) > 0.8) return false;
+        // As on noise, whose boxes all lie over each other: no lower bound will help.
+        if (options_.gives_up && value_share(lower(), lower()) > hopeless_share) return false;
         lower() = hausdorff_bound(P_, Q_, metric_, lower(), cells_ * small_share / 2, poller_);
         return true;
     }
@@ -127,10 +161,44 @@ class FrechetSearch {
         record_.swept_cells += recursion.counts().swept_cells;
     }
 
+    // Where to look first: at the lower bound, unless curves of every few points say that the
+    // distance is well above it.
+    double first_threshold(double estimate) const {
+        const double error = std::max(longest_run(P_), longest_run(Q_));
+        const double lower = record_.lower * first_factor;
+        if (in_length(estimate) - error <= in_length(lower)) return record_.lower;
+        return std::min(estimate * first_factor, record_.upper);
+    }
+
+    // Points of which one is taken: by then the estimate is a small part of the work.
+    std::ptrdiff_t decimation() const noexcept {
+        constexpr double most_cells = 1 << 16;
+        std::ptrdiff_t step = 16;
+        while (cells_ / static_cast<double>(step * step) > most_cells) step *= 2;
+        return step;
+    }
+
+    // The largest extent of the runs that lie between two points of the decimated curves.
+    double longest_run(const BoxTree& tree) const noexcept {
+        std::ptrdiff_t level = 0;
+        while (BoxTree::leaf_points << level < decimation() && level + 1 < tree.levels()) ++level;
+        double longest = 0.0;
+        for (std::ptrdiff_t b = 0; b < tree.boxes(level); ++b) {
+            const double* const box = tree.box(level, b);
+            longest = std::max(longest, largest_distance<Norm>(box, box, tree.dim()));
+        }
+        return in_length(longest);
+    }
+
+    static double in_length(double value) noexcept {
+        return std::is_same_v<Norm, SquaresNorm> ? std::sqrt(value) : value;
+    }
+
     // Raises the lower bound until the distance is found.
     std::optional<double> search() {
         double factor = first_factor;
-        double threshold = std::min(lower(), options_.cutoff);
+        const double estimate = decimated_distance(problem_, decimation());
+        double threshold = std::min(first_threshold(estimate), options_.cutoff);
         while (lower() < upper()) {
             if (!is_worth_trying(threshold)) return std::nullopt;
             if (is_within(threshold)) {
@@ -140,8 +208,10 @@ class FrechetSearch {
             if (threshold >= options_.cutoff) return infinity;
             lower() = threshold;
             threshold = lower() > 0.0 ? lower() * factor : upper() * smallest_step;
+            // Where passes are dear, a second one that fails would be one too many.
+            if (spent() > small_share) threshold = std::max(threshold, estimate);
             threshold = std::min(std::min(threshold, upper()), options_.cutoff);
-            factor *= factor;
+            factor *= factor * factor;
         }
         if (lower() < upper()) {
             if (options_.gives_up && value_share(lower(), upper()) > 1.0) return std::nullopt;
@@ -162,14 +232,16 @@ class FrechetSearch {
         if (!options_.gives_up) return true;
         const double share = reach_share(threshold);
         if (spent() + share <= small_share) return true;
+        const double upper = std::max(threshold, record_.lower * first_factor);
         return spent() + share <= risked_share &&
-               share + value_share(threshold, threshold * first_factor) <= worthwhile_share;
+               share + value_share(record_.lower, upper) <= worthwhile_share;
     }
 
     // Steps of the bound, in squares for the Euclidean distance.
     static constexpr double first_factor = 1.04;
     static constexpr double smallest_step = 0x1p-20;
 
+    const SweepProblem& problem_;
     const kernels::KernelSet& kernels_;
     PackedPair curves_;
     Metric metric_;
@@ -189,7 +261,7 @@ class FrechetSearch {
 std::optional<double> frechet_pruned(const SweepProblem& problem, const PruningOptions& options,
                                      PruningRecord& record) {
     // Below, trees and bounds take longer than they save.
-    constexpr std::ptrdiff_t fewest_cells = 1 << 19;
+    constexpr std::ptrdiff_t fewest_cells = 3 << 18;
     const PackedPair& curves = problem.curves;
     const Metric metric = problem.cost.metric;
     if (problem.kernels.reach(metric, curves.dim()) == nullptr) return std::nullopt;

@@ -22,6 +22,7 @@ class DirectedBound {
         // First a few points from all along the curve: the sooner the bound is high, the less is
         // searched.
         for (std::ptrdiff_t i = 0; i < from_.size(); i += from_.size() / samples + 1) {
+            if (search_.boxes() > most_boxes_ / 2) break;
             start_ = i * to_.size() / from_.size();
             look_at(i);
         }

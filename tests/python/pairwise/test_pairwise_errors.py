@@ -104,7 +104,7 @@ BAD: list[tuple[Callable[[], object], type[Exception], str]] = [
     (
         lambda: curvewise.cdist([GOOD], measure="frechet", window=3),
         TypeError,
-        "frechet has no option 'window'; it has metric, p",
+        "frechet has no option 'window'; it has metric, p, prune",
     ),
     (
         lambda: curvewise.pdist([GOOD], "curve_length", scale="range"),
