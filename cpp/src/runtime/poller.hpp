@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "curvewise/control.hpp"
 
@@ -37,8 +38,11 @@ class Poller {
         if (effort_ < effort_between_polls) return control_->stopped();
         return poll();
     }
-    // Whether steps are counted, as they are at first, or lead to polls only.
-    void set_counting(bool is_counting) noexcept { is_counting_ = is_counting; }
+    // Whether steps are counted, as they are at first, or lead to polls only. Returns what was so
+    // before.
+    bool set_counting(bool is_counting) noexcept {
+        return std::exchange(is_counting_, is_counting);
+    }
     // Takes back steps that have been counted, and are to be done again in another way.
     void take_back(std::int64_t steps) noexcept { uncounted_ -= steps; }
     // For loops over points: polls in every 2^16th iteration and throws Stopped.

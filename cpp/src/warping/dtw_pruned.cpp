@@ -40,15 +40,17 @@ class Stopwatch {
 // What is done before the work that the caller counts.
 class Uncounted {
    public:
-    explicit Uncounted(Poller& poller) noexcept : poller_(poller) { poller_.set_counting(false); }
+    explicit Uncounted(Poller& poller) noexcept
+        : poller_(poller), was_counting_(poller.set_counting(false)) {}
     Uncounted(const Uncounted&) = delete;
     Uncounted(Uncounted&&) = delete;
     Uncounted& operator=(const Uncounted&) = delete;
     Uncounted& operator=(Uncounted&&) = delete;
-    ~Uncounted() { poller_.set_counting(true); }
+    ~Uncounted() { poller_.set_counting(was_counting_); }
 
    private:
     Poller& poller_;
+    bool was_counting_;
 };
 
 std::int64_t cells(const SweepProblem& problem) noexcept {

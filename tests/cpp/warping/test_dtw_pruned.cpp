@@ -230,6 +230,32 @@ void gives_up_where_it_should() {
     }
 }
 
+// The table, once: neither the coarse curves' nor the corridor.
+void progress_counts_the_table() {
+    Random random(5);
+    const Curve P = test::loops(14000, 2, 2.0, 0.0, false), Q = test::alike(P, 13000, random);
+    curvewise::Control control;
+    const PackedCurve p(P, RangeScale(1.0), PointOrder::forward);
+    const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed);
+    Poller poller(&control);
+    poller.begin(P.size() * Q.size());
+    SweepMemory memory;
+    const SweepProblem problem{*available_levels().back().kernels,
+                               {p, q},
+                               Recurrence::dtw_symmetric1,
+                               curvewise::detail::canonical_cost({}, {p, q}),
+                               2.0,
+                               Band(P.size(), Q.size(), std::nullopt),
+                               false,
+                               1,
+                               poller,
+                               memory};
+    DtwPruningRecord record;
+    CHECK(dtw_pruned(problem, {}, record).has_value());
+    poller.poll();
+    CHECK_EQUAL(control.done(), P.size() * Q.size());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -237,5 +263,6 @@ int main(int argc, char** argv) {
     return check::run({{"random pairs", random_pairs},
                        {"large pairs", large_pairs},
                        {"least distances are bounds", least_distances_are_bounds},
-                       {"gives up where it should", gives_up_where_it_should}});
+                       {"gives up where it should", gives_up_where_it_should},
+                       {"progress counts the table", progress_counts_the_table}});
 }
