@@ -153,7 +153,7 @@ def pair(curves: str, n: int) -> tuple[Array, Array]:
 
 def rounds(seconds: float) -> int:
     """Return the number of samples, from the seconds that one of each takes."""
-    return 9 if seconds < 0.3 else 5 if seconds < 1.0 else 3 if seconds < 2.0 else 1
+    return 15 if seconds < 0.15 else 9 if seconds < 0.6 else 3 if seconds < 2.0 else 1
 
 
 def measure(curves: str, name: str, n: int, *, full: bool) -> dict[str, Any]:
