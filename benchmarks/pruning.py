@@ -27,6 +27,8 @@ import multiprocessing
 import os
 import time
 from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -44,6 +46,7 @@ LOOPS = (
     "resslab_cyclic_2pct",
     "resslab_random_protocol",
 )
+PEER_BYTES = 3 << 30
 PACKAGES = ("dtaidistance", "fastdtw", "tsdistances", "traj-dist-rs")
 MODERATE, WALKS, NOISE, MATERIALS = "moderate", "walks", "noise", "two materials"
 COLOURS = {
@@ -96,7 +99,7 @@ def main() -> None:
         took = time.perf_counter() - start
         content[part] = {"machine": timing.machine(PACKAGES), "took": took, "results": results}
         print_results(f"{part} ({took:.0f} s)", results)
-    timing.write_json(file, content)
+        timing.write_json(file, content)
     draw(content, arguments.output / "pruning.png")
 
 
@@ -367,23 +370,39 @@ PEERS = (
 
 
 def peers(effort: Effort) -> list[dict[str, Any]]:
-    """Time every package at growing n, as long as the next call is expected to be short enough."""
+    """Time every package at growing n, as long as the next call is expected to be short enough.
+
+    Each has a process with little memory, which ends where the package keeps a whole table.
+    """
     results = []
-    for peer in PEERS:
+    context = multiprocessing.get_context("spawn")
+    for k, peer in enumerate(PEERS):
         try:
-            module = importlib.import_module(peer.module)
+            importlib.import_module(peer.module)
         except ImportError as error:
             print(f"skipped: {peer.package} ({error})")
             continue
         n, previous, result = 1000, 0.0, None
-        # The first call compiles and loads.
-        measure_peer(peer, module, 100)
-        while result is None or growing(previous, result) <= effort.peer_seconds:
-            previous = result["peer_seconds"] if result else 0.0
-            result = measure_peer(peer, module, n)
-            results.append(result)
-            n *= 2
+        with ProcessPoolExecutor(1, context, initializer=limit_memory) as process:
+            # The first call compiles and loads.
+            process.submit(measure_peer, k, 100).result()
+            while result is None or growing(previous, result) <= effort.peer_seconds:
+                previous = result["peer_seconds"] if result else 0.0
+                try:
+                    result = process.submit(measure_peer, k, n).result()
+                except (BrokenProcessPool, MemoryError):
+                    print(f"{peer.package}, {peer.measure}: no memory for n = {n}")
+                    break
+                results.append(result)
+                n *= 2
     return results
+
+
+def limit_memory() -> None:
+    """Let this process have so much memory, where the system can limit it."""
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_AS, (PEER_BYTES, PEER_BYTES))
 
 
 def growing(previous: float, result: dict[str, Any]) -> float:
@@ -392,8 +411,10 @@ def growing(previous: float, result: dict[str, Any]) -> float:
     return seconds * (min(max(seconds / previous, 2.0), 4.0) if previous else 4.0)
 
 
-def measure_peer(peer: Peer, module: Any, n: int) -> dict[str, Any]:
+def measure_peer(which: int, n: int) -> dict[str, Any]:
     """Time a package and curvewise once each on a pair of similar curves."""
+    peer = PEERS[which]
+    module = importlib.import_module(peer.module)
     P, Q = (c if peer.dim == 2 else c[:, 1].copy() for c in pair(LOOPS[0], n))
     given = [c.tolist() if peer.as_lists else c for c in (P, Q)]
     start = time.perf_counter()
