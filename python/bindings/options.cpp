@@ -25,7 +25,6 @@ class ChoiceCollector {
     void operator()(const GroundDistance& ground) { (*this)("metric", ground.metric); }
     template <class... Other>
     void operator()(const char* /*name*/, const Other&... /*not a choice*/) noexcept {}
-    void operator()(const char* /*name*/, bool /*not a choice*/) noexcept {}
 
    private:
     py::dict& choices_;

@@ -97,9 +97,8 @@ inline double evaluate(const DtwOptions& options, const CurveView& P, const Curv
     return dtw(P, Q, options, control);
 }
 
-namespace detail {
-class BatchMeasure;
-std::unique_ptr<const BatchMeasure> batch_measure(const DtwOptions& options);  // for pairwise.hpp
+namespace detail {  // for pairwise.hpp
+std::unique_ptr<const class BatchMeasure> batch_measure(const DtwOptions& options);
 }  // namespace detail
 
 }  // namespace curvewise

@@ -78,10 +78,8 @@ inline double evaluate(const FrechetOptions& options, const CurveView& P, const 
     return frechet(P, Q, options, control);
 }
 
-namespace detail {
-class BatchMeasure;
-std::unique_ptr<const BatchMeasure> batch_measure(
-    const FrechetOptions& options);  // for pairwise.hpp
+namespace detail {  // for pairwise.hpp
+std::unique_ptr<const class BatchMeasure> batch_measure(const FrechetOptions& options);
 }  // namespace detail
 
 }  // namespace curvewise

@@ -28,7 +28,14 @@ bool is_symmetric(const Measure& measure) noexcept {
 }
 
 double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q, Control* control) {
-    return batch_of(measure)->value(P, Q, control);
+    return std::visit(
+        [&](const auto& options) {
+            // The overload for this very type, which every measure has.
+            using Options = decltype(options);
+            double (*const value)(Options, const CurveView&, const CurveView&, Control*) = evaluate;
+            return value(options, P, Q, control);
+        },
+        measure);
 }
 
 void check_batch(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,

@@ -15,7 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // With fewer cells, to find out that curves are not alike would take more than some 3 % of the full
 // sweep's time.
-constexpr std::ptrdiff_t fewest_cells = 900'000;
+constexpr std::ptrdiff_t fewest_cells = 1'200'000;
 
 // The table's cells for each that is swept, roughly: threads are worth their start by these.
 constexpr std::ptrdiff_t expected_pruning = 16;
@@ -225,8 +225,15 @@ class DtwSearch {
         return value > options_.cutoff ? infinity : value;
     }
 
-    // What was swept for the value.
-    const SweptColumns& swept() const noexcept { return swept_; }
+    // The path, after the value: within what was swept for that.
+    Path path() const {
+        SweepProblem within = problem_;
+        within.columns = LiveColumns(problem_.columns, swept_);
+        // Threads are worth their start by the cells that are left.
+        const std::int64_t swept = std::max<std::int64_t>(swept_.cells, 1);
+        within.cells_per_worker *= std::max<std::int64_t>(cells(problem_) / swept, 1);
+        return find_path(within, options_.open_end);
+    }
 
    private:
     double narrowed_value(const SweepProblem& problem, const CostToGo& cost_to_go) {
@@ -260,15 +267,18 @@ class DtwSearch {
         return coarse_share_ * static_cast<double>(threads) / 2.0 <= most_live_share;
     }
 
-    // The best path of a coarse problem; none where it was too long, and gave up itself.
+    // The best path of a coarse problem, by this same search where it is long. Where that gives up,
+    // its own coarse curves may have been too coarse; a full sweep is short beside the fine one.
     IndexPairs coarse_path(const SweepProblem& coarse) {
         if (cells(coarse) > options_.most_coarse_cells) {
             DtwPruningOptions options = options_;
             options.cutoff = infinity;
             DtwPruningRecord record;
-            std::optional<Path> path = dtw_path_pruned(coarse, options, record);
-            if (path) coarse_share_ = share(record.swept_cells, coarse);
-            return path ? std::move(path->pairs) : IndexPairs();
+            DtwSearch search(coarse, options, record);
+            if (search.value()) {
+                coarse_share_ = share(record.swept_cells, coarse);
+                return search.path().pairs;
+            }
         }
         Path path = find_path(coarse, options_.open_end);
         if (options_.gives_up) {
@@ -286,9 +296,7 @@ class DtwSearch {
     // The value of the best path near that of the coarse problem; infinity where there is none.
     double value_around(const IndexPairs& path, const SweepProblem& coarse) {
         SweptColumns corridor;
-        if (!path.empty()) {
-            corridor.rows = corridor_around(path, coarse, problem_, corridor_reach());
-        }
+        corridor.rows = corridor_around(path, coarse, problem_, corridor_reach());
         if (corridor.rows.empty()) return infinity;
         for (const ColumnRange& range : corridor.rows) {
             record_.corridor_cells += range.last - range.first + 1;
@@ -338,12 +346,7 @@ std::optional<Path> dtw_path_pruned(const SweepProblem& problem, const DtwPrunin
     DtwSearch search(problem, options, record);
     const std::optional<double> value = search.value();
     if (!value || *value > options.cutoff) return std::nullopt;
-    SweepProblem within = problem;
-    within.columns = LiveColumns(problem.columns, search.swept());
-    // Threads are worth their start by the cells that are left.
-    const std::int64_t swept = std::max<std::int64_t>(search.swept().cells, 1);
-    within.cells_per_worker *= std::max<std::int64_t>(cells(problem) / swept, 1);
-    return find_path(within, options.open_end);
+    return search.path();
 }
 
 }  // namespace curvewise::detail

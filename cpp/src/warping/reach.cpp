@@ -11,7 +11,8 @@ bool any(const Word* words, const Runs& runs) noexcept {
     return std::any_of(words + runs.first, words + runs.end, [](Word word) { return word != 0; });
 }
 
-// All bits from the first that is set, or all.
+// All bits from the first that is set, or all. Those behind the last point are so set together with
+// its own, and never alone.
 void flood(Word* words, const Runs& runs, bool from_the_start) noexcept {
     Word* const end = words + runs.end;
     Word* word = words + runs.first;
@@ -31,10 +32,6 @@ void extend(std::vector<Runs>& reached, const Runs& runs, const Runs& others) no
         of_run.first = std::min(of_run.first, others.first);
         of_run.end = std::max(of_run.end, others.end);
     }
-}
-
-void clear_behind(std::vector<Word>& words, std::ptrdiff_t points) noexcept {
-    words.back() &= ~Word{0} >> (64 * static_cast<std::ptrdiff_t>(words.size()) - points);
 }
 
 }  // namespace
@@ -76,8 +73,6 @@ void ReachFront::pass(const Runs& p, const Runs& q, bool corner) noexcept {
     flood(p_.data(), p, corner || any(q_.data(), q));
     flood(q_.data(), q, corner || p_is_entered);
     if (reached_ != nullptr) note_reached(p, q);
-    if (p.end == runs_of(n_)) clear_behind(p_, n_);
-    if (q.end == runs_of(m_)) clear_behind(q_, m_);
 }
 
 void ReachFront::note_reached(const Runs& p, const Runs& q) noexcept {

@@ -71,7 +71,6 @@ class StripNarrower {
 
     StripEdge* edge_ = nullptr;  // of the present strip; the one before it is of the row above
     std::ptrdiff_t first_row_ = 0;
-    bool is_above_finished_ = false;
     // At the last look: the next diagonal, and the lanes.
     std::ptrdiff_t counted_to_ = 0;
     std::ptrdiff_t low_ = 0;
@@ -79,6 +78,7 @@ class StripNarrower {
     // Columns of the last row before this one have been looked at.
     std::ptrdiff_t left_to_ = 0;
     bool has_left_ = false;
+    bool is_above_finished_ = false;
 };
 
 }  // namespace curvewise::detail

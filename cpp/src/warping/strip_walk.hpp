@@ -82,6 +82,8 @@ class alignas(128) StripWalk {
 
     const StripPlan* plan_;
     bool starts_here_;
+    bool at_start_ = false;
+    bool is_last_ = false;
     std::ptrdiff_t lane_stride_;
     double* lanes_;
     std::ptrdiff_t* columns_;  // first_column of every row, then last_column
@@ -92,8 +94,6 @@ class alignas(128) StripWalk {
     std::ptrdiff_t first_diagonal_ = 0;
     std::ptrdiff_t end_diagonal_ = 0;
     std::int64_t counted_ = 0;
-    bool at_start_ = false;
-    bool is_last_ = false;
 };
 
 }  // namespace curvewise::detail

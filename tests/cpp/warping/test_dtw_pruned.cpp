@@ -199,8 +199,9 @@ void least_distances_are_bounds() {
     }
 }
 
-// Walks and noise leave nothing to prune; short curves are not worth it.
-void unlike_curves_give_up() {
+// Walks and noise leave nothing to prune; short curves are not worth it; curves that are alike are,
+// and their coarse curves of several levels too.
+void gives_up_where_it_should() {
     Random random(4);
     const auto gives_up = [](const Curve& P, const Curve& Q) {
         const PackedCurve p(P, RangeScale(1.0), PointOrder::forward);
@@ -220,11 +221,13 @@ void unlike_curves_give_up() {
         DtwPruningRecord record;
         return !dtw_pruned(problem, {}, record).has_value();
     };
-    const Curve loop = test::loops(1000, 2, 2.0, 0.0, false);
-    CHECK(gives_up(random.curve(1000, 2), random.curve(900, 2)));
-    CHECK(gives_up(random.walk(1000), random.walk(900)));
+    CHECK(gives_up(random.curve(1300, 2), random.curve(1200, 2)));
+    CHECK(gives_up(random.walk(1300), random.walk(1200)));
+    const Curve loop = test::loops(20000, 2, 2.0, 0.0, false);
     CHECK(gives_up(loop.part(0, 100), loop.part(0, 90)));
-    CHECK(!gives_up(loop, test::alike(loop, 900, random)));
+    for (const std::ptrdiff_t m : {1200, 1300, 12000, 18000}) {
+        CHECK(!gives_up(loop, test::alike(loop, m, random)));
+    }
 }
 
 }  // namespace
@@ -234,5 +237,5 @@ int main(int argc, char** argv) {
     return check::run({{"random pairs", random_pairs},
                        {"large pairs", large_pairs},
                        {"least distances are bounds", least_distances_are_bounds},
-                       {"unlike curves give up", unlike_curves_give_up}});
+                       {"gives up where it should", gives_up_where_it_should}});
 }

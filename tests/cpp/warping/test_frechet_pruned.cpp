@@ -43,7 +43,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Metric metrics[] = {Metric::sqeuclidean, Metric::cityblock, Metric::chebyshev};
 constexpr std::ptrdiff_t dimensions[] = {1, 2, 2, 2, 3, 4, 7};
 
-std::ptrdiff_t pairs = 1500;  // in each test
+std::ptrdiff_t pairs = 800;  // in each test
 
 Curve empty_curve(std::ptrdiff_t n, std::ptrdiff_t dim) {
     return {std::vector<double>(static_cast<std::size_t>(n * dim)), dim};
@@ -91,9 +91,8 @@ Curve any_curve(std::ptrdiff_t n, std::ptrdiff_t dim, Random& random) {
 }
 
 // Runs of equal points.
-Curve with_plateaus(const Curve& curve, Random& random) {
+Curve with_plateaus(const Curve& curve, std::ptrdiff_t longest, Random& random) {
     Curve result = curve;
-    const std::ptrdiff_t longest = 1 + random.index(80);
     for (std::ptrdiff_t i = 0; i < curve.size();) {
         const std::ptrdiff_t end = std::min(curve.size(), i + 1 + random.index(longest));
         for (std::ptrdiff_t k = i; k < end; ++k) {
@@ -150,9 +149,9 @@ Pair any_pair(Random& random) {
     const std::ptrdiff_t n = any_size(random), m = any_size(random);
     const std::ptrdiff_t dim = dimensions[random.index(std::size(dimensions))];
     Curve P = any_curve(n, dim, random);
-    if (random.index(4) == 0) P = with_plateaus(P, random);
+    if (random.index(4) == 0) P = with_plateaus(P, 1 + random.index(80), random);
     Curve Q = random.index(3) == 0 ? any_curve(m, dim, random) : alike(P, m, random);
-    if (random.index(4) == 0) Q = with_plateaus(Q, random);
+    if (random.index(4) == 0) Q = with_plateaus(Q, 1 + random.index(80), random);
     if (random.index(8) == 0) Q(random.index(m), random.index(dim)) += 100.0;
     if (random.index(8) == 0) P(random.index(n), 0) -= 3.0;
     if (random.index(3) == 0) {
@@ -180,8 +179,22 @@ class Comparison {
         }
     }
 
+    void run_values(Metric metric) const {
+        for (const Level& level : available_levels()) {
+            const check::Note note(level.name);
+            with_problem(level, metric, compare_values);
+        }
+    }
+
    private:
     void compare(const Level& level, Metric metric) const {
+        with_problem(level, metric, [](const SweepProblem& problem) {
+            compare_paths(problem, compare_values(problem));
+        });
+    }
+
+    template <class Use>
+    void with_problem(const Level& level, Metric metric, Use use) const {
         Poller poller(nullptr);
         SweepMemory memory;
         const SweepProblem problem{*level.kernels,
@@ -194,7 +207,11 @@ class Comparison {
                                    1,
                                    poller,
                                    memory};
-        const double expected = last_row(problem)[columns_.size() - 1];
+        use(problem);
+    }
+
+    static double compare_values(const SweepProblem& problem) {
+        const double expected = last_row(problem)[problem.curves.columns() - 1];
         CHECK_EQUAL(pruned(problem, infinity), expected);
         CHECK_EQUAL(pruned(problem, expected), expected);
         CHECK_EQUAL(pruned(problem, expected * 1.3), expected);
@@ -202,7 +219,7 @@ class Comparison {
             CHECK_EQUAL(pruned(problem, std::nextafter(expected, 0.0)), infinity);
             CHECK_EQUAL(pruned(problem, expected * 0.7), infinity);
         }
-        compare_paths(problem, expected);
+        return expected;
     }
 
     static double pruned(const SweepProblem& problem, double cutoff) {
@@ -246,6 +263,104 @@ void random_pairs() {
     }
 }
 
+// Runs of equal points, most of them longer than a block, whose coordinates are `base` and a few
+// units in the last place of 1.
+Curve steps_of_an_ulp(std::ptrdiff_t n, std::ptrdiff_t dim, double base, Random& random) {
+    Curve curve = empty_curve(n, dim);
+    for (std::ptrdiff_t i = 0; i < n;) {
+        const std::ptrdiff_t end = std::min(n, i + 1 + random.index(250));
+        for (std::ptrdiff_t c = 0; c < dim; ++c) {
+            const double value = base + 0x1p-52 * static_cast<double>(random.index(4));
+            for (std::ptrdiff_t k = i; k < end; ++k) curve(k, c) = value;
+        }
+        i = end;
+    }
+    return curve;
+}
+
+// Ground distances that are equal or differ in their last bits, in whole blocks: what is free, what
+// is blocked and what is neither hangs on a bit. Long steps, so that the distance is often above
+// the lower bound and values pass through free blocks.
+void bounds_that_are_met() {
+    Random random(3);
+    for (std::ptrdiff_t k = 0; k < pairs / 5; ++k) {
+        const check::Note note("pair " + std::to_string(k));
+        const std::ptrdiff_t dim = 1 + random.index(2);
+        const std::ptrdiff_t n = 100 + random.index(700), m = 100 + random.index(700);
+        compare(steps_of_an_ulp(n, dim, 0.0, random), steps_of_an_ulp(m, dim, 1.0, random));
+        compare(with_plateaus(random.lattice_curve(n, dim), 250, random),
+                with_plateaus(random.lattice_curve(m, dim), 250, random));
+    }
+}
+
+// Curves whose table consists of rooms with one ground distance each (chebyshev): runs of equal
+// points, of the given lengths, with a coordinate for each pair of runs.
+using Rooms = std::vector<std::vector<double>>;
+using Lengths = std::vector<std::ptrdiff_t>;
+
+Pair curves_of(const Rooms& rooms, const Lengths& heights, const Lengths& widths) {
+    const std::size_t dim = heights.size() * widths.size();
+    std::vector<double> p, q;
+    for (std::size_t a = 0; a < heights.size(); ++a) {
+        std::vector<double> point(dim, 0.0);
+        for (std::size_t b = 0; b < widths.size(); ++b) {
+            point[a * widths.size() + b] = 0.5 * rooms[a][b];
+        }
+        for (std::ptrdiff_t k = 0; k < heights[a]; ++k)
+            p.insert(p.end(), point.begin(), point.end());
+    }
+    for (std::size_t b = 0; b < widths.size(); ++b) {
+        std::vector<double> point(dim, 0.0);
+        for (std::size_t a = 0; a < heights.size(); ++a) {
+            point[a * widths.size() + b] = -0.5 * rooms[a][b];
+        }
+        for (std::ptrdiff_t k = 0; k < widths[b]; ++k)
+            q.insert(q.end(), point.begin(), point.end());
+    }
+    const auto d = static_cast<std::ptrdiff_t>(dim);
+    return {Curve(p, d), Curve(q, d)};
+}
+
+// Most rooms are free or blocked as a whole; some decide the value. Walls on the borders of blocks,
+// or anywhere.
+Pair maze(Random& random) {
+    const double distances[] = {1.0, 1.0, 1.0, 1.01, 1.02, 1.03, 2.0, 2.0};
+    const std::ptrdiff_t side = random.index(2) == 0 ? 32 : 20 + random.index(30);
+    Lengths heights, widths;
+    for (std::ptrdiff_t k = 3 + random.index(4); k > 0; --k) {
+        heights.push_back((1 + random.index(4)) * side);
+    }
+    for (std::ptrdiff_t k = 3 + random.index(4); k > 0; --k) {
+        widths.push_back((1 + random.index(4)) * side);
+    }
+    Rooms rooms(heights.size(), std::vector<double>(widths.size()));
+    for (std::vector<double>& row : rooms) {
+        for (double& room : row) room = distances[random.index(std::size(distances))];
+    }
+    return curves_of(rooms, heights, widths);
+}
+
+// The only way leads into a free block from the left, in the middle, and out of it below, in the
+// middle; no corner helps. The distance, 1.02, is above the lower bound, 1.
+void turn_in_a_free_block() {
+    constexpr double wall = 2.0;
+    const Rooms rooms = {{1, 1, wall, wall, wall},    {1, wall, wall, wall, wall},
+                         {1, 1.02, 1, 1, wall},       {wall, wall, 1, 1, wall},
+                         {wall, wall, wall, 1, wall}, {wall, wall, wall, 1, 1}};
+    const auto [P, Q] = curves_of(rooms, {32, 32, 32, 32, 32, 32}, {32, 32, 32, 32, 64});
+    Comparison(P, Q).run_values(Metric::chebyshev);
+    Comparison(Q, P).run_values(Metric::chebyshev);
+}
+
+void mazes() {
+    Random random(4);
+    for (std::ptrdiff_t k = 0; k < pairs; ++k) {
+        const check::Note note("pair " + std::to_string(k));
+        const auto [P, Q] = maze(random);
+        Comparison(P, Q).run_values(Metric::chebyshev);
+    }
+}
+
 // On and beside the points where one block ends and the next begins.
 void sizes_around_a_block() {
     Random random(2);
@@ -262,6 +377,9 @@ void sizes_around_a_block() {
 
 int main(int argc, char** argv) {
     if (argc > 1) pairs = std::atol(argv[1]);
-    return check::run(
-        {{"random pairs", random_pairs}, {"sizes around a block", sizes_around_a_block}});
+    return check::run({{"random pairs", random_pairs},
+                       {"bounds that are met", bounds_that_are_met},
+                       {"mazes", mazes},
+                       {"turn in a free block", turn_in_a_free_block},
+                       {"sizes around a block", sizes_around_a_block}});
 }

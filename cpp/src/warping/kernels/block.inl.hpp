@@ -1,6 +1,8 @@
 // Small blocks of the Fréchet table (see block.hpp). Ground distances are computed by the same
 // operations as in the sweep. Included by the kernel of each level, inside its anonymous
-// namespace, after sweep.inl.hpp.
+// namespace.
+
+#include "sweep.inl.hpp"
 
 // Bit k: whether lane k of d is at most lane k of the threshold.
 #if defined(__AVX512F__)

@@ -8,7 +8,6 @@
 
 namespace curvewise::kernels {
 namespace {
-#include "sweep.inl.hpp"
 #include "block.inl.hpp"
 }  // namespace
 
