@@ -291,7 +291,8 @@ def files(effort: Effort) -> list[dict[str, Any]]:
     }
     results = []
     for curves, pairs in sets.items():
-        chosen = [curvewise.normalize(P, Q) for P, Q in pairs[: effort.files]]
+        scaled = (curvewise.normalize(P, Q) for P, Q in pairs[: effort.files])
+        chosen = [(P, Q) for P, Q in scaled]
         for name in MEASURES:
             samplers = {
                 mode: timing.sampler(functools.partial(compute_all, name, chosen, mode))

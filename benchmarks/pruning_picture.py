@@ -99,8 +99,7 @@ def live_cells(distance: Array, most: float) -> Array:
         table[i + 1, j + 1] = step + distance[i, j]
     to_come = [suffix_sums(distance.min(axis=axis)) for axis in (1, 0)]
     slack = 1.0 - sum(distance.shape) * 2.0**-52
-    live: Array = (table[1:, 1:] + np.maximum.outer(*to_come)) * slack <= most
-    return live
+    return np.asarray((table[1:, 1:] + np.maximum.outer(*to_come)) * slack <= most)
 
 
 def suffix_sums(terms: Array) -> Array:
