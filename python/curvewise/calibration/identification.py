@@ -184,7 +184,9 @@ def identify(
         End the search after so many parameter sets.
     method_options : mapping, optional
         Passed on. "de": those of `scipy.optimize.differential_evolution` (popsize, tol, atol,
-        maxiter, ...). "sdrm": gamma_osc, gamma_pan, eta, initial_range, tol, maxiter.
+        maxiter, ...), and stall: (improvement, generations), with which the search ends once the
+        best value has improved by less than that fraction over so many generations, as
+        (0.001, 100) in the paper. "sdrm": gamma_osc, gamma_pan, eta, initial_range, tol, maxiter.
         "nelder-mead": size (of the simplex, 0.1), restarts (5), and scipy's options (xatol,
         fatol, ...). "least_squares": those of `scipy.optimize.least_squares`. "sdrm+de": a
         mapping for each, ``{"sdrm": {...}, "de": {...}}``.
