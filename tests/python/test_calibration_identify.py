@@ -246,3 +246,18 @@ def test_a_missing_package_is_named(monkeypatch, missing):
     monkeypatch.setitem(sys.modules, missing, None)
     with pytest.raises(ImportError, match=rf'needs {missing}: pip install "curvewise\[calib'):
         identify(line, EXPERIMENT, BOUNDS)
+
+
+def mean_difference(P, Q):
+    return np.abs(P - Q).mean()
+
+
+def test_a_measure_of_ones_own(tmp_path):
+    keywords = {"measure": mean_difference, "progress": False, "history": tmp_path / "own.csv"}
+    found = identify(line, EXPERIMENT, BOUNDS, method="de", **keywords)
+    assert found.measure == "mean_difference"
+    assert found.measures["mean_difference"] == found.value
+    assert "mean_difference" in found.summary()
+    assert identify(line, EXPERIMENT, BOUNDS, method="de", **keywords).value == found.value
+    with pytest.raises(ValueError, match="is not a sum of squares"):
+        identify(line, EXPERIMENT, BOUNDS, method="least_squares", measure=mean_difference)

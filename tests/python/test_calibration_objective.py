@@ -246,6 +246,37 @@ def test_objective_can_be_pickled(measure):
     assert pickle.loads(pickle.dumps(objective))(SIMULATION) == objective(SIMULATION)
 
 
+def largest_difference(P, Q, *, coordinate=1):
+    """A measure of the user's own, which refuses curves of other lengths with ValueError."""
+    return np.abs(P[:, coordinate] - Q[:, coordinate]).max()
+
+
+def test_a_measure_of_ones_own():
+    P = np.array([(0.0, 0.0), (1.0, 2.0), (2.0, 0.0)])
+    Q = np.add(P, [0.5, -1.0])
+    assert Objective(P, largest_difference, preset="raw")(Q) == 1.0
+    assert Objective(P, largest_difference, preset="paper")(Q) == 1.0
+    assert Objective(P, largest_difference)(Q) == 0.5  # of the box's height
+    objective = Objective([P, P], largest_difference, weights=[1.0, 2.0], coordinate=0)
+    assert objective([Q, Q]) == 0.25 + 2 * 0.25
+    assert objective.measure == "largest_difference"
+    assert pickle.loads(pickle.dumps(objective))([Q, Q]) == 0.75
+    assert objective.score([Q[:2], Q]).failures[0].startswith("loop 0: operands could not")
+
+
+def test_a_function_of_the_measures_has_its_bits():
+    by_name = Objective(EXPERIMENT, "dtw", step_pattern="symmetric2")
+    by_function = Objective(EXPERIMENT, curvewise.dtw, step_pattern="symmetric2")
+    assert by_function(SIMULATION) == by_name(SIMULATION)
+    assert by_function.failure_value == by_name.failure_value
+
+
+def test_a_measure_of_ones_own_has_no_residuals():
+    objective = Objective(BRANCH, curvewise.mse, preset="raw")
+    with pytest.raises(ValueError, match="measure 'mse' is not a sum of squares"):
+        objective.residuals(BRANCH)
+
+
 def test_series():
     objective = Objective(EXPERIMENT[:, 1], "dtw", preset="raw")
     assert objective(SIMULATION[:, 1]) == curvewise.dtw(EXPERIMENT[:, 1], SIMULATION[:, 1])

@@ -126,7 +126,7 @@ def identify(
     experiments: Any,
     bounds: Mapping[str, tuple[float, float]],
     *,
-    measure: str = "area",
+    measure: str | Callable[..., float] = "area",
     preset: Preset = "scaled",
     method: str = "sdrm+de",
     seed: int = 0,
@@ -176,7 +176,7 @@ def identify(
     history : path-like, optional
         A CSV file to which every evaluation is appended at once. If it exists, the search is
         resumed: it runs again with the evaluations that the file holds looked up instead of
-        computed, and goes on from there.
+        computed, and goes on from there. Of a callable measure it knows the name alone.
     start : mapping of str to float, optional
         Where the search starts: the middle of the bounds if not given; for "de" one member of
         the first population.
@@ -312,7 +312,9 @@ def _result(
     )
 
 
-def _check_method(method: str, measure: str, method_options: dict[str, Any]) -> None:
+def _check_method(
+    method: str, measure: str | Callable[..., float], method_options: dict[str, Any]
+) -> None:
     if method not in METHODS:
         raise ValueError(f"unknown method {method!r}; choose from {', '.join(METHODS)}")
     if method == "least_squares" and measure not in ("curve_length", "sum_of_squares"):

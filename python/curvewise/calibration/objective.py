@@ -58,12 +58,15 @@ class Objective:
     experiments : array_like, shape (n, d), or sequence of such
         One measured curve or several. A list whose items are points or numbers is one curve;
         several series are arrays of shape (n, 1).
-    measure : {"area", "pcm", "frechet", "dtw", "curve_length", "sum_of_squares"}
+    measure : {"area", "pcm", "frechet", "dtw", "curve_length", "sum_of_squares"} or callable
+        A measure by its name, or a function of the experiment, the simulation and the options
+        that returns a float; where it raises ValueError the simulation has failed.
         "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
         the experiment's x: for data with a common x, which must not turn back.
     preset : {"scaled", "paper", "raw"}
         As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
-        that loops, and x and y, count alike; sum_of_squares is raw in the other two.
+        that loops, and x and y, count alike; sum_of_squares and functions are given the curves
+        as they are in the other two.
     weights : sequence of float, optional
         A factor for every loop, not negative; 1 if not given.
     failure_value : float, optional
@@ -81,6 +84,8 @@ class Objective:
     ----------
     experiments : tuple of ndarray
         As given, in float64 and of shape (n, d).
+    measure : str
+        The measure's name; of a callable its ``__name__``, or its type's.
     weights, failure_value, scales : ndarray, shape (loops,)
         The factors; the terms of failed loops; the values, by measure, of simulations that are
         wrong by the loop's height.
@@ -113,7 +118,7 @@ class Objective:
     def __init__(
         self,
         experiments: Any,
-        measure: str = "area",
+        measure: str | Callable[..., float] = "area",
         *,
         preset: Preset = "scaled",
         weights: Sequence[float] | None = None,
@@ -121,13 +126,14 @@ class Objective:
         min_coverage: float = 0.5,
         **options: Any,
     ) -> None:
-        if measure not in MEASURES:
+        if not callable(measure) and measure not in MEASURES:
             raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(MEASURES)}")
         if preset not in PRESETS:
             raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
         if not 0.0 <= min_coverage <= 1.0:
             raise ValueError(f"min_coverage is {min_coverage}; it must be from 0 to 1")
-        self.measure = measure
+        self.measure = _name(measure)
+        self._has_residuals = measure in ("curve_length", "sum_of_squares")
         self.preset = preset
         self.options = dict(options)
         self.min_coverage = min_coverage
@@ -203,7 +209,7 @@ class Objective:
         ValueError
             The measure is not "curve_length" or "sum_of_squares"; as for `score`.
         """
-        if self.measure not in ("curve_length", "sum_of_squares"):
+        if not self._has_residuals:
             raise ValueError(
                 f"measure {self.measure!r} is not a sum of squares; "
                 "least squares needs 'curve_length' or 'sum_of_squares'"
@@ -248,7 +254,7 @@ class _Loop:
         self,
         experiment: Any,
         name: str,
-        measure: str,
+        measure: str | Callable[..., float],
         scaled: bool,
         options: dict[str, Any],
         min_coverage: float,
@@ -325,9 +331,11 @@ class _Loop:
 
 
 def _functions(
-    measure: str, P: Array, options: dict[str, Any]
+    measure: str | Callable[..., float], P: Array, options: dict[str, Any]
 ) -> tuple[Callable[[Array], float | PcmMatch], Callable[[Array], Array]]:
     """Return the measure, and the residuals where it has them, as functions of Q alone."""
+    if callable(measure):
+        return partial(_called, measure, P, options), partial(differences, P)
     if measure == "sum_of_squares":
         if options:
             raise TypeError(f"sum_of_squares has no options, but {', '.join(options)} given")
@@ -338,8 +346,18 @@ def _functions(
     return Prepared(P, cast(MeasureName, measure), **options), residuals
 
 
-def _condition(preset: Preset, measure: str) -> Condition:
-    if measure == "sum_of_squares":
+def _called(function: Callable[..., float], P: Array, options: dict[str, Any], Q: Array) -> float:
+    return float(function(P, Q, **options))
+
+
+def _name(measure: str | Callable[..., float]) -> str:
+    if isinstance(measure, str):
+        return measure
+    return str(getattr(measure, "__name__", type(measure).__name__))
+
+
+def _condition(preset: Preset, measure: str | Callable[..., float]) -> Condition:
+    if callable(measure) or measure == "sum_of_squares":
         return Condition(preset == "scaled", {})
     return PRESETS[preset][measure]
 
