@@ -246,6 +246,38 @@ def test_objective_can_be_pickled(measure):
     assert pickle.loads(pickle.dumps(objective))(SIMULATION) == objective(SIMULATION)
 
 
+OPEN = {"open_begin": True, "open_end": True}
+
+
+@pytest.mark.parametrize("options", [{"open_end": True}, {"open_begin": True}, OPEN])
+def test_part_says_which_curve_dtw_matches_to_a_piece_of_the_other(options):
+    P, Q = EXPERIMENT, SIMULATION[:90]
+    scaled = curvewise.normalize(P, Q)
+    of_experiment = Objective(P, "dtw", **options)
+    of_simulation = Objective(P, "dtw", part="simulation", **options)
+    assert of_experiment(Q) == curvewise.dtw(*scaled, **options)
+    assert of_simulation(Q) == curvewise.dtw(*scaled[::-1], **options)
+    assert of_simulation.part == "simulation"
+
+
+def test_a_piece_of_the_experiment_is_perfect():
+    """Figure 15 of the paper: the whole loop is the test, its first branch is the simulation."""
+    branch = EXPERIMENT[:60]
+    assert Objective(EXPERIMENT, "dtw", part="simulation", open_end=True)(branch) == 0.0
+    objective = Objective(EXPERIMENT, "pcm", part="simulation")
+    assert objective(branch) == 0.0
+    assert objective.failures == 0  # though it has less than min_coverage of the length
+    assert Objective(EXPERIMENT, "pcm").score(branch).failures
+
+
+@pytest.mark.parametrize(
+    ("measure", "options"), [("area", {}), ("dtw", {}), ("curve_length", {}), (np.hypot, {})]
+)
+def test_part_of_a_measure_of_whole_curves_is_refused(measure, options):
+    with pytest.raises(ValueError, match="compares whole curves; part='simulation' needs"):
+        Objective(EXPERIMENT, measure, part="simulation", **options)
+
+
 def largest_difference(P, Q, *, coordinate=1):
     """A measure of the user's own, which refuses curves of other lengths with ValueError."""
     return np.abs(P[:, coordinate] - Q[:, coordinate]).max()

@@ -20,6 +20,7 @@ from ._extra import required
 from .curve_list import as_points, curve_list
 from .evaluations import Evaluations, Finish, Progress, SearchEndedError
 from .history import Evaluation, History, as_records
+from .loop_measure import Measure, Part
 from .methods import METHODS, search
 from .model_pool import Model, ModelPool
 from .objective import Objective
@@ -126,7 +127,7 @@ def identify(
     experiments: Any,
     bounds: Mapping[str, tuple[float, float]],
     *,
-    measure: str | Callable[..., float] = "area",
+    measure: Measure = "area",
     preset: Preset = "scaled",
     method: str = "sdrm+de",
     seed: int = 0,
@@ -139,6 +140,7 @@ def identify(
     weights: Sequence[float] | None = None,
     failure_value: float | None = None,
     min_coverage: float = 0.5,
+    part: Part = "experiment",
     method_options: Mapping[str, Any] | None = None,
     **options: Any,
 ) -> Identification:
@@ -153,7 +155,7 @@ def identify(
         The measured curve, or curves.
     bounds : mapping of str to (low, high)
         The parameters and where to search.
-    measure, preset, weights, failure_value, min_coverage, **options
+    measure, preset, weights, failure_value, min_coverage, part, **options
         The objective: see :class:`Objective`.
     method : {"sdrm+de", "de", "sdrm", "nelder-mead", "least_squares"}
         "de": differential evolution, global. "sdrm": successive linear response surfaces with
@@ -245,6 +247,7 @@ def identify(
         weights=weights,
         failure_value=failure_value,
         min_coverage=min_coverage,
+        part=part,
         **options,
     )
     required("scipy.optimize")
@@ -312,9 +315,7 @@ def _result(
     )
 
 
-def _check_method(
-    method: str, measure: str | Callable[..., float], method_options: dict[str, Any]
-) -> None:
+def _check_method(method: str, measure: Measure, method_options: dict[str, Any]) -> None:
     if method not in METHODS:
         raise ValueError(f"unknown method {method!r}; choose from {', '.join(METHODS)}")
     if method == "least_squares" and measure not in ("curve_length", "sum_of_squares"):
@@ -335,10 +336,13 @@ def _settings(objective: Objective) -> dict[str, Any]:
     digest = hashlib.sha256()
     for curve in objective.experiments:
         digest.update(repr(curve.shape).encode() + curve.tobytes())
+    options = dict(objective.options)
+    if objective.part != "experiment":  # histories from before this option have none
+        options["part"] = objective.part
     return {
         "measure": objective.measure,
         "preset": objective.preset,
-        "options": objective.options,
+        "options": options,
         "weights": objective.weights.tolist(),
         "failure_value": objective.failure_value.tolist(),
         "min_coverage": objective.min_coverage,
@@ -361,6 +365,7 @@ def _measures(objective: Objective, simulations: Any, value: float) -> dict[str,
                 preset=objective.preset,
                 weights=objective.weights.tolist(),
                 min_coverage=objective.min_coverage,
+                part=objective.part if name == "pcm" else "experiment",
             )
         except ValueError:  # e.g. curve_length, raw, of a loop centred on zero
             values[name] = np.nan

@@ -10,19 +10,18 @@ parameters will cure, and that is an error. Cost: that of the measure, for every
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from functools import partial
-from typing import Any, NamedTuple, cast
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import measures as _measures
 from .._curves import Array
-from ..compare import PRESETS, Condition, Preset
-from ..pairwise import MeasureName, Prepared
+from ..compare import PRESETS, Preset
 from ..results import PcmMatch
-from .common_x import check_common_x, differences, squared_differences
+from .common_x import check_common_x
 from .curve_list import as_points, curve_list
+from .loop_measure import Measure, Part, check_part, condition_of, functions, measure_name
 
 __all__ = ["MEASURES", "Objective", "Score"]
 
@@ -77,6 +76,11 @@ class Objective:
         For "pcm": a simulation shorter than this fraction of its experiment's length (both
         scaled) counts as failed, since partial curve mapping scores a piece of the curve well.
         An experiment that is a piece of its simulation is what it is made for, and passes.
+    part : {"experiment", "simulation"}
+        Which curve may be a piece of the other, with "pcm" and with "dtw" that has an open end.
+        "experiment": a test that starts late or stops early, against the whole simulation.
+        "simulation": a model of the first branch alone, against the whole loop; dtw is then that
+        of the simulation to the experiment, and "pcm" has no `min_coverage`.
     **options
         Options of the measure, which override the preset's.
 
@@ -95,8 +99,8 @@ class Objective:
     Raises
     ------
     ValueError
-        An unknown measure, preset or option; an experiment that the measure refuses; a wrong
-        number of weights.
+        An unknown measure, preset, part or option; an experiment that the measure refuses; a
+        wrong number of weights; a part for a measure of whole curves.
     TypeError
         An experiment does not hold real numbers; an option that the measure does not have.
 
@@ -118,12 +122,13 @@ class Objective:
     def __init__(
         self,
         experiments: Any,
-        measure: str | Callable[..., float] = "area",
+        measure: Measure = "area",
         *,
         preset: Preset = "scaled",
         weights: Sequence[float] | None = None,
         failure_value: float | None = None,
         min_coverage: float = 0.5,
+        part: Part = "experiment",
         **options: Any,
     ) -> None:
         if not callable(measure) and measure not in MEASURES:
@@ -132,18 +137,20 @@ class Objective:
             raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
         if not 0.0 <= min_coverage <= 1.0:
             raise ValueError(f"min_coverage is {min_coverage}; it must be from 0 to 1")
-        self.measure = _name(measure)
+        self.measure = measure_name(measure)
         self._has_residuals = measure in ("curve_length", "sum_of_squares")
         self.preset = preset
         self.options = dict(options)
         self.min_coverage = min_coverage
+        self.part = part
         self.failures = 0
-        condition = _condition(preset, measure)
+        condition = condition_of(preset, measure)
         options = {**condition.options, **options}
+        check_part(part, measure, options)
         curves = curve_list(experiments)
         names = ["P"] if len(curves) == 1 else [f"experiments[{i}]" for i in range(len(curves))]
         self._loops = [
-            _Loop(curve, name, measure, condition.scaled, options, min_coverage)
+            _Loop(curve, name, measure, condition.scaled, options, part, min_coverage)
             for curve, name in zip(curves, names, strict=True)
         ]
         self.experiments = tuple(loop.experiment for loop in self._loops)
@@ -254,20 +261,21 @@ class _Loop:
         self,
         experiment: Any,
         name: str,
-        measure: str | Callable[..., float],
+        measure: Measure,
         scaled: bool,
         options: dict[str, Any],
+        part: Part,
         min_coverage: float,
     ) -> None:
         self.experiment = as_points(experiment, name).copy()
-        self._min_coverage = min_coverage
+        self._min_coverage = 0.0 if part == "simulation" else min_coverage
         try:
             (P,) = _measures.normalize(self.experiment)  # refuses what is empty or not finite
             self._box = _box(self.experiment) if scaled else None
             self._P = P if scaled else self.experiment
             if measure == "sum_of_squares":
                 check_common_x(self._P)
-            self._value, self._residuals = _functions(measure, self._P, options)
+            self._value, self._residuals = functions(measure, self._P, options, part)
             # Fails here, not at the first simulation, for an experiment or option it refuses.
             value = self._value(_moved_up(self._P))
             self.scale = value.value if isinstance(value, PcmMatch) else value
@@ -328,38 +336,6 @@ class _Loop:
                 f"min_coverage is {self._min_coverage:g}"
             )
         return match.value
-
-
-def _functions(
-    measure: str | Callable[..., float], P: Array, options: dict[str, Any]
-) -> tuple[Callable[[Array], float | PcmMatch], Callable[[Array], Array]]:
-    """Return the measure, and the residuals where it has them, as functions of Q alone."""
-    if callable(measure):
-        return partial(_called, measure, P, options), partial(differences, P)
-    if measure == "sum_of_squares":
-        if options:
-            raise TypeError(f"sum_of_squares has no options, but {', '.join(options)} given")
-        return partial(squared_differences, P), partial(differences, P)
-    residuals = partial(_measures.curve_length_residuals, P, **options)
-    if measure == "pcm":  # for its coverage
-        return partial(_measures.pcm_match, P, **options), residuals
-    return Prepared(P, cast(MeasureName, measure), **options), residuals
-
-
-def _called(function: Callable[..., float], P: Array, options: dict[str, Any], Q: Array) -> float:
-    return float(function(P, Q, **options))
-
-
-def _name(measure: str | Callable[..., float]) -> str:
-    if isinstance(measure, str):
-        return measure
-    return str(getattr(measure, "__name__", type(measure).__name__))
-
-
-def _condition(preset: Preset, measure: str | Callable[..., float]) -> Condition:
-    if callable(measure) or measure == "sum_of_squares":
-        return Condition(preset == "scaled", {})
-    return PRESETS[preset][measure]
 
 
 def _box(curve: Array) -> tuple[Array, Array]:
