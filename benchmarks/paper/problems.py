@@ -118,6 +118,11 @@ def load_unload_data(*, noise: bool) -> Array:
     return points
 
 
+def load_unload_noisy(deviation: float, draw: int) -> Array:
+    """Return the true cycle with normal noise of our own in f."""
+    return with_noise([load_unload(LOAD_UNLOAD_TRUTH)], deviation, draw)[0]
+
+
 def hardening_bounds() -> Bounds:
     """Return the bounds of Table 2."""
     return {name: (low, high) for name, (low, high) in tables()["table_2_bounds"].items()}
@@ -140,7 +145,7 @@ def paper_parameters(measure: str, *, noise: bool = False) -> dict[str, float]:
 
 
 def with_noise(loops: Sequence[Array], deviation: float, seed: int) -> list[Array]:
-    """Return loops with normal noise of a standard deviation [MPa] added to the stress."""
+    """Return curves with normal noise of a standard deviation added to their y alone."""
     random = np.random.Generator(np.random.PCG64(seed))
     return [
         np.column_stack((loop[:, 0], loop[:, 1] + random.normal(0.0, deviation, len(loop))))

@@ -1,39 +1,40 @@
 """Table 6 made quantitative: what noise and outliers do to each measure, and how smooth it is.
 
 How far the optimum moves, on the load–unload cycle, whose truth is known: many fits to data with
-noise or outliers of its own each, the error of a fit being the area between the fitted and the
-true cycle, as a share of the area under the true one's loading branch. How smooth the landscape
+noise or outliers of its own each, the error of a fit being the mean difference in f from the true
+cycle, as a share of its height. How smooth the landscape
 is, on the five hardening loops, without and with noise: the objective along straight lines
 through the paper's optimum, in random directions; the number of its minima, its variation over
 what one descent and one ascent would have, and its largest step between neighbours. PCM and curve
 length are measured with and without a noise filter before them, area with both treatments of
-crossings.
+crossings, the sum of squares beside them where it applies.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 import numpy as np
-from load_unload import curve_error
+from cycle import SQUARES, Condition, curve_error
+from landscape import smoothness
 from problems import (
     COLOURS,
     Array,
     HardeningModel,
     hardening_bounds,
-    load_unload,
-    load_unload_bounds,
     load_unload_data,
+    load_unload_noisy,
     paper_parameters,
     test_loops,
     with_noise,
 )
 from report import Run, table
-from scipy.signal import find_peaks, savgol_filter
-from studies import Effort, Found, Task, identify_all
+from scipy.signal import savgol_filter
+from studies import Effort, Found, evolution, identify_all
 
 from curvewise.calibration import Objective
 
@@ -53,6 +54,12 @@ class Variant:
         """Return the test as it is fitted; `window` is the filter's, in points."""
         return filtered(test, window) if self.filtered else test
 
+    def condition(self) -> Condition:
+        """Return what is minimised on the load–unload cycle."""
+        if self.measure == "sum_of_squares":
+            return SQUARES
+        return Condition(self.measure, self.measure, options=self.options)
+
 
 VARIANTS = {
     "Area": Variant("area"),
@@ -64,6 +71,10 @@ VARIANTS = {
     "Curve length": Variant("curve_length"),
     "Curve length, filtered": Variant("curve_length", filtered=True),
 }
+# The sum of squares needs the simulation's x to be the test's: of the load–unload cycle alone.
+SHIFTED = {"Sum of squares": Variant("sum_of_squares"), **VARIANTS}
+EFFORT: Effort = {"de": evolution(10, 150, tol=1e-6), "nelder-mead": {"restarts": 3}}
+QUICK: Effort = {"de": evolution(4, 12), "nelder-mead": {"restarts": 0, "maxfev": 100}}
 
 
 def filtered(test: Array, window: int) -> Array:
@@ -79,24 +90,19 @@ def filtered(test: Array, window: int) -> Array:
     return np.column_stack((test[:, 0], np.concatenate(y)))
 
 
-def noisy(deviation: float, random: np.random.Generator) -> Array:
-    """Return the cycle with normal noise in y."""
-    data = load_unload_data(noise=False)
-    data[:, 1] += random.normal(0.0, deviation, len(data))
-    return data
-
-
-def outlying(count: int, random: np.random.Generator) -> Array:
-    """Return the cycle with some points moved up or down."""
+def outlying(count: int, number: int) -> Array:
+    """Return the cycle with some points moved up or down, the same in every run."""
+    random = np.random.Generator(np.random.PCG64([count, number]))
     data = load_unload_data(noise=False)
     which = random.choice(len(data), count, replace=False)
     data[which, 1] += OUTLIER * random.choice((-1.0, 1.0), count)
     return data
 
 
-CASES: dict[str, Callable[[np.random.Generator], Array]] = {
-    "noise 0.01": partial(noisy, 0.01),
-    "noise 0.05": partial(noisy, 0.05),
+CASES: dict[str, Callable[[int], Array]] = {
+    "noise 0.01": partial(load_unload_noisy, 0.01),
+    "noise 0.05": partial(load_unload_noisy, 0.05),
+    "noise 0.2236": partial(load_unload_noisy, math.sqrt(0.05)),
     "1 outlier": partial(outlying, 1),
     "5 outliers": partial(outlying, 5),
 }
@@ -119,34 +125,24 @@ def main() -> None:
     draw(run, scans, list(tests))
 
 
-def sample(case: str, number: int) -> Array:
-    """Return one set of data of a case, the same in every run."""
-    return CASES[case](np.random.Generator(np.random.PCG64([list(CASES).index(case), number])))
-
-
 def shifts(run: Run, samples: int) -> dict[tuple[str, str], list[Found]]:
     """Return the fits of every variant to all data of every case."""
-    quick = Effort("de", popsize=8, generations=25, restarts=1, evaluations=400)
-    effort = quick if run.quick else Effort("de", popsize=20, generations=150)
+    effort = QUICK if run.quick else EFFORT
     tasks = {
-        (name, case, number): Task(
-            f"table6_{name}_{case}_{number}".replace(" ", "_").replace(",", ""),
-            load_unload,
-            [variant.prepared(sample(case, number), 21)],
-            load_unload_bounds(),
-            variant.measure,
+        (name, case, number): variant.condition().task(
+            f"{name}: {case}, {number}",
+            variant.prepared(CASES[case](number), 21),
+            effort,
             seed=number,
-            effort=effort,
-            options=variant.options,
         )
-        for name, variant in VARIANTS.items()
+        for name, variant in SHIFTED.items()
         for case in CASES
         for number in range(samples)
     }
-    found = identify_all(list(tasks.values()), run.histories, run.options.workers)
+    found = identify_all(list(tasks.values()), run.store("table6"), run.options.workers)
     return {
         (name, case): [found[tasks[name, case, k].name] for k in range(samples)]
-        for name in VARIANTS
+        for name in SHIFTED
         for case in CASES
     }
 
@@ -154,10 +150,10 @@ def shifts(run: Run, samples: int) -> dict[tuple[str, str], list[Found]]:
 def shift_table(fits: Mapping[tuple[str, str], list[Found]]) -> str:
     """Return the median error of the fitted cycle, and the worst."""
     rows = []
-    for name in VARIANTS:
+    for name in SHIFTED:
         cells = []
         for case in CASES:
-            errors = [100 * curve_error(fit) for fit in fits[name, case]]
+            errors = [100 * curve_error(fit.parameters) for fit in fits[name, case]]
             cells.append(f"{np.median(errors):.2f} ({max(errors):.2f})")
         rows.append([name, *cells])
     return table(["error in %, median (worst)", *CASES], rows)
@@ -191,20 +187,6 @@ def scan(
         **variant.options,
     )
     return [np.array([objective(loops) for loops in line]) for line in simulations]
-
-
-def smoothness(values: Array) -> tuple[int, float, float]:
-    """Return the number of minima, the relative variation and the largest step of a scan.
-
-    A minimum counts if both its sides rise by 0.1 % of the range; the variation is 1 for one
-    descent and one ascent; the step is a share of the range.
-    """
-    extent = np.ptp(values)
-    padded = np.concatenate(([np.inf], values, [np.inf]))  # a minimum may be at an end
-    minima, _ = find_peaks(-np.minimum(padded, values.max() + extent), prominence=1e-3 * extent)
-    ends = values[0] + values[-1] - 2 * values.min()
-    steps = np.abs(np.diff(values))
-    return len(minima), float(steps.sum() / ends), float(steps.max() / extent)
 
 
 def smoothness_table(scans: Mapping[tuple[str, str], list[Array]], cases: list[str]) -> str:
