@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from hardening import CLEAN, fits, model, noisy, tests
+from hardening import CLEAN, NOISE, fits, model, noisy, tests
 from problems import COLOURS, LOOPS, MEASURES, TITLES, Array, paper_parameters, test_loops
 from report import Run, legend_below
 
@@ -51,7 +51,7 @@ def draw_unfitted(run: Run) -> None:
         panel.set(**LABELS)
     peak = test[np.argmax(test[:, 1])]
     detail.set_xlim(peak[0] - 0.004, peak[0] + 0.0005)
-    detail.set_ylim(0.75 * peak[1], 1.1 * peak[1])
+    detail.set_ylim(0.9 * peak[1], 1.03 * peak[1])
     whole.set_title("Loop 3")
     detail.set_title("Its points: no strain in common")
     whole.legend(frameon=False)
@@ -59,7 +59,7 @@ def draw_unfitted(run: Run) -> None:
 
 
 def draw_noise(run: Run) -> None:
-    """Draw figure 12: the tests, and with the noise of the tables."""
+    """Draw figure 12: the tests, and with the noise of the tables; signal over noise above."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(13, 3.4), layout="constrained")
@@ -67,7 +67,10 @@ def draw_noise(run: Run) -> None:
     for k, (panel, clean, rough) in enumerate(zip(panels, tests(CLEAN), tests(NOISY), strict=True)):
         panel.plot(*rough.T, ".", color="#D55E00", markersize=3, label="with noise of 35 MPa")
         panel.plot(*clean.T, color="black", linewidth=1, label="test")
-        panel.set(title=f"Loop {k + 1}", xlabel="strain")
+        signal = np.abs(clean[:, 1]).mean()
+        ratios = [f"{signal / NOISE[case]:.1f}" for case in ("35", "5.9")]
+        panel.set_title(f"Loop {k + 1}: {ratios[0]}\n({ratios[1]} at √35 MPa)", fontsize="medium")
+        panel.set_xlabel("strain")
     panels[0].set_ylabel(LABELS["ylabel"])
     legend_below(figure, panels[0])
     run.picture("figure_12", figure)
@@ -98,15 +101,14 @@ def draw_alone(
     """Draw figures 20 to 29: the five loops and the response of one optimum."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(13, 3.2), layout="constrained")
-    figure.suptitle(TITLES[measure])
+    figure = Figure(figsize=(13, 3.4), layout="constrained")
     panels = figure.subplots(1, len(LOOPS), sharey=True)
     for k, panel in enumerate(panels):
         draw_test(panel, k, loops[k])
-        panel.plot(*response[k].T, color=COLOURS[measure], linewidth=1.2, label="response")
+        panel.plot(*response[k].T, color=COLOURS[measure], linewidth=1.2, label=TITLES[measure])
         panel.set_xlabel(LABELS["xlabel"])
     panels[0].set_ylabel(LABELS["ylabel"])
-    panels[0].legend(frameon=False, loc="upper left")
+    legend_below(figure, panels[0])
     run.picture(name, figure)
 
 

@@ -66,14 +66,14 @@ def draw_mapping(run: Run) -> None:
     x = np.linspace(0, 1, 30)
     longer = np.column_stack((x, np.sin(3 * x)))
     shorter = np.column_stack((0.15 + 0.6 * x[::3], np.sin(3 * (0.12 + 0.6 * x[::3])) - 0.15))
-    draw(run, "figure_03", lambda panel: plotting.plot_pcm(longer, shorter, panel))
+    draw(run, "figure_03", plotting.plot_pcm, longer, shorter)
 
 
 def draw_quads(run: Run) -> None:
     """Draw figure 4: five points against four, the longest segment of which is bisected."""
     test = np.array([(0, 0), (1, 1.6), (2, 2.6), (3, 3.1), (4, 3.3)])
     model = np.array([(0.3, -0.2), (1.4, 1.2), (2.3, 1.9), (4.2, 2.4)])
-    draw(run, "figure_04", lambda panel: plotting.plot_area(test, model, panel))
+    draw(run, "figure_04", plotting.plot_area, test, model)
 
 
 def draw_warping(run: Run) -> None:
@@ -99,16 +99,17 @@ def draw_lengths(run: Run) -> None:
     x = np.linspace(0, 1, 14)
     test = np.column_stack((x, np.sqrt(x)))
     model = np.column_stack((1.05 * x[::2], 0.85 * np.sqrt(x[::2]) + 0.02))
-    draw(run, "figure_06", lambda panel: plotting.plot_curve_length(test, model, panel))
+    draw(run, "figure_06", plotting.plot_curve_length, test, model)
 
 
-def draw(run: Run, name: str, measure: Callable[..., object]) -> None:
-    """Draw what a measure sees into a picture of its own."""
+def draw(run: Run, name: str, picture: Callable[..., object], P: Array, Q: Array) -> None:
+    """Draw what a measure sees into a picture of its own, with the points of both curves."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(5.5, 4), layout="constrained")
     panel = figure.subplots()
-    measure(panel)
+    picture(P, Q, panel)
+    panel.plot(*np.concatenate((P, Q)).T, ".", color="black", markersize=5, label="points")
     panel.legend(frameon=False)
     run.picture(name, figure)
 

@@ -40,6 +40,8 @@ from problems import (
 from report import Run, table
 from studies import Found
 
+import curvewise
+
 COLUMNS = [TITLES[m] for m in MEASURES]
 
 
@@ -190,22 +192,15 @@ def fit_table(found: Mapping[str, Mapping[str, Found]], names: Mapping[str, Sequ
             responses = [model()(found[name][measure].parameters) for name in several]
             areas = [all_measures(test_loops(), response)["area"] for response in responses]
             cells.append(f"{np.mean(areas):.1f}")
-        lengths = [curve_growth(tests(name)) for name in (noisy("5.9", 0), noisy("35", 0))]
         rows.append([TITLES[measure], *cells])
     header = ["area to the tests without noise", "fitted to them", "noise 5.9", "noise 35 MPa"]
-    growth = ", ".join(f"{low:.2f} to {high:.2f}" for low, high in lengths)
-    note = f"Length of a noisy test over that of the clean one, scaled: {growth} times."
+    cover = []
+    for name in (noisy("5.9", 0), noisy("35", 0)):
+        pairs = zip(tests(name), test_loops(), strict=True)
+        shares = [curvewise.pcm_match(P, Q).coverage for P, Q in pairs]
+        cover.append(f"{min(shares):.2f} to {max(shares):.2f}")
+    note = f"Length of the clean tests over that of the noisy ones, scaled: {', '.join(cover)}."
     return f"{table(header, rows)}\n\n{note}"
-
-
-def curve_growth(noisy_loops: Sequence[Array]) -> tuple[float, float]:
-    """Return by what factor noise lengthens the loops, in their own boxes: smallest, largest."""
-    ratios = []
-    for clean, loop in zip(test_loops(), noisy_loops, strict=True):
-        extent = np.ptp(clean, axis=0)
-        lengths = [np.hypot(*(np.diff(c, axis=0) / extent).T).sum() for c in (loop, clean)]
-        ratios.append(lengths[0] / lengths[1])
-    return min(ratios), max(ratios)
 
 
 def stress(loops: Sequence[Array]) -> Array:

@@ -7,7 +7,7 @@ valley; Nelder–Mead after both.
 
 from __future__ import annotations
 
-from hardening import model, paper_values, parameter_error
+from hardening import SDRM, model, paper_values, parameter_error
 from problems import MEASURES, TITLES, hardening_bounds
 from report import Run, table
 from studies import Effort, Found, Task, evolution, identify_all
@@ -24,9 +24,9 @@ TRUTH = {
     "C2": 0.25,
 }
 EVOLUTION = evolution(5, 250)
-LOCAL = {"restarts": 10}
+LOCAL = {"restarts": 4}
 EFFORTS: dict[str, Effort] = {
-    "SDRM, DE": {"sdrm": {}, "de": EVOLUTION, "nelder-mead": LOCAL},
+    "SDRM, DE": {"sdrm": SDRM, "de": EVOLUTION, "nelder-mead": LOCAL},
     "DE": {"de": EVOLUTION, "nelder-mead": LOCAL},
 }
 QUICK_STAGES = {

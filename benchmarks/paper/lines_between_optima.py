@@ -80,7 +80,7 @@ def draw(run: Run, name: str, title: str, lines: Sequence[LinePlot]) -> None:
             style = {"color": COLOURS[measure], "linewidth": 1.1}
             panel.plot(line.data.t, scaled, label=TITLES[measure], **style)
         panel.set_title(f"{TITLES[a]} (0) to {TITLES[b]} (1)", fontsize="medium")
-    figure.supxlabel("position on the line")
+    panels[7].set_xlabel("position on the line")
     figure.supylabel("objective, by Eq. 12")
     legend_below(figure, panels[0])
     run.picture(name, figure)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 EXAMPLES = {
     "convex": [(0, 0), (4, 0.3), (3.4, 3), (0.5, 2.6)],
     "concave": [(0, 0), (4, 0.2), (1.6, 1.2), (1, 3)],
-    "complex": [(0, 0), (3.6, 2.8), (4, 0.3), (0.4, 2.4)],
+    "complex": [(0, 0), (0.4, 2.4), (4, 0.3), (3.6, 2.8)],
 }
 
 
@@ -142,7 +142,8 @@ def draw_quad(panel: Axes, corners: Sequence[tuple[float, float]], names: Sequen
     panel.fill(*closed.T, color="0.88")
     panel.plot(*closed.T, "o-", color="black", markersize=4, linewidth=1.2)
     for corner, name in zip(corners, names, strict=True):
-        panel.annotate(name, corner, textcoords="offset points", xytext=(5, 5))
+        beside = (-10, -4) if corner[0] < 2 else (6, -4)
+        panel.annotate(name, corner, textcoords="offset points", xytext=beside)
     panel.margins(0.15)
     panel.set_axis_off()
 
