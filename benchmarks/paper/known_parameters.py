@@ -23,7 +23,7 @@ TRUTH = {
     "C1": 0.03,
     "C2": 0.25,
 }
-EVOLUTION = evolution(5, 250)
+EVOLUTION = evolution(5, 200)
 LOCAL = {"restarts": 4}
 EFFORTS: dict[str, Effort] = {
     "SDRM, DE": {"sdrm": SDRM, "de": EVOLUTION, "nelder-mead": LOCAL},

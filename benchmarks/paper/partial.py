@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from cycle import curve_error, parameter_error
+from noise_filter import filtered
 from problems import (
     LOAD_UNLOAD_TRUTH,
     LOOPS,
@@ -26,7 +27,6 @@ from problems import (
 )
 from report import Run, table
 from studies import Effort, Found, Task, evolution, identify_all
-from table6 import filtered
 
 import curvewise
 from curvewise.calibration import Objective
@@ -65,7 +65,7 @@ QUICK: Effort = {"de": evolution(4, 10), "nelder-mead": {"restarts": 0, "maxfev"
 
 def main() -> None:
     """Compare branches, identify from pieces, cut the simulation, print, draw, write."""
-    run = Run(__doc__, workers=1, seeds=4)
+    run = Run(__doc__, workers=1, seeds=2)
     run.section("figure_15", branch_table())
     draw_branch(run)
     run.section("partial_branch", branch_fit_table(branch_fits(run)))

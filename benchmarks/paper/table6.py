@@ -21,11 +21,15 @@ from typing import Any
 import numpy as np
 from cycle import SQUARES, Condition, curve_error
 from landscape import smoothness
+from noise_filter import filtered
+from partial import first_branch
 from problems import (
     COLOURS,
+    LOAD_UNLOAD_TRUTH,
     Array,
     HardeningModel,
     hardening_bounds,
+    load_unload,
     load_unload_data,
     load_unload_noisy,
     paper_parameters,
@@ -33,8 +37,7 @@ from problems import (
     with_noise,
 )
 from report import Run, table
-from scipy.signal import savgol_filter
-from studies import Effort, Found, evolution, identify_all
+from studies import Effort, Found, Task, evolution, identify_all
 
 from curvewise.calibration import Objective
 
@@ -71,24 +74,18 @@ VARIANTS = {
     "Curve length": Variant("curve_length"),
     "Curve length, filtered": Variant("curve_length", filtered=True),
 }
+WORDS = {
+    "Area": ("no", "good", "good", "smooth"),
+    "PCM": ("yes", "poor", "poor", "non-smooth"),
+    "Fréchet": ("no", "fair", "poor", "non-smooth"),
+    "DTW": ("see [42]", "good", "good", "less smooth"),
+    "Curve length": ("no", "fair", "good", "smooth"),
+}
 # The sum of squares needs the simulation's x to be the test's: of the load–unload cycle alone.
 SHIFTED = {"Sum of squares": Variant("sum_of_squares"), **VARIANTS}
 # PCM's optimum lies beside plateaus: a small population misses it.
 MEMBERS = {"pcm": 25}
 QUICK: Effort = {"de": evolution(4, 12), "nelder-mead": {"restarts": 0, "maxfev": 100}}
-
-
-def filtered(test: Array, window: int) -> Array:
-    """Return a curve with a Savitzky–Golay filter over y, branch by branch.
-
-    A filter across a turning point would round it off.
-    """
-    direction = np.sign(np.diff(test[:, 0]))
-    moving = np.flatnonzero(direction)
-    turns = moving[1:][np.diff(direction[moving]) != 0]
-    branches = np.split(test[:, 1], turns)
-    y = [savgol_filter(branch, window, 2, mode="interp") for branch in branches]
-    return np.column_stack((test[:, 0], np.concatenate(y)))
 
 
 def outlying(count: int, number: int) -> Array:
@@ -111,10 +108,11 @@ CASES: dict[str, Callable[[int], Array]] = {
 
 def main() -> None:
     """Fit, scan, print, draw, write."""
-    run = Run(__doc__, workers=1, samples=10, lines=12)
+    run = Run(__doc__, workers=1, samples=5, lines=12)
     samples = 1 if run.quick else run.options.samples
     lines = 3 if run.quick else run.options.lines
-    run.section("table6_shift", shift_table(shifts(run, samples)))
+    found = shifts(run, samples)
+    run.section("table6_shift", shift_table(found))
     tests = {"no noise": test_loops(), "noise 35 MPa": with_noise(test_loops(), 35.0, seed=0)}
     simulations = simulated_lines(lines, 51 if run.quick else 501)
     scans = {
@@ -123,28 +121,57 @@ def main() -> None:
         for case, loops in tests.items()
     }
     run.section("table6_smoothness", smoothness_table(scans, list(tests)))
+    run.section("table6", word_table(found, scans, list(tests)))
     draw(run, scans, list(tests))
 
 
 def shifts(run: Run, samples: int) -> dict[tuple[str, str], list[Found]]:
-    """Return the fits of every variant to all data of every case."""
-    tasks = {
-        (name, case, number): variant.condition().task(
-            f"{name}: {case}, {number}",
-            variant.prepared(CASES[case](number), 21),
-            QUICK if run.quick else effort(variant.measure),
-            seed=number,
-        )
-        for name, variant in SHIFTED.items()
-        for case in CASES
-        for number in range(samples)
-    }
-    found = identify_all(list(tasks.values()), run.store("table6"), run.options.workers)
+    """Return the fits of every variant to all data of every case.
+
+    A search that ends above the value of the true parameters has not found the optimum, and is
+    begun again with another seed, three times at most.
+    """
+    keys = [(name, case, number) for name in SHIFTED for case in CASES for number in range(samples)]
+    found: dict[tuple[str, str, int], Found] = {}
+    for attempt in range(4):
+        missed = [key for key in keys if key not in found or is_missed(key, found[key])]
+        tasks = {key: task(run, *key, attempt) for key in missed}
+        again = identify_all(list(tasks.values()), run.store("table6"), run.options.workers)
+        for key, one in tasks.items():
+            fits = [found[key]] if key in found else []
+            found[key] = min([*fits, again[one.name]], key=lambda fit: fit.value)
     return {
-        (name, case): [found[tasks[name, case, k].name] for k in range(samples)]
+        (name, case): [found[name, case, k] for k in range(samples)]
         for name in SHIFTED
         for case in CASES
     }
+
+
+def task(run: Run, name: str, case: str, number: int, attempt: int) -> Task:
+    """Return one identification of the load–unload cycle."""
+    variant = SHIFTED[name]
+    again = f", attempt {attempt}" if attempt else ""
+    return variant.condition().task(
+        f"{name}: {case}, {number}{again}",
+        variant.prepared(CASES[case](number), 21),
+        QUICK if run.quick else effort(variant.measure),
+        seed=number + 100 * attempt,
+    )
+
+
+def is_missed(key: tuple[str, str, int], fit: Found) -> bool:
+    """Return whether the true parameters are better, by 0.1 % at least, than what was found."""
+    name, case, number = key
+    variant = SHIFTED[name]
+    condition = variant.condition()
+    objective = Objective(
+        variant.prepared(CASES[case](number), 21),
+        condition.measure,
+        preset=condition.preset,
+        min_coverage=0.0,
+        **condition.options,
+    )
+    return objective(load_unload(LOAD_UNLOAD_TRUTH)) < 0.999 * fit.value
 
 
 def effort(measure: str) -> Effort:
@@ -212,6 +239,41 @@ def smoothness_table(scans: Mapping[tuple[str, str], list[Array]], cases: list[s
     return table(
         ["landscape", *(f"{column}, {case}" for case in cases for column in columns)], rows
     )
+
+
+def word_table(
+    found: Mapping[tuple[str, str], list[Found]],
+    scans: Mapping[tuple[str, str], list[Array]],
+    cases: list[str],
+) -> str:
+    """Return the words of the paper's Table 6, each beside the number that it is about."""
+    rows = []
+    for name, words in WORDS.items():
+        variant = VARIANTS[name]
+        options = {"preset": "paper", "min_coverage": 0.0, **variant.options}
+        loop = test_loops()[4]
+        branch = Objective(loop, variant.measure, **options)(first_branch(loop))
+        errors = {
+            case: np.median([100 * curve_error(fit.parameters) for fit in found[name, case]])
+            for case in ("noise 0.05", "noise 0.2236", "1 outlier", "5 outliers")
+        }
+        minima = [np.mean([smoothness(v)[0] for v in scans[name, case]]) for case in cases]
+        numbers = (
+            f"{branch:.3g}",
+            f"{errors['noise 0.05']:.1f}, {errors['noise 0.2236']:.1f} %",
+            f"{errors['1 outlier']:.1f}, {errors['5 outliers']:.1f} %",
+            f"{minima[0]:.1f}, {minima[1]:.1f}",
+        )
+        cells = [f"*{word}*: {value}" for word, value in zip(words, numbers, strict=True)]
+        rows.append([name, *cells])
+    header = [
+        "*Table 6*: ours",
+        "partial matching: loop 5 against its first branch",
+        "noise: error at σ = 0.05, 0.2236",
+        "outliers: error with 1, 5",
+        "shape: minima on a line, no noise, 35 MPa",
+    ]
+    return table(header, rows)
 
 
 def draw(run: Run, scans: Mapping[tuple[str, str], list[Array]], cases: list[str]) -> None:
