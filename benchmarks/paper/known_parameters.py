@@ -7,6 +7,8 @@ valley; Nelder–Mead after both.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from hardening import SDRM, model, paper_values, parameter_error
 from problems import MEASURES, TITLES, hardening_bounds
 from report import Run, table
@@ -23,12 +25,7 @@ TRUTH = {
     "C1": 0.03,
     "C2": 0.25,
 }
-EVOLUTION = evolution(5, 200)
-LOCAL = {"restarts": 4}
-EFFORTS: dict[str, Effort] = {
-    "SDRM, DE": {"sdrm": SDRM, "de": EVOLUTION, "nelder-mead": LOCAL},
-    "DE": {"de": EVOLUTION, "nelder-mead": LOCAL},
-}
+SEARCHES = {"SDRM, DE": ("sdrm", "de", "nelder-mead"), "DE": ("de", "nelder-mead")}
 QUICK_STAGES = {
     "sdrm": {"maxiter": 1},
     "de": evolution(2, 3),
@@ -43,7 +40,7 @@ def main() -> None:
     run.section("hardening_virtual", virtual_table(found))
     if run.quick:
         return
-    lost = [m for m in MEASURES if min(final_error(found[e, m]) for e in EFFORTS) > 1e-3]
+    lost = [m for m in MEASURES if min(final_error(found[e, m]) for e in SEARCHES) > 1e-3]
     if lost:
         raise SystemExit(f"known parameters not found to 0.1 % of their range: {', '.join(lost)}")
 
@@ -57,13 +54,26 @@ def fits(run: Run) -> dict[tuple[str, str], Found]:
             model()(TRUTH),
             hardening_bounds(),
             measure,
-            {method: QUICK_STAGES[method] for method in effort} if run.quick else effort,
+            stages(methods, measure, quick=run.quick),
         )
-        for name, effort in EFFORTS.items()
+        for name, methods in SEARCHES.items()
         for measure in MEASURES
     }
     found = identify_all(list(tasks.values()), run.store("hardening"), run.options.workers)
     return {key: found[task.name] for key, task in tasks.items()}
+
+
+def stages(methods: Sequence[str], measure: str, *, quick: bool) -> Effort:
+    """Return the options of each stage; Fréchet, of many valleys, has a larger population."""
+    if quick:
+        return {method: QUICK_STAGES[method] for method in methods}
+    members, generations = (10, 300) if measure == "frechet" else (5, 200)
+    options = {
+        "sdrm": SDRM,
+        "de": evolution(members, generations),
+        "nelder-mead": {"restarts": 10 if measure == "frechet" else 4},
+    }
+    return {method: options[method] for method in methods}
 
 
 def final_error(found: Found) -> float:
