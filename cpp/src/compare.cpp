@@ -28,7 +28,10 @@ Conditions conditions(Preset preset) {
     Conditions result{};
     result.scales_planar = preset == Preset::scaled;
     result.scales_tables = preset != Preset::raw;
-    if (preset == Preset::scaled) result.curve_length.scale = LengthScale::mean_abs;
+    if (preset == Preset::scaled) {
+        result.area.crossing = Crossing::split;
+        result.curve_length.scale = LengthScale::mean_abs;
+    }
     if (preset == Preset::paper) {
         result.area.spacing = Spacing::x;
         result.dtw.step_pattern = StepPattern::symmetric2;
