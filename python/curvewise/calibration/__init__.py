@@ -14,6 +14,8 @@ from .evaluations import Progress
 from .identification import Identification, identify
 from .line_plot import LinePlot, line_plot
 from .objective import MEASURES, Objective, Score
+from .rescoring import Rescored, rescore
+from .store import SimulationStore, StoredRun
 
 __all__ = [
     "MEASURES",
@@ -24,9 +26,13 @@ __all__ = [
     "LinePlot",
     "Objective",
     "Progress",
+    "Rescored",
     "Score",
+    "SimulationStore",
     "SolverError",
+    "StoredRun",
     "cross_validate",
     "identify",
     "line_plot",
+    "rescore",
 ]

@@ -18,9 +18,10 @@ import numpy as np
 from .._curves import Array
 from .curve_list import as_points, curve_list
 from .history import Evaluation, History
-from .model_pool import ModelPool, Outcome
+from .model_pool import Outcome
 from .objective import Objective
 from .parameters import Point, Space
+from .simulator import Simulator
 
 __all__ = ["Evaluations", "Finish", "Progress", "SearchEndedError"]
 
@@ -65,7 +66,7 @@ class Evaluations:
 
     Parameters
     ----------
-    pool, objective, space, history
+    simulator, objective, space, history
         What runs the model, scores it, names the parameters and keeps the record.
     limit : int or None
         How many parameter sets to evaluate at most.
@@ -77,7 +78,7 @@ class Evaluations:
 
     def __init__(
         self,
-        pool: ModelPool,
+        simulator: Simulator,
         objective: Objective,
         space: Space,
         history: History,
@@ -87,7 +88,7 @@ class Evaluations:
         bar: Any,
     ) -> None:
         self.objective = objective
-        self._pool, self._space, self._history = pool, space, history
+        self._simulator, self._space, self._history = simulator, space, history
         self._limit, self._callback, self._bar = limit, callback, bar
         self._done: dict[Point, Evaluation] = {}
         self._units: dict[Point, Array] = {}
@@ -137,7 +138,7 @@ class Evaluations:
     def best_simulations(self) -> Any:
         """Return the simulations at the best point; runs the model again if it has to."""
         if self._best_simulations is None:
-            ((_, outcome),) = self._pool.run([self._space.dictionary(self.best.point)])
+            ((_, outcome),) = self._simulator.run([self._space.dictionary(self.best.point)])
             self._best_simulations = outcome.simulations
         return self._best_simulations
 
@@ -182,16 +183,19 @@ class Evaluations:
         finished: dict[Point, Evaluation] = {}
         simulations: dict[Point, Any] = {}
         for i, point in enumerate(batch):
-            if point in self._history.saved:
-                finished[point] = replace(self._history.saved[point], number=first + i)
+            saved = self._history.saved.get(point)
+            # A file that was written beside a store has no curves; the store has them.
+            if saved is not None and (saved.simulations or saved.failed or not keep_simulations):
+                finished[point] = replace(saved, number=first + i)
         self._bar.update(len(finished))
         missing = [(first + i, p) for i, p in enumerate(batch) if p not in finished]
         parameters = [self._space.dictionary(point) for _, point in missing]
-        for k, outcome in self._pool.run(parameters):
+        for k, outcome in self._simulator.run(parameters):
             number, point = missing[k]
             finished[point] = self._judged(number, point, outcome, keep_simulations)
             simulations[point] = outcome.simulations
-            self._history.write(finished[point])
+            if point not in self._history.saved:
+                self._history.write(finished[point])
             self._bar.update()
         for point in batch:
             self._done[point] = finished[point]

@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -22,11 +23,14 @@ from .curve_list import as_points, curve_list
 from .evaluations import Evaluations, Finish, Progress, SearchEndedError
 from .history import Evaluation, History, as_records
 from .loop_measure import Measure, Part
+from .loop_selection import Selection
 from .methods import METHODS, search
-from .model_pool import Model, ModelPool
+from .model_pool import Model
 from .objective import LEAST_SQUARES, Objective
 from .parameters import Space
 from .pictures import loops_and_convergence
+from .store import StorePath
+from .study import Study, models_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -124,7 +128,7 @@ class Identification:
 
 
 def identify(
-    model: Model,
+    model: Model | Selection,
     experiments: Any,
     bounds: Mapping[str, tuple[float, float]],
     *,
@@ -133,9 +137,12 @@ def identify(
     method: str = "sdrm+de",
     seed: int = 0,
     workers: int = 1,
+    executor: Executor | None = None,
     progress: bool = True,
     callback: Callable[[Progress], Any] | None = None,
     history: str | os.PathLike[str] | None = None,
+    store: StorePath | None = None,
+    version: str | None = None,
     start: Mapping[str, float] | None = None,
     max_evaluations: int | None = None,
     weights: Sequence[float] | None = None,
@@ -172,6 +179,10 @@ def identify(
         Processes in which the model runs at the same time; -1 for one per core. The model must
         be picklable, and a script must have its ``if __name__ == "__main__":``. "nelder-mead"
         asks for one simulation at a time.
+    executor : concurrent.futures.Executor, optional
+        Runs the model in the place of processes of this machine: ``MPIPoolExecutor()``, or
+        ``Client(...).get_executor()`` of dask. It is not shut down. After Ctrl-C nothing more is
+        given to it; what it is running goes on until it ends.
     progress : bool, default True
         Show a progress bar (tqdm).
     callback : callable, optional
@@ -180,6 +191,15 @@ def identify(
         A CSV file to which every evaluation is appended at once. If it exists, the search is
         resumed: it runs again with the evaluations that the file holds looked up instead of
         computed, and goes on from there. Of a callable measure it knows the name alone.
+    store : path-like, optional
+        A file (see :class:`SimulationStore`) with the curves of every run, by model and
+        parameters. Runs that it holds are looked up, for whichever measure, method, weights or
+        fold they were made; new ones are added at once. Several searches may use it at a time.
+    version : str, optional
+        What you call the present state of the model. A store, and a history, take a model of
+        another version for another model. A store needs it for a Python function;
+        :class:`CommandModel`, and any model with an attribute `identity`, says by itself what it
+        is.
     start : mapping of str to float, optional
         Where the search starts: the middle of the bounds if not given; for "de" one member of
         the first population.
@@ -204,7 +224,8 @@ def identify(
     ------
     ValueError
         Wrong bounds, options or experiments; simulations of another number or dimension than the
-        experiments; a history of another search; a model that cannot be pickled (workers > 1).
+        experiments; a history of another search; a model that cannot be pickled (workers > 1); a
+        store for a model without identity or version, or with runs of other code of that version.
     RuntimeError
         No simulation of the first batch has succeeded: the message has the first reason.
     ImportError
@@ -253,6 +274,8 @@ def identify(
     )
     required("scipy.optimize")
     tqdm = required("tqdm.auto").tqdm
+    models, assemble = models_of(model)
+    study = Study(models, assemble, objective, space, store, version, workers, executor)
     settings = {
         **_settings(objective),
         "bounds": space.bounds,
@@ -261,12 +284,14 @@ def identify(
         "seed": seed,
         "start": None if start is None else dict(start),
     }
-    record = History(history, settings, space.names)
+    if (identities := study.identities()) is not None:
+        settings["model"] = identities
+    record = History(history, settings, space.names, keep_simulations=store is None)
     try:
-        with ModelPool(model, workers) as pool:
+        with study.simulator() as simulator:
             with tqdm(total=max_evaluations, unit="run", disable=not progress) as bar:
                 evaluations = Evaluations(
-                    pool,
+                    simulator,
                     objective,
                     space,
                     record,
