@@ -9,7 +9,7 @@ nothing that it sees depends on the number of processes or on what was run befor
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -28,6 +28,10 @@ __all__ = ["Evaluations", "Finish", "Progress", "SearchEndedError"]
 # A fraction of the value of simulations that are wrong by their loops' heights. The smallest value
 # of an objective is 0, for a perfect model, so no tolerance relative to it alone is ever met.
 _NEGLIGIBLE = 1e-7
+
+# Earlier runs give the slopes at a point if none is further away than this, and if their spread in
+# every direction is at least this fraction of their reach.
+_NEAR, _FLATTEST = 0.25, 0.03
 
 _log = logging.getLogger("curvewise.calibration")
 
@@ -74,6 +78,8 @@ class Evaluations:
         Told the progress after every batch; a true result ends the search.
     bar : object
         A tqdm progress bar.
+    known : sequence of (ndarray, Evaluation)
+        Runs of the same models by earlier searches, with their places in the unit cube.
     """
 
     def __init__(
@@ -86,7 +92,9 @@ class Evaluations:
         limit: int | None,
         callback: Callable[[Progress], Any] | None,
         bar: Any,
+        known: Sequence[tuple[Array, Evaluation]] = (),
     ) -> None:
+        self._known = known
         self.objective = objective
         self._simulator, self._space, self._history = simulator, space, history
         self._limit, self._callback, self._bar = limit, callback, bar
@@ -126,6 +134,25 @@ class Evaluations:
     def stage(self, name: str) -> None:
         """Show the name of a stage of the search beside the progress."""
         self._bar.set_description(name)
+
+    def known_near(self, unit: Array) -> tuple[Array, list[Evaluation]] | None:
+        """Return earlier runs around a point that determine the slopes there, if they do.
+
+        The 2 k + 1 nearest that succeeded, if they are within a quarter of the bounds' range and
+        not all in a plane.
+        """
+        k = self.dimensions
+        near = [(place, run) for place, run in self._known if run.simulations is not None]
+        near.sort(key=lambda item: float(np.abs(item[0] - unit).max()))
+        near = near[: 2 * k + 1]
+        if len(near) <= k + 1:
+            return None
+        places = np.array([place for place, _ in near])
+        reach = float(np.abs(places - unit).max())
+        spread = np.linalg.svd((places - places.mean(axis=0)) / reach, compute_uv=False)
+        if reach > _NEAR or spread[-1] < _FLATTEST * np.sqrt(len(near)):
+            return None
+        return places, [run for _, run in near]
 
     def values(self, units: Array) -> Array:
         """Return the objective at points of the unit cube, shape (count, dimensions)."""

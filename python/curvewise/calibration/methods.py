@@ -19,6 +19,7 @@ from ._extra import required
 from .domain_reduction import domain_reduction
 from .evaluations import Evaluations, Finish
 from .nelder_mead import nelder_mead
+from .trust_region import trust_region
 
 __all__ = ["METHODS", "search"]
 
@@ -189,6 +190,7 @@ METHODS: dict[str, dict[str, Callable[..., Finish]]] = {
     "sdrm+de": {"sdrm": domain_reduction, "de": _differential_evolution},
     "de": {"de": _differential_evolution},
     "sdrm": {"sdrm": domain_reduction},
+    "trust-region": {"trust-region": trust_region},
     "nelder-mead": {"nelder-mead": _nelder_mead},
     "least_squares": {"least_squares": _least_squares},
 }

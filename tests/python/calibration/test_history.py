@@ -47,7 +47,7 @@ def assert_same(one, other):
 
 
 @pytest.mark.parametrize("workers", [1, 2])
-@pytest.mark.parametrize("method", ["sdrm+de", "least_squares", "nelder-mead"])
+@pytest.mark.parametrize("method", ["sdrm+de", "trust-region", "least_squares", "nelder-mead"])
 def test_a_finished_search_is_replayed_from_its_file(tmp_path, method, workers):
     keywords = {"measure": "curve_length", "method": method, "progress": False}
     if method == "sdrm+de":

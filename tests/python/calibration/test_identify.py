@@ -86,7 +86,7 @@ def test_same_seed_same_result_and_another_seed_another():
     assert not np.array_equal(found[0].history.a, found[2].history.a)
 
 
-@pytest.mark.parametrize("method", ["sdrm+de", "nelder-mead", "least_squares"])
+@pytest.mark.parametrize("method", ["sdrm+de", "trust-region", "nelder-mead", "least_squares"])
 def test_result_does_not_depend_on_the_number_of_processes(method):
     keywords = {"measure": "curve_length", "method": method, "progress": False}
     if method == "sdrm+de":
