@@ -15,7 +15,9 @@ from .identification import Identification, identify
 from .line_plot import LinePlot, line_plot
 from .objective import MEASURES, Objective, Score
 from .rescoring import Rescored, rescore
+from .several_measures import SeveralMeasures, identify_each
 from .store import SimulationStore, StoredRun
+from .uncertainty import Uncertainty
 
 __all__ = [
     "MEASURES",
@@ -28,11 +30,14 @@ __all__ = [
     "Progress",
     "Rescored",
     "Score",
+    "SeveralMeasures",
     "SimulationStore",
     "SolverError",
     "StoredRun",
+    "Uncertainty",
     "cross_validate",
     "identify",
+    "identify_each",
     "line_plot",
     "rescore",
 ]

@@ -120,6 +120,12 @@ class Evaluations:
         return list(self._done.values())
 
     @property
+    def kept(self) -> tuple[tuple[Array, Evaluation], ...]:
+        """Every evaluation whose curves are known, earlier searches' too, with its place."""
+        own = [(self._units[point], e) for point, e in self._done.items() if e.simulations]
+        return (*self._known, *own)
+
+    @property
     def best(self) -> Evaluation:
         """The evaluation with the smallest value, the first among equals."""
         assert self._best is not None

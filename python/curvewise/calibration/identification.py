@@ -6,7 +6,6 @@ runs the model, a history file, and a method that searches. Almost all time is t
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
@@ -18,24 +17,25 @@ import numpy as np
 from .._curves import Array
 from .._options import Preset
 from ..measures.registry import default_measures
-from ._extra import required
-from .curve_list import as_points, curve_list
-from .evaluations import Evaluations, Finish, Progress, SearchEndedError
-from .history import Evaluation, History, as_records
+from .curve_list import points_of
+from .evaluations import Progress
+from .history import Evaluation, as_records
 from .loop_measure import Measure, Part
 from .loop_selection import Selection
-from .methods import METHODS, search
 from .model_pool import Model
-from .objective import LEAST_SQUARES, Objective
+from .objective import Objective
 from .parameters import Space
 from .pictures import loops_and_convergence
+from .running import Ended, Plan, run_search
+from .sensitivity import design_runs, indifferent, optimum_surfaces
 from .store import StorePath
 from .study import Study, models_of
+from .uncertainty import Uncertainty, determined_by, uncertainty_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Identification", "identify"]
+__all__ = ["Identification", "identification_of", "identify"]
 
 # A parameter this near to a bound, as a fraction of the range, is said to be at the bound.
 _AT_BOUND = 1e-3
@@ -68,6 +68,10 @@ class Identification:
         How the search ended.
     method, seed, bounds, measure, preset
         As asked for.
+    runs : int
+        How many runs of the model were made for it; the others were looked up.
+    study, kept
+        What was searched, and the runs whose curves are known: for what comes after the search.
     """
 
     parameters: dict[str, float]
@@ -84,6 +88,9 @@ class Identification:
     bounds: dict[str, tuple[float, float]]
     measure: str
     preset: Preset
+    runs: int
+    study: Study = field(repr=False)
+    kept: tuple[tuple[Array, Evaluation], ...] = field(repr=False)
 
     @property
     def evaluations(self) -> int:
@@ -111,9 +118,113 @@ class Identification:
         lines += [
             "",
             f"{self.method}, seed {self.seed}: {self.evaluations} evaluations{failed}",
-            f"{'converged' if self.converged else 'not converged'}: {self.message}",
+            self._ending(),
         ]
         return "\n".join(lines)
+
+    def _ending(self) -> str:
+        """Say how the search ended; what is not determined has not converged to anything."""
+        determined = self.determined
+        loose = [name for name, good in (determined or {}).items() if not good]
+        if self.converged and loose:
+            return (
+                f"undetermined: {', '.join(loose)} (the objective hardly notices; see "
+                f"uncertainty()); the search ended: {self.message}"
+            )
+        text = f"{'converged' if self.converged else 'not converged'}: {self.message}"
+        if self.converged and determined is None:
+            runs = self.uncertainty_runs
+            text += f"\nare the parameters determined? uncertainty() says, after {runs} runs"
+        return text
+
+    @property
+    def uncertainty_runs(self) -> int:
+        """How many runs of the model `uncertainty` will make: 0, or 2 for every parameter."""
+        return design_runs(self.study, self._unit, self.kept)
+
+    @property
+    def determined(self) -> dict[str, bool] | None:
+        """Whether the tests determine each parameter, as far as can be said without noise.
+
+        A parameter is determined if it cannot change by a tenth of its bounds' range or a fifth of
+        itself, others with it, before the objective rises by 1 %, and if twice its standard error
+        by linear theory is within the same. None if that would take runs (`uncertainty_runs`).
+        """
+        if self.uncertainty_runs:
+            return None
+        optimum = optimum_surfaces(self.study, self._unit, self.simulations, self.kept)
+        return determined_by(optimum, indifferent(optimum)[2])
+
+    def uncertainty(
+        self,
+        *,
+        sigma: float | Sequence[float] | None = None,
+        level: float = 0.95,
+        samples: int = 1000,
+        seed: int = 0,
+    ) -> Uncertainty:
+        """Say how well the tests determine the parameters.
+
+        Parameters
+        ----------
+        sigma : float or sequence of float, optional
+            The standard deviation of the noise in y, of all loops or of each. By default the
+            residuals are taken for the noise, in blocks where neighbours are alike.
+        level : float, default 0.95
+            The probability of the intervals.
+        samples : int, default 1000
+            How many times the noise is drawn anew; "sum_of_squares" needs none.
+        seed : int, default 0
+            Of the draws.
+
+        Returns
+        -------
+        Uncertainty
+            Errors, intervals, correlations, sensitivities and what is not determined; prints as a
+            table, plots itself.
+
+        Raises
+        ------
+        ValueError
+            A level, sigma or number of samples out of range; fewer points than parameters.
+
+        Notes
+        -----
+        Runs of the model: `uncertainty_runs`, which is 0 after "trust-region" and "sdrm". Time:
+        that of `samples` minimisations on the response surfaces, some 20 evaluations of the measure
+        a parameter each. The surfaces are linear: intervals that are a large part of the bounds say
+        "not determined", and no more. Sources: see the module.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from curvewise.calibration import identify
+        >>> x = np.linspace(0, 1, 50)
+        >>> def line(p):
+        ...     return np.column_stack((x, p["slope"] * x + p["intercept"]))
+        >>> test = line({"slope": 2.0, "intercept": 1.0})
+        >>> test[:, 1] += np.random.default_rng(0).normal(0.0, 0.1, 50)
+        >>> found = identify(
+        ...     line,
+        ...     test,
+        ...     {"slope": (0, 10), "intercept": (-5, 5)},
+        ...     measure="sum_of_squares",
+        ...     method="trust-region",
+        ...     progress=False,
+        ... )
+        >>> errors = found.uncertainty().standard_errors
+        >>> {name: round(error, 3) for name, error in errors.items()}
+        {'slope': 0.047, 'intercept': 0.027}
+        """
+        runs = self.uncertainty_runs
+        optimum = optimum_surfaces(self.study, self._unit, self.simulations, self.kept)
+        return uncertainty_of(
+            optimum, sigma=sigma, level=level, samples=samples, seed=seed, runs=runs
+        )
+
+    @property
+    def _unit(self) -> Array:
+        return self.study.space.unit_of(self.parameters)
 
     def plot(self) -> Figure:
         """Return a matplotlib Figure of the loops and of the convergence.
@@ -256,12 +367,20 @@ def identify(
     >>> round(found.parameters["slope"], 4), round(found.parameters["intercept"], 4)
     (2.0, 1.0)
     """
-    method_options = dict(method_options or {})
-    _check_method(method, measure, method_options)
-    if max_evaluations is not None and max_evaluations < 1:
-        raise ValueError(f"max_evaluations is {max_evaluations}; give at least 1")
+    plan = Plan(
+        method,
+        dict(method_options or {}),
+        seed,
+        start,
+        progress,
+        callback,
+        history,
+        max_evaluations,
+    )
+    plan.check(measure)
     space = Space(bounds)
-    start_unit = None if start is None else space.unit(start)
+    if start is not None:
+        space.unit(start)
     objective = Objective(
         experiments,
         measure,
@@ -272,107 +391,34 @@ def identify(
         part=part,
         **options,
     )
-    required("scipy.optimize")
-    tqdm = required("tqdm.auto").tqdm
     models, assemble = models_of(model)
     study = Study(models, assemble, objective, space, store, version, workers, executor)
-    settings = {
-        **_settings(objective),
-        "bounds": space.bounds,
-        "method": method,
-        "method_options": method_options,
-        "seed": seed,
-        "start": None if start is None else dict(start),
-    }
-    if (identities := study.identities()) is not None:
-        settings["model"] = identities
-    record = History(history, settings, space.names, keep_simulations=store is None)
-    try:
-        with study.simulator() as simulator:
-            with tqdm(total=max_evaluations, unit="run", disable=not progress) as bar:
-                evaluations = Evaluations(
-                    simulator,
-                    objective,
-                    space,
-                    record,
-                    limit=max_evaluations,
-                    callback=callback,
-                    bar=bar,
-                )
-                try:
-                    finish = search(evaluations, method, start_unit, seed, method_options)
-                except SearchEndedError as end:
-                    finish = Finish(False, str(end))
-            simulations = evaluations.best_simulations()
-    finally:
-        record.close()
-    return _result(evaluations, finish, simulations, objective, space, method, seed)
+    return identification_of(study, plan, run_search(study, plan))
 
 
-def _result(
-    evaluations: Evaluations,
-    finish: Finish,
-    simulations: Any,
-    objective: Objective,
-    space: Space,
-    method: str,
-    seed: int,
-) -> Identification:
-    done: list[Evaluation] = evaluations.done
-    best = evaluations.best
+def identification_of(study: Study, plan: Plan, ended: Ended) -> Identification:
+    """Return what a search has found."""
+    evaluations, objective = ended.evaluations, study.objective
+    done, best = evaluations.done, evaluations.best
     return Identification(
-        parameters=space.dictionary(best.point),
+        parameters=study.space.dictionary(best.point),
         value=best.value,
-        measures=_measures(objective, simulations, best.value),
-        simulations=tuple(
-            as_points(curve, "Q").copy() for curve in curve_list(simulations) if curve is not None
-        ),
+        measures=_measures(objective, ended.simulations, best.value),
+        simulations=points_of(ended.simulations),
         experiments=objective.experiments,
-        history=as_records(done, space.names),
+        history=as_records(done, study.space.names),
         failures=tuple((e.number, e.message) for e in done if e.failed),
-        converged=finish.converged,
-        message=finish.message,
-        method=method,
-        seed=seed,
-        bounds=space.bounds,
+        converged=ended.finish.converged,
+        message=ended.finish.message,
+        method=plan.method,
+        seed=plan.seed,
+        bounds=study.space.bounds,
         measure=objective.measure,
         preset=objective.preset,
+        runs=ended.runs,
+        study=study,
+        kept=evaluations.kept,
     )
-
-
-def _check_method(method: str, measure: Measure, method_options: dict[str, Any]) -> None:
-    if method not in METHODS:
-        raise ValueError(f"unknown method {method!r}; choose from {', '.join(METHODS)}")
-    if method == "least_squares" and measure not in LEAST_SQUARES:
-        raise ValueError(
-            f"measure {measure!r} is not a sum of squares; method 'least_squares' needs "
-            f"measure={' or '.join(map(repr, LEAST_SQUARES))}"
-        )
-    stages = METHODS[method]
-    if len(stages) > 1 and not set(method_options) <= set(stages):
-        raise ValueError(
-            f"method_options has {', '.join(method_options)}; "
-            f"method {method!r} takes a dict for each of {', '.join(stages)}"
-        )
-
-
-def _settings(objective: Objective) -> dict[str, Any]:
-    """Return what decides the value of a simulation, for the history file."""
-    digest = hashlib.sha256()
-    for curve in objective.experiments:
-        digest.update(repr(curve.shape).encode() + curve.tobytes())
-    options = dict(objective.options)
-    if objective.part != "experiment":  # histories from before this option have none
-        options["part"] = objective.part
-    return {
-        "measure": objective.measure,
-        "preset": objective.preset,
-        "options": options,
-        "weights": objective.weights.tolist(),
-        "failure_value": objective.failure_value.tolist(),
-        "min_coverage": objective.min_coverage,
-        "experiments": digest.hexdigest(),
-    }
 
 
 def _measures(objective: Objective, simulations: Any, value: float) -> dict[str, float]:

@@ -4,7 +4,8 @@ A model says so itself by an attribute `identity`, a text that changes whenever 
 (:class:`CommandModel` has one, made of its templates, its command and the function that reads).
 Of any other Python callable only its user knows, and gives a `version`. Its bytecode and its data
 are remembered beside it as a fingerprint: a model whose code has changed under the same version
-is refused, and not looked up. Functions that the model calls in turn are not seen.
+is refused, and not looked up. Functions that the model calls in turn are not seen, nor are lists,
+dicts and whole numbers that it holds, since a model may count its runs.
 """
 
 from __future__ import annotations
@@ -111,12 +112,20 @@ def _parts(value: Any) -> list[Any]:
     if isinstance(value, types.MethodType):
         return [value.__func__, value.__self__]
     if isinstance(value, types.FunctionType):
-        cells = [_content(cell) for cell in value.__closure__ or ()]
+        cells = _lasting([_content(cell) for cell in value.__closure__ or ()])
         return [_without_docstring(value), value.__defaults__, value.__kwdefaults__, *cells]
     if isinstance(value, (type, types.BuiltinFunctionType, types.ModuleType)):
         return [getattr(value, "__qualname__", value.__name__)]
     call = type(value).__call__ if callable(value) else None
-    return [call if isinstance(call, types.FunctionType) else None, getattr(value, "__dict__", {})]
+    attributes = getattr(value, "__dict__", {})
+    lasting = [part for name in attributes for part in (name, *_lasting([attributes[name]]))]
+    return [call if isinstance(call, types.FunctionType) else None, *lasting]
+
+
+def _lasting(values: list[Any]) -> list[Any]:
+    """Return data that a model is made of; lists, dicts and counters change as it runs."""
+    changing = (list, dict, set, bytearray, int, type(None))
+    return [value for value in values if not isinstance(value, changing)]
 
 
 def _add_code(digest: Any, code: types.CodeType, above: set[int]) -> None:

@@ -147,6 +147,7 @@ class Objective:
         if not 0.0 <= min_coverage <= 1.0:
             raise ValueError(f"min_coverage is {min_coverage}; it must be from 0 to 1")
         self.measure = measure_name(measure)
+        self._measure = measure
         self._has_residuals = measure in LEAST_SQUARES
         self.preset = preset
         self.options = dict(options)
@@ -242,6 +243,35 @@ class Objective:
             parts.append(math.sqrt(self.weights[i]) * part)
         return np.concatenate(parts)
 
+    @property
+    def is_least_squares(self) -> bool:
+        """Whether the value is a weighted sum of squares of `residuals`."""
+        return self.measure == "sum_of_squares" and self._has_residuals
+
+    @property
+    def residual_counts(self) -> list[int]:
+        """How many residuals each loop has."""
+        return [loop.residual_count for loop in self._loops]
+
+    @property
+    def residual_factors(self) -> Array:
+        """By what a difference in y is multiplied to be a residual of "sum_of_squares"."""
+        heights = np.array([loop.height for loop in self._loops])
+        factors: Array = np.sqrt(self.weights) / heights
+        return factors
+
+    def of_other_tests(self, experiments: Sequence[Array]) -> Objective:
+        """Return the same objective of other experiments, one for each."""
+        return Objective(
+            list(experiments),
+            self._measure,
+            preset=self.preset,
+            weights=self.weights.tolist(),
+            min_coverage=self.min_coverage,
+            part=self.part,
+            **self.options,
+        )
+
     def _matched(self, simulations: Any) -> list[Any]:
         """Return one simulation for every experiment."""
         count = len(self._loops)
@@ -282,6 +312,7 @@ class _Loop:
             (P,) = normalize(self.experiment)  # refuses what is empty or not finite
             self._box = box(self.experiment) if scaled else None
             self._P = P if scaled else self.experiment
+            self.height = 1.0 if self._box is None else float(self._box[1][-1])
             if measure == "sum_of_squares":
                 check_common_x(self._P)
             self._value, self._residuals = functions(measure, self._P, options, part)

@@ -74,6 +74,19 @@ class Space:
         unit: Array = (values - self._low) / (self._high - self._low)
         return unit
 
+    @property
+    def is_log(self) -> tuple[bool, ...]:
+        """Whether each parameter is searched for on a logarithmic scale."""
+        return (False,) * len(self.names)
+
+    def differential(self, unit: Array) -> Array:
+        """Return the derivatives of the parameters by the place in the unit cube, shape (k, k)."""
+        return np.diag(self._high - self._low)
+
+    def unit_of(self, parameters: Mapping[str, float]) -> Array:
+        """Return where in the unit cube all that a model is called with lies."""
+        return self.unit({name: parameters[name] for name in self.names}, "parameters")
+
     def dictionary(self, point: Point) -> dict[str, float]:
         """Return a point as the dict that a model is called with."""
         return dict(zip(self.names, point, strict=True))

@@ -34,7 +34,7 @@ __all__ = ["trust_region"]
 
 # A step is a success if it gains this fraction of what was predicted, and a full one from _GOOD on.
 _POOR, _GOOD = 0.1, 0.7
-_SMALLEST_STEP = 1e-3  # of the differences, as a fraction of the bounds' range
+_SMALLEST_STEP = 0.5  # of the differences, as a fraction of the largest
 _AFTER_RENEWAL = 0.15  # fresh slopes deserve trust again
 
 
@@ -82,7 +82,7 @@ def trust_region(
             if search.is_fresh:
                 how = f"nothing within {radius:.2g} of the bounds promises a gain of {least:.2g}"
                 return Finish(True, how if radius >= tol else f"the region is below {tol:g}")
-            search.renew(min(diff_step, max(radius, _SMALLEST_STEP)))
+            search.renew(max(min(diff_step, radius), _SMALLEST_STEP * diff_step))
             radius = max(radius, _AFTER_RENEWAL)
             continue
         length = float(np.abs(candidate - search.centre).max())
