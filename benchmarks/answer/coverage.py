@@ -2,8 +2,8 @@
 
 A straight line and a parabola by the sum of squares, whose standard errors are held against those
 of lmfit; and a hardening model of three parameters on a cycle by area, dtw and curve_length. Noise
-is normal. For the bootstrapped measures the percentile interval that `uncertainty` gives stands
-beside its mirror image about the optimum (the "basic" interval), which corrects for bias.
+is normal. For the bootstrapped measures the basic interval that `uncertainty` gives stands beside
+its mirror image about the optimum (the percentile interval), which doubles a measure's bias.
 
     pip install ".[calibration,plot]" lmfit
     python benchmarks/answer/coverage.py --sets 1000
@@ -128,7 +128,7 @@ def main() -> None:
     results: dict = {"samples": options.samples, "lmfit": against_lmfit()}
     print("standard errors, largest difference from lmfit's:", results["lmfit"])
     lines = [
-        "| problem | measure | noise | sets | parameter | percentile, % | mirrored, % | "
+        "| problem | measure | noise | sets | parameter | interval, % | mirrored, % | "
         "mean of z | deviation of z |",
         "|---|---|---|---:|---|---:|---:|---:|---:|",
     ]

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import inspect
 import os
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -25,6 +24,7 @@ from .loop_selection import Selection
 from .model_identity import model_identity
 from .model_pool import Model
 from .objective import Objective
+from .parameters import Bounds
 from .store import SimulationStore
 
 __all__ = ["CrossValidation", "Fold", "cross_validate"]
@@ -102,7 +102,7 @@ class CrossValidation:
 def cross_validate(
     model: Model,
     experiments: Any,
-    bounds: Mapping[str, tuple[float, float]],
+    bounds: Bounds,
     *,
     history: str | os.PathLike[str] | None = None,
     weights: Any = None,

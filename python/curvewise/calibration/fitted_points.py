@@ -26,6 +26,8 @@ def fitted_points(P: Array, Q: Array) -> Array:
     P, Q : ndarray, shape (n, d) and (m, d)
         The measured and the simulated curve.
     """
+    if len(P) == 1:
+        return Q[:1].copy()
     i, j = dtw_path(*normalize(P, Q)).path.T
     places = np.bincount(i, weights=j) / np.bincount(i)
     fitted = P.copy()

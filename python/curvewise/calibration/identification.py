@@ -17,6 +17,7 @@ import numpy as np
 from .._curves import Array
 from .._options import Preset
 from ..measures.registry import default_measures
+from .cases import Case, CaseObjective, Cases
 from .curve_list import points_of
 from .evaluations import Progress
 from .history import Evaluation, as_records
@@ -24,7 +25,7 @@ from .loop_measure import Measure, Part
 from .loop_selection import Selection
 from .model_pool import Model
 from .objective import Objective
-from .parameters import Space
+from .parameters import Bounds, Space
 from .pictures import loops_and_convergence
 from .running import Ended, Plan, run_search
 from .sensitivity import design_runs, indifferent, optimum_surfaces
@@ -105,6 +106,9 @@ class Identification:
         width = max(map(len, (*self.parameters, *self.measures)))
         lines = [f"{'parameter':<{width}}  {'value':>12}  {'from':>12}  {'to':>12}"]
         for name, value in self.parameters.items():
+            if name not in self.bounds:
+                lines.append(f"{name:<{width}}  {value:>12.6g}  {self.study.space.kind(name):>12}")
+                continue
             low, high = self.bounds[name]
             near = _AT_BOUND * (high - low)
             note = "  at its lower bound" if value - low < near else ""
@@ -239,9 +243,9 @@ class Identification:
 
 
 def identify(
-    model: Model | Selection,
-    experiments: Any,
-    bounds: Mapping[str, tuple[float, float]],
+    model: Model | Selection | Sequence[Case],
+    experiments: Any = None,
+    bounds: Bounds | None = None,
     *,
     measure: Measure = "area",
     preset: Preset = "scaled",
@@ -267,13 +271,15 @@ def identify(
 
     Parameters
     ----------
-    model : callable
+    model : callable, or sequence of Case
         ``model(parameters: dict) -> curve``, or a list of curves, one for every experiment. What
-        it raises, and curves that have no value, count as failed simulations.
+        it raises, and curves that have no value, count as failed simulations. Tests of different
+        kinds are given as a list of :class:`Case` in the place of model, experiments and measure.
     experiments : array_like, shape (n, d), or sequence of such
         The measured curve, or curves.
     bounds : mapping of str to (low, high)
-        The parameters and where to search.
+        The parameters and where to search. In the place of a pair: a number for a parameter that
+        stays what it is, :class:`Log`, :class:`Below` another parameter, or :class:`Tied`.
     measure, preset, weights, failure_value, min_coverage, part, **options
         The objective: see :class:`Objective`.
     method : {"sdrm+de", "de", "sdrm", "nelder-mead", "least_squares"}
@@ -378,9 +384,26 @@ def identify(
         max_evaluations,
     )
     plan.check(measure)
+    if bounds is None:
+        raise TypeError("identify needs bounds: a dict of name: (low, high)")
     space = Space(bounds)
     if start is not None:
         space.unit(start)
+    if (cases := _cases_of(model)) is not None:
+        changed = {**options, "experiments": experiments, "weights": weights}
+        if given := [name for name, value in changed.items() if value is not None]:
+            raise ValueError(f"{', '.join(given)} given beside cases; give them to each Case")
+        study = Study(
+            cases.models,
+            cases.assembled,
+            CaseObjective(cases.cases),
+            space,
+            store,
+            version,
+            workers,
+            executor,
+        )
+        return identification_of(study, plan, run_search(study, plan))
     objective = Objective(
         experiments,
         measure,
@@ -394,6 +417,13 @@ def identify(
     models, assemble = models_of(model)
     study = Study(models, assemble, objective, space, store, version, workers, executor)
     return identification_of(study, plan, run_search(study, plan))
+
+
+def _cases_of(model: Any) -> Cases | None:
+    """Return the cases, if it is those that are given in the place of a model."""
+    if isinstance(model, (list, tuple)) and model and all(isinstance(c, Case) for c in model):
+        return Cases(model)
+    return None
 
 
 def identification_of(study: Study, plan: Plan, ended: Ended) -> Identification:
@@ -422,7 +452,9 @@ def identification_of(study: Study, plan: Plan, ended: Ended) -> Identification:
 
 
 def _measures(objective: Objective, simulations: Any, value: float) -> dict[str, float]:
-    """Return the value of simulations under every measure."""
+    """Return the value of simulations under every measure; of cases, what each contributes."""
+    if isinstance(objective, CaseObjective):
+        return objective.by_case(simulations)
     values = {}
     for name in default_measures(objective.experiments[0]):
         if name == objective.measure:

@@ -26,7 +26,7 @@ from .common_x import check_common_x
 from .curve_list import as_points, curve_list
 from .loop_measure import Measure, Part, check_part, condition_of, functions, measure_name
 
-__all__ = ["LEAST_SQUARES", "MEASURES", "Objective", "Score"]
+__all__ = ["LEAST_SQUARES", "MEASURES", "FailedSimulationError", "Loop", "Objective", "Score"]
 
 MEASURES = (*registry.MEASURES, "sum_of_squares")
 # Those that are made of differences whose squares are added up.
@@ -160,7 +160,7 @@ class Objective:
         curves = curve_list(experiments)
         names = ["P"] if len(curves) == 1 else [f"experiments[{i}]" for i in range(len(curves))]
         self._loops = [
-            _Loop(curve, name, measure, condition.scaled, options, part, min_coverage)
+            Loop(curve, name, measure, condition.scaled, options, part, min_coverage)
             for curve, name in zip(curves, names, strict=True)
         ]
         self.experiments = tuple(loop.experiment for loop in self._loops)
@@ -249,6 +249,16 @@ class Objective:
         return self.measure == "sum_of_squares" and self._has_residuals
 
     @property
+    def extents(self) -> list[Array]:
+        """The extent of every experiment in each coordinate, of a number the number itself."""
+        return [loop.extent for loop in self._loops]
+
+    @property
+    def sigmas(self) -> list[float | None]:
+        """The noise of each loop, where it is given beforehand."""
+        return [None] * len(self._loops)
+
+    @property
     def residual_counts(self) -> list[int]:
         """How many residuals each loop has."""
         return [loop.residual_count for loop in self._loops]
@@ -293,7 +303,7 @@ class FailedSimulationError(Exception):
     """A simulation has no value; the message says why."""
 
 
-class _Loop:
+class Loop:
     """One experiment, checked and scaled, ready to be compared with simulations."""
 
     def __init__(
@@ -313,6 +323,8 @@ class _Loop:
             self._box = box(self.experiment) if scaled else None
             self._P = P if scaled else self.experiment
             self.height = 1.0 if self._box is None else float(self._box[1][-1])
+            extent = np.ptp(self.experiment, axis=0)
+            self.extent = np.where(extent > 0, extent, 1.0)
             if measure == "sum_of_squares":
                 check_common_x(self._P)
             self._value, self._residuals = functions(measure, self._P, options, part)
@@ -338,6 +350,12 @@ class _Loop:
         if not math.isfinite(value):
             raise FailedSimulationError(f"the value of the measure is {value}")
         return value
+
+    def of_move(self, distance: float) -> float:
+        """Return the measure of a simulation that is off by a distance in y everywhere."""
+        moved = self.experiment.copy()
+        moved[:, -1] += distance
+        return self.value(moved)
 
     def residuals(self, simulation: Any) -> Array:
         """Return the differences that the measure squares, or raise FailedSimulationError."""

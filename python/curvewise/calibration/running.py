@@ -10,9 +10,10 @@ from typing import Any, NamedTuple
 
 from .._curves import Array
 from ._extra import required
+from .cases import CaseObjective
 from .evaluations import Evaluations, Finish, Progress, SearchEndedError
 from .history import Evaluation, History
-from .loop_measure import Measure
+from .loop_measure import Measure, measure_name
 from .methods import METHODS, search
 from .objective import LEAST_SQUARES, Objective
 from .study import Study
@@ -104,7 +105,7 @@ def _settings(study: Study, plan: Plan) -> dict[str, Any]:
     """Return what decides the value of a simulation and the course of the search."""
     settings = {
         **_objective_settings(study.objective),
-        "bounds": study.space.bounds,
+        "bounds": study.space.settings,
         "method": plan.method,
         "method_options": dict(plan.method_options),
         "seed": plan.seed,
@@ -120,6 +121,11 @@ def _objective_settings(objective: Objective) -> dict[str, Any]:
     for curve in objective.experiments:
         digest.update(repr(curve.shape).encode() + curve.tobytes())
     options = dict(objective.options)
+    if isinstance(objective, CaseObjective):
+        options["cases"] = [
+            [case.name, measure_name(case.measure), case.sigma, case.preset, dict(case.options)]
+            for case in objective.cases
+        ]
     if objective.part != "experiment":  # histories from before this option have none
         options["part"] = objective.part
     return {

@@ -59,9 +59,7 @@ class Optimum:
         """
         parts = []
         columns = [self.responses.curves(column) for column in self.surfaces.slopes.T]
-        for i, experiment in enumerate(self.study.objective.experiments):
-            extent = np.ptp(experiment, axis=0)
-            extent = np.where(extent > 0, extent, 1.0)
+        for i, extent in enumerate(self.study.objective.extents):
             moves = np.array([column[i] / extent for column in columns])
             parts.append(moves.reshape(len(columns), -1).T / np.sqrt(moves.shape[1]))
         return np.concatenate(parts)

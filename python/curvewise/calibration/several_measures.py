@@ -27,7 +27,7 @@ from .identification import Identification, identification_of
 from .loop_measure import measure_name
 from .model_pool import Model
 from .objective import Objective
-from .parameters import Space
+from .parameters import Bounds, Space
 from .pictures import drawn
 from .running import Plan, run_search
 from .store import StorePath
@@ -150,7 +150,7 @@ class SeveralMeasures(Mapping[str, Identification]):
 def identify_each(
     model: Model,
     experiments: Any,
-    bounds: Mapping[str, Any],
+    bounds: Bounds,
     *,
     measures: Sequence[str] | None = None,
     method: str = "trust-region",

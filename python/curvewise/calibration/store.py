@@ -266,7 +266,7 @@ def _encoded(outcome: Outcome) -> tuple[str, bytes]:
             continue
         if isinstance(curve, BaseException) or np.iscomplexobj(curve):
             raise TypeError("not a curve of real numbers")
-        points = as_points(curve, "Q")
+        points = as_points([[curve]] if np.ndim(curve) == 0 else curve, "Q")
         shapes.append(points.shape)
         numbers.append(points.tobytes())
     return json.dumps(shapes), b"".join(numbers)

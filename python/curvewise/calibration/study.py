@@ -11,6 +11,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Any
 
+from .cases import Cases
 from .loop_selection import Selection
 from .model_identity import model_identity
 from .model_pool import Model, ModelPool, Outcome
@@ -74,8 +75,10 @@ class Study:
         return [model_identity(model, self.version).text for model in self.models]
 
 
-def models_of(model: Any) -> tuple[tuple[Model, ...], Assemble]:
+def models_of(model: Any) -> tuple[Sequence[Model], Assemble]:
     """Return the models behind what a user, or a cross-validation, calls the model."""
+    if isinstance(model, Cases):
+        return model.models, model.assembled
     if isinstance(model, Selection):
         return (model.whole,), model.assembled
     return (model,), _only

@@ -4,9 +4,9 @@ The noise is that of the residuals, or of a standard deviation that is given. Fo
 its effect on the parameters follows from the slopes of the residuals (the linear theory of least
 squares, with Student's t). For every other measure the tests are made anew many times, as the
 fitted curves plus noise, and the parameters are identified from each on the response surfaces
-around the optimum, which takes no run of the model: a bootstrap. Residuals that go on alike from
-point to point (a model that is wrong rather than noise) are drawn in blocks, so that they keep to
-that.
+around the optimum, which takes no run of the model: a bootstrap, with its basic interval.
+Residuals that go on alike from point to point (a model that is wrong rather than noise) are drawn
+in blocks, so that they keep to that.
 
 Cost: no runs, or 2 k of them where the search has left no surfaces; then `samples` minimisations
 of the measure, of some 30 k evaluations each.
@@ -129,14 +129,13 @@ class Uncertainty:
         step = np.linalg.solve(unit, np.array(list(self.weakest_direction.values())))
         curves = self.optimum.curves(self.optimum.unit + step)
         moves = []
-        for old, new, experiment in zip(
+        for old, new, extent in zip(
             self.optimum.curves(self.optimum.unit),
             curves,
-            self.optimum.study.objective.experiments,
+            self.optimum.study.objective.extents,
             strict=True,
         ):
-            extent = np.ptp(experiment, axis=0)
-            moves.append(np.sqrt((((new - old) / np.where(extent > 0, extent, 1.0)) ** 2).mean()))
+            moves.append(np.sqrt((((new - old) / extent) ** 2).mean()))
         return float(max(moves))
 
     def summary(self) -> str:
@@ -319,7 +318,18 @@ def _noise(optimum: Optimum, sigma: float | Sequence[float] | None) -> _Noise:
     residuals = [
         inflation * (P[:, -1] - F[:, -1]) for P, F in zip(experiments, fitted, strict=True)
     ]
-    deviations = np.array([math.sqrt(float(np.mean(r**2))) for r in residuals])
+    # Of a single number there is no residual to speak of: a hundredth of it, if nothing is given.
+    deviations = np.array(
+        [
+            given or (math.sqrt(float(np.mean(r**2))) if r.size > 1 else 0.01 * float(extent[-1]))
+            for r, given, extent in zip(
+                residuals,
+                optimum.study.objective.sigmas,
+                optimum.study.objective.extents,
+                strict=True,
+            )
+        ]
+    )
     return _Noise(fitted, residuals, deviations, freedom)
 
 
@@ -375,10 +385,12 @@ def _bootstrapped(
     covariance = np.atleast_2d(np.cov(points.T))
     tail = 100.0 * (1.0 - level) / 2.0
     low, high = np.percentile(points, [tail, 100.0 - tail], axis=0)
-    # Clipping at bounds may move all samples to one side of an optimum beside a bound.
+    # The mirror image of the percentiles about the optimum, which undoes a bias of the measure.
+    # Samples that end at a bound may all be on one side of the optimum: it is inside all the same.
     point = np.array(space.point(optimum.unit))
-    low, high = np.minimum(low, point), np.maximum(high, point)
-    intervals = list(zip(low.tolist(), high.tolist(), strict=True))
+    low, high = np.minimum(2.0 * point - high, point), np.maximum(2.0 * point - low, point)
+    limits = zip(low.tolist(), high.tolist(), space.bounds.values(), strict=True)
+    intervals = [(max(a, first), min(b, last)) for a, b, (first, last) in limits]
     return _Spread(np.sqrt(np.diag(covariance)), intervals, _correlation(covariance))
 
 
@@ -391,6 +403,8 @@ def _correlation(covariance: Array) -> Array:
 
 def _block_length(residuals: Array) -> int:
     """Return Carlstein's length for the autocorrelation of neighbours; 1 if there is none."""
+    if residuals.size < 4:
+        return 1
     centred = residuals - residuals.mean()
     square = float(centred @ centred)
     rho = float(centred[1:] @ centred[:-1]) / square if square > 0 else 0.0
@@ -445,7 +459,7 @@ def _natural_steps(optimum: Optimum, sigma: Array) -> Array:
     slopes = optimum.scaled_slopes()
     _, values, directions = np.linalg.svd(slopes, full_matrices=False)
     experiments = optimum.study.objective.experiments
-    heights = np.array([float(np.ptp(P[:, -1])) or 1.0 for P in experiments])
+    heights = np.array([extent[-1] for extent in optimum.study.objective.extents])
     count = sum(map(len, experiments))
     noise = max(float(np.mean(sigma / heights)), 1e-9) / math.sqrt(count)
     sizes = noise / np.maximum(values, _FLATTEST * values[0])

@@ -44,6 +44,7 @@ def intervals_correlations_direction(uncertainty: Any) -> Figure:
     panels = lower.subplots(1, len(experiments), squeeze=False)[0]
     _draw_direction(uncertainty, panels)
     lines, labels = panels[0].get_legend_handles_labels()
+    lower.suptitle(uncertainty.in_words, fontsize=10)
     lower.legend(lines, labels, loc="outside upper left", ncols=4, frameon=False)
     return figure
 
@@ -94,4 +95,3 @@ def _draw_direction(uncertainty: Any, panels: Any) -> None:
             label = "weakest direction" if sign > 0 else "and back"
             ax.plot(*drawn(curves[i]), "--", color=colour, linewidth=1.0, label=label)
         drawing.label_axes(ax, "x", "y")
-    panels[0].set_title(uncertainty.in_words, fontsize=9, loc="left")

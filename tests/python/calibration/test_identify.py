@@ -181,9 +181,11 @@ def test_pictures_have_a_panel_for_every_loop():
     ("bounds", "message"),
     [
         ({}, "bounds is empty"),
-        ({"a": (1, 1)}, r"bounds\['a'\] is \(1, 1\); they must be finite, low < high"),
+        ({"a": (2, 1)}, r"bounds\['a'\] is \(2, 1\); they must be finite, low < high"),
+        ({"a": (1, 1)}, "every parameter is fixed; give one of them bounds"),
+        ([("a", 0, 1)], "bounds is list; give a dict of name"),
         ({"a": (0, np.inf)}, "must be finite"),
-        ({"a": 3}, r"bounds\['a'\] is 3; give \(low, high\)"),
+        ({"a": "3"}, r"bounds\['a'\] is '3'; give \(low, high\)"),
         ({"value": (0, 1)}, "cannot be called 'value'"),
     ],
 )

@@ -198,9 +198,9 @@ def test_residuals_that_go_on_alike_widen_the_intervals():
 def test_pictures_and_errors():
     found = identify(parabola, TEST, BOUNDS, measure="area", **QUIET)
     figure = found.uncertainty(samples=20).plot()
-    titles = [ax.get_title() or ax.get_title(loc="left") for ax in figure.axes]
+    titles = [ax.get_title() for ax in figure.axes]
     assert titles[:2] == ["95 % intervals", "Correlations of the errors"]
-    assert "by 10 %" in titles[-1]
+    assert "by 10 %" in figure.subfigs[1].get_suptitle()
     for keywords, message in [
         ({"level": 1.0}, "level is 1.0"),
         ({"samples": 3}, "samples is 3; give at least 20"),
