@@ -282,13 +282,14 @@ def identify(
         stays what it is, :class:`Log`, :class:`Below` another parameter, or :class:`Tied`.
     measure, preset, weights, failure_value, min_coverage, part, **options
         The objective: see :class:`Objective`.
-    method : {"sdrm+de", "de", "sdrm", "nelder-mead", "least_squares"}
-        "de": differential evolution, global. "sdrm": successive linear response surfaces with
-        domain reduction, few evaluations and robust to noise. "sdrm+de": the best point of
-        "sdrm" joins the first population of "de". "nelder-mead": local, from `start`.
-        "least_squares": local, fast and exact where the model is smooth, for the measures
-        "curve_length" and "sum_of_squares"; of several loops it minimises the weighted sum of
-        squares.
+    method : {"sdrm+de", "trust-region", "de", "sdrm", "nelder-mead", "least_squares"}
+        "trust-region": linear surfaces of the curves, on which the measure is minimised within a
+        region around the best run: local, for expensive models. "de": differential evolution,
+        global. "sdrm": successive linear response surfaces with domain reduction, few evaluations
+        and robust to noise. "sdrm+de": the best point of "sdrm" joins the first population of
+        "de". "nelder-mead": local, from `start`. "least_squares": local, fast and exact where the
+        model is smooth, for the measures "curve_length" and "sum_of_squares"; of several loops it
+        minimises the weighted sum of squares.
     seed : int, default 0
         Of all random numbers. The same seed gives the same result, bit for bit, with any number
         of workers and after any interruption (and the same versions of numpy and scipy).
@@ -325,11 +326,14 @@ def identify(
     method_options : mapping, optional
         Passed on. "de": those of `scipy.optimize.differential_evolution` (popsize, tol, atol,
         maxiter, ...), and stall: (improvement, generations), with which the search ends once the
-        best value has improved by less than that fraction over so many generations, as
-        (0.001, 100) in the paper. "sdrm": gamma_osc, gamma_pan, eta, initial_range, tol, maxiter.
+        best value has improved by less than that fraction over so many generations, as (0.001,
+        100) in the paper. "sdrm": gamma_osc, gamma_pan, eta, initial_range, tol, maxiter.
         "nelder-mead": size (of the simplex, 0.1), restarts (10), and scipy's options (xatol,
-            fatol, ...). "least_squares": those of `scipy.optimize.least_squares`. "sdrm+de": a
-        mapping for each, ``{"sdrm": {...}, "de": {...}}``.
+        fatol, ...). "least_squares": diff_step (of the derivatives, as a fraction of the bounds'
+        range, 1e-6; 1e-4 to 1e-3 for a solver that prints seven digits) and those of
+        `scipy.optimize.least_squares`, e.g. loss for a robust sum. "trust-region": initial_range
+        (0.5), diff_step (0.02), tol (1e-3), gain (1e-3: the least that is worth going on for),
+        maxiter. "sdrm+de": a mapping for each, ``{"sdrm": {...}, "de": {...}}``.
 
     Returns
     -------
@@ -352,12 +356,13 @@ def identify(
 
     Notes
     -----
-    Evaluations: "sdrm" takes 5, 9 or 17 an iteration (for up to 3, 7 or 15 parameters), in 14 to
-    some 30 iterations with its default options (50 at most); "de" takes 15 k a generation for k
-    parameters, in some 100 generations. Memory: the history. The search is over the unit cube, so
-    that the units of parameters do not matter. Sources: Storn & Price (1997) for "de", in the
-    place of the paper's genetic algorithm; Stander & Craig (2002) for "sdrm"; Nelder & Mead
-    (1965). Failures are logged under "curvewise.calibration", the first as a warning.
+    Evaluations: "trust-region" takes 10 to 15 for 3 parameters, 30 for 7. "sdrm" takes 5, 9 or 17
+    an iteration (for up to 3, 7 or 15 parameters), in 14 to some 30 iterations with its default
+    options (50 at most); "de" takes 15 k a generation for k parameters, in some 100 generations.
+    Memory: the history. The search is over the unit cube, so that the units of parameters do not
+    matter. Sources: Storn & Price (1997) for "de", in the place of the paper's genetic algorithm;
+    Stander & Craig (2002) for "sdrm"; Nelder & Mead (1965). Failures are logged under
+    "curvewise.calibration", the first as a warning.
 
     Examples
     --------

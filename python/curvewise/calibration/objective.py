@@ -22,7 +22,7 @@ from ..measures import normalize, registry
 from ..measures.registry import PRESETS
 from ..reference.scaling import box
 from ..results import PcmMatch
-from .common_x import check_common_x
+from .common_x import check_common_x, y_column
 from .curve_list import as_points, curve_list
 from .loop_measure import Measure, Part, check_part, condition_of, functions, measure_name
 
@@ -70,7 +70,8 @@ class Objective:
         A measure by its name, or a function of the experiment, the simulation and the options
         that returns a float; where it raises ValueError the simulation has failed.
         "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
-        the experiment's x: for data with a common x, which must not turn back.
+        the experiment's x, which must not turn back. Of loops that have a third column, such as
+        time or the step, ``over=2`` compares y at the same time instead.
     preset : {"scaled", "paper", "raw"}
         As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
         that loops, and x and y, count alike; sum_of_squares and functions are given the curves
@@ -253,6 +254,22 @@ class Objective:
         """The extent of every experiment in each coordinate, of a number the number itself."""
         return [loop.extent for loop in self._loops]
 
+    def fitted(self, simulations: Any) -> list[Array] | None:
+        """Return the experiments with the simulated y, where y is compared at a common x."""
+        if self.measure != "sum_of_squares" or not self._has_residuals:
+            return None
+        fitted = []
+        for loop, simulation in zip(self._loops, self._matched(simulations), strict=True):
+            points = loop.experiment.copy()
+            points[:, loop.y] += loop.height * loop.residuals(simulation)
+            fitted.append(points)
+        return fitted
+
+    @property
+    def y_columns(self) -> list[int]:
+        """The column of each experiment that noise is in."""
+        return [loop.y for loop in self._loops]
+
     @property
     def sigmas(self) -> list[float | None]:
         """The noise of each loop, where it is given beforehand."""
@@ -322,14 +339,17 @@ class Loop:
             (P,) = normalize(self.experiment)  # refuses what is empty or not finite
             self._box = box(self.experiment) if scaled else None
             self._P = P if scaled else self.experiment
-            self.height = 1.0 if self._box is None else float(self._box[1][-1])
             extent = np.ptp(self.experiment, axis=0)
             self.extent = np.where(extent > 0, extent, 1.0)
+            self.y = self._P.shape[1] - 1  # the column that noise is in
             if measure == "sum_of_squares":
-                check_common_x(self._P)
+                over = options.get("over", 0)
+                check_common_x(self._P, over)
+                self.y = y_column(over)
+            self.height = 1.0 if self._box is None else float(self._box[1][self.y])
             self._value, self._residuals = functions(measure, self._P, options, part)
             # Fails here, not at the first simulation, for an experiment or option it refuses.
-            value = self._value(_moved_up(self._P))
+            value = self._value(_moved_up(self._P, self.y))
             self.scale = value.value if isinstance(value, PcmMatch) else value
         except ValueError as error:
             prefix = "" if name == "P" else f"{name}, as P: "
@@ -354,7 +374,7 @@ class Loop:
     def of_move(self, distance: float) -> float:
         """Return the measure of a simulation that is off by a distance in y everywhere."""
         moved = self.experiment.copy()
-        moved[:, -1] += distance
+        moved[:, self.y] += distance
         return self.value(moved)
 
     def residuals(self, simulation: Any) -> Array:
@@ -397,10 +417,10 @@ class Loop:
         return match.value
 
 
-def _moved_up(curve: Array) -> Array:
-    """Return the curve, moved along its last coordinate by its extent there."""
+def _moved_up(curve: Array, y: int) -> Array:
+    """Return the curve, moved along a coordinate by its extent there."""
     moved = curve.copy()
-    moved[:, -1] += np.ptp(moved[:, -1]) or 1.0
+    moved[:, y] += np.ptp(moved[:, y]) or 1.0
     return moved
 
 

@@ -255,7 +255,8 @@ def _linear_covariance(optimum: Optimum, noise: _Noise) -> Array:
     information = np.zeros((k, k))
     columns = [optimum.responses.curves(column) for column in optimum.surfaces.slopes.T]
     for i, sigma in enumerate(noise.sigma):
-        slopes = np.column_stack([column[i][:, -1] for column in columns])
+        y = optimum.study.objective.y_columns[i]
+        slopes = np.column_stack([column[i][:, y] for column in columns])
         length = 1 if noise.residuals is None else _block_length(noise.residuals[i])
         count = len(noise.fitted[i]) / length
         information += count / max(sigma, 1e-300) ** 2 * (slopes.T @ slopes) / len(slopes)
@@ -301,10 +302,13 @@ class _Spread(NamedTuple):
 
 def _noise(optimum: Optimum, sigma: float | Sequence[float] | None) -> _Noise:
     """Return the fitted points, and the residuals or the deviation that is given."""
-    experiments = optimum.study.objective.experiments
+    objective = optimum.study.objective
+    experiments, ys = objective.experiments, objective.y_columns
     count = len(experiments)
     curves = optimum.curves(optimum.unit)
-    fitted = [fitted_points(P, Q) for P, Q in zip(experiments, curves, strict=True)]
+    fitted = objective.fitted(curves) or [
+        fitted_points(P, Q) for P, Q in zip(experiments, curves, strict=True)
+    ]
     total = sum(map(len, experiments))
     freedom = total - optimum.unit.size
     if freedom < 1:
@@ -316,18 +320,13 @@ def _noise(optimum: Optimum, sigma: float | Sequence[float] | None) -> _Noise:
         return _Noise(fitted, None, given, freedom)
     inflation = math.sqrt(total / freedom)
     residuals = [
-        inflation * (P[:, -1] - F[:, -1]) for P, F in zip(experiments, fitted, strict=True)
+        inflation * (P[:, y] - F[:, y]) for P, F, y in zip(experiments, fitted, ys, strict=True)
     ]
     # Of a single number there is no residual to speak of: a hundredth of it, if nothing is given.
     deviations = np.array(
         [
             given or (math.sqrt(float(np.mean(r**2))) if r.size > 1 else 0.01 * float(extent[-1]))
-            for r, given, extent in zip(
-                residuals,
-                optimum.study.objective.sigmas,
-                optimum.study.objective.extents,
-                strict=True,
-            )
+            for r, given, extent in zip(residuals, objective.sigmas, objective.extents, strict=True)
         ]
     )
     return _Noise(fitted, residuals, deviations, freedom)
@@ -372,6 +371,7 @@ def _bootstrapped(
     """Return the spread of the parameters that other noise would have given."""
     random = np.random.default_rng(seed)
     space = optimum.study.space
+    ys = optimum.study.objective.y_columns
     lengths = [_block_length(residuals) for residuals in noise.residuals or ()]
     steps = _natural_steps(optimum, noise.sigma)
     points = np.empty((samples, optimum.unit.size))
@@ -379,7 +379,7 @@ def _bootstrapped(
         tests = []
         for loop, fitted in enumerate(noise.fitted):
             test = fitted.copy()
-            test[:, -1] += _drawn(noise, loop, lengths, random)
+            test[:, ys[loop]] += _drawn(noise, loop, lengths, random)
             tests.append(test)
         points[i] = space.point(_reminimised(optimum, tests, steps))
     covariance = np.atleast_2d(np.cov(points.T))
@@ -459,7 +459,10 @@ def _natural_steps(optimum: Optimum, sigma: Array) -> Array:
     slopes = optimum.scaled_slopes()
     _, values, directions = np.linalg.svd(slopes, full_matrices=False)
     experiments = optimum.study.objective.experiments
-    heights = np.array([extent[-1] for extent in optimum.study.objective.extents])
+    objective = optimum.study.objective
+    heights = np.array(
+        [extent[y] for extent, y in zip(objective.extents, objective.y_columns, strict=True)]
+    )
     count = sum(map(len, experiments))
     noise = max(float(np.mean(sigma / heights)), 1e-9) / math.sqrt(count)
     sizes = noise / np.maximum(values, _FLATTEST * values[0])

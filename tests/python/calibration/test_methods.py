@@ -84,6 +84,53 @@ def test_least_squares_recovers_known_parameters():
     assert found.evaluations < 80
 
 
+def timed(parameters):
+    """The loop with its time in a third column: a function of it, though strain turns back."""
+    return np.column_stack((model(parameters), np.arange(len(STRAIN), dtype=float)))
+
+
+@pytest.mark.parametrize("method", ["least_squares", "trust-region"])
+def test_loops_that_are_functions_of_time(method):
+    """The test has other times than the simulation; the errors are those of least squares."""
+    time = np.linspace(0.5, len(STRAIN) - 1.5, 150)
+    clean = np.column_stack([np.interp(time, np.arange(len(STRAIN)), c) for c in timed(TRUE).T])
+    noisy = clean.copy()
+    noisy[:, 1] += np.random.default_rng(1).normal(0.0, 4.0, len(time))
+    keywords = {"measure": "sum_of_squares", "over": 2, "method": method}
+    found = quiet_identify(timed, clean, BOUNDS, **keywords)
+    assert largest_error(found) < 1e-4
+    found = quiet_identify(timed, noisy, BOUNDS, **keywords)
+    uncertainty = found.uncertainty(sigma=4.0)
+    for name, error in uncertainty.standard_errors.items():
+        assert abs(found.parameters[name] - TRUE[name]) < 3.5 * error
+        assert error < 0.02 * TRUE[name]
+    assert found.uncertainty().sigma == pytest.approx(4.0, rel=0.2)
+    with pytest.raises(ValueError, match="over is 3; P has the columns 0 to 2"):
+        quiet_identify(timed, clean, BOUNDS, measure="sum_of_squares", over=3)
+    with pytest.raises(ValueError, match="needs x and y, shape"):
+        quiet_identify(timed, clean, BOUNDS, measure="sum_of_squares")
+
+
+def test_least_squares_of_a_solver_that_prints_seven_digits():
+    """The difference step is heeded: at 1e-9 of the bounds there is nothing but rounding."""
+
+    def printed(parameters):
+        return np.array([[float(f"{v:.6e}") for v in row] for row in first_branch(parameters)])
+
+    keywords = {"measure": "sum_of_squares", "method": "least_squares"}
+    experiment = first_branch(TRUE)
+    found = quiet_identify(
+        printed, experiment, BOUNDS, method_options={"diff_step": 3e-4}, **keywords
+    )
+    assert largest_error(found) < 1e-3
+    lost = quiet_identify(
+        printed, experiment, BOUNDS, method_options={"diff_step": 1e-9}, **keywords
+    )
+    assert largest_error(lost) > 10 * largest_error(found)
+    with pytest.raises(ValueError, match="diff_step is 0"):
+        quiet_identify(printed, experiment, BOUNDS, method_options={"diff_step": 0}, **keywords)
+
+
 @pytest.mark.parametrize("measure", ["area", "dtw"])
 @pytest.mark.parametrize("method", ["sdrm+de", "sdrm", "trust-region"])
 def test_noise_moves_the_optimum_little(measure, method):

@@ -6,7 +6,7 @@ is normal. For the bootstrapped measures the basic interval that `uncertainty` g
 its mirror image about the optimum (the percentile interval), which doubles a measure's bias.
 
     pip install ".[calibration,plot]" lmfit
-    python benchmarks/answer/coverage.py --sets 1000
+    python benchmarks/answer/interval_coverage.py --sets 1000
 
 Writes coverage.json and coverage.md. Sets are shared out among --workers processes.
 """
