@@ -249,7 +249,7 @@ def identify(
     *,
     measure: Measure = "area",
     preset: Preset = "scaled",
-    method: str = "sdrm+de",
+    method: str = "trust-region",
     seed: int = 0,
     workers: int = 1,
     executor: Executor | None = None,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import inspect
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -49,8 +50,24 @@ class Plan:
                 f"method_options has {', '.join(self.method_options)}; "
                 f"method {self.method!r} takes a dict for each of {', '.join(stages)}"
             )
+        for name, stage in stages.items():
+            chosen = self.method_options if len(stages) == 1 else self.method_options.get(name, {})
+            _check_options(name, stage, chosen)
         if self.max_evaluations is not None and self.max_evaluations < 1:
             raise ValueError(f"max_evaluations is {self.max_evaluations}; give at least 1")
+
+
+def _check_options(method: str, stage: Callable[..., Finish], options: Mapping[str, Any]) -> None:
+    """Refuse options that a method does not have; those of scipy's functions scipy refuses."""
+    parameters = inspect.signature(stage).parameters.values()
+    if any(p.kind is p.VAR_KEYWORD for p in parameters):
+        return
+    known = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY]
+    if unknown := set(options) - set(known):
+        raise ValueError(
+            f"method {method!r} has no option {', '.join(sorted(unknown))}; "
+            f"it has {', '.join(known)}"
+        )
 
 
 class Ended(NamedTuple):

@@ -198,7 +198,7 @@ def identify_each(
 
     Notes
     -----
-    Runs: for the four measures of `benchmarks/answer/shared_runs.py`, 7 parameters, some 110,
+    Runs: for the four measures of `benchmarks/answer/shared_runs.py`, 7 parameters, some 150,
     where four searches by "sdrm" take 751.
 
     Examples
@@ -239,7 +239,7 @@ def identify_each(
         known: tuple[tuple[Array, Evaluation], ...] = ()
         for name, objective in zip(names, objectives, strict=True):
             study = Study(models, assemble, objective, space, store, version, workers, executor)
-            if known:
+            if known:  # a start is given from here on: one search a measure
                 plan = replace(
                     plan,
                     start=_best_known(known, study),

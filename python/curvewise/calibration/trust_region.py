@@ -35,6 +35,8 @@ __all__ = ["trust_region"]
 # A step is a success if it gains this fraction of what was predicted, and a full one from _GOOD on.
 _POOR, _GOOD = 0.1, 0.7
 _SMALLEST_STEP = 0.5  # of the differences, as a fraction of the largest
+_PERFECT = 1e3  # values below this multiple of what is negligible are alike: perfect fits
+_DRAWN = (0.1, 0.9)  # where starts are drawn, between the bounds
 _AFTER_RENEWAL = 0.15  # fresh slopes deserve trust again
 
 
@@ -43,6 +45,7 @@ def trust_region(
     start: Array | None,
     seed: int,
     *,
+    starts: int = 3,
     initial_range: float = 0.5,
     diff_step: float = 0.02,
     tol: float = 1e-3,
@@ -56,9 +59,11 @@ def trust_region(
     evaluations : Evaluations
         The objective.
     start : ndarray or None
-        Where to begin; the middle of the bounds if not given.
+        Where to begin; the middle of the bounds if not given, and then elsewhere.
     seed : int
-        Of the random numbers of the search on the surfaces.
+        Of the other starts, and of the search on the surfaces.
+    starts : int
+        How many searches to make where no start is given.
     initial_range : float
         Half the size of the first region of trust, as a fraction of the bounds' range; the first
         differences are over half of that.
@@ -69,12 +74,49 @@ def trust_region(
     gain : float
         And where fresh slopes promise to gain no more than this fraction of the value.
     maxiter : int
-        The most steps.
+        The most steps, of each start.
     """
-    search = _Search(evaluations, np.random.default_rng(seed), diff_step)
-    centre = np.full(evaluations.dimensions, 0.5) if start is None else np.asarray(start)
-    search.begin(centre, initial_range)
-    radius = initial_range
+    if starts < 1:
+        raise ValueError(f"starts is {starts}; give at least 1")
+    random = np.random.default_rng(seed)
+    if start is None:
+        places = [np.full(evaluations.dimensions, 0.5)]
+        places += [random.uniform(*_DRAWN, evaluations.dimensions) for _ in range(starts - 1)]
+    else:
+        places = [np.asarray(start)]
+    ends: list[tuple[float, Finish]] = []
+    failure: RuntimeError | None = None
+    responses: Responses | None = None
+    for place in places:
+        search = _Search(evaluations, random, diff_step, responses)
+        try:
+            search.begin(place, initial_range)
+        except RuntimeError as error:
+            failure = failure or error
+            continue
+        finish = _descend(search, evaluations, initial_range, diff_step, tol, gain, maxiter)
+        ends.append((search.value, finish))
+        responses = search.responses
+    if not ends:
+        assert failure is not None
+        raise failure
+    best, finish = min(ends, key=lambda end: end[0])
+    if len(places) == 1:
+        return finish
+    alike = sum(value <= 1.01 * best + _PERFECT * evaluations.negligible for value, _ in ends)
+    return Finish(finish.converged, f"{alike} of {len(places)} starts within 1 %; {finish.message}")
+
+
+def _descend(
+    search: _Search,
+    evaluations: Evaluations,
+    radius: float,
+    diff_step: float,
+    tol: float,
+    gain: float,
+    maxiter: int,
+) -> Finish:
+    """Go down from one start."""
     for _ in range(maxiter):
         candidate, promised = search.lowest(radius)
         least = max(evaluations.negligible, gain * search.value)
@@ -98,11 +140,15 @@ class _Search:
     """The best run, the surfaces around it, and what they have not seen yet."""
 
     def __init__(
-        self, evaluations: Evaluations, random: np.random.Generator, diff_step: float
+        self,
+        evaluations: Evaluations,
+        random: np.random.Generator,
+        diff_step: float,
+        responses: Responses | None,
     ) -> None:
         self._evaluations, self._random = evaluations, random
         self._diff_step = diff_step
-        self._responses: Responses | None = None
+        self.responses = responses
         self.is_fresh = False
         self.value = np.inf
 
@@ -150,7 +196,7 @@ class _Search:
         """Return where the surfaces are lowest within the region, and the gain they promise."""
         low = np.clip(self.centre - radius, 0.0, 1.0)
         high = np.clip(self.centre + radius, 0.0, 1.0)
-        objective, responses = self._evaluations.objective, self._responses
+        objective, responses = self._evaluations.objective, self.responses
         assert responses is not None
 
         def predicted(point: Array) -> float:
@@ -214,9 +260,9 @@ class _Search:
 
     def _vector(self, run: Evaluation) -> Array:
         assert run.simulations is not None
-        if self._responses is None:
-            self._responses = Responses(run.simulations)
-        return self._responses.vector(run.simulations)
+        if self.responses is None:
+            self.responses = Responses(run.simulations)
+        return self.responses.vector(run.simulations)
 
 
 def _simplex(centre: Array, step: float, random: np.random.Generator) -> Array:

@@ -14,7 +14,11 @@ from curvewise.calibration import identify
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
-QUICK = {"progress": False, "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}}}
+QUICK = {
+    "method": "sdrm+de",
+    "progress": False,
+    "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}},
+}
 DE_ONCE = {"progress": False, "method_options": {"maxiter": 1, "popsize": 8}}
 
 
@@ -126,7 +130,7 @@ def test_callback_is_told_and_can_stop():
     assert (told[-1].value, told[-1].parameters) == (found.value, found.parameters)
 
 
-@pytest.mark.parametrize("method", ["sdrm+de", "de", "nelder-mead"])
+@pytest.mark.parametrize("method", ["sdrm+de", "de", "trust-region", "nelder-mead"])
 def test_max_evaluations(method):
     calls = []
 
@@ -203,7 +207,12 @@ def test_wrong_bounds(bounds, message):
         ({"start": {"a": 11.0, "b": 0.0}}, r"start\['a'\] is 11.0; it must be from 0.0 to 10.0"),
         ({"max_evaluations": 0}, "max_evaluations is 0"),
         ({"workers": 0}, "workers is 0"),
-        ({"method_options": {"popsize": 3}}, "takes a dict for each of sdrm, de"),
+        (
+            {"method": "sdrm+de", "method_options": {"popsize": 3}},
+            "takes a dict for each of sdrm, de",
+        ),
+        ({"method_options": {"popsize": 3}}, "'trust-region' has no option popsize; it has starts"),
+        ({"method_options": {"starts": 0}}, "starts is 0"),
     ],
 )
 def test_wrong_keywords(keywords, message):
@@ -211,7 +220,7 @@ def test_wrong_keywords(keywords, message):
         identify(line, EXPERIMENT, BOUNDS, progress=False, **keywords)
 
 
-@pytest.mark.parametrize("method", ["de", "sdrm+de", "nelder-mead"])
+@pytest.mark.parametrize("method", ["de", "sdrm+de", "trust-region", "nelder-mead"])
 def test_a_model_that_never_succeeds_is_an_error_at_once(method):
     calls = []
 
@@ -224,7 +233,7 @@ def test_a_model_that_never_succeeds_is_an_error_at_once(method):
     assert len(calls) <= 30
 
 
-@pytest.mark.parametrize("method", ["de", "sdrm+de", "nelder-mead"])
+@pytest.mark.parametrize("method", ["de", "sdrm+de", "trust-region", "nelder-mead"])
 def test_a_model_hooked_up_wrongly_is_an_error(method):
     with pytest.raises(ValueError, match="there are 2 simulations and 1 experiments"):
         identify(lambda p: [line(p), line(p)], EXPERIMENT, BOUNDS, method=method, progress=False)

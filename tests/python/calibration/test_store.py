@@ -25,7 +25,11 @@ from curvewise.calibration import (
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
-QUICK = {"progress": False, "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}}}
+QUICK = {
+    "method": "sdrm+de",
+    "progress": False,
+    "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}},
+}
 SDRM = {"progress": False, "method": "sdrm", "method_options": {"maxiter": 3}}
 LONG = {"progress": False, "method": "sdrm", "method_options": {"maxiter": 8}}
 

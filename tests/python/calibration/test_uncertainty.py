@@ -167,7 +167,7 @@ def test_parameters_that_only_act_together_are_not_determined():
         assert uncertainty.determined == {"E": True, "C": False, "C2": False}
         direction = uncertainty.weakest_direction
         assert direction["C"] == pytest.approx(-direction["C2"], rel=0.02)
-        assert uncertainty.singular_values[-1] < 1e-3 * uncertainty.singular_values[0]
+        assert uncertainty.singular_values[-1] < 3e-3 * uncertainty.singular_values[0]
         smaller, larger = sorted(("C", "C2"), key=lambda name: found.parameters[name])
         assert f"{smaller} by 10 %" in uncertainty.in_words
         assert f"{larger} by " in uncertainty.in_words
