@@ -103,29 +103,41 @@ class LeashSearch {
     // Whether the distance is at most, or below, a number.
     bool is_within(double distance, FreeSet set = FreeSet::closed) {
         const Radius radius = radius_of(distance, set);
-        return !is_too_short(radius) && begin(radius) && walk(0, last_, radius) == last_ &&
-               diagram_.is_through(runs_, radius);
+        if (is_too_short(radius)) return false;
+        diagram_.start(radius, runs_);
+        trail_.forget_from(0);
+        trail_.note(0, runs_);
+        trail_radius_ = distance;
+        trail_end_ = walk(0, last_, radius, &trail_);
+        return trail_end_ == last_ && diagram_.is_through(runs_, radius);
     }
 
     // The real number rounded up; inf beyond the range of a double.
     double value() {
         find_witnesses();
         double low = least_of_witnesses();
-        if (low == 0.0 && !is_too_short(radius_of(0.0)) && is_within(0.0)) return 0.0;
-        // Where the value is that of the witnesses, nothing below it can be.
-        if (low > 0.0 && is_within(low)) return low;
+        if (is_within(low)) return low;  // and nothing below it holds the witnesses
         double high = std::numeric_limits<double>::infinity();
         std::ptrdiff_t window = 16;
-        for (;;) {
-            high = climb(low, high, window);
-            const double below = next_below(high);
-            if (below == low || !is_within(below)) return high;
-            high = below;
-            window *= 8;
+        for (const std::uint64_t tolerance : {std::uint64_t{1} << 42, std::uint64_t{1}}) {
+            for (;;) {
+                high = climb(low, high, window, tolerance);
+                const std::uint64_t gap = bits_of(high) - bits_of(low);
+                const double below = double_of(bits_of(high) - std::min(tolerance, gap));
+                if (below == low || !is_within(below)) {
+                    low = below;
+                    break;
+                }
+                high = below;
+                window *= 8;
+            }
         }
+        return high;
     }
 
    private:
+    static constexpr double none = -1.0;
+
     Radius radius_of(double distance, FreeSet set = FreeSet::closed) const noexcept {
         return {distance, range_.shrink(distance), p_.dim(), set};
     }
@@ -157,52 +169,55 @@ class LeashSearch {
         if (holds(0.0)) return 0.0;
         const double below = guess_ * (1.0 - 0x1p-50);
         const double infinity = std::numeric_limits<double>::infinity();
-        return least_double(holds(below) ? 0.0 : below, infinity, 2, holds);
-    }
-
-    bool begin(const Radius& radius) {
-        diagram_.start(radius, runs_);
-        trail_.forget_from(0);
-        trail_.note(0, runs_);
-        return true;
+        return least_double(holds(below) ? 0.0 : below, infinity, 2, 1, holds);
     }
 
     // From what runs_ reached of row `from` to row `to`. Returns the last row of which anything
     // was reached.
     std::ptrdiff_t walk(std::ptrdiff_t from, std::ptrdiff_t to, const Radius& radius,
-                        bool noting = true) {
+                        Trail* trail) {
         for (std::ptrdiff_t i = from; i < to; ++i) {
             diagram_.advance(i, runs_, radius, next_);
             if (next_.empty()) return i;
             std::swap(runs_, next_);
-            if (noting) trail_.note(i + 1, runs_);
+            if (trail != nullptr) trail->note(i + 1, runs_);
             if (watch_.step(0)) throw Stopped();
         }
         return to;
     }
 
-    // A sufficient radius above `low`, which a walk has failed with, from one bottleneck to the
-    // next; `high`, which is sufficient, where that takes more.
-    double climb(double low, double high, std::ptrdiff_t window) {
-        Radius radius = radius_of(low);
-        begin(radius);
-        std::ptrdiff_t dead = walk(0, last_, radius);
+    // A sufficient radius above `low`, which is not, from one bottleneck to the next. Nearly the
+    // least that passes the last one, within `tolerance` doubles, as far as the window shows; or
+    // `high`, which is sufficient.
+    double climb(double low, double high, std::ptrdiff_t window, std::uint64_t tolerance) {
+        if (trail_radius_ != low) is_within(low);
+        std::ptrdiff_t dead = trail_end_;
         for (;;) {
             const Trail::Mark mark = trail_.before(dead - window);
             const std::ptrdiff_t goal = std::min(dead + window, last_);
             const auto passes = [&](double x) {
                 const Radius tried = radius_of(x);
                 runs_ = mark.runs;
-                return walk(mark.row, goal, tried, false) == goal &&
+                return walk(mark.row, goal, tried, nullptr) == goal &&
                        (goal < last_ || diagram_.is_through(runs_, tried));
             };
-            low = least_double(low, high, std::uint64_t{1} << 40, passes);
-            if (low == high) return high;
-            radius = radius_of(low);
+            const double found =
+                least_double(low, high, std::uint64_t{1} << 40, tolerance, passes);
+            if (found == high) return high;
+            const Radius radius = radius_of(found);
             runs_ = mark.runs;
             trail_.forget_from(mark.row + 1);
-            dead = walk(mark.row, last_, radius);
-            if (dead == last_ && diagram_.is_through(runs_, radius)) return low;
+            trail_radius_ = none;
+            const std::ptrdiff_t reached = walk(mark.row, last_, radius, &trail_);
+            if (reached == last_ && diagram_.is_through(runs_, radius)) return found;
+            if (reached < goal + window) {
+                // Pushed on into a blind alley: the way out of it begins earlier.
+                window *= 4;
+                trail_.forget_from(mark.row + 1);
+            } else {
+                low = found;
+                dead = reached;
+            }
         }
     }
 
@@ -216,6 +231,8 @@ class LeashSearch {
     double guess_ = 0.0;
     Runs runs_, next_;
     Trail trail_;
+    double trail_radius_ = none;  // of the walk from row 0 that left the trail
+    std::ptrdiff_t trail_end_ = 0;
 };
 
 }  // namespace curvewise::detail

@@ -25,12 +25,14 @@ inline double double_of(std::uint64_t bits) noexcept {
 // The neighbour below a number above 0.
 inline double next_below(double x) noexcept { return double_of(bits_of(x) - 1); }
 
-// Above `below`, where it does not hold, and at most `most`: the least double for which `holds`, or
-// `most` without asking whether it holds there. `stride` doubles up is where to look first.
+// Above `below`, where it does not hold, and at most `most`: a double for which `holds`, while it
+// does not for another at most `tolerance` doubles below; or `most`, without asking there. `stride`
+// doubles up is where to look first.
 template <class Holds>
-double least_double(double below, double most, std::uint64_t stride, Holds holds) {
+double least_double(double below, double most, std::uint64_t stride, std::uint64_t tolerance,
+                    Holds holds) {
     std::uint64_t low = bits_of(below), high = bits_of(most);
-    for (; stride < high - low; stride *= 16) {
+    for (; stride < (high - low) / 16; stride *= 16) {
         const std::uint64_t middle = low + stride;
         if (holds(double_of(middle))) {
             high = middle;
@@ -38,7 +40,7 @@ double least_double(double below, double most, std::uint64_t stride, Holds holds
         }
         low = middle;
     }
-    while (high - low > 1) {
+    while (high - low > tolerance) {
         const std::uint64_t middle = low + (high - low) / 2;
         (holds(double_of(middle)) ? high : low) = middle;
     }

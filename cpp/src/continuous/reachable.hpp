@@ -67,7 +67,7 @@ class Diagram {
             const Run& run = from[r];
             const std::ptrdiff_t next = r + 1 < from.size() ? from[r + 1].first : cells() - 1;
             std::ptrdiff_t first = run.first;
-            if (!(entered == run.first || (run.first == 0 && run.low.at_vertex()))) {
+            if (!(entered == run.first || (run.first == 0 && run.low.is_own_end()))) {
                 enter_from_below(i, run, radius, to);
                 ++first;
             }
@@ -90,8 +90,9 @@ class Diagram {
         const bool first_is_free = corner_is_free(i + 1, j, radius);
         const bool second_is_free = corner_is_free(i + 1, j + 1, radius);
         const FreePart top = rows_.free_part(j, i + 1, first_is_free, second_is_free, radius);
-        if (top.empty || !rows_.in_order(j, run.low, top.high, radius)) return;
-        to.push_back({j, j, rows_.later(j, run.low, top.low)});
+        if (top.is_empty) return;
+        const FreePart reached = rows_.from(j, run.low, top, radius);
+        if (!reached.is_empty) to.push_back({j, j, reached.low});
     }
 
     // The cells from `first` to `last`, whose left sides are reached: all that is free above them
@@ -130,14 +131,15 @@ class Diagram {
     // of cell `from`; `from` itself where there is none.
     std::ptrdiff_t last_entered(std::ptrdiff_t i, std::ptrdiff_t from, std::ptrdiff_t most,
                                 const Radius& radius) const {
-        Bound low;
+        Bound low;  // of the edge of the first curve
         for (std::ptrdiff_t j = from + 1; j <= most; ++j) {
             const bool first_is_free = corner_is_free(i, j, radius);
             const bool second_is_free = corner_is_free(i + 1, j, radius);
             const FreePart left = columns_.free_part(i, j, first_is_free, second_is_free, radius);
-            if (left.empty) return j - 1;
-            low = j == from + 1 ? left.low : columns_.later(i, low, left.low);
-            if (!columns_.in_order(i, low, left.high, radius)) return j - 1;
+            if (left.is_empty) return j - 1;
+            const FreePart reached = columns_.from(i, low, left, radius);
+            if (reached.is_empty) return j - 1;
+            low = reached.low;
         }
         return std::max(from, most);
     }
