@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "curvewise/curvewise.hpp"
-#include "dispatch.hpp"
-#include "sweep.hpp"
+#include "warping/dispatch.hpp"
+#include "warping/ground_distance.hpp"
+#include "warping/sweep.hpp"
 
 namespace {
 
@@ -74,7 +75,7 @@ void time_sweep(const char* name, Recurrence recurrence, Metric metric, std::ptr
             const detail::PackedCurve columns(Q, detail::RangeScale(1.0),
                                               detail::PointOrder::reversed);
             const detail::PackedPair curves{rows, columns};
-            detail::Watch watch(nullptr);
+            detail::Poller poller(nullptr);
             detail::SweepMemory memory;
             const GroundDistance ground{metric};
             const detail::SweepProblem problem{*level.kernels,
@@ -85,7 +86,7 @@ void time_sweep(const char* name, Recurrence recurrence, Metric metric, std::ptr
                                                detail::Band(n, n, std::nullopt),
                                                false,
                                                1,
-                                               watch,
+                                               poller,
                                                memory};
             last_row(problem);
         });

@@ -1,4 +1,6 @@
 // Batches: lists of curves against each other, and a prepared curve against others.
+#include <algorithm>
+#include <variant>
 #include <vector>
 
 #include "bind_topics.hpp"
@@ -21,11 +23,17 @@ struct Curves {
         }
     }
 
-    double points() const noexcept {
-        double sum = 0.0;
-        for (const CurveArray& array : arrays) sum += static_cast<double>(array.size());
-        return sum;
+    // The largest curve.
+    double longest() const noexcept {
+        double most = 0.0;
+        for (const CurveView& curve : views)
+            most = std::max(most, static_cast<double>(curve.size()));
+        return most;
     }
+    double dim() const noexcept {
+        return views.empty() ? 0.0 : static_cast<double>(views.front().dim());
+    }
+    double size() const noexcept { return static_cast<double>(views.size()); }
 
     std::vector<CurveArray> arrays;
     std::vector<CurveView> views;
@@ -34,70 +42,99 @@ struct Curves {
 using Out = py::array_t<double, py::array::c_style>;
 
 BatchOptions batch_options(const py::object& workers, double cutoff) {
-    return {thread_count(workers), cutoff};
+    return {whole_number("workers", workers, workers_range), cutoff};
 }
 
-// An upper bound of the steps ahead.
-double steps(const Curves& a, const Curves& b) { return 100.0 + a.points() * b.points(); }
+// An upper bound of the elementary steps ahead: checks and preparation, and the pairs.
+double work(const Measure& measure, const Curves& a, const Curves& b) {
+    return std::visit(
+        [&](const auto& options) {
+            const double points = (a.size() * a.longest() + b.size() * b.longest()) * a.dim();
+            return 100.0 + points +
+                   a.size() * b.size() * options.work(a.longest(), b.longest(), a.dim());
+        },
+        measure);
+}
 
 void cdist_into(const py::list& XA, const py::object& XB, const py::object& name,
-                const py::tuple& options, Out out, const py::object& workers, double cutoff,
+                const py::dict& options, Out out, const py::object& workers, double cutoff,
                 const py::object& progress) {
-    const Measure chosen = measure(name, options);
+    const Measure chosen = read_measure(name, options);
     const BatchOptions batch = batch_options(workers, cutoff);
     const Curves a(XA);
     double* const data = out.mutable_data();
     if (XB.is_none()) {
-        interruptible(steps(a, a), progress,
+        interruptible(work(chosen, a, a), progress,
                       [&](Control* control) { cdist(a.views, chosen, data, batch, control); });
         return;
     }
     const Curves b(XB.cast<py::list>());
-    interruptible(steps(a, b), progress,
+    interruptible(work(chosen, a, b), progress,
                   [&](Control* control) { cdist(a.views, b.views, chosen, data, batch, control); });
 }
 
-void pdist_into(const py::list& X, const py::object& name, const py::tuple& options, Out out,
+void pdist_into(const py::list& X, const py::object& name, const py::dict& options, Out out,
                 const py::object& workers, double cutoff, const py::object& progress) {
-    const Measure chosen = measure(name, options);
+    const Measure chosen = read_measure(name, options);
     const BatchOptions batch = batch_options(workers, cutoff);
     const Curves curves(X);
     double* const data = out.mutable_data();
-    interruptible(steps(curves, curves), progress,
+    interruptible(work(chosen, curves, curves), progress,
                   [&](Control* control) { pdist(curves.views, chosen, data, batch, control); });
 }
 
-double prepared_value(const Prepared& prepared, const CurveArray& Q) {
-    const CurveView q = view(Q);
-    return interruptible(static_cast<double>(Q.size()) * 1e3, py::none(),
-                         [&](Control* control) { return prepared(q, control); });
-}
+// A prepared curve with what the work of a call is estimated from.
+class PreparedCurve {
+   public:
+    PreparedCurve(const CurveArray& P, const py::object& name, const py::dict& options)
+        : measure_(read_measure(name, options)), n_(P.shape(0)), prepared_(prepare(P)) {}
 
-py::array_t<double> prepared_values(const Prepared& prepared, const py::list& Qs,
-                                    const py::object& workers) {
-    const BatchOptions batch = batch_options(workers, BatchOptions{}.cutoff);
-    const Curves curves(Qs);
-    py::array_t<double> out(static_cast<py::ssize_t>(curves.views.size()));
-    double* const data = out.mutable_data();
-    interruptible(curves.points() * 1e3, py::none(),
-                  [&](Control* control) { prepared(curves.views, data, batch, control); });
-    return out;
-}
+    double value(const CurveArray& Q) const {
+        const CurveView q = view(Q);
+        return interruptible(work(1.0, static_cast<double>(q.size()), static_cast<double>(q.dim())),
+                             py::none(), [&](Control* control) { return prepared_(q, control); });
+    }
+
+    py::array_t<double> values(const py::list& Qs, const py::object& workers) const {
+        const BatchOptions batch = batch_options(workers, BatchOptions{}.cutoff);
+        const Curves curves(Qs);
+        py::array_t<double> out(static_cast<py::ssize_t>(curves.views.size()));
+        double* const data = out.mutable_data();
+        interruptible(work(curves.size(), curves.longest(), curves.dim()), py::none(),
+                      [&](Control* control) { prepared_(curves.views, data, batch, control); });
+        return out;
+    }
+
+   private:
+    Prepared prepare(const CurveArray& P) const {
+        const CurveView p = view(P);
+        return unlocked(static_cast<double>(P.size()), [&] { return Prepared(p, measure_); });
+    }
+
+    double work(double count, double m, double dim) const {
+        const double n = static_cast<double>(n_);
+        return std::visit(
+            [&](const auto& options) { return count * (m * dim + options.work(n, m, dim)); },
+            measure_);
+    }
+
+    Measure measure_;
+    py::ssize_t n_;
+    Prepared prepared_;
+};
 
 }  // namespace
 
 void bind_pairwise(py::module_& module) {
     module.def("cdist", cdist_into);
     module.def("pdist", pdist_into);
-    module.def("is_symmetric", [](const py::object& name, const py::tuple& options) {
-        return is_symmetric(measure(name, options));
+    module.def("is_symmetric", [](const py::object& name, const py::dict& options) {
+        return is_symmetric(read_measure(name, options));
     });
-    py::class_<Prepared>(module, "Prepared")
-        .def(py::init([](const CurveArray& P, const py::object& name, const py::tuple& options) {
-            return Prepared(view(P), measure(name, options));
-        }))
-        .def("value", prepared_value)
-        .def("values", prepared_values);
+    py::class_<PreparedCurve>(module, "Prepared")
+        .def(py::init<const CurveArray&, const py::object&, const py::dict&>())
+        .def("value", &PreparedCurve::value)
+        .def("values", &PreparedCurve::values);
 }
 
 }  // namespace curvewise::bindings

@@ -1,6 +1,7 @@
 // Measures of curves of equal shape, and the scaling by P's box.
 #include "bind_topics.hpp"
 #include "curvewise/pointwise.hpp"
+#include "interruptible.hpp"
 #include "numpy_view.hpp"
 
 namespace curvewise::bindings {

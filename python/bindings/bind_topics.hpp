@@ -5,8 +5,7 @@
 
 namespace curvewise::bindings {
 
-void bind_tables(pybind11::module_& module);     // dtw and frechet
-void bind_planar(pybind11::module_& module);     // area, pcm and curve_length
+void bind_measures(pybind11::module_& module);   // of one pair
 void bind_pairwise(pybind11::module_& module);   // cdist, pdist and Prepared
 void bind_pointwise(pybind11::module_& module);  // sum_of_squares, mse, mae and normalize
 

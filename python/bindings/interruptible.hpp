@@ -47,17 +47,25 @@ class PythonControl {
     Control control_;
 };
 
-// Calls function(Control*) without the interpreter's lock, where that is worth its cost: `steps` is
-// the number of elementary steps ahead. Signals are handled on the main thread, where Python
-// delivers them.
+// Calls of fewer elementary steps, about 50 µs at the slowest rate there is, keep the interpreter's
+// lock: to release it costs something, too.
+inline constexpr double steps_worth_unlocking = 5e3;
+
+// Calls function(), without the interpreter's lock where that is worth its cost.
+template <class Function>
+auto unlocked(double steps, Function function) {
+    if (steps < steps_worth_unlocking) return function();
+    const py::gil_scoped_release unlocked;
+    return function();
+}
+
+// Calls function(Control*) likewise, so that it reports progress and hears of signals, which are
+// handled on the main thread, where Python delivers them.
 template <class Function>
 auto interruptible(double steps, const py::object& progress, Function function) {
-    constexpr double worth_unlocking = 5e3;  // about 50 µs at the slowest rate there is
-    constexpr double worth_watching = 5e5;   // less is over before a report is due
-    if (progress.is_none() && steps < worth_unlocking) return function(nullptr);
+    constexpr double worth_watching = 5e5;  // less is over before a report is due
     if (progress.is_none() && steps < worth_watching) {
-        const py::gil_scoped_release unlocked;
-        return function(nullptr);
+        return unlocked(steps, [&] { return function(nullptr); });
     }
     PythonControl python(progress);
     try {

@@ -1,12 +1,12 @@
 // curvewise._core: the compiled library for the Python package, which gives it checked float64
-// arrays and every option by position. Documented in measures.py.
+// arrays and the options in a dict. Documented in the package curvewise.measures.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include "bind_topics.hpp"
 #include "curvewise/build_info.hpp"
 
-// No global state but what is set once: safe without the interpreter's lock.
+// No global state except what is set once: safe without the interpreter's lock.
 PYBIND11_MODULE(_core, module, pybind11::mod_gil_not_used()) {
     try {
         curvewise::build_info();  // chooses the instruction set
@@ -14,8 +14,7 @@ PYBIND11_MODULE(_core, module, pybind11::mod_gil_not_used()) {
         throw pybind11::import_error(error.what());
     }
     module.doc() = "The compiled library behind curvewise; private.";
-    curvewise::bindings::bind_tables(module);
-    curvewise::bindings::bind_planar(module);
+    curvewise::bindings::bind_measures(module);
     curvewise::bindings::bind_pointwise(module);
     curvewise::bindings::bind_pairwise(module);
     module.def("build_info", [] {

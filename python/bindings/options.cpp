@@ -1,93 +1,160 @@
 #include "options.hpp"
 
-#include "numpy_view.hpp"
+#include <string>
+
+#include "curvewise/compare.hpp"
 
 namespace curvewise::bindings {
 namespace {
 
-GroundDistance ground_distance(const py::object& metric, const py::object& p) {
-    const auto chosen = choose<Metric>("metric", metric,
-                                       {{"euclidean", Metric::euclidean},
-                                        {"sqeuclidean", Metric::sqeuclidean},
-                                        {"cityblock", Metric::cityblock},
-                                        {"chebyshev", Metric::chebyshev},
-                                        {"minkowski", Metric::minkowski}});
-    if (p.is_none()) return {chosen, 2.0};
-    if (chosen != Metric::minkowski) {
-        throw py::value_error("p applies to metric='minkowski' only, not to " +
-                              py::repr(metric).cast<std::string>());
+std::string repr(const py::object& given) { return py::repr(given).cast<std::string>(); }
+
+// Collects what the options that are choices may be.
+class ChoiceCollector {
+   public:
+    explicit ChoiceCollector(py::dict& choices) noexcept : choices_(choices) {}
+
+    template <class Enum>
+    std::enable_if_t<std::is_enum_v<Enum>> operator()(const char* name, Enum /*value*/) {
+        constexpr auto names = choice_names(Enum{});
+        py::tuple list(names.size());
+        for (std::size_t i = 0; i < names.size(); ++i) list[i] = names[i];
+        choices_[name] = list;
     }
-    const double order = PyFloat_AsDouble(p.ptr());
-    if (PyErr_Occurred() || !(order >= 1.0)) {
-        PyErr_Clear();
-        throw py::value_error("p is " + py::repr(p).cast<std::string>() +
-                              "; minkowski needs 1 <= p <= inf");
+    void operator()(const GroundDistance& ground) { (*this)("metric", ground.metric); }
+    template <class... Other>
+    void operator()(const char* /*name*/, const Other&... /*not a choice*/) noexcept {}
+    void operator()(const char* /*name*/, bool /*not a choice*/) noexcept {}
+
+   private:
+    py::dict& choices_;
+};
+
+template <class Options>
+py::dict changed_options(const Options& options) {
+    const py::dict defaults = written(Options{}), all = written(options);
+    py::dict changed;
+    for (const auto& [name, value] : all) {
+        if (!value.equal(defaults[name])) changed[name] = value;
     }
-    return {chosen, order};
+    return changed;
 }
 
 }  // namespace
 
-std::ptrdiff_t thread_count(const py::object& workers) {
-    return whole_number("workers", workers, -1, "give a whole number >= 1, or -1 for all cores");
+bool is_text(const py::object& given, const char* text) {
+    return PyUnicode_Check(given.ptr()) && PyUnicode_CompareWithASCIIString(given.ptr(), text) == 0;
 }
 
-FrechetOptions frechet_options(const py::object& metric, const py::object& p,
-                               const py::object& workers) {
-    return {ground_distance(metric, p), thread_count(workers)};
+void refuse_choice(const char* option, const py::object& given, const char* const* names,
+                   std::size_t count) {
+    std::string list;
+    for (std::size_t i = 0; i < count; ++i) list += (i == 0 ? "" : ", ") + std::string(names[i]);
+    throw py::value_error("unknown " + std::string(option) + " " + repr(given) + "; choose from " +
+                          list);
 }
 
-DtwOptions dtw_options(const py::object& metric, const py::object& p,
-                       const py::object& step_pattern, const py::object& window,
-                       const py::object& open_begin, const py::object& open_end,
-                       const py::object& workers) {
-    DtwOptions options;
-    options.ground = ground_distance(metric, p);
-    options.step_pattern = choose<StepPattern>(
-        "step_pattern", step_pattern,
-        {{"symmetric1", StepPattern::symmetric1}, {"symmetric2", StepPattern::symmetric2}});
-    if (!window.is_none()) {
-        options.window = whole_number("window", window, 0, "give a whole number >= 0, or None");
+std::ptrdiff_t whole_number(const char* option, const py::object& given,
+                            const WholeNumberRange& range) {
+    if (PyIndex_Check(given.ptr()) && !PyBool_Check(given.ptr())) {
+        // Without an exception type, a number out of range is cut to the range.
+        const Py_ssize_t value = PyNumber_AsSsize_t(given.ptr(), nullptr);
+        if (!PyErr_Occurred() && value >= range.least) return value;
+        PyErr_Clear();
     }
-    options.open_begin = is_true(open_begin);
-    options.open_end = is_true(open_end);
-    options.workers = thread_count(workers);
-    return options;
+    throw py::value_error(std::string(option) + " is " + repr(given) + "; " + range.advice);
 }
 
-AreaOptions area_options(const py::object& spacing, const py::object& crossing,
-                         const py::object& squared) {
-    return {choose<Spacing>("spacing", spacing,
-                            {{"distance", Spacing::distance},
-                             {"x", Spacing::x},
-                             {"arc_length", Spacing::arc_length}}),
-            choose<Crossing>("crossing", crossing,
-                             {{"rearrange", Crossing::rearrange}, {"split", Crossing::split}}),
-            is_true(squared)};
+bool is_true(const py::object& given) {
+    const int truth = PyObject_IsTrue(given.ptr());
+    if (truth < 0) throw py::error_already_set();
+    return truth == 1;
 }
 
-PcmOptions pcm_options(const py::object& offsets) {
-    if (is_text(offsets, "continuous")) return {200, true};
-    return {whole_number("offsets", offsets, 1, "give a whole number >= 1, or 'continuous'"),
-            false};
-}
-
-CurveLengthOptions curve_length_options(const py::object& scale) {
-    return {choose<LengthScale>("scale", scale,
-                                {{"mean", LengthScale::mean},
-                                 {"mean_abs", LengthScale::mean_abs},
-                                 {"range", LengthScale::range}})};
-}
-
-Measure measure(const py::object& name, const py::tuple& options) {
-    if (is_text(name, "dtw")) {
-        return dtw_options(options[0], options[1], options[2], options[3], options[4], options[5],
-                           py::int_(1));
+double minkowski_order(const py::object& p, Metric metric) {
+    if (metric != Metric::minkowski) {
+        const char* const name = choice_names(metric)[static_cast<std::size_t>(metric)];
+        throw py::value_error("p applies to metric='minkowski' only, not to '" + std::string(name) +
+                              "'");
     }
-    if (is_text(name, "frechet")) return frechet_options(options[0], options[1], py::int_(1));
-    if (is_text(name, "area")) return area_options(options[0], options[1], options[2]);
-    if (is_text(name, "pcm")) return pcm_options(options[0]);
-    return curve_length_options(options[0]);
+    const double order = PyFloat_AsDouble(p.ptr());
+    if (PyErr_Occurred() || !(order >= 1.0)) {
+        PyErr_Clear();
+        throw py::value_error("p is " + repr(p) + "; minkowski needs 1 <= p <= inf");
+    }
+    return order;
+}
+
+py::object OptionReader::take(const char* name) {
+    PyObject* key = nullptr;
+    PyObject* value = nullptr;
+    py::ssize_t next = place_;
+    if (PyDict_Next(given_.ptr(), &next, &key, &value) != 0 && PyUnicode_Check(key) &&
+        PyUnicode_CompareWithASCIIString(key, name) == 0) {
+        place_ = next;
+    } else {
+        value = PyDict_GetItemString(given_.ptr(), name);
+    }
+    if (value != nullptr) ++taken_;
+    return py::reinterpret_borrow<py::object>(value);
+}
+
+void refuse_unknown_option(const char* measure, const py::dict& given, const py::dict& valid) {
+    std::string list;
+    for (const auto& [name, value] : valid) {
+        list += (list.empty() ? "" : ", ") + name.cast<std::string>();
+    }
+    for (const auto& [name, value] : given) {
+        if (valid.contains(name)) continue;
+        throw py::type_error(std::string(measure) + " has no option " +
+                             py::repr(name).cast<std::string>() + "; it has " + list);
+    }
+    throw py::type_error("the options of " + std::string(measure) +
+                         " changed while they were read");
+}
+
+Measure read_measure(const py::object& name, const py::dict& options) {
+    std::optional<Measure> found;
+    std::vector<const char*> names;
+    for_each_measure([&](const auto& defaults) {
+        using Options = std::decay_t<decltype(defaults)>;
+        names.push_back(Options::measure);
+        if (is_text(name, Options::measure)) {
+            found = read_options<Options>(options, OptionsOf::batch);
+        }
+    });
+    if (!found) refuse_choice("measure", name, names.data(), names.size());
+    return *found;
+}
+
+py::dict measure_defaults() {
+    py::dict result;
+    for_each_measure([&](const auto& options) { result[options.measure] = written(options); });
+    return result;
+}
+
+py::dict option_choices() {
+    py::dict result;
+    for_each_measure([&](auto options) { visit_options(options, ChoiceCollector(result)); });
+    return result;
+}
+
+py::dict preset_conditions() {
+    py::dict result;
+    constexpr auto names = choice_names(Preset{});
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        py::dict measures;
+        for (const Condition& condition : conditions(static_cast<Preset>(i))) {
+            std::visit(
+                [&](const auto& options) {
+                    measures[options.measure] =
+                        py::make_tuple(condition.scaled, changed_options(options));
+                },
+                condition.measure);
+        }
+        result[names[i]] = measures;
+    }
+    return result;
 }
 
 }  // namespace curvewise::bindings

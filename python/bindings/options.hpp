@@ -1,34 +1,162 @@
-// From Python's options, by position, to the library's. Errors are ValueErrors that list what is
-// valid.
+// From a dict of Python's options, by name, to the library's. What is missing keeps the default
+// of the C++ struct; a name that the measure does not have is a TypeError; a value out of range is
+// a ValueError that lists what is valid, whatever type the value has.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
-#include "curvewise/area.hpp"
-#include "curvewise/curve_length.hpp"
-#include "curvewise/dtw.hpp"
-#include "curvewise/frechet.hpp"
-#include "curvewise/pairwise.hpp"
-#include "curvewise/pcm.hpp"
+#include <cstddef>
+#include <optional>
+#include <type_traits>
+
+#include "curvewise/measure.hpp"
 
 namespace curvewise::bindings {
 
 namespace py = pybind11;
 
-FrechetOptions frechet_options(const py::object& metric, const py::object& p,
-                               const py::object& workers);
-DtwOptions dtw_options(const py::object& metric, const py::object& p,
-                       const py::object& step_pattern, const py::object& window,
-                       const py::object& open_begin, const py::object& open_end,
-                       const py::object& workers);
-AreaOptions area_options(const py::object& spacing, const py::object& crossing,
-                         const py::object& squared);
-PcmOptions pcm_options(const py::object& offsets);
-CurveLengthOptions curve_length_options(const py::object& scale);
+// Whether an object is a str that reads `text`.
+bool is_text(const py::object& given, const char* text);
 
-std::ptrdiff_t thread_count(const py::object& workers);
+// "unknown metric 'foo'; choose from euclidean, ..."
+[[noreturn]] void refuse_choice(const char* option, const py::object& given,
+                                const char* const* names, std::size_t count);
 
-// One of the five by its name, with its own options in the order of its Python function.
-Measure measure(const py::object& name, const py::tuple& options);
+// A whole number within the range, one beyond ptrdiff_t cut to its largest value.
+std::ptrdiff_t whole_number(const char* option, const py::object& given,
+                            const WholeNumberRange& range);
+
+// Python's truth.
+bool is_true(const py::object& given);
+
+// The order of minkowski; no other metric takes one.
+double minkowski_order(const py::object& p, Metric metric);
+
+// Whether the options are those of a batch, which has workers of its own.
+enum class OptionsOf { pair, batch };
+
+// Reads the options of one measure (see curvewise/options.hpp) from a dict. Fastest where the dict
+// has them in the measure's order.
+class OptionReader {
+   public:
+    OptionReader(const py::dict& given, OptionsOf what) noexcept : given_(given), what_(what) {}
+
+    template <class Enum>
+    std::enable_if_t<std::is_enum_v<Enum>> operator()(const char* name, Enum& value) {
+        if (const py::object object = take(name)) value = choose<Enum>(name, object);
+    }
+    void operator()(const char* name, bool& value) {
+        if (const py::object object = take(name)) value = is_true(object);
+    }
+    // Only `workers` is a plain number.
+    void operator()(const char* name, std::ptrdiff_t& value, const WholeNumberRange& range) {
+        if (what_ == OptionsOf::batch) return;
+        if (const py::object object = take(name)) value = whole_number(name, object, range);
+    }
+    void operator()(const char* name, std::optional<std::ptrdiff_t>& value,
+                    const WholeNumberRange& range) {
+        const py::object object = take(name);
+        if (object && !object.is_none()) value = whole_number(name, object, range);
+    }
+    void operator()(const char* name, std::ptrdiff_t& value, bool& continuous,
+                    const WholeNumberRange& range) {
+        const py::object object = take(name);
+        if (!object) return;
+        continuous = is_text(object, "continuous");
+        if (!continuous) value = whole_number(name, object, range);
+    }
+    void operator()(GroundDistance& ground) {
+        const py::object metric = take("metric");
+        if (metric) ground.metric = choose<Metric>("metric", metric);
+        const py::object p = take("p");
+        if (p && !p.is_none()) ground.p = minkowski_order(p, ground.metric);
+    }
+
+    // Whether the dict has more than what was read.
+    bool has_more() const noexcept { return taken_ < static_cast<py::ssize_t>(given_.size()); }
+
+   private:
+    // An option's value, or a null object where it is not given.
+    py::object take(const char* name);
+
+    template <class Enum>
+    static Enum choose(const char* option, const py::object& given) {
+        constexpr auto names = choice_names(Enum{});
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (is_text(given, names[i])) return static_cast<Enum>(i);
+        }
+        refuse_choice(option, given, names.data(), names.size());
+    }
+
+    const py::dict& given_;
+    OptionsOf what_;
+    py::ssize_t place_ = 0;  // in the dict, behind the last option that was read in order
+    py::ssize_t taken_ = 0;
+};
+
+// TypeError: "dtw has no option 'foo'; it has metric, p, ..."
+[[noreturn]] void refuse_unknown_option(const char* measure, const py::dict& given,
+                                        const py::dict& valid);
+
+// The options with their values, by name, as Python has them.
+class OptionWriter {
+   public:
+    explicit OptionWriter(py::dict& options) noexcept : options_(options) {}
+
+    template <class Enum>
+    std::enable_if_t<std::is_enum_v<Enum>> operator()(const char* name, Enum value) {
+        options_[name] = choice_names(value)[static_cast<std::size_t>(value)];
+    }
+    void operator()(const char* name, bool value) { options_[name] = value; }
+    void operator()(const char* name, std::ptrdiff_t value, const WholeNumberRange& /*range*/) {
+        options_[name] = value;
+    }
+    void operator()(const char* name, const std::optional<std::ptrdiff_t>& value,
+                    const WholeNumberRange& /*range*/) {
+        options_[name] = value ? py::object(py::int_(*value)) : py::object(py::none());
+    }
+    void operator()(const char* name, std::ptrdiff_t value, bool continuous,
+                    const WholeNumberRange& /*range*/) {
+        options_[name] = continuous ? py::object(py::str("continuous")) : py::int_(value);
+    }
+    void operator()(const GroundDistance& ground) {
+        (*this)("metric", ground.metric);
+        const bool has_order = ground.metric == Metric::minkowski;
+        options_["p"] = has_order ? py::object(py::float_(ground.p)) : py::object(py::none());
+    }
+
+   private:
+    py::dict& options_;
+};
+
+template <class Options>
+py::dict written(Options options) {
+    py::dict result;
+    visit_options(options, OptionWriter(result));
+    return result;
+}
+
+template <class Options>
+Options read_options(const py::dict& given, OptionsOf what = OptionsOf::pair) {
+    Options options;
+    OptionReader reader(given, what);
+    visit_options(options, reader);
+    if (reader.has_more()) {
+        py::dict valid = written(options);
+        if (what == OptionsOf::batch && valid.contains("workers")) valid.attr("pop")("workers");
+        refuse_unknown_option(Options::measure, given, valid);
+    }
+    return options;
+}
+
+// A measure by its name, with its options, for a batch.
+Measure read_measure(const py::object& name, const py::dict& options);
+
+// For every measure its options with their defaults; for every option that is a choice, what it
+// may be; for every preset and measure, whether the curves are scaled, and the options that are not
+// the default.
+py::dict measure_defaults();
+py::dict option_choices();
+py::dict preset_conditions();
 
 }  // namespace curvewise::bindings

@@ -7,7 +7,11 @@
 
 from __future__ import annotations
 
-from . import _core, datasets, reference
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from . import _core, datasets, measures, reference
+from ._docstrings import pass_on
 from .compare import Comparison, compare
 from .embedding import get_include
 from .measures import (
@@ -30,6 +34,12 @@ from .measures import (
 )
 from .pairwise import Prepared, available_measures, cdist, pdist
 from .results import Alignment, AreaQuads, PcmMatch
+
+if TYPE_CHECKING:
+    from . import calibration as calibration
+    from . import compat as compat
+    from . import dask as dask
+    from . import plotting as plotting
 
 __all__ = [
     "Alignment",
@@ -63,6 +73,24 @@ __all__ = [
     "reference",
     "sum_of_squares",
 ]
+
+_LAZY = ("calibration", "compat", "dask", "plotting")
+
+pass_on((getattr(measures, name) for name in reference.__all__), reference)
+
+# Hidden from type checkers, which would otherwise accept every misspelt attribute.
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> Any:
+        """Import a submodule that ``import curvewise`` leaves out to be fast."""
+        if name in _LAZY:
+            return import_module(f"{__name__}.{name}")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    # help() imports all of these, and the import of curvewise.dask fails where dask is missing.
+    return sorted({*globals(), *_LAZY} - {"dask"})
 
 
 def build_info() -> _core.BuildInfo:

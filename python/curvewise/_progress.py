@@ -6,14 +6,16 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TypeAlias
 
-__all__ = ["Progress", "Report", "reporting"]
+from ._extras import extra
+
+__all__ = ["Report", "reporting"]
 
 Report: TypeAlias = Callable[[int, int], object]
-Progress: TypeAlias = bool | Report
+"""What is called with (done, total)."""
 
 
 @contextmanager
-def reporting(progress: Progress) -> Iterator[Report | None]:
+def reporting(progress: bool | Report) -> Iterator[Report | None]:
     """Yield the function to call with (done, total), or None; show a bar for True.
 
     Raises
@@ -24,13 +26,8 @@ def reporting(progress: Progress) -> Iterator[Report | None]:
     if callable(progress):
         yield progress
     elif progress:
-        try:
+        with extra("progress", "progress=True needs tqdm", ", or give a function of (done, total)"):
             from tqdm.auto import tqdm
-        except ImportError as error:
-            raise ImportError(
-                'progress=True needs tqdm: pip install "curvewise[progress]", '
-                "or give a function of (done, total)"
-            ) from error
         with tqdm(unit="step", unit_scale=True) as bar:
 
             def report(done: int, total: int) -> None:

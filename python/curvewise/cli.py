@@ -9,26 +9,27 @@ by them, so that the others start fast and run without it.
 from __future__ import annotations
 
 import argparse
-import importlib
 import io
 import json
 import math
 import os
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Any, get_args
 
 from . import __version__, build_info
-from .compare import PRESETS, Comparison, Preset, compare
+from ._extras import extra
+from ._options import Preset
+from .compare import PRESETS, Comparison, compare
 from .csv_curves import read_curve
 from .datasets import hysteresis_pair
 from .embedding import get_cmake_dir, get_include
 from .measures import curve_length_residuals, normalize
+from .measures.registry import MEASURES
 
 __all__ = ["main"]
-
-_MEASURES = ("area", "pcm", "frechet", "dtw", "curve_length")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -146,7 +147,7 @@ def _parser() -> argparse.ArgumentParser:
     command.add_argument(
         "--measures",
         nargs="+",
-        choices=_MEASURES,
+        choices=MEASURES,
         help="by default all five; frechet and dtw if there are not two columns",
     )
     command.add_argument("--json", action="store_true", help="print one JSON object")
@@ -255,10 +256,8 @@ def _write_numbers(numbers: Iterable[float], file: str) -> None:
 
 def _require_matplotlib() -> None:
     """Fail before the work rather than after it."""
-    try:
-        importlib.import_module("matplotlib.figure")
-    except ImportError as error:
-        raise ImportError('a picture needs matplotlib: pip install "curvewise[plot]"') from error
+    with extra("plot", "a picture needs matplotlib"):
+        import_module("matplotlib.figure")
 
 
 def _write_picture(comparison: Comparison, file: str) -> None:

@@ -2,55 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING
 
-from . import measures as _measures
 from ._curves import Array, CurveLike, as_curves
+from ._docstrings import filled
+from ._options import Preset
+from .measures import normalize
+from .measures.registry import MEASURES, PRESETS, Condition, MeasureInfo, default_measures
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = ["PRESETS", "Comparison", "Preset", "compare"]
-
-Preset: TypeAlias = Literal["scaled", "paper", "raw"]
-
-
-class Condition(NamedTuple):
-    """How a preset computes one measure."""
-
-    scaled: bool
-    options: dict[str, Any]
-
-
-_MEASURES: dict[str, Callable[..., float]] = {
-    "area": _measures.area,
-    "pcm": _measures.pcm,
-    "frechet": _measures.frechet,
-    "dtw": _measures.dtw,
-    "curve_length": _measures.curve_length,
-}
-
-_ANY_DIMENSION = ("frechet", "dtw")
-
-PRESETS: dict[str, dict[str, Condition]] = {
-    "scaled": {
-        "area": Condition(True, {}),
-        "pcm": Condition(True, {}),
-        "frechet": Condition(True, {}),
-        "dtw": Condition(True, {}),
-        "curve_length": Condition(True, {"scale": "mean_abs"}),
-    },
-    "paper": {
-        "area": Condition(False, {"spacing": "x"}),
-        "pcm": Condition(False, {}),
-        "frechet": Condition(True, {}),
-        "dtw": Condition(True, {"step_pattern": "symmetric2"}),
-        "curve_length": Condition(False, {}),
-    },
-    "raw": {name: Condition(False, {}) for name in _MEASURES},
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +31,7 @@ class Comparison:
     preset : {"scaled", "paper", "raw"}
         The conditions under which the values were computed.
     values : dict of str to float
-        In the order area, pcm, frechet, dtw, curve_length, or as asked for.
+        In the order in which :func:`compare` lists the measures, or as asked for.
     """
 
     P: Array
@@ -99,6 +64,7 @@ class Comparison:
         return plot_comparison(self)
 
 
+@filled(any_dimension=" and ".join(name for name, info in MEASURES.items() if not info.planar))
 def compare(
     P: CurveLike,
     Q: CurveLike,
@@ -118,8 +84,8 @@ def compare(
         dtw with step_pattern="symmetric2", on scaled curves; curve_length raw with
         scale="mean"). "raw": every default on the curves as they are.
     measures : sequence of str, optional
-        Of "area", "pcm", "frechet", "dtw", "curve_length"; if not given, all five in the plane
-        and frechet and dtw in other dimensions.
+        Of {measures}.
+        If not given: all of them in the plane, {any_dimension} in other dimensions.
 
     Returns
     -------
@@ -151,22 +117,18 @@ def compare(
     if not isinstance(preset, str) or preset not in PRESETS:
         raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
     if measures is None:
-        measures = list(_MEASURES) if P.ndim == 2 and P.shape[1] == 2 else _ANY_DIMENSION
+        measures = default_measures(P)
     if isinstance(measures, str) or not (names := list(measures)):
         raise ValueError(f"measures is {measures!r}; give a list of names, e.g. ['area', 'dtw']")
     for name in names:
-        if not isinstance(name, str) or name not in _MEASURES:
-            raise ValueError(f"unknown measure {name!r}; choose from {', '.join(_MEASURES)}")
+        if not isinstance(name, str) or name not in MEASURES:
+            raise ValueError(f"unknown measure {name!r}; choose from {', '.join(MEASURES)}")
     conditions = PRESETS[preset]
-    values = {
-        name: _MEASURES[name](*_prepared(P, Q, conditions[name]), **conditions[name].options)
-        for name in names
-    }
+    values = {name: _value(MEASURES[name], conditions[name], P, Q) for name in names}
     return Comparison(P, Q, preset, values)
 
 
-def _prepared(P: Array, Q: Array, condition: Condition) -> tuple[Array, Array]:
-    if not condition.scaled:
-        return P, Q
-    scaled_p, scaled_q = _measures.normalize(P, Q)
-    return scaled_p, scaled_q
+def _value(info: MeasureInfo, condition: Condition, P: Array, Q: Array) -> float:
+    if condition.scaled:
+        P, Q = normalize(P, Q)
+    return info.function(P, Q, **condition.options)

@@ -20,15 +20,14 @@ import numpy as np
 
 from . import _core, pairwise
 from ._curves import Array, as_curve_list
+from ._extras import extra
 from .pairwise import Curves, Measure
 
-try:
+with extra("dask", "curvewise.dask needs dask"):
     # Absolute, so these are the packages of that name and not this module.
     import dask.array as dask_array
     from dask.base import tokenize
     from dask.highlevelgraph import HighLevelGraph
-except ImportError as error:
-    raise ImportError('curvewise.dask needs dask: pip install "curvewise[dask]"') from error
 
 __all__ = ["cdist"]
 
@@ -55,8 +54,8 @@ def cdist(
         As for :func:`curvewise.cdist`. A callable must be one that the scheduler's workers can
         unpickle; cloudpickle takes lambdas to them too.
     block : int, optional
-        Curves per block, at least 1: a block has so many rows and columns. If not given, as many
-        as have some 32,000 points: about a second of dtw or frechet a block.
+        Curves per block, at least 1: a block has this many rows and columns. If not given, as many
+        as have some 32,000 points together: about a second of dtw or frechet a block.
 
     Returns
     -------
@@ -67,7 +66,7 @@ def cdist(
     Raises
     ------
     ValueError, TypeError
-        As for :func:`curvewise.cdist`, at once and not when the blocks are computed (but for a
+        As for :func:`curvewise.cdist`, at once and not when the blocks are computed (except for a
         `window` that admits no path); a `block` below 1; one of `out`, `progress` and `workers`.
     ImportError
         dask is not installed: ``pip install "curvewise[dask]"``.
@@ -78,9 +77,9 @@ def cdist(
     block. Each block runs on one thread and releases the interpreter's lock, so that dask's threads
     serve as well as its processes. Memory: the graph holds a copy of the curves; a worker holds
     those of its blocks. A cluster warns of a graph above 10 MB
-    (``distributed.admin.large-graph-warning-threshold``), which then has only its curves to send,
-    once. The bar of ``dask.diagnostics.ProgressBar`` or the cluster's dashboard show the progress.
-    A block is not interrupted; cancelling waits for those that have begun.
+    (``distributed.admin.large-graph-warning-threshold``); here that is the curves themselves, which
+    are sent once. The bar of ``dask.diagnostics.ProgressBar`` or the cluster's dashboard shows the
+    progress. A block is not interrupted; cancelling waits for those that have begun.
 
     Examples
     --------
@@ -98,8 +97,8 @@ def cdist(
     _refuse_local_only(options)
     mirrored = False
     if not callable(measure):
-        name, values = pairwise._named(measure, options)
-        mirrored = _core.is_symmetric(name, values) and XB is None  # it checks the values too
+        name = pairwise._check_names(measure, options)
+        mirrored = _core.is_symmetric(name, options) and XB is None  # it checks the options too
         _check_curves(rows, None if XB is None else columns, name, options)
     size = _block_size(block, rows, columns)
     token = tokenize(rows, columns, measure, limit, options, size, mirrored)
@@ -208,7 +207,7 @@ def _refuse_local_only(options: dict[str, Any]) -> None:
 def _check_curves(
     rows: list[Array], columns: list[Array] | None, measure: str, options: dict[str, Any]
 ) -> None:
-    """Refuse what a block would refuse, which cannot say where in the whole list the curve is.
+    """Refuse what a block would refuse: a block cannot say where in the whole list a curve is.
 
     The compiled library checks whatever it computes; so each curve is compared with a line of two
     points, in linear time.
@@ -219,8 +218,8 @@ def _check_curves(
     line = np.array([np.zeros(dim), np.ones(dim)])
     # Neither a band, which a line does not fit, nor a long search.
     cheap = {"window": None} if measure == "dtw" else {"offsets": 1} if measure == "pcm" else {}
-    _, values = pairwise._named(measure, {**options, **cheap})
-    _core.cdist(rows, [line], measure, values, np.empty(len(rows)), 1, np.inf, None)
+    options = {**options, **cheap}
+    _core.cdist(rows, [line], measure, options, np.empty(len(rows)), 1, np.inf, None)
     if columns is None:
         return
     for j, curve in enumerate(columns):
@@ -229,7 +228,7 @@ def _check_curves(
                 f"XA[0] has shape {rows[0].shape} and XB[{j}] has shape {curve.shape}; "
                 "both need the same number of coordinates"
             )
-    _core.cdist([line], columns, measure, values, np.empty(len(columns)), 1, np.inf, None)
+    _core.cdist([line], columns, measure, options, np.empty(len(columns)), 1, np.inf, None)
 
 
 def _dimension(curve: Array) -> int:

@@ -188,8 +188,8 @@ def hysteresis_pair(*, seed: int = 0) -> tuple[npt.NDArray[np.float64], npt.NDAr
     Notes
     -----
     The numbers drawn are ``numpy.random.Generator(numpy.random.PCG64(seed)).normal``. NumPy does
-    not promise these for ever, but has not changed them since they exist (1.17); platforms differ
-    in the last digits of exp and log at most. A few milliseconds.
+    not promise to keep these, and has kept them since they exist (1.17); platforms differ in the
+    last digits of exp and log at most. A call takes a few milliseconds.
 
     Examples
     --------

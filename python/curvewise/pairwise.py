@@ -7,15 +7,13 @@ library; a callable given in the place of a measure's name is called pair by pai
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Callable, Iterable, Sequence
-from functools import cache
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import combinations, product
-from typing import Any, Literal, SupportsFloat, SupportsIndex, TypeAlias, overload
+from typing import Any, SupportsFloat, SupportsIndex, TypeAlias, get_args, overload
 
 import numpy as np
 
-from . import _core, measures
+from . import _core
 from ._curves import (
     Array,
     CurveLike,
@@ -24,16 +22,16 @@ from ._curves import (
     check_column_names,
     column_names,
 )
-from ._progress import Progress, reporting
+from ._docstrings import filled, listed
+from ._options import Default, MeasureName, Metric
+from ._progress import Report, reporting
+from .measures.registry import MEASURES
 
 __all__ = ["Curves", "Measure", "Prepared", "available_measures", "cdist", "pdist"]
 
-MeasureName: TypeAlias = Literal["area", "curve_length", "dtw", "frechet", "pcm"]
 Measure: TypeAlias = MeasureName | Callable[..., float]
 Curves: TypeAlias = Sequence[CurveLike] | Array
 """k curves: an array of shape (k, n, d), or a sequence of curves of different lengths."""
-
-_METRICS = ("euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski")
 
 
 def available_measures() -> list[str]:
@@ -54,18 +52,19 @@ def available_measures() -> list[str]:
     >>> curvewise.available_measures()
     ['area', 'curve_length', 'dtw', 'frechet', 'pcm']
     """
-    return ["area", "curve_length", "dtw", "frechet", "pcm"]
+    return sorted(MEASURES)
 
 
+@filled()
 def cdist(
     XA: Curves,
     XB: Curves | None = None,
     measure: Measure = "dtw",
     *,
     out: Array | None = None,
-    workers: SupportsIndex = 1,
+    workers: SupportsIndex = Default.workers,
     cutoff: SupportsFloat | None = None,
-    progress: Progress = False,
+    progress: bool | Report = False,
     **options: Any,
 ) -> Array:
     """Compute a measure between every curve of one list and every curve of another.
@@ -76,14 +75,13 @@ def cdist(
         The curves of a sequence may differ in length, not in d. A curve of XA is P, one of XB is
         Q. Without XB, XA is compared with itself: each pair of a symmetric measure is then
         computed once, with the earlier curve as P.
-    measure : {"area", "curve_length", "dtw", "frechet", "pcm"} or callable
+    measure : {measures} or callable
         A measure by its name (see :func:`available_measures`), or a function of two curves that
         returns a float. A callable runs in this thread, holding the interpreter's lock, pair by
         pair: `workers` is of no use to it, and all pairs are computed.
     out : ndarray of float64, shape (k, l), C-contiguous, optional
         Where to write the result.
-    workers : int
-        Threads for this call: at least 1, or -1 for one per core. Never changes a value.
+    {workers}
     cutoff : float >= 0, optional
         Values above it come back as inf; their pairs may be abandoned before their end.
     progress : bool or callable
@@ -133,20 +131,21 @@ def cdist(
         points = _points(rows) * len(others) + len(rows) * _points(others)
         _fill(out, product(rows, others), points, measure, limit, options, progress)
         return out
-    name, values = _named(measure, options)
+    name = _check_names(measure, options)
     with reporting(progress) as report:
-        _core.cdist(rows, columns, name, values, out, workers, limit, report)
+        _core.cdist(rows, columns, name, options, out, workers, limit, report)
     return out
 
 
+@filled(symmetric=listed(name for name, info in MEASURES.items() if info.symmetric))
 def pdist(
     X: Curves,
     measure: Measure = "dtw",
     *,
     out: Array | None = None,
-    workers: SupportsIndex = 1,
+    workers: SupportsIndex = Default.workers,
     cutoff: SupportsFloat | None = None,
-    progress: Progress = False,
+    progress: bool | Report = False,
     **options: Any,
 ) -> Array:
     """Compute a symmetric measure between every two curves of a list.
@@ -155,7 +154,7 @@ def pdist(
     ----------
     X : array_like, shape (k, n, d), or a sequence of curves
         As for :func:`cdist`.
-    measure : {"area", "dtw", "frechet"} or callable
+    measure : {symmetric} or callable
         A symmetric one: dtw without open ends, area without spacing="arc_length". A callable is
         taken to be symmetric.
     out : ndarray of float64, shape (k (k-1) / 2,), C-contiguous, optional
@@ -193,18 +192,19 @@ def pdist(
         points = (len(curves) - 1) * _points(curves)
         _fill(out, combinations(curves, 2), points, measure, limit, options, progress)
         return out
-    name, values = _named(measure, options)
-    if not _core.is_symmetric(name, values):
+    name = _check_names(measure, options)
+    if not _core.is_symmetric(name, options):
         given = "".join(f", {option}={value!r}" for option, value in options.items())
         raise ValueError(
             f"pdist needs a symmetric measure, and {name!r}{given} is not: use cdist, "
             "which computes both directions"
         )
     with reporting(progress) as report:
-        _core.pdist(curves, name, values, out, workers, limit, report)
+        _core.pdist(curves, name, options, out, workers, limit, report)
     return out
 
 
+@filled()
 class Prepared:
     """A curve P ready to be compared with many: checked, packed and scaled once.
 
@@ -215,7 +215,7 @@ class Prepared:
     ----------
     P : array_like, shape (n, d)
         The reference, e.g. the experiment.
-    measure : {"area", "curve_length", "dtw", "frechet", "pcm"}
+    measure : {measures}
         A measure by its name.
     **options
         Those of the measure's own function, except ``workers``.
@@ -243,9 +243,9 @@ class Prepared:
     def __init__(self, P: CurveLike, measure: MeasureName = "dtw", **options: Any) -> None:
         self._curve = as_curve(P, "P").copy()
         self._columns = column_names(P)
-        self._measure, values = _named(measure, options)
-        self._options = dict(options)
-        self._prepared = _core.Prepared(self._curve, self._measure, values)
+        self._measure = _check_names(measure, options)
+        self._options = options
+        self._prepared = _core.Prepared(self._curve, self._measure, options)
 
     def __repr__(self) -> str:
         options = "".join(f", {name}={value!r}" for name, value in self._options.items())
@@ -255,10 +255,10 @@ class Prepared:
         return _prepare, (self._curve, self._measure, self._options)
 
     @overload
-    def __call__(self, Q: Array, *, workers: SupportsIndex = 1) -> float: ...
+    def __call__(self, Q: Array, *, workers: SupportsIndex = Default.workers) -> float: ...
     @overload
-    def __call__(self, Q: Any, *, workers: SupportsIndex = 1) -> Any: ...
-    def __call__(self, Q: Any, *, workers: SupportsIndex = 1) -> Any:
+    def __call__(self, Q: Any, *, workers: SupportsIndex = Default.workers) -> Any: ...
+    def __call__(self, Q: Any, *, workers: SupportsIndex = Default.workers) -> Any:
         """Return the measure of P and Q, or of P and each curve of a list.
 
         Parameters
@@ -294,18 +294,11 @@ def _prepare(P: Array, measure: MeasureName, options: dict[str, Any]) -> Prepare
     return Prepared(P, measure, **options)
 
 
-@cache
-def _defaults(name: str) -> dict[str, Any]:
-    """Return the options of a measure with their defaults, in the order of its signature."""
-    parameters = inspect.signature(getattr(measures, name)).parameters.values()
-    keywords = (p for p in parameters if p.kind is p.KEYWORD_ONLY and p.name != "workers")
-    return {p.name: p.default for p in keywords}
-
-
-def _named(measure: Any, options: dict[str, Any]) -> tuple[str, tuple[Any, ...]]:
-    """Return the measure's name and the values of all its options."""
+def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
+    """Return the measure's name; explain measures and ground distances to who mixes them up."""
     names = available_measures()
-    if isinstance(measure, str) and measure in _METRICS:
+    metrics = get_args(Metric)
+    if isinstance(measure, str) and measure in metrics:
         raise ValueError(
             f"{measure!r} is a ground distance, between points; the measure is of curves, one of "
             f"{', '.join(names)}: use measure='dtw', metric={measure!r} for example"
@@ -316,13 +309,9 @@ def _named(measure: Any, options: dict[str, Any]) -> tuple[str, tuple[Any, ...]]
     if isinstance(metric, str) and metric in names:
         raise ValueError(
             f"{metric!r} is a measure, of curves; the metric is the ground distance between their "
-            f"points, one of {', '.join(_METRICS)}: use measure={metric!r}"
+            f"points, one of {', '.join(metrics)}: use measure={metric!r}"
         )
-    defaults = _defaults(measure)
-    for name in options:
-        if name not in defaults:
-            raise TypeError(f"{measure} has no option {name!r}; it has {', '.join(defaults)}")
-    return measure, tuple({**defaults, **options}.values())
+    return measure
 
 
 def _checked_out(out: Array | None, shape: tuple[int, ...], name: str) -> Array:
@@ -355,7 +344,7 @@ def _fill(
     measure: Callable[..., float],
     limit: float,
     options: dict[str, Any],
-    progress: Progress,
+    progress: bool | Report,
 ) -> None:
     """Call a Python function for every pair, in the order of `out`."""
     flat = out.reshape(-1)

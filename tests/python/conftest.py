@@ -1,17 +1,85 @@
-"""What the tests share: among it the golden data, in ../shared/data or CURVEWISE_DATA."""
+"""What the tests share: the golden data, who runs what, and what is said before it begins.
+
+The whole suite runs in as many processes as there are cores (pytest-xdist). The tests of a file
+stay together, in one process and in their order, so that a fixture of a file is made once; files
+whose tests take seconds each are shared out test by test, and the longest begin first. A run of
+named files or tests is one process, as are `pytest -n 0` and `pytest --pdb`.
+"""
 
 from __future__ import annotations
 
 import os
+import shutil
 import signal
-from collections.abc import Callable, Iterator
-from functools import cache
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from programs import install
 
 ROOT = Path(__file__).resolve().parents[2]
+DATA = Path(os.environ.get("CURVEWISE_DATA", ROOT.parent / "shared" / "data"))
+
+# What takes longest, to be begun first; and of those, files whose tests share nothing that is long
+# to make.
+LONGEST_FIRST = (
+    "embedding/test_cpp.py",
+    "package/test_cli.py::test_selfcheck_passes_on_this_machine",
+    "embedding/test_embed.py::test_add_subdirectory_leaks_nothing",
+    "embedding/",
+    "calibration/",
+)
+TEST_BY_TEST = ("embedding/test_embed.py", "package/test_docs.py", *LONGEST_FIRST[1:2])
+
+
+def place(item: pytest.Item) -> str:
+    """Return a test's id from tests/python on, e.g. "package/test_docs.py::test_x"."""
+    return item.nodeid.rpartition("tests/python/")[2]
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with what takes longest, and say which tests stay together in one process."""
+
+    def rank(item: pytest.Item) -> int:
+        starts = [i for i, name in enumerate(LONGEST_FIRST) if place(item).startswith(name)]
+        return starts[0] if starts else len(LONGEST_FIRST)
+
+    items.sort(key=rank)  # stable
+    for item in items:
+        if not place(item).startswith(TEST_BY_TEST):
+            item.add_marker(pytest.mark.xdist_group(place(item).partition("::")[0]))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
+    """Answer `-n auto`: a process for each core for the whole suite, none for a part of it."""
+    whole = config.args == config.getini("testpaths")
+    cores = min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1, 8)
+    return cores if whole and cores > 1 else 0
+
+
+def pytest_report_header(config: pytest.Config) -> list[str]:
+    """Say what a run of the whole suite does, for how long, and what it will leave out."""
+    lines = []
+    if config.args == config.getini("testpaths"):
+        lines.append(
+            "curvewise: some 4200 tests; they also build the C++ library three times, its own "
+            "tests, and programs that use it"
+        )
+        lines.append(
+            "curvewise: about 3 minutes on two cores; without the builds (-m 'not embed') 1.5"
+        )
+    if not DATA.is_dir():
+        lines.append(f"curvewise: no golden data in {DATA} (CURVEWISE_DATA): its tests are skipped")
+    missing = [name for name in ("g++", "clang++", "gfortran", "pkg-config") if not found(name)]
+    if missing:
+        lines.append(f"curvewise: no {', '.join(missing)}: the tests that use it are skipped")
+    return lines
+
+
+def found(program: str) -> bool:
+    """Return whether there is such a program."""
+    return shutil.which(program) is not None
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -25,13 +93,6 @@ def ctrl_c_is_heard() -> Iterator[None]:
 @pytest.fixture(scope="session")
 def data_dir() -> Path:
     """Return the folder with golden/, loops/ and paper/; skip the test where it is absent."""
-    folder = Path(os.environ.get("CURVEWISE_DATA", ROOT.parent / "shared" / "data"))
-    if not folder.is_dir():
-        pytest.skip(f"no golden data in {folder}: set CURVEWISE_DATA to the folder that has it")
-    return folder
-
-
-@pytest.fixture(scope="session")
-def prefix(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """Return what gives the prefix where the "static" or "shared" C++ library is installed."""
-    return cache(lambda kind: install(tmp_path_factory.mktemp(kind), shared=kind == "shared"))
+    if not DATA.is_dir():
+        pytest.skip(f"no golden data in {DATA}: set CURVEWISE_DATA to the folder that has it")
+    return DATA

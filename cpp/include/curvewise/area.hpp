@@ -1,7 +1,7 @@
 // The area between two curves in the plane: Algorithm 1 of Jekel, Venter, Venter, Stander &
 // Haftka (2018). The curve with fewer points is refined until both have the same number;
 // quadrilateral i is (A[i], A[i+1], B[i+1], B[i]); the measure is the sum of their areas.
-// Symmetric to rounding, but with Spacing::arc_length. Time O(n + m + |n - m| log m), memory
+// Symmetric to rounding, except with Spacing::arc_length. Time O(n + m + |n - m| log m), memory
 // O(n + m). Throws std::invalid_argument for a curve that is not finite, has fewer than 2 points
 // or other than 2 coordinates; std::bad_alloc; Stopped. Safe from any number of threads.
 //
@@ -11,11 +11,13 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
+#include "curvewise/options.hpp"
 
 namespace curvewise {
 
@@ -29,6 +31,10 @@ enum class Spacing {
                 // scaling by P's box: independent of how either curve was sampled
 };
 
+constexpr auto choice_names(Spacing /*spacing*/) noexcept {
+    return names_up_to<Spacing::arc_length>("distance", "x", "arc_length");
+}
+
 // What becomes of a quadrilateral that intersects itself.
 enum class Crossing {
     rearrange,  // two vertices are swapped until it is simple: the paper. Jumps where a
@@ -36,12 +42,31 @@ enum class Crossing {
     split       // the two triangles at the crossing point. Continuous.
 };
 
+constexpr auto choice_names(Crossing /*crossing*/) noexcept {
+    return names_up_to<Crossing::split>("rearrange", "split");
+}
+
 struct AreaOptions {
+    static constexpr const char* measure = "area";
+
     Spacing spacing = Spacing::distance;
     Crossing crossing = Crossing::rearrange;
     // Sum the squared areas (the paper's section 4, the analogue of sum-of-squares).
     bool squared = false;
+
+    constexpr bool is_symmetric() const noexcept { return spacing != Spacing::arc_length; }
+    // The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
+    constexpr double work(double n, double m, double /*dim*/) const noexcept {
+        return n + m + 30.0 * (n > m ? n - m : m - n);
+    }
 };
+
+template <class Visit>
+void visit_options(AreaOptions& options, Visit&& visit) {
+    visit("spacing", options.spacing);
+    visit("crossing", options.crossing);
+    visit("squared", options.squared);
+}
 
 // The quadrilaterals between two curves, and their areas: quads[i] has areas[i].
 struct AreaQuads {
@@ -58,5 +83,10 @@ CURVEWISE_EXPORT double area(const CurveView& P, const CurveView& Q,
 // The quadrilaterals behind area(); options.squared is not used.
 CURVEWISE_EXPORT AreaQuads area_quads(const CurveView& P, const CurveView& Q,
                                       const AreaOptions& options = {}, Control* control = nullptr);
+
+namespace detail {
+class BatchMeasure;
+std::unique_ptr<const BatchMeasure> batch_measure(const AreaOptions& options);  // for pairwise.hpp
+}  // namespace detail
 
 }  // namespace curvewise

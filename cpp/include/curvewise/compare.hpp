@@ -7,10 +7,12 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
+#include "curvewise/measure.hpp"
 
 namespace curvewise {
 
@@ -21,6 +23,19 @@ enum class Preset {
              // with symmetric2, on scaled curves; pcm and curve_length raw
     raw      // every default, on the curves as they are
 };
+
+constexpr auto choice_names(Preset /*preset*/) noexcept {
+    return names_up_to<Preset::raw>("scaled", "paper", "raw");
+}
+
+// How a preset computes one measure.
+struct Condition {
+    Measure measure;  // with its options
+    bool scaled;      // on curves scaled by P's box
+};
+
+// One for each measure, in the order of the list (measure.hpp).
+CURVEWISE_EXPORT std::vector<Condition> conditions(Preset preset);
 
 // One value for each measure. Those of the plane have none where curves have other than two
 // coordinates.

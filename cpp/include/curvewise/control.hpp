@@ -25,7 +25,7 @@
 namespace curvewise {
 
 namespace detail {
-class Watch;
+class Poller;
 }
 
 // What a call throws whose Control was stopped. Its output arrays are then unspecified.
@@ -57,7 +57,7 @@ class Control {
     std::int64_t total() const noexcept { return total_.load(std::memory_order_relaxed); }
 
    private:
-    friend class detail::Watch;
+    friend class detail::Poller;
 
     Report report_;
     std::chrono::milliseconds interval_{50};

@@ -13,9 +13,12 @@
 //   const double value = curvewise::curve_length(experiment, simulation, options);
 #pragma once
 
+#include <memory>
+
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
+#include "curvewise/options.hpp"
 
 namespace curvewise {
 
@@ -26,9 +29,24 @@ enum class LengthScale {
     range      // max x - min x
 };
 
+constexpr auto choice_names(LengthScale /*scale*/) noexcept {
+    return names_up_to<LengthScale::range>("mean", "mean_abs", "range");
+}
+
 struct CurveLengthOptions {
+    static constexpr const char* measure = "curve_length";
+
     LengthScale scale = LengthScale::mean;
+
+    static constexpr bool is_symmetric() noexcept { return false; }
+    // The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
+    static constexpr double work(double n, double m, double /*dim*/) noexcept { return n + m; }
 };
+
+template <class Visit>
+void visit_options(CurveLengthOptions& options, Visit&& visit) {
+    visit("scale", options.scale);
+}
 
 CURVEWISE_EXPORT double curve_length(const CurveView& P, const CurveView& Q,
                                      const CurveLengthOptions& options = {},
@@ -39,5 +57,11 @@ CURVEWISE_EXPORT double curve_length(const CurveView& P, const CurveView& Q,
 CURVEWISE_EXPORT void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
                                              const CurveLengthOptions& options = {},
                                              Control* control = nullptr);
+
+namespace detail {
+class BatchMeasure;
+std::unique_ptr<const BatchMeasure> batch_measure(
+    const CurveLengthOptions& options);  // for pairwise.hpp
+}  // namespace detail
 
 }  // namespace curvewise

@@ -140,9 +140,8 @@ enum curvewise_measure {
 };
 
 typedef struct curvewise_batch_options {
-    ptrdiff_t
-        workers;   /* threads, -1 for one per core; those of the measure's options do not count */
-    double cutoff; /* a value above it becomes infinity, which may save its computation */
+    ptrdiff_t workers; /* threads, -1 for one per core; the measure's own are not used */
+    double cutoff;     /* a value above it becomes infinity, which may save its computation */
 } curvewise_batch_options;
 #define CURVEWISE_BATCH_DEFAULTS \
     { 1, HUGE_VAL }

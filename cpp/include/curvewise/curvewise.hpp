@@ -9,6 +9,8 @@
 #include "curvewise/curve_length.hpp"
 #include "curvewise/dtw.hpp"
 #include "curvewise/frechet.hpp"
+#include "curvewise/measure.hpp"
+#include "curvewise/options.hpp"
 #include "curvewise/pairwise.hpp"
 #include "curvewise/pcm.hpp"
 #include "curvewise/pointwise.hpp"

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 
 #include "curvewise/alignment.hpp"
@@ -23,12 +24,19 @@
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
+#include "curvewise/options.hpp"
 
 namespace curvewise {
 
 enum class StepPattern { symmetric1, symmetric2 };
 
+constexpr auto choice_names(StepPattern /*pattern*/) noexcept {
+    return names_up_to<StepPattern::symmetric2>("symmetric1", "symmetric2");
+}
+
 struct DtwOptions {
+    static constexpr const char* measure = "dtw";
+
     GroundDistance ground;
     StepPattern step_pattern = StepPattern::symmetric1;
     // Sakoe-Chiba band: |i (m-1) - j (n-1)| <= window (max(n, m) - 1); none where n or m is 1.
@@ -39,7 +47,23 @@ struct DtwOptions {
     bool open_end = false;
     // Threads for this call, -1 for one per core. Never changes a result.
     std::ptrdiff_t workers = 1;
+
+    constexpr bool is_symmetric() const noexcept { return !open_begin && !open_end; }
+    // The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
+    constexpr double work(double n, double m, double dim) const noexcept {
+        return n * m * ground.weight(dim);
+    }
 };
+
+template <class Visit>
+void visit_options(DtwOptions& options, Visit&& visit) {
+    visit(options.ground);
+    visit("step_pattern", options.step_pattern);
+    visit("window", options.window, window_range);
+    visit("open_begin", options.open_begin);
+    visit("open_end", options.open_end);
+    visit("workers", options.workers, workers_range);
+}
 
 CURVEWISE_EXPORT double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options = {},
                             Control* control = nullptr);
@@ -52,5 +76,10 @@ CURVEWISE_EXPORT Alignment dtw_path(const CurveView& P, const CurveView& Q,
 // Writes c to out[i * m + j]; infinity outside the window.
 CURVEWISE_EXPORT void dtw_table(const CurveView& P, const CurveView& Q, double* out,
                                 const DtwOptions& options = {}, Control* control = nullptr);
+
+namespace detail {
+class BatchMeasure;
+std::unique_ptr<const BatchMeasure> batch_measure(const DtwOptions& options);  // for pairwise.hpp
+}  // namespace detail
 
 }  // namespace curvewise

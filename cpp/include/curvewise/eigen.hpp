@@ -3,8 +3,9 @@
 // transpose) and holds double; a vector is a flat list of numbers, one coordinate a point.
 //
 //   Eigen::MatrixX2d experiment = ...;
+//   Eigen::MatrixX2d simulation = ...;
 //   double value = curvewise::dtw(curvewise::curve_view(experiment),
-//   curvewise::curve_view(points));
+//                                 curvewise::curve_view(simulation));
 //
 // What has no memory of its own, a sum or a cast, is evaluated by the caller first, since a view of
 // a temporary matrix would outlive it: Eigen::MatrixXd Q = points.cast<double>(). Everything is

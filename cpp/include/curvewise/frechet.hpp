@@ -12,20 +12,36 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "curvewise/alignment.hpp"
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
+#include "curvewise/options.hpp"
 
 namespace curvewise {
 
 struct FrechetOptions {
+    static constexpr const char* measure = "frechet";
+
     GroundDistance ground;
     // Threads for this call, -1 for one per core. Never changes a result.
     std::ptrdiff_t workers = 1;
+
+    static constexpr bool is_symmetric() noexcept { return true; }
+    // The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
+    constexpr double work(double n, double m, double dim) const noexcept {
+        return n * m * ground.weight(dim);
+    }
 };
+
+template <class Visit>
+void visit_options(FrechetOptions& options, Visit&& visit) {
+    visit(options.ground);
+    visit("workers", options.workers, workers_range);
+}
 
 CURVEWISE_EXPORT double frechet(const CurveView& P, const CurveView& Q,
                                 const FrechetOptions& options = {}, Control* control = nullptr);
@@ -39,5 +55,11 @@ CURVEWISE_EXPORT Alignment frechet_path(const CurveView& P, const CurveView& Q,
 // Writes c to out[i * m + j].
 CURVEWISE_EXPORT void frechet_table(const CurveView& P, const CurveView& Q, double* out,
                                     const FrechetOptions& options = {}, Control* control = nullptr);
+
+namespace detail {
+class BatchMeasure;
+std::unique_ptr<const BatchMeasure> batch_measure(
+    const FrechetOptions& options);  // for pairwise.hpp
+}  // namespace detail
 
 }  // namespace curvewise

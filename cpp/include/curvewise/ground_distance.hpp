@@ -6,7 +6,7 @@
 //   options.ground = {curvewise::Metric::minkowski, 3.0};
 #pragma once
 
-#include <limits>
+#include "curvewise/options.hpp"
 
 namespace curvewise {
 
@@ -18,11 +18,21 @@ enum class Metric {
     minkowski     // M (sum (|difference| / M)^p)^(1/p), M the largest |difference|
 };
 
+constexpr auto choice_names(Metric /*metric*/) noexcept {
+    return names_up_to<Metric::minkowski>("euclidean", "sqeuclidean", "cityblock", "chebyshev",
+                                          "minkowski");
+}
+
 struct GroundDistance {
     Metric metric = Metric::euclidean;
     // The order of minkowski, 1 <= p <= inf; p = 1, 2 and inf are computed as cityblock,
     // euclidean and chebyshev. Not used by the other metrics.
     double p = 2.0;
+
+    // The time that one distance in `dim` coordinates takes, roughly, in that of the fastest.
+    constexpr double weight(double dim) const noexcept {
+        return dim * (metric == Metric::minkowski ? 16.0 : 1.0);
+    }
 };
 
 }  // namespace curvewise

@@ -15,30 +15,21 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
-#include <variant>
 #include <vector>
 
-#include "curvewise/area.hpp"
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
-#include "curvewise/curve_length.hpp"
-#include "curvewise/dtw.hpp"
 #include "curvewise/export.h"
-#include "curvewise/frechet.hpp"
-#include "curvewise/pcm.hpp"
+#include "curvewise/measure.hpp"
 
 namespace curvewise {
 
-// A measure, chosen by the type of its options. Their `workers` are not used here.
-using Measure =
-    std::variant<DtwOptions, FrechetOptions, AreaOptions, PcmOptions, CurveLengthOptions>;
-
-// Whether d(P, Q) = d(Q, P): dtw without open ends, frechet, and (to rounding) area but with
+// Whether d(P, Q) = d(Q, P): dtw without open ends, frechet, and (to rounding) area except with
 // Spacing::arc_length.
 CURVEWISE_EXPORT bool is_symmetric(const Measure& measure) noexcept;
 
 struct BatchOptions {
-    // Threads for this call, -1 for one per core.
+    // Threads for this call, -1 for one per core. (The `workers` of the measure are not used.)
     std::ptrdiff_t workers = 1;
     // A value above it, at least 0, becomes infinity; its pair may be abandoned before its end.
     double cutoff = std::numeric_limits<double>::infinity();

@@ -13,20 +13,38 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <memory>
 #include <vector>
 
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/export.h"
+#include "curvewise/options.hpp"
 
 namespace curvewise {
 
 struct PcmOptions {
+    static constexpr const char* measure = "pcm";
+
     // The number of evenly spaced offsets, at least 1 (1: no offset). Time O(offsets (n + m)).
     std::ptrdiff_t offsets = 200;
     // Search all offsets instead, to 1e-12 S, by branch and bound. `offsets` is not used.
     bool continuous = false;
+
+    static constexpr bool is_symmetric() noexcept { return false; }
+    // The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
+    // Nobody knows how many evaluations the search over all offsets takes.
+    constexpr double work(double n, double m, double /*dim*/) const noexcept {
+        return continuous ? std::numeric_limits<double>::infinity()
+                          : static_cast<double>(offsets) * (n + m);
+    }
 };
+
+template <class Visit>
+void visit_options(PcmOptions& options, Visit&& visit) {
+    visit("offsets", options.offsets, options.continuous, offsets_range);
+}
 
 struct PcmMatch {
     double value = 0.0;
@@ -42,5 +60,10 @@ CURVEWISE_EXPORT double pcm(const CurveView& P, const CurveView& Q, const PcmOpt
                             Control* control = nullptr);
 CURVEWISE_EXPORT PcmMatch pcm_match(const CurveView& P, const CurveView& Q,
                                     const PcmOptions& options = {}, Control* control = nullptr);
+
+namespace detail {
+class BatchMeasure;
+std::unique_ptr<const BatchMeasure> batch_measure(const PcmOptions& options);  // for pairwise.hpp
+}  // namespace detail
 
 }  // namespace curvewise

@@ -5,15 +5,12 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
+from .._extras import extra
+
 __all__ = ["required"]
 
 
 def required(module: str) -> Any:
     """Return a module of the extra `calibration`, or say how to install it."""
-    try:
+    with extra("calibration", f"curvewise.calibration needs {module.partition('.')[0]}"):
         return import_module(module)
-    except ImportError as error:
-        package = module.partition(".")[0]
-        raise ImportError(
-            f'curvewise.calibration needs {package}: pip install "curvewise[calibration]"'
-        ) from error

@@ -7,7 +7,7 @@ side, in threads or in processes. The cost of a call is the solver's; what is ad
 milliseconds, and at most 50 ms until the end of the process is noticed.
 
 Placeholders are written as in LS-OPT, ``<<E>>``: solvers give ``$``, ``{}``, ``%``, ``&``, ``*``
-and ``#`` a meaning, but none of them two angle brackets.
+and ``#`` a meaning; none of them gives one to two angle brackets.
 """
 
 from __future__ import annotations

@@ -8,6 +8,7 @@ determine the parameters. Cost: as many identifications as there are loops.
 
 from __future__ import annotations
 
+import inspect
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -17,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from .._curves import Array
-from ..compare import Preset
+from .._options import Preset
 from .curve_list import as_points, curve_list
 from .identification import Identification, identify
 from .model_pool import Model
@@ -170,12 +171,9 @@ def cross_validate(
     return CrossValidation(tuple(folds), identification.measure, identification.preset)
 
 
-# Keywords of `identify` that do not change what a simulation is worth.
-_SEARCH_KEYWORDS = frozenset(
-    (
-        *("method", "seed", "workers", "progress", "callback", "start"),
-        *("max_evaluations", "method_options"),
-    )
+# Keywords of `identify` that do not change what a simulation is worth: those `Objective` lacks.
+_SEARCH_KEYWORDS = (
+    inspect.signature(identify).parameters.keys() - inspect.signature(Objective).parameters.keys()
 )
 
 

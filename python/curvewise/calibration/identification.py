@@ -15,15 +15,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._curves import Array
-from ..compare import PRESETS, Preset
+from .._options import Preset
+from ..measures.registry import default_measures
 from ._extra import required
 from .curve_list import as_points, curve_list
 from .evaluations import Evaluations, Finish, Progress, SearchEndedError
 from .history import Evaluation, History, as_records
 from .methods import METHODS, search
 from .model_pool import Model, ModelPool
-from .objective import Objective
+from .objective import LEAST_SQUARES, Objective
 from .parameters import Space
+from .pictures import loops_and_convergence
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -116,9 +118,8 @@ class Identification:
         ImportError
             matplotlib is not installed: ``pip install "curvewise[plot]"``.
         """
-        from .pictures import plot_identification
-
-        return plot_identification(self)
+        objective = f"{self.measure} ({self.preset})"
+        return loops_and_convergence(self.experiments, self.simulations, self.history, objective)
 
 
 def identify(
@@ -185,7 +186,7 @@ def identify(
     method_options : mapping, optional
         Passed on. "de": those of `scipy.optimize.differential_evolution` (popsize, tol, atol,
         maxiter, ...). "sdrm": gamma_osc, gamma_pan, eta, initial_range, tol, maxiter.
-        "nelder-mead": size (of the simplex, 0.1), restarts (5), and scipy's options (xatol,
+        "nelder-mead": size (of the simplex, 0.1), restarts (10), and scipy's options (xatol,
         fatol, ...). "least_squares": those of `scipy.optimize.least_squares`. "sdrm+de": a
         mapping for each, ``{"sdrm": {...}, "de": {...}}``.
 
@@ -209,12 +210,12 @@ def identify(
 
     Notes
     -----
-    Evaluations: "sdrm" 10 to 20 times 5, 9 or 17 (up to 3, 7, 15 parameters); "de" 15 k a
-    generation for k parameters, and some 100 generations. Memory: the history. The search is
-    over the unit cube, so that the units of parameters do not matter. Sources: Storn & Price
-    (1997) for "de", in the place of the paper's genetic algorithm; Stander & Craig (2002) for
-    "sdrm"; Nelder & Mead (1965). Failures are logged under "curvewise.calibration", the first as
-    a warning.
+    Evaluations: "sdrm" takes 5, 9 or 17 an iteration (for up to 3, 7 or 15 parameters), in 14 to
+    some 30 iterations with its default options (50 at most); "de" takes 15 k a generation for k
+    parameters, in some 100 generations. Memory: the history. The search is over the unit cube, so
+    that the units of parameters do not matter. Sources: Storn & Price (1997) for "de", in the
+    place of the paper's genetic algorithm; Stander & Craig (2002) for "sdrm"; Nelder & Mead
+    (1965). Failures are logged under "curvewise.calibration", the first as a warning.
 
     Examples
     --------
@@ -246,7 +247,7 @@ def identify(
         **options,
     )
     required("scipy.optimize")
-    tqdm = required("tqdm.auto").tqdm if progress else None
+    tqdm = required("tqdm.auto").tqdm
     settings = {
         **_settings(objective),
         "bounds": space.bounds,
@@ -258,8 +259,7 @@ def identify(
     record = History(history, settings, space.names)
     try:
         with ModelPool(model, workers) as pool:
-            bar = _NoBar() if tqdm is None else tqdm(total=max_evaluations, unit="run")
-            with bar:
+            with tqdm(total=max_evaluations, unit="run", disable=not progress) as bar:
                 evaluations = Evaluations(
                     pool,
                     objective,
@@ -313,10 +313,10 @@ def _result(
 def _check_method(method: str, measure: str, method_options: dict[str, Any]) -> None:
     if method not in METHODS:
         raise ValueError(f"unknown method {method!r}; choose from {', '.join(METHODS)}")
-    if method == "least_squares" and measure not in ("curve_length", "sum_of_squares"):
+    if method == "least_squares" and measure not in LEAST_SQUARES:
         raise ValueError(
             f"measure {measure!r} is not a sum of squares; method 'least_squares' needs "
-            "measure='curve_length' or 'sum_of_squares'"
+            f"measure={' or '.join(map(repr, LEAST_SQUARES))}"
         )
     stages = METHODS[method]
     if len(stages) > 1 and not set(method_options) <= set(stages):
@@ -344,9 +344,8 @@ def _settings(objective: Objective) -> dict[str, Any]:
 
 def _measures(objective: Objective, simulations: Any, value: float) -> dict[str, float]:
     """Return the value of simulations under every measure."""
-    in_plane = objective.experiments[0].shape[1] == 2
     values = {}
-    for name in PRESETS[objective.preset] if in_plane else ("frechet", "dtw"):
+    for name in default_measures(objective.experiments[0]):
         if name == objective.measure:
             values[name] = value
             continue
@@ -365,22 +364,3 @@ def _measures(objective: Objective, simulations: Any, value: float) -> dict[str,
         values[name] = np.nan if score.failures else score.value
     values.setdefault(objective.measure, value)
     return values
-
-
-class _NoBar:
-    """Stands where no progress bar is shown."""
-
-    def __enter__(self) -> _NoBar:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        pass
-
-    def update(self, count: int = 1) -> None:
-        """Do nothing."""
-
-    def set_description(self, text: str) -> None:
-        """Do nothing."""
-
-    def set_postfix(self, *, refresh: bool = True, **values: str) -> None:
-        """Do nothing."""

@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from .. import _drawing as drawing
 from .._curves import Array
-from ..compare import PRESETS, Preset
+from .._options import Preset
+from ..measures.registry import default_measures
+from ..plotting import drawing
 from ._extra import required
 from .model_pool import Model, ModelPool
 from .objective import Objective
@@ -137,8 +138,7 @@ def _objectives(
 ) -> dict[str, Objective]:
     if measures is None:
         first = Objective(experiments, "frechet", preset=preset).experiments[0]
-        in_plane = first.shape[1] == 2
-        measures = list(PRESETS["scaled"]) if in_plane else ["frechet", "dtw"]
+        measures = default_measures(first)
     return {name: Objective(experiments, name, preset=preset, weights=weights) for name in measures}
 
 

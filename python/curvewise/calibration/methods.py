@@ -1,6 +1,6 @@
 """The methods that `identify` knows, each of one or two stages that minimise over the unit cube.
 
-scipy does the work, but for the response surfaces. What is set here differently from scipy's
+scipy does the work, except for the response surfaces. What is set here differently from scipy's
 defaults follows from the objective: it has kinks (a sum of absolute values, a maximum) and jumps,
 so no method but least squares takes its gradient; and its smallest value is 0 for a perfect model,
 so that a tolerance relative to the value alone would never be met.
@@ -45,9 +45,10 @@ def _differential_evolution(
 ) -> Finish:
     """Global search by scipy's differential evolution, a generation at a time.
 
-    Not polished: scipy's polish takes gradients. The tolerance `atol` on the spread of the
-    population ends the search where it only goes on halving a value that is 0 to all purposes; a
-    population on one level of a landscape of steps has no spread, which ends it too.
+    The result is not polished, since scipy's polish takes gradients. The tolerance `atol` on the
+    spread of the population ends the search where it would only go on halving a value that is 0 to
+    all purposes. A population on one level of a landscape of steps has no spread, which ends the
+    search too.
     """
     function = required("scipy.optimize").differential_evolution
     # scipy 1.15 renamed `seed`; a Generator means the same under both names.
@@ -109,7 +110,7 @@ def _least_squares(
 ) -> Finish:
     """Local search by scipy's trust-region least squares on the terms of the measure.
 
-    Derivatives by differences of 1e-6 of the bounds' range: models iterate, and do not give the
+    Derivatives are differences over 1e-6 of the bounds' range: models iterate, and do not give the
     16 digits that scipy's own step relies on.
     """
     k = evaluations.dimensions

@@ -1,10 +1,10 @@
 """From simulations to one number: the weighted sum of a measure over several loops.
 
 The experiments are checked and scaled once, when an objective is made; what is wrong with them is
-an error then. What is wrong with a simulation later is not: an optimiser tries parameters at which
-the model fails, and has to be told that they are bad, so a failed simulation has a finite, large
-value. A simulation that has the wrong shape is neither: the model is hooked up wrongly, which no
-parameters will cure, and that is an error. Cost: that of the measure, for every loop.
+an error then. What is wrong with a simulation later is no error: an optimiser tries parameters at
+which the model fails, and has to be told that they are bad, so a failed simulation has a finite,
+large value. A simulation of the wrong shape is an error: the model is hooked up wrongly, which no
+parameters will cure. Cost: that of the measure, for every loop.
 """
 
 from __future__ import annotations
@@ -12,21 +12,29 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import measures as _measures
 from .._curves import Array
-from ..compare import PRESETS, Condition, Preset
-from ..pairwise import MeasureName, Prepared
+from .._docstrings import filled, listed
+from .._options import Preset
+from ..measures import normalize, pcm_match, registry
+from ..measures.registry import PRESETS, Condition
+from ..pairwise import Prepared
+from ..reference.scaling import box
 from ..results import PcmMatch
 from .common_x import check_common_x, differences, squared_differences
 from .curve_list import as_points, curve_list
 
-__all__ = ["MEASURES", "Objective", "Score"]
+__all__ = ["LEAST_SQUARES", "MEASURES", "Objective", "Score"]
 
-MEASURES = ("area", "pcm", "frechet", "dtw", "curve_length", "sum_of_squares")
+MEASURES = (*registry.MEASURES, "sum_of_squares")
+# Those that are made of differences whose squares are added up.
+LEAST_SQUARES = (
+    *(name for name, info in registry.MEASURES.items() if info.residuals),
+    "sum_of_squares",
+)
 
 # A failed loop has this many times the value of a simulation that is wrong by the loop's height.
 _FAILURE = 1e6
@@ -50,6 +58,7 @@ class Score(NamedTuple):
     failures: tuple[str, ...]
 
 
+@filled(measures=listed(MEASURES))
 class Objective:
     """The weighted sum of a measure over one or several loops; what an optimiser minimises.
 
@@ -58,7 +67,7 @@ class Objective:
     experiments : array_like, shape (n, d), or sequence of such
         One measured curve or several. A list whose items are points or numbers is one curve;
         several series are arrays of shape (n, 1).
-    measure : {"area", "pcm", "frechet", "dtw", "curve_length", "sum_of_squares"}
+    measure : {measures}
         "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
         the experiment's x: for data with a common x, which must not turn back.
     preset : {"scaled", "paper", "raw"}
@@ -203,10 +212,10 @@ class Objective:
         ValueError
             The measure is not "curve_length" or "sum_of_squares"; as for `score`.
         """
-        if self.measure not in ("curve_length", "sum_of_squares"):
+        if self.measure not in LEAST_SQUARES:
             raise ValueError(
                 f"measure {self.measure!r} is not a sum of squares; "
-                "least squares needs 'curve_length' or 'sum_of_squares'"
+                f"least squares needs {' or '.join(map(repr, LEAST_SQUARES))}"
             )
         parts = []
         for i, simulation in enumerate(self._matched(simulations)):
@@ -256,8 +265,8 @@ class _Loop:
         self.experiment = as_points(experiment, name).copy()
         self._min_coverage = min_coverage
         try:
-            (P,) = _measures.normalize(self.experiment)  # refuses what is empty or not finite
-            self._box = _box(self.experiment) if scaled else None
+            (P,) = normalize(self.experiment)  # refuses what is empty or not finite
+            self._box = box(self.experiment) if scaled else None
             self._P = P if scaled else self.experiment
             if measure == "sum_of_squares":
                 check_common_x(self._P)
@@ -270,7 +279,7 @@ class _Loop:
             raise ValueError(f"{prefix}{error}") from error
         if not math.isfinite(self.scale):
             raise ValueError(f"{name}: the measure overflows; give the curve in larger units")
-        self.residual_count = len(self._P) * (2 if measure == "curve_length" else 1)
+        self.residual_count = 0 if self._residuals is None else self._residuals(self._P).size
 
     def value(self, simulation: Any) -> float:
         """Return the value of the measure, or raise FailedSimulationError."""
@@ -287,6 +296,7 @@ class _Loop:
 
     def residuals(self, simulation: Any) -> Array:
         """Return the differences that the measure squares, or raise FailedSimulationError."""
+        assert self._residuals is not None, "Objective refuses measures without"
         Q = self._checked(simulation)
         try:
             return self._residuals(Q).ravel()
@@ -326,28 +336,23 @@ class _Loop:
 
 def _functions(
     measure: str, P: Array, options: dict[str, Any]
-) -> tuple[Callable[[Array], float | PcmMatch], Callable[[Array], Array]]:
+) -> tuple[Callable[[Array], float | PcmMatch], Callable[[Array], Array] | None]:
     """Return the measure, and the residuals where it has them, as functions of Q alone."""
     if measure == "sum_of_squares":
         if options:
             raise TypeError(f"sum_of_squares has no options, but {', '.join(options)} given")
         return partial(squared_differences, P), partial(differences, P)
-    residuals = partial(_measures.curve_length_residuals, P, **options)
     if measure == "pcm":  # for its coverage
-        return partial(_measures.pcm_match, P, **options), residuals
-    return Prepared(P, cast(MeasureName, measure), **options), residuals
+        return partial(pcm_match, P, **options), None
+    info = registry.MEASURES[measure]
+    residuals = None if info.residuals is None else partial(info.residuals, P, **options)
+    return Prepared(P, info.name, **options), residuals
 
 
 def _condition(preset: Preset, measure: str) -> Condition:
     if measure == "sum_of_squares":
         return Condition(preset == "scaled", {})
     return PRESETS[preset][measure]
-
-
-def _box(curve: Array) -> tuple[Array, Array]:
-    low = curve.min(axis=0)
-    extent = curve.max(axis=0) - low
-    return low, np.where(extent == 0, 1.0, extent)
 
 
 def _moved_up(curve: Array) -> Array:

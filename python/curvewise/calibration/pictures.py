@@ -1,30 +1,42 @@
-"""Pictures of an identification: the loops at the optimum, and how the search got there."""
+"""The picture of an identification: the loops at the optimum, and how the search got there.
+
+It is drawn from arrays, not from an `Identification`: that module imports this one.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .. import _drawing as drawing
+from .._curves import Array
+from ..plotting import drawing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from .identification import Identification
-
-__all__ = ["plot_identification"]
+__all__ = ["loops_and_convergence"]
 
 
-def plot_identification(identification: Identification) -> Figure:
+def loops_and_convergence(
+    experiments: Sequence[Array],
+    simulations: Sequence[Array],
+    history: np.recarray[Any, Any],
+    objective: str,
+) -> Figure:
     """Draw simulations beside experiments, a panel for every loop, and the convergence.
 
     Parameters
     ----------
-    identification : Identification
-        What `identify` returned.
+    experiments, simulations : sequence of ndarray, shape (n, d)
+        The measured curves, and for each of them the simulated one at the optimum.
+    history : numpy.recarray
+        Every evaluation, with its number, its value and whether it failed.
+    objective : str
+        What the value is called on its axis.
 
     Returns
     -------
@@ -38,32 +50,31 @@ def plot_identification(identification: Identification) -> Figure:
 
     Notes
     -----
-    Of curves in more than two dimensions the first two coordinates are drawn.
+    The first two coordinates are drawn of curves that have more.
     """
     with drawing.matplotlib_required():
         from matplotlib.figure import Figure
-    count = len(identification.experiments) + 1
+    count = len(experiments) + 1
     columns = math.ceil(math.sqrt(count))
     rows = math.ceil(count / columns)
     figure = Figure(figsize=(4.2 * columns, 3.4 * rows), layout="constrained")
     panels = figure.subplots(rows, columns, squeeze=False).ravel().tolist()
     for ax in panels[count:]:
         ax.remove()
-    pairs = zip(identification.experiments, identification.simulations, strict=True)
+    pairs = zip(experiments, simulations, strict=True)
     for i, (experiment, simulation) in enumerate(pairs):
         measured, simulated = drawing.draw_curves(panels[i], experiment[:, :2], simulation[:, :2])
         measured.set(label="experiment", marker=".", markersize=3, linewidth=0.6)
         simulated.set_label("simulation")
         if count > 2:
             panels[i].set_title(f"Loop {i}")
-    # Outside, since a loop leaves no room within.
+    # Outside the panels, since a loop leaves no room within.
     figure.legend(handles=[measured, simulated], loc="outside upper left", ncols=2, frameon=False)
-    _draw_convergence(identification, panels[count - 1])
+    _draw_convergence(history, objective, panels[count - 1])
     return figure
 
 
-def _draw_convergence(identification: Identification, ax: Axes) -> None:
-    history = identification.history
+def _draw_convergence(history: np.recarray[Any, Any], objective: str, ax: Axes) -> None:
     good = ~history.failed
     ax.plot(
         history.evaluation[good],
@@ -81,7 +92,7 @@ def _draw_convergence(identification: Identification, ax: Axes) -> None:
         label="best so far",
     )
     if not good.all():
-        # In axes coordinates: their penalties would flatten everything else.
+        # At the top of the axes, not at their value: penalties would flatten everything else.
         ax.plot(
             history.evaluation[~good],
             np.full(int((~good).sum()), 0.98),
@@ -94,5 +105,5 @@ def _draw_convergence(identification: Identification, ax: Axes) -> None:
     if positive.size:
         ax.set_yscale("log")
         ax.set_ylim(top=2.0 * positive.max())
-    ax.set(xlabel="evaluation", ylabel=f"{identification.measure} ({identification.preset})")
+    ax.set(xlabel="evaluation", ylabel=objective)
     ax.legend(loc="best" if len(history) < 1000 else "upper right", frameon=False)

@@ -4,25 +4,34 @@ A program written for that package runs with one changed line::
 
     import curvewise.compat as similaritymeasures
 
-The DTW table and the discrete Fréchet distance come from the compiled library; area, partial
-curve mapping and curve length are numpy code that repeats that package's arithmetic, so that the
-numbers agree to 1e-12 relative, also where its choices are not those of the paper. New programs
-want :mod:`curvewise` itself: its area needs no re-measuring of lengths, its partial curve mapping
-is the paper's, its paths do not depend on how a tie is stored.
+The DTW table and the discrete Fréchet distance come from the compiled library. Area, partial curve
+mapping and curve length are numpy code that repeats that package's arithmetic: their values are
+equal bit for bit, also where its choices are not those of the paper. New programs want
+:mod:`curvewise` itself: its area needs no second measurement of lengths, its partial curve mapping
+is the paper's, and its paths do not depend on how a tie is stored.
 
-The same as there: arrays keep their dtype, so that integer curves are refined by truncated
-midpoints and integer differences wrap; a direction without extent, a curve without length and a
-mean of zero give nan or inf, not an error. Different:
+What is odd there is the same here:
+
+- a vertical segment is not bisected when ``area_between_two_curves`` refines a curve: its first
+  point is repeated, as often as points are missing;
+- arrays keep their dtype, so that midpoints in integer curves are truncated and differences of
+  small integers wrap around;
+- a direction without extent, a curve without length and a mean of zero give nan or inf, and no
+  error.
+
+What differs:
 
 - lists, tuples and DataFrames work everywhere, and nan or inf comes without a warning;
-- ``dtw`` and ``frechet_dist`` of curves with nan are nan (there, some skip what is nan);
-- distances whose squares or powers leave the range of a double are right (there, 0 or inf);
+- ``dtw`` and ``frechet_dist`` never skip a distance that is nan (there, some metrics do): curves
+  with nan give nan;
+- distances whose squares or powers leave the range of a double are right (there, they are 0 or
+  inf); "minkowski" agrees to 1e-12 relative, every other metric bit for bit;
 - no argument is changed (there, ``makeQuad`` reorders the lists it is given);
 - masked entries, complex numbers, objects, curves without points or coordinates and, in ``mae``
   and ``mse``, pandas objects with different labels are refused with an error that says so.
 
-scipy is needed only for metrics the compiled library does not have, and for nan or inf in ``dtw``
-and ``frechet_dist``: ``pip install 'curvewise[compat]'``.
+scipy is needed only for metrics that the compiled library does not have, and for nan or inf in
+``dtw`` and ``frechet_dist``: ``pip install "curvewise[compat]"``.
 """
 
 from ._arc_length import curve_length_measure, get_length, normalizeTwoCurves, pcm

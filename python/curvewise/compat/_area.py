@@ -1,11 +1,14 @@
 """The area between two curves in similaritymeasures' arithmetic, and the quadrilaterals it sums.
 
 The paper's Algorithm 1 (Jekel et al. 2018) as that package does it: the curve with fewer points
-gets one point more at a time, in the middle of what is then its longest segment, all lengths being
-those of the points as they were rounded; a midpoint's y is interpolated by ``numpy.interp``. Only
-a vertical segment is treated otherwise than there: it gets its true midpoint. The areas of the
-quadrilaterals between corresponding segments are added. O(n·(n − m)) time for the refinement, in
-vectorised steps; O(n) memory.
+gets one more point at a time, in the middle of the segment that is the longest at that moment. All
+lengths are measured again between the rounded points, and ``numpy.interp`` gives a midpoint's y.
+That makes vertical segments odd: ``numpy.interp`` cannot interpolate between two equal x, and
+returns the y of the segment's first point. The new point repeats that point, the segment stays the
+longest, and every point that is still missing is added at the same place. This module does the
+same, bit for bit; :func:`curvewise.area` bisects such a segment. The areas of the quadrilaterals
+between corresponding segments are added. O(n·(n − m)) time for the refinement, in vectorised
+steps; O(n) memory.
 """
 
 from __future__ import annotations
@@ -58,7 +61,11 @@ def area_between_two_curves(exp_data: CurveLike, num_data: CurveLike) -> np.floa
 
     Notes
     -----
-    The paper's Algorithm 1; see this module's first paragraph. O(n·(n − m)) time, O(n) memory.
+    The paper's Algorithm 1 (Jekel et al. 2018), with the odd refinement of vertical segments that
+    that package has: a segment between two equal x is not bisected. Its first point is repeated,
+    and once such a segment is the longest, it takes all points that are still missing. Loops with
+    vertical segments (two points of equal strain) want :func:`curvewise.area`. O(n·(n − m)) time,
+    O(n) memory.
 
     Examples
     --------
@@ -249,7 +256,9 @@ def get_arc_length(dataset: CurveLike) -> tuple[np.floating[Any], Array]:
         raise ValueError(f"dataset has shape {curve.shape}; give shape (n, d)")
     with np.errstate(all="ignore"):
         lengths = _segment_lengths(curve)
-        return np.sum(lengths), lengths
+        # One after the other, as there: np.sum adds in pairs, which rounds otherwise.
+        total: np.floating[Any] = np.cumsum([0.0, *lengths])[-1]
+        return total, lengths
 
 
 def _segment_lengths(points: RealArray) -> Array:
@@ -276,10 +285,8 @@ def _refined(curve: RealArray, count: int) -> RealArray:
 
 
 def _midpoint(start: RealArray, end: RealArray) -> tuple[np.floating[Any], np.floating[Any]]:
-    if start[0] == end[0]:
-        # numpy.interp would give an end of a vertical segment, not its middle: the segment would
-        # stay the longest and take every point that is still missing.
-        return start[0], (start[1] + end[1]) / 2.0
+    # As there, also for a vertical segment: of two equal x, numpy.interp returns the last one's y,
+    # which is that of `start`.
     if not start[0] < end[0]:
         start, end = end, start
     x = (start[0] + end[0]) / 2.0
@@ -300,7 +307,7 @@ def _is_simple(x: RealArray, y: RealArray) -> npt.NDArray[np.bool_]:
 
 
 def _turns_one_way(dx: RealArray, dy: RealArray) -> npt.NDArray[np.bool_]:
-    """Tell for edge vectors of shape (..., 4) whether all but one turn have the same sense."""
+    """Tell for edge vectors of shape (..., 4) whether at least three turns have the same sense."""
     cross = dx * np.roll(dy, -1, axis=-1) - dy * np.roll(dx, -1, axis=-1)
     simple: npt.NDArray[np.bool_] = (np.sum(cross >= 0, axis=-1) > 2) | (
         np.sum(cross <= 0, axis=-1) > 2

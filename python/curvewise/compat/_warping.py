@@ -1,17 +1,18 @@
 """Dynamic time warping and the discrete Fréchet distance in similaritymeasures' names.
 
 The metrics that the compiled library knows go to it (:func:`curvewise.dtw_table`,
-:func:`curvewise.frechet`): the same recurrence (symmetric1), the same bits for all but minkowski.
-For every other metric, and for curves with nan or inf, ``scipy.spatial.distance.cdist`` gives the
-costs and the cumulative table is filled here along anti-diagonals, whose cells depend on earlier
-ones only. O(n·m) time and memory, but O(n + m) memory for the Fréchet distance in the library.
+:func:`curvewise.frechet`): the same recurrence (symmetric1), and the same bits for all of them
+except minkowski. For every other metric, and for curves with nan or inf,
+``scipy.spatial.distance.cdist`` gives the costs, and the cumulative table is filled here along
+anti-diagonals, whose cells depend on earlier ones only. O(n·m) time and memory; the Fréchet
+distance from the library takes O(n + m) memory.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any, cast
+from typing import Any, cast, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -21,8 +22,6 @@ from ..measures import Metric, dtw_table, frechet
 from ._arrays import RealArray
 
 __all__ = ["dtw", "dtw_path", "frechet_dist"]
-
-_PARAMETER_FREE_METRICS = ("euclidean", "sqeuclidean", "cityblock", "chebyshev")
 
 
 def dtw(
@@ -217,7 +216,7 @@ def _is_compiled(metric: str | Callable[..., float], options: dict[str, Any]) ->
     if metric == "minkowski" and options.keys() == {"p"}:
         p = options["p"]
         return isinstance(p, (int, float, np.integer, np.floating)) and bool(p >= 1)
-    return not options and metric in (*_PARAMETER_FREE_METRICS, "minkowski")
+    return not options and metric in get_args(Metric)
 
 
 def _is_finite(P: Array, Q: Array) -> bool:

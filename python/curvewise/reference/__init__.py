@@ -1,7 +1,9 @@
 """All measures in plain numpy, written to be read: the oracle for the compiled library.
 
-Same names, arguments, defaults, results and errors as :mod:`curvewise`, one module per measure,
-nothing compiled but numpy. For every metric but minkowski (with p other than 1, 2 and inf) the
+Same names, arguments (except ``workers``), defaults, results and errors as :mod:`curvewise`, one
+module for each measure, and nothing compiled except numpy. Docstrings are those of
+:mod:`curvewise.measures`, which the package hands over at its import; what a function here has as
+its own becomes the Notes. For every metric but minkowski (with p other than 1, 2 and inf) the
 values, tables and paths of dtw and frechet equal those of the compiled library bit for bit: every
 sum is written out in its order, and nothing is left to a library that may reorder it. The other
 measures agree to 1e-12 relative, where no decision (longest segment, simple or complex

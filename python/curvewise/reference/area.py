@@ -9,79 +9,30 @@ cancellation. Time O(n + (n - m) log m), memory O(n).
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias, get_args
+from typing import get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from .._curves import Array, CurveLike, as_curves
+from .._options import Crossing, Default, Spacing
 from ..results import AreaQuads
 from .checks import check_choice, check_pair
-from .refinement import Spacing, facing_curves
+from .refinement import facing_curves
 from .scaling import range_exponent, times_power_of_two
 
 __all__ = ["area", "area_quads"]
-
-Crossing: TypeAlias = Literal["rearrange", "split"]
 
 
 def area(
     P: CurveLike,
     Q: CurveLike,
     *,
-    spacing: Spacing = "distance",
-    crossing: Crossing = "rearrange",
-    squared: bool = False,
+    spacing: Spacing = Default.spacing,
+    crossing: Crossing = Default.crossing,
+    squared: bool = Default.squared,
 ) -> float:
-    """Area between two curves in the plane.
-
-    Parameters
-    ----------
-    P, Q : array_like, shapes (n, 2) and (m, 2)
-        The curves, each of at least 2 points.
-    spacing : {"distance", "x", "arc_length"}
-        What the refinement measures a segment by. "distance" is sqrt(dx² + dy²), the paper's
-        text. "x" is abs(dx), with which the paper's Table 4 was computed (within 1.4 %; on raw
-        stress and strain "distance" gives 174 where the table says 45.1, because stress dominates
-        the length): raw stress–strain data want "x", or curves scaled by :func:`normalize`.
-        "arc_length" gives each curve a vertex wherever the other has one, by relative arc length
-        after scaling by P's box, so that the value does not depend on how either was sampled,
-        where the curves do not cross.
-    crossing : {"rearrange", "split"}
-        What becomes of a quadrilateral that intersects itself. "rearrange" (the paper) swaps two
-        vertices: the value jumps where a quadrilateral turns complex. "split" takes the two
-        triangles at the crossing point: the value changes continuously.
-    squared : bool
-        Sum the squares of the areas instead (the paper's section 4, the analogue of
-        sum-of-squares).
-
-    Returns
-    -------
-    float
-        In units of x times units of y (squared: of that squared). Symmetric to rounding, but for
-        "arc_length", which scales by P's box.
-
-    Raises
-    ------
-    ValueError
-        A curve is not finite, has fewer than 2 points or other than 2 coordinates; an unknown
-        option.
-    TypeError
-        A curve does not hold real numbers.
-
-    Notes
-    -----
-    The sum of the areas of :func:`area_quads`; cost and source there.
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> reference.area([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 1)])
-    2.0
-    >>> crossed = [(0, 1), (1, -1)], [(0, -1), (1, 1)]
-    >>> reference.area(*crossed), reference.area(*crossed, crossing="split")
-    (2.0, 1.0)
-    """
+    """Add up the areas of :func:`area_quads`, where cost and source are."""
     _, areas, exponent = _quadrilaterals(P, Q, spacing, crossing)
     with np.errstate(over="ignore", under="ignore"):
         total = np.asarray(np.sum(areas * areas if squared else areas))
@@ -92,39 +43,12 @@ def area_quads(
     P: CurveLike,
     Q: CurveLike,
     *,
-    spacing: Spacing = "distance",
-    crossing: Crossing = "rearrange",
+    spacing: Spacing = Default.spacing,
+    crossing: Crossing = Default.crossing,
 ) -> AreaQuads:
-    """Return the quadrilaterals whose areas :func:`area` adds up.
+    """Algorithm 1 of the paper; its Eq. 6 has a misprint: CD = (x4 - x3, y4 - y3).
 
-    Parameters
-    ----------
-    P, Q, spacing, crossing
-        As for :func:`area`.
-
-    Returns
-    -------
-    AreaQuads
-        ``quads``, shape (k, 4, 2), and ``areas``, (k,). Quadrilateral i is (A[i], A[i+1], B[i+1],
-        B[i]), where A is the curve with more points; one that was rearranged has its vertices in
-        the order whose area is given, one that was split in the original order.
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`area`.
-
-    Notes
-    -----
-    Algorithm 1 of the paper; its Eq. 6 has a misprint: CD = (x4 - x3, y4 - y3). Time
-    O(n + (n - m) log m) where n >= m, memory O(n); with "arc_length" O(n + m).
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> quads, areas = reference.area_quads([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 1)])
-    >>> quads.shape, areas.tolist()
-    ((2, 4, 2), [1.0, 1.0])
+    Time O(n + (n - m) log m) where n >= m, memory O(n); with "arc_length" O(n + m).
     """
     quads, areas, exponent = _quadrilaterals(P, Q, spacing, crossing)
     return AreaQuads(times_power_of_two(quads, exponent), times_power_of_two(areas, 2 * exponent))

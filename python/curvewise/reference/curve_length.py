@@ -1,110 +1,52 @@
 """The curve-length measure: log-relative differences at equal fractions of arc length.
 
 OF2 of Andrade-Campos, de-Carvalho & Valente, "Novel criteria for determination of material model
-parameters", Int. J. Mechanical Sciences (2012); section 2.4 of the paper. Time O(n log m).
+parameters", Int. J. Mechanical Sciences (2012); section 2.5 of the paper. Time O(n log m).
 """
 
 from __future__ import annotations
 
 import math
-from typing import Literal, TypeAlias, get_args
+from typing import get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from .._curves import Array, CurveLike, as_curves
+from .._options import Default, LengthScale
 from .arc_length import arc_lengths, interpolate, locate
 from .checks import check_choice, check_length, check_pair
 from .scaling import range_exponent, times_power_of_two
 
-__all__ = ["curve_length", "curve_length_residuals"]
-
-LengthScale: TypeAlias = Literal["mean", "mean_abs", "range"]
+__all__ = ["corresponding_positions", "curve_length", "curve_length_residuals"]
 
 
-def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = "mean") -> float:
-    """Curve-length measure.
-
-    Every point of P is compared with the point of Q at the same fraction of its curve's length.
-
-    Parameters
-    ----------
-    P, Q : array_like, shapes (n, 2) and (m, 2)
-        The curves, each of at least 2 different points.
-    scale : {"mean", "mean_abs", "range"}
-        What differences in x and in y are divided by: the mean of P's x ("mean", the paper's),
-        the mean of abs(x), or the range of x. Loops centred on zero need one of the last two: on
-        a loop with 1 % error in stress "mean" gives 55 where "mean_abs" gives 0.1.
-
-    Returns
-    -------
-    float
-        Dimensionless. Not symmetric.
-
-    Raises
-    ------
-    ValueError
-        A curve is not finite, has fewer than 2 points, other than 2 coordinates or no length;
-        the scale is 0 (for "mean", to rounding); an unknown option.
-    TypeError
-        A curve does not hold real numbers.
-
-    Notes
-    -----
-    The Euclidean norm of :func:`curve_length_residuals`. Time O(n log m), memory O(n + m).
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> P = [(0, 0), (1, 1), (2, 2)]
-    >>> round(reference.curve_length(P, [(0, 1), (1, 2), (2, 3)]), 6)  # sqrt(3) ln 2
-    1.200566
-    """
+def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.scale) -> float:
+    """Take the Euclidean norm of :func:`curve_length_residuals`, where the cost is."""
     residuals = curve_length_residuals(P, Q, scale=scale)
     with np.errstate(under="ignore"):
         return float(np.sqrt(np.sum(residuals * residuals)))
 
 
-def curve_length_residuals(P: CurveLike, Q: CurveLike, *, scale: LengthScale = "mean") -> Array:
-    """Return the terms of :func:`curve_length`, for ``scipy.optimize.least_squares``.
+def curve_length_residuals(
+    P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.scale
+) -> Array:
+    """Time O(n log m), memory O(n + m).
 
-    Parameters
-    ----------
-    P, Q, scale
-        As for :func:`curve_length`.
-
-    Returns
-    -------
-    ndarray, shape (n, 2)
-        ln(1 + abs(Δx / x̄)) and ln(1 + abs(Δy / ȳ)) for every point of P. Point i of P, at arc
-        length s of total L_P, is compared with the point of Q at s L_Q / L_P, where each curve's
-        length is taken after dividing x and y by that curve's own max abs(x) and max abs(y).
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`curve_length`.
-
-    Notes
-    -----
-    As for :func:`curve_length`.
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> reference.curve_length_residuals([(0, 0), (2, 2)], [(0, 0), (2, 2)]).tolist()
-    [[0.0, 0.0], [0.0, 0.0]]
+    Point i of P, at arc length s of total L_P, is compared with the point of Q at s L_Q / L_P.
+    The lengths of each curve are those after its x and y have been divided by its own max abs(x)
+    and max abs(y).
     """
     P, Q = as_curves(P, Q)
     check_choice("scale", scale, get_args(LengthScale))
     P, Q = check_pair(P, Q, "curve_length", least_points=2, planar=True)
     check_length(P, "P", "curve_length")
     check_length(Q, "Q", "curve_length")
-    position = _corresponding_positions(P, Q)
+    position = corresponding_positions(P, Q)
     return np.column_stack([_residuals(P[:, c], Q[:, c], position, "xy"[c], scale) for c in (0, 1)])
 
 
-def _corresponding_positions(P: Array, Q: Array) -> tuple[npt.NDArray[np.intp], Array]:
+def corresponding_positions(P: Array, Q: Array) -> tuple[npt.NDArray[np.intp], Array]:
     """Return, for every point of P, segment of Q and fraction of it at the same arc length."""
     s, t = _relative_arc_lengths(P), _relative_arc_lengths(Q)
     position = np.minimum(s * (t[-1] / s[-1]), t[-1])

@@ -12,79 +12,36 @@ O(n m).
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple, SupportsFloat, SupportsIndex, TypeAlias, get_args
+from typing import Any, NamedTuple, SupportsIndex, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from .._curves import Array, CurveLike, as_curves
+from .._options import Default, Metric, Order, StepPattern
 from ..results import Alignment
 from .checks import check_choice, check_pair, whole_number
-from .ground_distance import Metric, check_metric, degree, ground_distances
+from .ground_distance import check_metric, degree, ground_distances
 from .scaling import range_exponent, times_power_of_two
 
 __all__ = ["dtw", "dtw_path", "dtw_table"]
-
-StepPattern: TypeAlias = Literal["symmetric1", "symmetric2"]
 
 
 def dtw(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = "euclidean",
-    p: SupportsFloat | None = None,
-    step_pattern: StepPattern = "symmetric1",
-    window: SupportsIndex | None = None,
-    open_begin: bool = False,
-    open_end: bool = False,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    step_pattern: StepPattern = Default.step_pattern,
+    window: SupportsIndex | None = Default.window,
+    open_begin: bool = Default.open_begin,
+    open_end: bool = Default.open_end,
 ) -> float:
-    """Dynamic time warping distance: the smallest sum of ground distances over warping paths.
+    """Time and memory O(n m).
 
-    Parameters
-    ----------
-    P, Q : array_like, shapes (n, d) and (m, d), or (n,) and (m,)
-        The curves, of any d.
-    metric : {"euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"}
-        The ground distance between points.
-    p : float, 1 <= p <= inf, optional
-        The order of "minkowski"; 2 if not given.
-    step_pattern : {"symmetric1", "symmetric2"}
-        Whether a diagonal step counts its distance once, or twice (R's default, with which the
-        paper's tables were made).
-    window : int >= 0, optional
-        Radius r of the Sakoe–Chiba band abs(i (m-1) - j (n-1)) <= r (max(n, m) - 1), which is
-        abs(i - j) <= r where n = m; no limit where n = 1 or m = 1.
-    open_begin, open_end : bool
-        Match P to a part of Q only, which may begin, or end, anywhere (subsequence DTW). With
-        "symmetric1" and without a window only.
-
-    Returns
-    -------
-    float
-        In units of the ground distance; not divided by the length of the path. Symmetric, but
-        for open ends.
-
-    Raises
-    ------
-    ValueError
-        A curve is not finite or empty; the curves differ in d; an option is unknown or out of
-        range; no path fits into the window.
-    TypeError
-        A curve does not hold real numbers.
-
-    Notes
-    -----
-    Time and memory O(n m). Step patterns: Sakoe & Chiba (1978); open ends: Müller, "Information
-    Retrieval for Music and Motion" (2007), chapter 4.
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> reference.dtw([0, 1, 2, 3], [0, 2, 3])
-    1.0
-    >>> reference.dtw([1, 2], [9, 1, 2, 9], open_begin=True, open_end=True)
-    0.0
+    Step patterns: Sakoe & Chiba (1978); open ends: Müller, "Information Retrieval for Music and
+    Motion" (2007), chapter 4.
     """
     table = _accumulate(P, Q, metric, p, step_pattern, window, open_begin, open_end)
     return float(table.restored(table.costs[-1, table.end]))
@@ -94,42 +51,14 @@ def dtw_path(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = "euclidean",
-    p: SupportsFloat | None = None,
-    step_pattern: StepPattern = "symmetric1",
-    window: SupportsIndex | None = None,
-    open_begin: bool = False,
-    open_end: bool = False,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    step_pattern: StepPattern = Default.step_pattern,
+    window: SupportsIndex | None = Default.window,
+    open_begin: bool = Default.open_begin,
+    open_end: bool = Default.open_end,
 ) -> Alignment:
-    """Dynamic time warping distance with a warping path that attains it.
-
-    Parameters
-    ----------
-    P, Q, metric, p, step_pattern, window, open_begin, open_end
-        As for :func:`dtw`.
-
-    Returns
-    -------
-    Alignment
-        ``distance`` and ``path``, shape (k, 2). Among equal predecessors the diagonal is taken,
-        then (i-1, j), then (i, j-1); with an open end, the first best j. The sum of step weight
-        times ground distance, in path order, equals the distance to the bit.
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`dtw`.
-
-    Notes
-    -----
-    As for :func:`dtw`.
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> reference.dtw_path([0, 1, 2, 3], [0, 2, 3]).path.tolist()
-    [[0, 0], [1, 0], [2, 1], [3, 2]]
-    """
+    """As for :func:`dtw`."""
     table = _accumulate(P, Q, metric, p, step_pattern, window, open_begin, open_end)
     distance = float(table.restored(table.costs[-1, table.end]))
     return Alignment(distance, _warping_path(table))
@@ -139,40 +68,14 @@ def dtw_table(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = "euclidean",
-    p: SupportsFloat | None = None,
-    step_pattern: StepPattern = "symmetric1",
-    window: SupportsIndex | None = None,
-    open_begin: bool = False,
-    open_end: bool = False,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    step_pattern: StepPattern = Default.step_pattern,
+    window: SupportsIndex | None = Default.window,
+    open_begin: bool = Default.open_begin,
+    open_end: bool = Default.open_end,
 ) -> Array:
-    """Return the cumulative table of dynamic time warping.
-
-    Parameters
-    ----------
-    P, Q, metric, p, step_pattern, window, open_begin, open_end
-        As for :func:`dtw`; `open_end` does not change the table.
-
-    Returns
-    -------
-    ndarray, shape (n, m)
-        c[i, j], the cost of the cheapest path to (i, j); inf outside the window.
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`dtw`.
-
-    Notes
-    -----
-    As for :func:`dtw`.
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> reference.dtw_table([0, 1, 2], [0, 2]).tolist()
-    [[0.0, 2.0], [1.0, 1.0], [3.0, 1.0]]
-    """
+    """As for :func:`dtw`."""
     table = _accumulate(P, Q, metric, p, step_pattern, window, open_begin, open_end)
     return np.array(table.restored(table.costs))
 
@@ -196,7 +99,7 @@ def _accumulate(
     P: CurveLike,
     Q: CurveLike,
     metric: Metric,
-    p: SupportsFloat | None,
+    p: Order,
     step_pattern: StepPattern,
     window: SupportsIndex | None,
     open_begin: bool,
@@ -213,7 +116,7 @@ def _accumulate(
         )
     exponent = range_exponent(P, Q)
     P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
-    ground = ground_distances(P, Q, metric, order)
+    ground = ground_distances(P[:, np.newaxis], Q, metric, order)
     if radius is not None:
         ground[~_sakoe_chiba_band(len(P), len(Q), radius)] = np.inf
     weight = 1.0 if step_pattern == "symmetric1" else 2.0

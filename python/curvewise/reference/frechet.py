@@ -13,128 +13,41 @@ are not. Time and memory O(n m).
 
 from __future__ import annotations
 
-from typing import NamedTuple, SupportsFloat
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from .._curves import Array, CurveLike, as_curves
+from .._options import Default, Metric, Order
 from ..results import Alignment
 from .checks import check_pair
-from .ground_distance import Metric, check_metric, degree, ground_distances
+from .ground_distance import check_metric, degree, ground_distances
 from .scaling import range_exponent, times_power_of_two
 
 __all__ = ["frechet", "frechet_path", "frechet_table"]
 
 
 def frechet(
-    P: CurveLike, Q: CurveLike, *, metric: Metric = "euclidean", p: SupportsFloat | None = None
+    P: CurveLike, Q: CurveLike, *, metric: Metric = Default.metric, p: Order = Default.p
 ) -> float:
-    """Discrete Fréchet distance.
-
-    Parameters
-    ----------
-    P, Q : array_like, shapes (n, d) and (m, d), or (n,) and (m,)
-        The curves, of any d.
-    metric : {"euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"}
-        The ground distance between points.
-    p : float, 1 <= p <= inf, optional
-        The order of "minkowski"; 2 if not given.
-
-    Returns
-    -------
-    float
-        In units of the ground distance. Symmetric. Not below the continuous Fréchet distance
-        (but for "sqeuclidean"), and above it by at most the longest edge of either curve.
-
-    Raises
-    ------
-    ValueError
-        A curve is not finite or empty; the curves differ in d; an option is unknown or out of
-        range.
-    TypeError
-        A curve does not hold real numbers.
-
-    Notes
-    -----
-    Time and memory O(n m). Eiter & Mannila, "Computing discrete Fréchet distance" (1994).
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> reference.frechet([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 3)])
-    3.0
-    """
+    """Time and memory O(n m). Eiter & Mannila, "Computing discrete Fréchet distance" (1994)."""
     table = _accumulate(P, Q, metric, p)
     return float(table.restored(table.leashes[-1, -1]))
 
 
 def frechet_path(
-    P: CurveLike, Q: CurveLike, *, metric: Metric = "euclidean", p: SupportsFloat | None = None
+    P: CurveLike, Q: CurveLike, *, metric: Metric = Default.metric, p: Order = Default.p
 ) -> Alignment:
-    """Discrete Fréchet distance with a coupling that attains it.
-
-    Parameters
-    ----------
-    P, Q, metric, p
-        As for :func:`frechet`.
-
-    Returns
-    -------
-    Alignment
-        ``distance`` and ``path``, shape (k, 2). Among equal predecessors the diagonal is taken,
-        then (i-1, j), then (i, j-1). The largest ground distance along the path equals the
-        distance to the bit.
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`frechet`.
-
-    Notes
-    -----
-    As for :func:`frechet`.
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> reference.frechet_path([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 3)]).path.tolist()
-    [[0, 0], [1, 0], [2, 1]]
-    """
+    """As for :func:`frechet`."""
     table = _accumulate(P, Q, metric, p)
     return Alignment(float(table.restored(table.leashes[-1, -1])), _coupling(table.leashes))
 
 
 def frechet_table(
-    P: CurveLike, Q: CurveLike, *, metric: Metric = "euclidean", p: SupportsFloat | None = None
+    P: CurveLike, Q: CurveLike, *, metric: Metric = Default.metric, p: Order = Default.p
 ) -> Array:
-    """Return the cumulative table of the discrete Fréchet distance.
-
-    Parameters
-    ----------
-    P, Q, metric, p
-        As for :func:`frechet`.
-
-    Returns
-    -------
-    ndarray, shape (n, m)
-        c[i, j], the discrete Fréchet distance of the first i + 1 and the first j + 1 points.
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`frechet`.
-
-    Notes
-    -----
-    As for :func:`frechet`.
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> reference.frechet_table([0, 1, 2], [0, 2]).tolist()
-    [[0.0, 2.0], [1.0, 1.0], [2.0, 1.0]]
-    """
+    """As for :func:`frechet`."""
     table = _accumulate(P, Q, metric, p)
     return np.array(table.restored(table.leashes))
 
@@ -151,7 +64,7 @@ class _Table(NamedTuple):
         return times_power_of_two(np.sqrt(values) if self.squared else values, self.exponent)
 
 
-def _accumulate(P: CurveLike, Q: CurveLike, metric: Metric, p: SupportsFloat | None) -> _Table:
+def _accumulate(P: CurveLike, Q: CurveLike, metric: Metric, p: Order) -> _Table:
     """Check everything and fill the table."""
     P, Q = as_curves(P, Q)
     metric, order = check_metric(metric, p)
@@ -160,7 +73,7 @@ def _accumulate(P: CurveLike, Q: CurveLike, metric: Metric, p: SupportsFloat | N
     P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
     # In one dimension the Euclidean distance is a difference: there is no root to put off.
     squared = metric == "euclidean" and P.shape[1] > 1
-    ground = ground_distances(P, Q, "sqeuclidean" if squared else metric, order)
+    ground = ground_distances(P[:, np.newaxis], Q, "sqeuclidean" if squared else metric, order)
     return _Table(_cumulative_leashes(ground), squared, exponent * degree(metric))
 
 

@@ -7,16 +7,16 @@ absolute difference. Time O(n m d), memory O(n m).
 
 from __future__ import annotations
 
-from typing import Any, Literal, TypeAlias, cast, get_args
+from typing import Any, cast, get_args
 
 import numpy as np
 
 from .._curves import Array
+from .._options import Metric
 from .checks import check_choice
 
-__all__ = ["Metric", "check_metric", "degree", "ground_distances"]
+__all__ = ["check_metric", "degree", "ground_distances"]
 
-Metric: TypeAlias = Literal["euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"]
 
 _SAME_AS_MINKOWSKI: dict[float, Metric] = {
     1.0: "cityblock",
@@ -61,9 +61,13 @@ def degree(metric: Metric) -> int:
 
 
 def ground_distances(P: Array, Q: Array, metric: Metric, p: float) -> Array:
-    """Return the (n, m) table of distances from P[i] to Q[j], as `check_metric` names them."""
-    # One (n, m) table of absolute differences for each coordinate.
-    deltas = [np.abs(P[:, c, np.newaxis] - Q[np.newaxis, :, c]) for c in range(P.shape[1])]
+    """Return the distances between points, by the metric and order that `check_metric` returns.
+
+    The last axis of P and of Q is that of the coordinates; the others are broadcast: shapes
+    (n, 1, d) and (m, d) give the (n, m) table, and (k, d) twice the distances of k pairs.
+    """
+    # Absolute differences, one array for each coordinate.
+    deltas = [np.abs(P[..., c] - Q[..., c]) for c in range(P.shape[-1])]
     if len(deltas) == 1 and metric != "sqeuclidean":
         return cast(Array, deltas[0])
     if metric == "cityblock":

@@ -10,11 +10,12 @@ costs O(n log m) time.
 from __future__ import annotations
 
 import math
-from typing import Any, Literal, NamedTuple, SupportsIndex, TypeAlias
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from .._curves import Array, CurveLike, as_curves
+from .._options import Default, Offsets
 from ..results import PcmMatch
 from .arc_length import arc_lengths, interpolate, locate, norms
 from .checks import check_length, check_pair, whole_number
@@ -22,7 +23,6 @@ from .scaling import box_scaled, range_exponent, times_power_of_two
 
 __all__ = ["pcm", "pcm_match"]
 
-Offsets: TypeAlias = SupportsIndex | Literal["continuous"]
 
 _EQUAL_LENGTHS = 1e-12  # relative; within it P counts as the shorter curve
 _GRID = 200
@@ -31,84 +31,19 @@ _GOLDEN = (math.sqrt(5) - 1) / 2
 _DISTANCES_AT_ONCE = 2**18
 
 
-def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = 200) -> float:
-    """Partial curve mapping.
+def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> float:
+    """Time O(offsets n log m).
 
-    A short curve that agrees with a part of the other scores well by design: a simulation that
-    died early may score 0. :func:`pcm_match` says which part of the longer curve was covered.
-
-    Parameters
-    ----------
-    P, Q : array_like, shapes (n, 2) and (m, 2)
-        The curves, each of at least 2 different points.
-    offsets : int >= 1, or "continuous"
-        The number of evenly spaced offsets (1: o = 0 only), or the minimum over all offsets, to
-        1e-12 of the shorter length; never above that of 200 offsets.
-
-    Returns
-    -------
-    float
-        Dimensionless. Not symmetric: P's box scales both. inf where a scaled length is beyond the
-        range of a double.
-
-    Raises
-    ------
-    ValueError
-        A curve is not finite, has fewer than 2 points, other than 2 coordinates or no length;
-        `offsets` is out of range.
-    TypeError
-        A curve does not hold real numbers.
-
-    Notes
-    -----
     Witowski & Stander, "Parameter identification of hysteretic models using partial curve
-    mapping" (2012). Time O(offsets n log m); the error of the grid is at most
-    S (T - S) / (2 (offsets - 1)). "continuous" is meant for small curves here: it minimises each of
-    about n m pieces on which f is convex, in time O(n² m log m).
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> loop = [(0, 0), (1, 1), (2, 0), (3, 1)]
-    >>> round(reference.pcm(loop, loop[1:3], offsets="continuous"), 9)
-    0.0
+    mapping" (2012). The error of the grid is at most S (T - S) / (2 (offsets - 1)) for lengths
+    S <= T. "continuous" is meant for small curves here: it minimises each of about n m pieces on
+    which the area is convex, in time O(n² m log m).
     """
     return pcm_match(P, Q, offsets=offsets).value
 
 
-def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = 200) -> PcmMatch:
-    """Partial curve mapping, with where the shorter curve lies on the longer.
-
-    Parameters
-    ----------
-    P, Q, offsets
-        As for :func:`pcm`.
-
-    Returns
-    -------
-    PcmMatch
-        ``value``; ``offset``, the first best one, in units of the scaled curves; ``coverage``,
-        shorter length over longer; ``mapped``, "P" or "Q", the shorter curve; and ``points``: for
-        each of its vertices the point on the other curve, in original units. Where a length is
-        beyond the range of a double, ``value`` is inf, ``offset`` and ``coverage`` are 0 and
-        ``points`` are nan.
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`pcm`.
-
-    Notes
-    -----
-    As for :func:`pcm`.
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> match = reference.pcm_match([(0, 0), (1, 0), (4, 0)], [(1, 0), (2, 0)])
-    >>> match.mapped, match.coverage
-    ('Q', 0.25)
-    """
+def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> PcmMatch:
+    """As for :func:`pcm`."""
     P, Q = as_curves(P, Q)
     if not (isinstance(offsets, str) and offsets == "continuous"):
         offsets = whole_number("offsets", offsets, 1, "give a whole number >= 1, or 'continuous'")

@@ -10,17 +10,15 @@ from __future__ import annotations
 
 import heapq
 import math
-from typing import Literal, TypeAlias
 
 import numpy as np
 
 from .._curves import Array
+from .._options import Spacing
 from .arc_length import arc_lengths
 from .scaling import box_scaled
 
-__all__ = ["Spacing", "facing_curves"]
-
-Spacing: TypeAlias = Literal["distance", "x", "arc_length"]
+__all__ = ["facing_curves"]
 
 
 def facing_curves(P: Array, Q: Array, spacing: Spacing) -> tuple[Array, Array]:

@@ -15,53 +15,28 @@ import numpy as np
 from .._curves import Array, CurveLike, as_curve
 from .checks import check_pair
 
-__all__ = ["box_scaled", "normalize", "range_exponent", "times_power_of_two"]
+__all__ = ["box", "box_scaled", "normalize", "range_exponent", "times_power_of_two"]
 
 _LARGE = 2.0**500
 _SMALL = 2.0**-500
 
 
 def normalize(P: CurveLike, *others: CurveLike) -> list[Array]:
-    """Scale curves by P's bounding box: P comes to lie in [0, 1] in every coordinate.
-
-    Parameters
-    ----------
-    P : array_like, shape (n, d) or (n,)
-        The curve whose minimum is subtracted, and by whose extent is divided (not in a
-        coordinate in which it has none).
-    *others : array_like, shape (m, d) or (m,)
-        Curves to scale alike.
-
-    Returns
-    -------
-    list of ndarray
-        P and the others, scaled, each in the shape it came in.
-
-    Raises
-    ------
-    ValueError
-        A curve is empty, not finite, or differs from P in d.
-    TypeError
-        A curve does not hold real numbers.
-
-    Notes
-    -----
-    Section 2.1 of the paper. Time and memory O(n d) a curve.
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> P, Q = reference.normalize([(0, 10), (2, 30)], [(1, 40)])
-    >>> P.tolist(), Q.tolist()
-    ([[0.0, 0.0], [1.0, 1.0]], [[0.5, 1.5]])
-    """
+    """Section 2.1 of the paper. Time and memory O(n d) a curve."""
     names = ["P", "Q"] if len(others) == 1 else ["P", *(f"others[{i}]" for i in range(len(others)))]
     given = [as_curve(curve, name) for curve, name in zip((P, *others), names, strict=True)]
     scaled = []
     for curve, name in zip(given, names, strict=True):
-        box, points = check_pair(given[0], curve, "normalize", name=name)
-        scaled.append(box_scaled(points, box).reshape(curve.shape))
+        P, points = check_pair(given[0], curve, "normalize", name=name)
+        scaled.append(box_scaled(points, P).reshape(curve.shape))
     return scaled
+
+
+def box(curve: Array) -> tuple[Array, Array]:
+    """Return the smallest coordinates of a curve, and what to divide by: its extents, or 1."""
+    low = curve.min(axis=0)
+    extent = curve.max(axis=0) - low
+    return low, np.where(extent == 0, 1.0, extent)
 
 
 def box_scaled(curve: Array, box_of: Array) -> Array:
@@ -71,14 +46,13 @@ def box_scaled(curve: Array, box_of: Array) -> Array:
     """
     scaled = np.empty(curve.shape)
     for c in range(curve.shape[1]):
-        x, box = curve[:, c], box_of[:, c]
-        extent = 1.0
-        if box.max() > box.min():
-            exponent = range_exponent(box)
-            x, box = times_power_of_two(x, -exponent), times_power_of_two(box, -exponent)
-            extent = box.max() - box.min()
+        x, sides = curve[:, c], box_of[:, c]
+        if sides.max() > sides.min():
+            exponent = range_exponent(sides)
+            x, sides = times_power_of_two(x, -exponent), times_power_of_two(sides, -exponent)
+        low, extent = box(sides)
         with np.errstate(over="ignore", under="ignore"):
-            scaled[:, c] = (x - box.min()) / extent
+            scaled[:, c] = (x - low) / extent
     return scaled
 
 

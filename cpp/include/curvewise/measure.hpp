@@ -1,0 +1,43 @@
+// The list of measures. Whoever serves all of them alike (batches, compare, the C interface, a
+// language binding) goes through it: a measure that is added here is served by all of them.
+//
+//   curvewise::for_each_measure([](const auto& defaults) { std::puts(defaults.measure); });
+#pragma once
+
+#include <variant>
+
+#include "curvewise/area.hpp"
+#include "curvewise/curve_length.hpp"
+#include "curvewise/dtw.hpp"
+#include "curvewise/frechet.hpp"
+#include "curvewise/pcm.hpp"
+
+namespace curvewise {
+
+// A measure, chosen by the type of its options.
+using Measure =
+    std::variant<AreaOptions, PcmOptions, FrechetOptions, DtwOptions, CurveLengthOptions>;
+
+namespace detail {
+template <class Visit, class... Options>
+void for_each_alternative(const std::variant<Options...>* /*type*/, Visit&& visit) {
+    (visit(Options{}), ...);
+}
+}  // namespace detail
+
+// Calls visit(options), with the default options of every measure in the order of the list.
+template <class Visit>
+void for_each_measure(Visit&& visit) {
+    detail::for_each_alternative(static_cast<const Measure*>(nullptr), visit);
+}
+
+// The name of a measure: "dtw".
+inline const char* measure_name(const Measure& measure) noexcept {
+    return std::visit([](const auto& options) { return options.measure; }, measure);
+}
+
+// The measure of P and Q. Throws what the measure's own function throws.
+CURVEWISE_EXPORT double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q,
+                                 Control* control = nullptr);
+
+}  // namespace curvewise

@@ -1,0 +1,65 @@
+// Arc length along a polyline, and the one walk along it by arc length. O(n).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "curves/polyline.hpp"
+
+namespace curvewise::detail {
+
+// The arc length at every vertex: 0 first, the curve's length last.
+std::vector<double> arc_lengths(const Polyline& curve);
+
+// Throws std::invalid_argument where `length` is 0.
+void check_length(double length, const std::string& name, const char* measure);
+
+// A polyline with the arc length at every vertex.
+class ArcCurve {
+   public:
+    explicit ArcCurve(Polyline points)
+        : points_(std::move(points)), arc_lengths_(detail::arc_lengths(points_)) {}
+
+    const Polyline& points() const noexcept { return points_; }
+    const std::vector<double>& arc_lengths() const noexcept { return arc_lengths_; }
+    double length() const noexcept { return arc_lengths_.back(); }
+
+   private:
+    Polyline points_;
+    std::vector<double> arc_lengths_;
+};
+
+// A place on a curve, given by the arc lengths of its vertices, that moves forward, in O(1)
+// amortised.
+class ArcPosition {
+   public:
+    explicit ArcPosition(const std::vector<double>& arc_lengths) noexcept
+        : arc_lengths_(&arc_lengths) {}
+
+    // To arc length u, cut at the curve's length; not before where it was.
+    void move_to(double u) noexcept {
+        const std::vector<double>& t = *arc_lengths_;
+        at_ = std::min(u, t.back());
+        while (segment_ + 2 < t.size() && t[segment_ + 1] <= at_) ++segment_;
+    }
+    std::size_t segment() const noexcept { return segment_; }
+    // Of the segment: 0 at its start, 1 at its end and where it has no length.
+    double fraction() const noexcept {
+        const double start = (*arc_lengths_)[segment_];
+        const double length = (*arc_lengths_)[segment_ + 1] - start;
+        return length > 0.0 ? (at_ - start) / length : 1.0;
+    }
+    Point point_on(const Polyline& curve) const noexcept {
+        return interpolate(curve[segment_], curve[segment_ + 1], fraction());
+    }
+
+   private:
+    const std::vector<double>* arc_lengths_;
+    std::size_t segment_ = 0;
+    double at_ = 0.0;
+};
+
+}  // namespace curvewise::detail

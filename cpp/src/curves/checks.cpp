@@ -1,0 +1,126 @@
+#include "curves/checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace curvewise {
+
+std::string CurveView::shape() const {
+    if (is_flat()) return "(" + std::to_string(n_) + ",)";
+    return "(" + std::to_string(n_) + ", " + std::to_string(dim_) + ")";
+}
+
+namespace detail {
+namespace {
+
+// A curve among those of a call, and its name when a message needs it.
+struct Named {
+    const CurveList* list;
+    std::size_t i;
+
+    const CurveView& curve() const noexcept { return (*list)[i]; }
+    std::string with_shape() const { return list->name_of(i) + " has shape " + curve().shape(); }
+};
+
+[[noreturn]] void refuse(const std::string& what, const std::string& need) {
+    throw std::invalid_argument(what + "; " + need);
+}
+
+std::string both(const Named& a, const Named& b) {
+    return a.with_shape() + " and " + b.with_shape();
+}
+
+void check_columns(const Named& named) {
+    if (named.curve().dim() < 1) {
+        refuse(named.with_shape(), "a curve needs at least 1 coordinate");
+    }
+}
+
+void check_points(const Named& named, const Requirements& needs) {
+    if (named.curve().size() >= needs.min_points) return;
+    refuse(named.with_shape(), std::string(needs.measure) + " needs at least " +
+                                   std::to_string(needs.min_points) +
+                                   (needs.min_points == 1 ? " point" : " points"));
+}
+
+// Calls check(named) for every curve of both lists.
+template <class Check>
+void for_each(const CurveList& first, const CurveList& second, Check check) {
+    for (const CurveList* list : {&first, &second}) {
+        for (std::size_t i = 0; i < list->size(); ++i) check(Named{list, i});
+    }
+}
+
+[[noreturn]] void refuse_not_finite(const CurveView& curve, const std::string& name) {
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
+            const double value = curve(i, c);
+            if (std::isfinite(value)) continue;
+            const std::string place =
+                std::to_string(i) + (curve.is_flat() ? "" : ", " + std::to_string(c));
+            const char* what = std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+            refuse(name + "[" + place + "] is " + what, "curves must be finite");
+        }
+    }
+    throw std::invalid_argument(name + " changed while it was read");
+}
+
+// The largest |entry|; throws for the first one, in row-major order, that is not finite.
+double largest_magnitude(const CurveView& curve, const std::string& name) {
+    double largest = 0.0;
+    double poison = 0.0;  // stays 0 while every entry is finite: inf - inf and nan - nan are nan
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
+            const double value = curve(i, c);
+            poison += value - value;
+            largest = std::max(largest, std::abs(value));
+        }
+    }
+    if (poison != 0.0) refuse_not_finite(curve, name);
+    return largest;
+}
+
+}  // namespace
+
+CheckedCurve::CheckedCurve(const CurveView& checked, std::string its_name)
+    : curve(checked), name(std::move(its_name)), largest(largest_magnitude(curve, name)) {}
+
+void check_shapes(const Requirements& needs, const CurveList& first, const CurveList& second) {
+    const CurveList& with_first = first.size() > 0 ? first : second;
+    if (with_first.size() == 0) return;
+    const Named example{&with_first, 0};
+    for_each(first, second, [&](const Named& named) {
+        check_columns(named);
+        if (named.curve().dim() == example.curve().dim()) return;
+        refuse(both(example, named), "both need the same number of coordinates");
+    });
+    if (needs.planar && example.curve().dim() != 2) {
+        const std::string need = std::string(needs.measure) + " needs 2 coordinates, x and y";
+        if (first.size() > 0 && second.size() > 0) refuse(both(example, {&second, 0}), need);
+        if (with_first.size() > 1) refuse(both(example, {&with_first, 1}), need);
+        refuse(example.with_shape(), need);
+    }
+    for_each(first, second, [&](const Named& named) { check_points(named, needs); });
+}
+
+void check_shapes(const Requirements& needs, const CurveList& curves) {
+    check_shapes(needs, curves, CurveList(std::vector<CurveView>(), ""));
+}
+
+void check_equal_shapes(const CurveView& P, const CurveView& Q, const char* measure) {
+    const CurveList p(P, "P"), q(Q, "Q");
+    for_each(p, q, check_columns);
+    if (P.size() != Q.size() || P.dim() != Q.dim()) {
+        refuse(both({&p, 0}, {&q, 0}), std::string(measure) + " needs equal shapes");
+    }
+    check_points({&p, 0}, {measure, 1, false});
+}
+
+void check_whole_number(const char* option, std::ptrdiff_t value, const WholeNumberRange& range) {
+    if (value >= range.least) return;
+    refuse(std::string(option) + " is " + std::to_string(value), range.advice);
+}
+
+}  // namespace detail
+}  // namespace curvewise

@@ -1,0 +1,64 @@
+// What every measure requires of its curves, checked before any work, in one order and with one
+// wording, for one pair as for a thousand curves: the coordinates of all curves, then their
+// numbers of points, then every number. std::invalid_argument says what is wrong, where, and what
+// is needed. One pass over the points.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "curvewise/curve.hpp"
+#include "curvewise/options.hpp"
+
+namespace curvewise::detail {
+
+struct Requirements {
+    const char* measure;
+    std::ptrdiff_t min_points;
+    bool planar;  // exactly two coordinates, x and y
+};
+
+// One curve, "P", or the curves of a list, "XA[0]", "XA[1]", ...: the caller's, with the names
+// that messages give them.
+class CurveList {
+   public:
+    CurveList(const CurveView& curve, const char* name) noexcept
+        : curves_(&curve), size_(1), name_(name) {}
+    CurveList(const std::vector<CurveView>& curves, const char* name) noexcept
+        : curves_(curves.data()), size_(curves.size()), name_(name), is_list_(true) {}
+
+    std::size_t size() const noexcept { return size_; }
+    const CurveView& operator[](std::size_t i) const noexcept { return curves_[i]; }
+    std::string name_of(std::size_t i) const {
+        return is_list_ ? std::string(name_) + "[" + std::to_string(i) + "]" : name_;
+    }
+
+   private:
+    const CurveView* curves_;
+    std::size_t size_;
+    const char* name_;
+    bool is_list_ = false;
+};
+
+// A curve found finite, with the largest |coordinate|. Refers to the caller's points.
+struct CheckedCurve {
+    CheckedCurve(const CurveView& curve, std::string name);
+
+    CurveView curve;
+    std::string name;
+    double largest;
+};
+
+// The shapes of the curves of both sides, which must agree in their number of coordinates. A list
+// that is compared with itself is given once.
+void check_shapes(const Requirements& needs, const CurveList& first, const CurveList& second);
+void check_shapes(const Requirements& needs, const CurveList& curves);
+
+void check_equal_shapes(const CurveView& P, const CurveView& Q, const char* measure);
+
+// Throws "window is -1; give ..." for a number below the range's least.
+void check_whole_number(const char* option, std::ptrdiff_t value, const WholeNumberRange& range);
+
+}  // namespace curvewise::detail

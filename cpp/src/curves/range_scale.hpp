@@ -1,0 +1,29 @@
+// Scaling by a power of two, so that squares neither overflow nor vanish.
+#pragma once
+
+#include <cmath>
+
+namespace curvewise::detail {
+
+// The exponent k of the power of two by which both curves are divided before anything is squared
+// (0: not at all), and its undoing. Exact, except for values that leave the range of a double.
+class RangeScale {
+   public:
+    explicit RangeScale(double largest_magnitude) noexcept;
+    // To where `magnitude`, if not 0, comes to lie between 1/2 and 1, whatever it is.
+    static RangeScale to_unity(double magnitude) noexcept;
+    bool is_identity() const noexcept { return exponent_ == 0; }
+    double shrink(double coordinate) const noexcept {
+        return is_identity() ? coordinate : std::ldexp(coordinate, -exponent_);
+    }
+    // A result that is homogeneous of the given degree in the coordinates.
+    double restore(double value, int degree) const noexcept {
+        return is_identity() ? value : std::ldexp(value, exponent_ * degree);
+    }
+
+   private:
+    RangeScale() noexcept = default;
+    int exponent_ = 0;
+};
+
+}  // namespace curvewise::detail

@@ -1,0 +1,44 @@
+// A measure of one pair of curves: checked, prepared, computed.
+#pragma once
+
+#include <limits>
+#include <type_traits>
+
+#include "pairwise/measure.hpp"
+
+namespace curvewise::detail {
+
+// Returns what use(prepared_p, prepared_q, call) returns.
+template <class M, class Use>
+auto with_pair(const M& measure, const CurveView& P, const CurveView& Q, Control* control,
+               Use use) {
+    check_shapes(measure.requirements(), {P, "P"}, {Q, "Q"});
+    const CheckedCurve checked_p(P, "P"), checked_q(Q, "Q");
+    measure.check_sizes(P.size(), Q.size());
+    Poller poller(control);
+    poller.begin(M::steps(P.size(), 1, Q.size()));
+    const typename M::PreparedP p(checked_p);
+    poller.poll_in_loop(0);
+    const typename M::PreparedQ q(checked_q);
+    poller.poll_in_loop(0);
+    typename M::Memory memory;
+    const Call<typename M::Memory> call{std::numeric_limits<double>::infinity(), measure.workers(),
+                                        poller, memory};
+    if constexpr (std::is_void_v<decltype(use(p, q, call))>) {
+        use(p, q, call);
+        poller.finish();
+    } else {
+        auto result = use(p, q, call);
+        poller.finish();
+        return result;
+    }
+}
+
+template <class M>
+double evaluate(const M& measure, const CurveView& P, const CurveView& Q, Control* control) {
+    return with_pair(measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
+        return measure(p, q, call);
+    });
+}
+
+}  // namespace curvewise::detail

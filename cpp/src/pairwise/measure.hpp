@@ -1,0 +1,64 @@
+// What a measure is to the rest of the library: one class, which checks its options, prepares each
+// side of a pair, and computes a pair. The call for one pair (evaluate.hpp), cdist, pdist and
+// Prepared (batch_of.hpp), with progress, cutoff, threads and Ctrl-C, are made from it. A measure M
+// has
+//
+//   explicit M(const MOptions&)          throws std::invalid_argument for options out of range
+//   M::Memory                            what one thread keeps from one pair to the next
+//   M::PreparedP, M::PreparedQ           all that depends on one curve alone; made from a
+//                                        CheckedCurve, which they keep as `checked`
+//   M::is_swept                          whether several threads may work on one pair, and the
+//                                        poller hears of the pair's steps while they do
+//   requirements()                       of every curve
+//   check_sizes(n, m)                    throws where no pair of n and m points has a value
+//   check_p(prepared_p)                  throws where P serves no Q, as the value would: for
+//                                        batches, which refuse before any work
+//   workers()                            the threads for a single pair
+//   M::steps(n, count, points)           the nominal steps of a curve of n points against `count`
+//                                        curves of `points` points in all
+//   (prepared_p, prepared_q, call)       the value
+//
+// and, for what else its functions return (a path, a table), members of its own that take the same
+// three arguments.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "curves/checks.hpp"
+#include "runtime/poller.hpp"
+
+namespace curvewise::detail {
+
+// How a pair is computed.
+template <class Memory>
+struct Call {
+    double cutoff;  // a value above it may come back as any other that is
+    std::ptrdiff_t workers;
+    Poller& poller;
+    Memory& memory;
+};
+
+// What measures have in common whose time is linear in the points of their two plane curves.
+class LinearMeasure {
+   public:
+    static constexpr bool is_swept = false;
+    struct Memory {};
+
+    static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
+    template <class PreparedP>
+    void check_p(const PreparedP& /*P*/) const noexcept {}
+    static std::ptrdiff_t workers() noexcept { return 1; }
+    static std::int64_t steps(std::int64_t n, std::int64_t count, std::int64_t points) noexcept {
+        return n * count + points;
+    }
+};
+
+// A side of a measure that prepares nothing.
+struct UnpreparedCurve {
+    explicit UnpreparedCurve(CheckedCurve curve) : checked(std::move(curve)) {}
+    CheckedCurve checked;
+};
+
+}  // namespace curvewise::detail

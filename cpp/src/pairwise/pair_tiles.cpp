@@ -1,0 +1,75 @@
+#include "pairwise/pair_tiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace curvewise::detail {
+namespace {
+
+// So many that no thread waits long for another when the tiles run out; a tile of 32 x 32 pairs is
+// large enough for its curves to be used again while they are in the cache.
+constexpr double tiles_per_worker = 512.0;
+constexpr double max_edge = 32.0;
+constexpr double max_tiles = 2e5;
+
+std::vector<std::ptrdiff_t> largest_first(const Sizes& sizes) {
+    std::vector<std::ptrdiff_t> order(sizes.size());
+    std::iota(order.begin(), order.end(), std::ptrdiff_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::ptrdiff_t a, std::ptrdiff_t b) {
+        return sizes[static_cast<std::size_t>(a)] > sizes[static_cast<std::size_t>(b)];
+    });
+    return order;
+}
+
+std::ptrdiff_t tile_edge(double pairs, std::ptrdiff_t workers) noexcept {
+    const double tiles = tiles_per_worker * static_cast<double>(workers);
+    const double edge = std::clamp(std::sqrt(pairs / tiles), 1.0, max_edge);
+    return static_cast<std::ptrdiff_t>(std::max(edge, std::ceil(std::sqrt(pairs / max_tiles))));
+}
+
+std::int64_t total_steps(const Sizes& rows, const Sizes& columns, PairSet set,
+                         PairTiles::Steps steps) noexcept {
+    auto count = static_cast<std::int64_t>(columns.size());
+    std::int64_t points = std::accumulate(columns.begin(), columns.end(), std::int64_t{0});
+    std::int64_t total = 0;
+    for (const std::int64_t n : rows) {
+        if (set == PairSet::triangle) {
+            --count;
+            points -= n;
+        }
+        total += steps(n, count, points);
+    }
+    return total;
+}
+
+}  // namespace
+
+PairTiles::PairTiles(const Sizes& rows, const Sizes& columns, PairSet set, Steps steps,
+                     std::ptrdiff_t workers)
+    : set_(set),
+      rows_(largest_first(rows)),
+      columns_(set == PairSet::triangle ? rows_ : largest_first(columns)),
+      total_(total_steps(rows, columns, set, steps)) {
+    const auto height = static_cast<std::ptrdiff_t>(rows.size());
+    const auto width = static_cast<std::ptrdiff_t>(columns.size());
+    const double share = set == PairSet::triangle ? 0.5 : 1.0;
+    const std::ptrdiff_t edge =
+        tile_edge(share * static_cast<double>(height) * static_cast<double>(width), workers);
+    const auto points = [](const Sizes& sizes, const std::vector<std::ptrdiff_t>& order,
+                           std::ptrdiff_t position) {
+        return sizes[static_cast<std::size_t>(order[static_cast<std::size_t>(position)])];
+    };
+    for (std::ptrdiff_t row = 0; row < height; row += edge) {
+        const std::ptrdiff_t first = set == PairSet::triangle ? row : 0;
+        for (std::ptrdiff_t column = first; column < width; column += edge) {
+            tiles_.push_back(
+                {row, std::min(row + edge, height), column, std::min(column + edge, width),
+                 steps(points(rows, rows_, row), 1, points(columns, columns_, column))});
+        }
+    }
+    std::stable_sort(tiles_.begin(), tiles_.end(),
+                     [](const Tile& a, const Tile& b) { return a.largest > b.largest; });
+}
+
+}  // namespace curvewise::detail

@@ -1,0 +1,202 @@
+// OF2 of Andrade-Campos et al. (2012): see the header for the formula.
+#include "curvewise/curve_length.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "curves/arc_length.hpp"
+#include "curves/range_scale.hpp"
+#include "pairwise/batch_of.hpp"
+#include "pairwise/evaluate.hpp"
+
+namespace curvewise {
+namespace {
+
+using detail::Poller;
+using detail::Polyline;
+using detail::RangeScale;
+
+// The arc lengths after dividing each coordinate by the curve's own largest magnitude.
+std::vector<double> relative_arc_lengths(const CurveView& curve) {
+    double largest[2] = {0.0, 0.0};
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        largest[0] = std::max(largest[0], std::abs(curve(i, 0)));
+        largest[1] = std::max(largest[1], std::abs(curve(i, 1)));
+    }
+    for (double& value : largest) {
+        if (value == 0.0) value = 1e-15;
+    }
+    Polyline scaled(static_cast<std::size_t>(curve.size()));
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        scaled[static_cast<std::size_t>(i)] = {curve(i, 0) / largest[0], curve(i, 1) / largest[1]};
+    }
+    return detail::arc_lengths(scaled);
+}
+
+// A place on a curve: a segment and a fraction of it.
+struct Place {
+    std::size_t segment;
+    double fraction;
+};
+
+// For each point of P, at arc length s, the place on Q at the same fraction of its length.
+std::vector<Place> corresponding_places(const std::vector<double>& s, const std::vector<double>& t,
+                                        Poller& poller) {
+    const double ratio = t.back() / s.back();
+    std::vector<Place> places(s.size());
+    detail::ArcPosition position(t);
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        poller.poll_in_loop(i);
+        position.move_to(i + 1 < s.size() ? s[i] * ratio : t.back());
+        places[i] = {position.segment(), position.fraction()};
+    }
+    return places;
+}
+
+// One coordinate of both curves, in a range of its own: a quotient has no units, so nothing needs
+// to be scaled back.
+struct Coordinate {
+    std::vector<double> p;
+    std::vector<double> q;
+    const char* name;
+
+    Coordinate(const CurveView& P, const CurveView& Q, std::ptrdiff_t c)
+        : p(values(P, c)), q(values(Q, c)), name(c == 0 ? "x" : "y") {
+        const double largest = largest_magnitude(p);
+        if (RangeScale(std::max(largest, largest_magnitude(q))).is_identity()) return;
+        const RangeScale range = RangeScale::to_unity(largest);
+        for (double& value : p) value = range.shrink(value);
+        for (double& value : q) value = range.shrink(value);
+    }
+
+    static std::vector<double> values(const CurveView& curve, std::ptrdiff_t c) {
+        std::vector<double> result(static_cast<std::size_t>(curve.size()));
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            result[i] = curve(static_cast<std::ptrdiff_t>(i), c);
+        }
+        return result;
+    }
+    static double largest_magnitude(const std::vector<double>& values) noexcept {
+        double largest = 0.0;
+        for (const double value : values) largest = std::max(largest, std::abs(value));
+        return largest;
+    }
+};
+
+// What differences in one coordinate are divided by.
+double coordinate_scale(const Coordinate& x, LengthScale scale, const std::string& what) {
+    const auto n = static_cast<double>(x.p.size());
+    double low = x.p.front(), high = low, sum = 0.0, sum_abs = 0.0;
+    for (const double value : x.p) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+        sum += value;
+        sum_abs += std::abs(value);
+    }
+    const double largest = std::max(std::abs(low), std::abs(high));
+    const std::string name = x.name;
+    if (scale == LengthScale::mean) {
+        const double mean = sum / n;
+        if (std::abs(mean) > n * std::numeric_limits<double>::epsilon() * largest) return mean;
+        throw std::invalid_argument("the mean of " + what + "'s " + name +
+                                    " is 0 to rounding; use scale='mean_abs' or scale='range'");
+    }
+    if (largest == 0.0) {
+        throw std::invalid_argument(
+            what + "'s " + name + " is 0 throughout, which leaves nothing to divide by; " +
+            "add the same constant to " + name + " of both curves and use scale='mean_abs'");
+    }
+    if (scale == LengthScale::mean_abs) return sum_abs / n;
+    if (high > low) return high - low;
+    throw std::invalid_argument("the range of " + what + "'s " + name +
+                                " is 0; use scale='mean' or scale='mean_abs'");
+}
+
+// Writes the residuals of one coordinate to out[0], out[2], out[4], ...
+void write_residuals(const Coordinate& x, const std::vector<Place>& places, double divisor,
+                     double* out, Poller& poller) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        poller.poll_in_loop(i);
+        const double a = x.q[places[i].segment];
+        const double b = x.q[places[i].segment + 1];
+        const double at = places[i].fraction == 1.0 ? b : a + places[i].fraction * (b - a);
+        const double relative = std::abs((at - x.p[i]) / divisor);
+        out[2 * i] =
+            std::log1p(std::isnan(relative) ? std::numeric_limits<double>::infinity() : relative);
+    }
+}
+
+class CurveLengthMeasure : public detail::LinearMeasure {
+   public:
+    struct Side {
+        explicit Side(const detail::CheckedCurve& curve)
+            : checked(curve), arc_lengths(relative_arc_lengths(curve.curve)) {
+            detail::check_length(arc_lengths.back(), curve.name, "curve_length");
+        }
+        detail::CheckedCurve checked;
+        std::vector<double> arc_lengths;  // after dividing by its largest |x| and |y|
+    };
+    using PreparedP = Side;
+    using PreparedQ = Side;
+
+    explicit CurveLengthMeasure(const CurveLengthOptions& options) : options_(options) {}
+    static detail::Requirements requirements() noexcept { return {"curve_length", 2, true}; }
+
+    // Throws where there is nothing to divide by.
+    void check_p(const PreparedP& P) const {
+        for (std::ptrdiff_t c = 0; c < 2; ++c) {
+            const Coordinate x(P.checked.curve, P.checked.curve, c);
+            coordinate_scale(x, options_.scale, P.checked.name);
+        }
+    }
+
+    double operator()(const PreparedP& P, const PreparedQ& Q,
+                      const detail::Call<Memory>& call) const {
+        std::vector<double> all(2 * P.arc_lengths.size());
+        residuals(P, Q, all.data(), call);
+        double sum = 0.0;
+        for (const double r : all) sum += r * r;
+        return std::sqrt(sum);
+    }
+
+    void residuals(const PreparedP& P, const PreparedQ& Q, double* out,
+                   const detail::Call<Memory>& call) const {
+        const std::vector<Place> places =
+            corresponding_places(P.arc_lengths, Q.arc_lengths, call.poller);
+        for (std::ptrdiff_t c = 0; c < 2; ++c) {
+            const Coordinate x(P.checked.curve, Q.checked.curve, c);
+            const double scale = coordinate_scale(x, options_.scale, P.checked.name);
+            write_residuals(x, places, scale, out + c, call.poller);
+        }
+    }
+
+   private:
+    CurveLengthOptions options_;
+};
+
+}  // namespace
+
+double curve_length(const CurveView& P, const CurveView& Q, const CurveLengthOptions& options,
+                    Control* control) {
+    return detail::evaluate(CurveLengthMeasure(options), P, Q, control);
+}
+
+void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
+                            const CurveLengthOptions& options, Control* control) {
+    const CurveLengthMeasure measure(options);
+    detail::with_pair(measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
+        measure.residuals(p, q, out, call);
+    });
+}
+
+std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(
+    const CurveLengthOptions& options) {
+    return std::make_unique<BatchOf<CurveLengthMeasure>>(CurveLengthMeasure(options));
+}
+
+}  // namespace curvewise

@@ -1,0 +1,279 @@
+// The continuous search is a branch and bound over offsets. f is S-Lipschitz, which discards an
+// interval far from the best value in O(n + m). Near it that bound is too weak (of first order in
+// the interval's width h), so a second one is used: d_i is convex as long as s_i + o stays on one
+// segment, so it lies above its tangent at the interval's centre, but for what the corners inside
+// the interval take away; that is added up exactly, corner by corner. What is lost is of second
+// order in h, so that a few intervals per halving survive. Typically 10^3 evaluations.
+#include "planar/offset_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace curvewise::detail {
+namespace {
+
+constexpr double tolerance = 1e-12;  // of S
+
+double dot(const Point& a, const Point& b) noexcept { return a.x * b.x + a.y * b.y; }
+
+// f and its lower bound over an interval.
+class AreaAtOffset {
+   public:
+    AreaAtOffset(const ArcCurve& shorter, const ArcCurve& longer, Poller& poller)
+        : shorter_(shorter),
+          longer_(longer),
+          poller_(poller),
+          weights_(shorter.points().size(), 0.0) {
+        const std::vector<double>& s = shorter.arc_lengths();
+        for (std::size_t i = 0; i + 1 < s.size(); ++i) {
+            const double half = 0.5 * (s[i + 1] - s[i]);
+            weights_[i] += half;
+            weights_[i + 1] += half;
+        }
+        const std::vector<double>& t = longer.arc_lengths();
+        segments_.reserve(t.size());
+        for (std::size_t k = 0; k + 1 < t.size(); ++k) {
+            poller_.poll_in_loop(k);
+            const double length = t[k + 1] - t[k];
+            const Point edge = longer.points()[k + 1] - longer.points()[k];
+            const Point direction =
+                length > 0.0 ? Point{edge.x / length, edge.y / length} : Point{};
+            segments_.push_back({t[k], longer.points()[k], direction});
+        }
+        segments_.push_back({std::numeric_limits<double>::infinity(), {}, {}});  // ends every walk
+        fill_signposts();
+    }
+
+    double value(double offset) const { return values<1>({offset})[0]; }
+
+    // At several offsets in one walk: their steps do not wait for each other.
+    template <std::size_t count>
+    std::array<double, count> values(const std::array<double, count>& offsets) const {
+        std::array<double, count> sums{}, x{}, y{};
+        std::array<const Segment*, count> at{};
+        at.fill(segments_.data());
+        for (std::size_t i = 0; i < weights_.size(); ++i) {
+            poller_.poll_in_loop(i);
+            const Point vertex = shorter_.points()[i];
+            const double s = shorter_.arc_lengths()[i];
+            for (std::size_t o = 0; o < count; ++o) {
+                const double u = std::min(s + offsets[o], longer_.length());
+                at[o] = std::max(at[o], signpost(u));
+                // One step without a branch, which would be mispredicted often.
+                at[o] += at[o][1].start <= u;
+                while (at[o][1].start <= u) ++at[o];
+                const double along = u - at[o]->start;
+                x[o] = at[o]->from.x + along * at[o]->direction.x;
+                y[o] = at[o]->from.y + along * at[o]->direction.y;
+            }
+            for (std::size_t o = 0; o < count; ++o) {
+                const Point gap{x[o] - vertex.x, y[o] - vertex.y};
+                sums[o] += weights_[i] * std::sqrt(dot(gap, gap));
+            }
+        }
+        for (std::size_t o = 0; o < count; ++o) {
+            // Squares have overflown, or vanished.
+            const bool in_range = sums[o] > 0x1p-400 && std::isfinite(sums[o]);
+            if (!in_range) sums[o] = careful_value(offsets[o]);
+        }
+        return sums;
+    }
+
+    // Of f over centre - half .. centre + half.
+    double lower_bound(double centre, double half) const {
+        ArcPosition position = start(centre);
+        double value = 0.0;
+        double slope = 0.0;
+        double deficit = 0.0;
+        for (std::size_t i = 0; i < weights_.size(); ++i) {
+            poller_.poll_in_loop(i);
+            const double u = shorter_.arc_lengths()[i] + centre;
+            position.move_to(u);
+            const Tangent tangent = tangent_at(i, u, position);
+            value += weights_[i] * tangent.value;
+            slope += weights_[i] * tangent.slope;
+            deficit += weights_[i] * std::max(deficit_after(i, tangent, position, u + half),
+                                              deficit_before(i, tangent, position, u - half));
+        }
+        return value - std::abs(slope) * half - deficit;
+    }
+
+   private:
+    // A segment of the longer curve: points at start + along are from + along * direction.
+    struct Segment {
+        double start;
+        Point from;
+        Point direction;
+    };
+
+    struct Tangent {
+        double at;
+        double value;
+        double slope;
+        double operator()(double u) const noexcept { return value + slope * (u - at); }
+    };
+
+    // Of any magnitude.
+    double careful_value(double offset) const noexcept {
+        ArcPosition position = start(offset);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < weights_.size(); ++i) {
+            position.move_to(shorter_.arc_lengths()[i] + offset);
+            sum += weights_[i] * norm(position.point_on(longer_.points()) - shorter_.points()[i]);
+        }
+        return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+    }
+
+    // A segment at or shortly before arc length u: a walk that starts there takes few steps, and
+    // none of those it takes waits for the steps to an earlier place.
+    const Segment* signpost(double u) const noexcept {
+        return segments_.data() + signposts_[static_cast<std::size_t>(u * signposts_per_length_)];
+    }
+
+    void fill_signposts() {
+        constexpr std::size_t per_segment = 4;
+        const std::vector<double>& t = longer_.arc_lengths();
+        const std::size_t count = per_segment * t.size();
+        signposts_per_length_ = static_cast<double>(count) / longer_.length();
+        signposts_.resize(count + 2);  // rounding may lead one past the last
+        ArcPosition position(t);
+        for (std::size_t b = 0; b < signposts_.size(); ++b) {
+            poller_.poll_in_loop(b);
+            position.move_to(static_cast<double>(b) / signposts_per_length_);
+            signposts_[b] = position.segment();
+        }
+    }
+
+    ArcPosition start(double offset) const noexcept {
+        ArcPosition position(longer_.arc_lengths());
+        position.move_to(offset);
+        return position;
+    }
+
+    // The rate at which the distance from `gap` away grows along a segment; 0 where they touch,
+    // which is a slope below all that the distance has there.
+    double rate(const Point& gap, double distance, std::size_t segment) const noexcept {
+        const double length = segment_length(segment);
+        if (distance == 0.0 || length == 0.0) return 0.0;
+        const Point edge = longer_.points()[segment + 1] - longer_.points()[segment];
+        return dot(gap, edge) / (distance * length);
+    }
+
+    double segment_length(std::size_t segment) const noexcept {
+        return longer_.arc_lengths()[segment + 1] - longer_.arc_lengths()[segment];
+    }
+
+    Tangent tangent_at(std::size_t i, double u, const ArcPosition& position) const noexcept {
+        const Point gap = position.point_on(longer_.points()) - shorter_.points()[i];
+        const double distance = norm(gap);
+        return {u, distance, rate(gap, distance, position.segment())};
+    }
+
+    // How far d_i falls below its tangent between the tangent's place and `end` after it: behind
+    // each corner d_i lies above the line that leaves the corner with its slope there.
+    double deficit_after(std::size_t i, const Tangent& tangent, const ArcPosition& position,
+                         double end) const noexcept {
+        const std::vector<double>& t = longer_.arc_lengths();
+        double worst = 0.0;
+        for (std::size_t k = position.segment() + 1; k + 1 < t.size() && t[k] < end; ++k) {
+            const Point gap = longer_.points()[k] - shorter_.points()[i];
+            const double distance = norm(gap);
+            const double stop = std::min(t[k + 1], end);
+            const double line = distance + rate(gap, distance, k) * (stop - t[k]);
+            worst = std::max(worst, tangent(stop) - line);
+        }
+        return worst;
+    }
+
+    double deficit_before(std::size_t i, const Tangent& tangent, const ArcPosition& position,
+                          double begin) const noexcept {
+        const std::vector<double>& t = longer_.arc_lengths();
+        double worst = 0.0;
+        for (std::size_t k = position.segment(); k > 0 && t[k] > begin; --k) {
+            const Point gap = longer_.points()[k] - shorter_.points()[i];
+            const double distance = norm(gap);
+            const double stop = std::max(t[k - 1], begin);
+            const double line = distance - rate(gap, distance, k - 1) * (t[k] - stop);
+            worst = std::max(worst, tangent(stop) - line);
+        }
+        return worst;
+    }
+
+    const ArcCurve& shorter_;
+    const ArcCurve& longer_;
+    Poller& poller_;
+    std::vector<double> weights_;
+    std::vector<Segment> segments_;
+    std::vector<std::size_t> signposts_;
+    double signposts_per_length_ = 0.0;
+};
+
+double slack(const ArcCurve& shorter, const ArcCurve& longer) noexcept {
+    return std::max(0.0, longer.length() - shorter.length());
+}
+
+void improve(Offset& best, double at, double area) noexcept {
+    if (area < best.area || (area == best.area && at < best.at)) best = {at, area};
+}
+
+// Offset i of `count` evenly spaced ones.
+double grid_offset(double slack, std::ptrdiff_t i, std::ptrdiff_t count) noexcept {
+    return i == 0 ? 0.0 : slack * (static_cast<double>(i) / static_cast<double>(count - 1));
+}
+
+Offset best_of_grid(const AreaAtOffset& f, double slack, std::ptrdiff_t count) {
+    constexpr std::ptrdiff_t at_once = 16;
+    Offset best{0.0, f.value(0.0)};
+    for (std::ptrdiff_t i = 1; i < count; i += at_once) {
+        std::array<double, at_once> offsets{};
+        for (std::ptrdiff_t o = 0; o < at_once; ++o) {
+            offsets[static_cast<std::size_t>(o)] =
+                grid_offset(slack, std::min(i + o, count - 1), count);
+        }
+        const std::array<double, at_once> areas = f.values(offsets);
+        for (std::size_t o = 0; o < at_once; ++o) improve(best, offsets[o], areas[o]);
+    }
+    return best;
+}
+
+struct Interval {
+    double low;
+    double high;
+};
+
+}  // namespace
+
+Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdiff_t count,
+                    Poller& poller) {
+    return best_of_grid(AreaAtOffset(shorter, longer, poller), slack(shorter, longer), count);
+}
+
+Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poller) {
+    constexpr std::ptrdiff_t count = 200;
+    const AreaAtOffset f(shorter, longer, poller);
+    const double S = shorter.length();
+    const double range = slack(shorter, longer);
+    Offset best = best_of_grid(f, range, count);
+    std::vector<Interval> open;
+    for (std::ptrdiff_t i = count - 1; i > 0; --i) {
+        open.push_back({grid_offset(range, i - 1, count), grid_offset(range, i, count)});
+    }
+    while (!open.empty()) {
+        const Interval interval = open.back();
+        open.pop_back();
+        const double centre = 0.5 * (interval.low + interval.high);
+        const double half = 0.5 * (interval.high - interval.low);
+        if (!(interval.low < centre && centre < interval.high)) continue;
+        const double area = f.value(centre);
+        improve(best, centre, area);
+        const double target = best.area - tolerance * S;
+        if (area - S * half >= target || f.lower_bound(centre, half) >= target) continue;
+        open.push_back({centre, interval.high});
+        open.push_back({interval.low, centre});
+    }
+    return best;
+}
+
+}  // namespace curvewise::detail

@@ -1,0 +1,142 @@
+#include "planar/refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+#include "curves/arc_length.hpp"
+
+namespace curvewise::detail {
+namespace {
+
+// Ties between segments that are equally long but for rounding must not be decided by it: the
+// area would then change under translation.
+double rounded_to_34_bits(double length) noexcept {
+    int exponent = 0;
+    const double mantissa = std::frexp(length, &exponent);
+    return std::ldexp(std::nearbyint(std::ldexp(mantissa, 34)), exponent - 34);
+}
+
+double segment_length(const Point& edge, Spacing spacing) noexcept {
+    return rounded_to_34_bits(spacing == Spacing::x ? std::abs(edge.x)
+                                                    : std::sqrt(edge.x * edge.x + edge.y * edge.y));
+}
+
+// The part of an original segment from `start` to `start + width`, both fractions of it.
+struct Part {
+    double length;
+    std::size_t segment;
+    double start;
+    double width;
+
+    // Ordered by length, and against the direction of the curve: a heap has the longest part on
+    // top, the first along the curve among equals.
+    bool operator<(const Part& other) const noexcept {
+        if (length != other.length) return length < other.length;
+        if (segment != other.segment) return segment > other.segment;
+        return start > other.start;
+    }
+};
+
+using Cut = std::pair<std::size_t, double>;  // segment, fraction of it
+
+std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacing spacing,
+                                Poller& poller) {
+    std::vector<Part> parts;
+    parts.reserve(curve.size() + count);
+    for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+        parts.push_back({segment_length(curve[i + 1] - curve[i], spacing), i, 0.0, 1.0});
+    }
+    std::priority_queue<Part> heap({}, std::move(parts));
+    std::vector<Cut> cuts;
+    cuts.reserve(count);
+    while (cuts.size() < count) {
+        poller.poll_in_loop(cuts.size());
+        Part part = heap.top();
+        heap.pop();
+        part.length /= 2.0;
+        part.width /= 2.0;
+        heap.push(part);
+        part.start += part.width;
+        heap.push(part);
+        cuts.emplace_back(part.segment, part.start);
+    }
+    std::sort(cuts.begin(), cuts.end());
+    return cuts;
+}
+
+Polyline refined(const Polyline& curve, std::size_t size, Spacing spacing, Poller& poller) {
+    const std::vector<Cut> cuts = bisection_cuts(curve, size - curve.size(), spacing, poller);
+    Polyline result;
+    result.reserve(size);
+    auto cut = cuts.begin();
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        poller.poll_in_loop(i);
+        result.push_back(curve[i]);
+        for (; cut != cuts.end() && cut->first == i; ++cut) {
+            result.push_back(interpolate(curve[i], curve[i + 1], cut->second));
+        }
+    }
+    return result;
+}
+
+// A curve walked by relative arc length.
+class RelativeWalk {
+   public:
+    RelativeWalk(const Polyline& curve, const Polyline& scaled)
+        : curve_(curve), u_(arc_lengths(scaled)) {
+        const double length = u_.back();
+        const bool measurable = length > 0.0 && std::isfinite(length);
+        for (double& u : u_) u = measurable ? u / length : 0.0;
+        u_.back() = 1.0;
+    }
+    bool at_end() const noexcept { return vertex_ + 1 == curve_.size(); }
+    // Of the next vertex; beyond the last one, further than any.
+    double next() const noexcept { return at_end() ? 2.0 : u_[vertex_ + 1]; }
+    // The point at u, at most next(); passes the vertex there.
+    Point advance(double u) noexcept {
+        if (next() == u) return curve_[++vertex_];
+        if (at_end()) return curve_.back();
+        const double h = (u - u_[vertex_]) / (u_[vertex_ + 1] - u_[vertex_]);
+        return interpolate(curve_[vertex_], curve_[vertex_ + 1], h);
+    }
+
+   private:
+    const Polyline& curve_;
+    std::vector<double> u_;
+    std::size_t vertex_ = 0;
+};
+
+FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q, const Polyline& scaled_p,
+                                const Polyline& scaled_q, Poller& poller) {
+    RelativeWalk along_p(P, scaled_p);
+    RelativeWalk along_q(Q, scaled_q);
+    FacingCurves result{{P.front()}, {Q.front()}};
+    result.A.reserve(P.size() + Q.size());
+    result.B.reserve(P.size() + Q.size());
+    while (!along_p.at_end() || !along_q.at_end()) {
+        poller.poll_in_loop(result.A.size());
+        const double u = std::min(along_p.next(), along_q.next());
+        result.A.push_back(along_p.advance(u));
+        result.B.push_back(along_q.advance(u));
+    }
+    return result;
+}
+
+}  // namespace
+
+FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& range, Spacing spacing,
+                  Poller& poller) {
+    Polyline A = polyline(P, range);
+    Polyline B = polyline(Q, range);
+    if (spacing == Spacing::arc_length) {
+        const Box box(P);
+        return face_by_arc_length(A, B, box_scaled(P, box), box_scaled(Q, box), poller);
+    }
+    if (A.size() < B.size()) std::swap(A, B);
+    if (A.size() > B.size()) B = refined(B, A.size(), spacing, poller);
+    return {std::move(A), std::move(B)};
+}
+
+}  // namespace curvewise::detail

@@ -1,0 +1,24 @@
+// Two curves brought to the same number of vertices, so that vertex i of one faces vertex i of the
+// other: the first half of Algorithm 1 of Jekel et al. (2018).
+#pragma once
+
+#include "curves/polyline.hpp"
+#include "curves/range_scale.hpp"
+#include "curvewise/area.hpp"
+#include "runtime/poller.hpp"
+
+namespace curvewise::detail {
+
+struct FacingCurves {
+    Polyline A;
+    Polyline B;
+};
+
+// For `distance` and `x`, A is the curve with more points (P if equal) and B the other, refined:
+// the longest segment is bisected, again and again. O((n - m) log m). For `arc_length`, A is P and
+// B is Q, each with a vertex wherever the other has one. O(n + m). Coordinates come out in `range`.
+// Throws Stopped where the poller says so.
+FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& range, Spacing spacing,
+                  Poller& poller);
+
+}  // namespace curvewise::detail

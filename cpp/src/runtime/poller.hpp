@@ -1,0 +1,69 @@
+// One thread's side of a Control: counts the steps that the thread has done, adds them to the
+// Control's count now and then, and says when to stop. The poller of the thread that made the call
+// also makes the reports. Without a Control it does nothing.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "curvewise/control.hpp"
+
+namespace curvewise::detail {
+
+class Poller {
+   public:
+    enum class Role { caller, worker };
+
+    explicit Poller(Control* control, Role role = Role::caller);
+    Poller(const Poller&) = delete;
+    Poller(Poller&&) = delete;
+    Poller& operator=(const Poller&) = delete;
+    Poller& operator=(Poller&&) = delete;
+    ~Poller() { publish_count(); }
+
+    // For the caller, before and after the work.
+    void begin(std::int64_t total) noexcept;
+    void finish();
+
+    // Whether to stop. Looks at the Control, and at the clock for whether a report is due.
+    bool poll();
+    // Counts steps that are done, each as long as `weight` of the shortest there are, and polls
+    // when enough have come together. Whether to stop.
+    bool count_steps(std::int64_t steps, std::int64_t weight = 1) {
+        if (control_ == nullptr) return false;
+        uncounted_ += steps;
+        effort_ += steps * weight;
+        if (effort_ < effort_between_polls) return control_->stopped();
+        return poll();
+    }
+    // For loops over points: polls in every 2^16th iteration and throws Stopped.
+    void poll_in_loop(std::size_t i) {
+        if ((i & 0xffff) == 0 && poll()) throw Stopped();
+    }
+
+    bool stopped() const noexcept { return control_ != nullptr && control_->stopped(); }
+    void throw_if_stopped() const {
+        if (stopped()) throw Stopped();
+    }
+
+    Control* control() const noexcept { return control_; }
+
+   private:
+    using Clock = std::chrono::steady_clock;
+
+    // Some 20 µs of work: a look at the clock, and a write that other threads see, are nothing
+    // beside it.
+    static constexpr std::int64_t effort_between_polls = 1 << 15;
+
+    void publish_count() noexcept;
+    void report();
+
+    Control* control_;
+    Role role_;
+    std::int64_t uncounted_ = 0;
+    std::int64_t effort_ = 0;
+    Clock::time_point next_report_;
+};
+
+}  // namespace curvewise::detail

@@ -1,0 +1,111 @@
+#include "runtime/workers.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <thread>
+
+namespace curvewise::detail {
+namespace {
+
+// How long a thread that waits for another sleeps at most before it looks at its poller.
+constexpr std::chrono::milliseconds nap(20);
+
+// Looks before a waiting thread sleeps: some 50 µs, which is less than waking it up may take. Each
+// offers its core to whoever else wants it.
+constexpr int looks = 200;
+
+}  // namespace
+
+std::ptrdiff_t resolve_workers(std::ptrdiff_t workers) {
+    if (workers == -1) return std::max(1U, std::thread::hardware_concurrency());
+    if (workers < 1) {
+        throw std::invalid_argument("workers is " + std::to_string(workers) +
+                                    "; give a whole number >= 1, or -1 for all cores");
+    }
+    return workers;
+}
+
+void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work) {
+    std::vector<std::thread> threads;
+    threads.reserve(static_cast<std::size_t>(count));
+    std::mutex mutex;
+    std::condition_variable ended;
+    std::size_t at_work = 0;
+    const auto run = [&](std::ptrdiff_t w) {
+        {
+            Poller own(poller.control(), Poller::Role::worker);
+            work(w, own);
+        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        --at_work;
+        ended.notify_one();
+    };
+    try {
+        for (std::ptrdiff_t w = 1; w < count; ++w) {
+            {
+                const std::lock_guard<std::mutex> lock(mutex);
+                ++at_work;
+            }
+            threads.emplace_back(run, w);
+        }
+    } catch (const std::system_error&) {
+        // The system gives no more threads; those there are, and this one, do the work.
+        const std::lock_guard<std::mutex> lock(mutex);
+        --at_work;
+    }
+    work(0, poller);
+    // Not joined at once: the poller goes on reporting, and hears of a stop, to the end.
+    for (std::unique_lock<std::mutex> lock(mutex); at_work > 0;) {
+        ended.wait_for(lock, nap, [&] { return at_work == 0; });
+        lock.unlock();
+        poller.poll();
+        lock.lock();
+    }
+    for (std::thread& thread : threads) thread.join();
+}
+
+Pipeline::Pipeline(std::ptrdiff_t strips) : strips_(static_cast<std::size_t>(strips)) {}
+
+std::ptrdiff_t Pipeline::take() noexcept {
+    const std::ptrdiff_t strip = next_.fetch_add(1, std::memory_order_relaxed);
+    return strip < static_cast<std::ptrdiff_t>(strips_.size()) ? strip : -1;
+}
+
+bool Pipeline::reached(std::ptrdiff_t strip, std::ptrdiff_t columns) const noexcept {
+    const Progress& above = strips_[static_cast<std::size_t>(strip - 1)];
+    return above.columns.load(std::memory_order_acquire) >= columns;
+}
+
+bool Pipeline::wait(std::ptrdiff_t strip, std::ptrdiff_t columns, Poller& poller) {
+    if (strip == 0) return true;
+    for (int i = 0; i < looks; ++i) {
+        if (reached(strip, columns)) return true;
+        std::this_thread::yield();
+    }
+    for (;;) {
+        {
+            std::unique_lock<std::mutex> lock(mutex_);
+            if (moved_.wait_for(lock, nap, [&] { return reached(strip, columns); })) return true;
+        }
+        if (poller.poll()) return false;
+    }
+}
+
+void Pipeline::publish(std::ptrdiff_t strip, std::ptrdiff_t columns) {
+    {
+        // Under the lock, so that no waiter misses it between its look and its sleep.
+        const std::lock_guard<std::mutex> lock(mutex_);
+        strips_[static_cast<std::size_t>(strip)].columns.store(columns, std::memory_order_release);
+    }
+    moved_.notify_all();
+}
+
+void Pipeline::finish(std::ptrdiff_t strip) {
+    publish(strip, std::numeric_limits<std::ptrdiff_t>::max());
+}
+
+}  // namespace curvewise::detail

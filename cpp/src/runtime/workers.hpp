@@ -1,0 +1,54 @@
+// Threads for one call: started for it, joined before it returns. Nothing outlives a call and
+// nothing is shared between calls, so that calls may be made from any number of threads.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "runtime/poller.hpp"
+
+namespace curvewise::detail {
+
+// The number of threads that `workers` asks for: -1 is one per core. Throws std::invalid_argument
+// for 0 and for what is below -1.
+std::ptrdiff_t resolve_workers(std::ptrdiff_t workers);
+
+// Calls work(w, poller) for w = 0, 1, ... in up to `count` threads, this one among them as 0, with
+// `poller`; the others have watches of their own. Where the system refuses a thread, fewer do the
+// work: `work` must share itself out. It must not throw.
+using Work = std::function<void(std::ptrdiff_t w, Poller& poller)>;
+void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work);
+
+// Strips handed out from top to bottom, each following the one above it. A strip is taken only
+// after the one above it was, by a thread that goes on until it is finished, so that waiting
+// always ends.
+class Pipeline {
+   public:
+    explicit Pipeline(std::ptrdiff_t strips);
+
+    // The next strip, or -1.
+    std::ptrdiff_t take() noexcept;
+    // Until the strip above `strip` has finished `columns` columns. Looks for some microseconds,
+    // then sleeps. False where the work was given up meanwhile.
+    bool wait(std::ptrdiff_t strip, std::ptrdiff_t columns, Poller& poller);
+    void publish(std::ptrdiff_t strip, std::ptrdiff_t columns);
+    void finish(std::ptrdiff_t strip);
+
+   private:
+    // On a cache line of its own: written by one thread, read by another.
+    struct alignas(64) Progress {
+        std::atomic<std::ptrdiff_t> columns{0};
+    };
+    bool reached(std::ptrdiff_t strip, std::ptrdiff_t columns) const noexcept;
+
+    std::vector<Progress> strips_;
+    std::atomic<std::ptrdiff_t> next_{0};
+    std::mutex mutex_;
+    std::condition_variable moved_;
+};
+
+}  // namespace curvewise::detail

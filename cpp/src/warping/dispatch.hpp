@@ -1,0 +1,23 @@
+// Instruction-set levels: which this machine has, and which one this process uses.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "warping/kernels/strip.hpp"
+
+namespace curvewise::detail {
+
+struct Level {
+    const char* name;
+    const kernels::KernelSet* kernels;
+};
+
+// Those this machine has, the slowest first.
+std::vector<Level> available_levels();
+
+// The last of them, or the one that the environment variable CURVEWISE_ISA names; chosen once.
+// Throws std::runtime_error where this machine has no level of that name.
+const Level& active_level();
+
+}  // namespace curvewise::detail

@@ -1,0 +1,145 @@
+// Ground distances of one diagonal, a SIMD vector of lanes at a time. Differences are squared and
+// added in coordinate order, never fused, and sqrt is correctly rounded, so that the numpy
+// reference gives the same bits. Included by the kernel of each level, inside its
+// anonymous namespace.
+
+#include "square_root.inl.hpp"
+
+// Sum of squared differences in a number of dimensions known at compile time.
+template <int dim>
+struct SquaredCost {
+    const double* p[dim];
+    const double* q[dim];
+
+    explicit SquaredCost(const Strip& strip) noexcept {
+        for (int c = 0; c < dim; ++c) {
+            p[c] = strip.p + c * strip.p_stride;
+            q[c] = strip.q + c * strip.q_stride + strip.columns - 1;
+        }
+    }
+    void prepare(const Strip&, std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t,
+                 CostFunction) const noexcept {}
+    Pack at(std::ptrdiff_t t, std::ptrdiff_t k) const noexcept {
+        Pack sum = square(t, k, 0);
+        for (int c = 1; c < dim; ++c) sum = simd::padd(sum, square(t, k, c));
+        return sum;
+    }
+
+   private:
+    Pack square(std::ptrdiff_t t, std::ptrdiff_t k, int c) const noexcept {
+        const Pack delta = simd::psub(load(p[c] + k), load(q[c] - t + k));
+        return simd::pmul(delta, delta);
+    }
+};
+
+template <int dim, class Root>
+struct EuclideanCost : SquaredCost<dim> {
+    using SquaredCost<dim>::SquaredCost;
+    Pack at(std::ptrdiff_t t, std::ptrdiff_t k) const noexcept {
+        return Root::of(SquaredCost<dim>::at(t, k));
+    }
+};
+
+// |difference|, which every metric but sqeuclidean is in one dimension.
+struct AbsoluteCost {
+    const double* p;
+    const double* q;
+
+    explicit AbsoluteCost(const Strip& strip) noexcept
+        : p(strip.p), q(strip.q + strip.columns - 1) {}
+    void prepare(const Strip&, std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t,
+                 CostFunction) const noexcept {}
+    Pack at(std::ptrdiff_t t, std::ptrdiff_t k) const noexcept {
+        return simd::pabs(simd::psub(load(p + k), load(q - t + k)));
+    }
+};
+
+// Any other metric and dimension: a diagonal is written to strip.cost first.
+struct BufferedCost {
+    const double* cost;
+
+    explicit BufferedCost(const Strip& strip) noexcept : cost(strip.cost) {}
+    void prepare(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low, std::ptrdiff_t high,
+                 CostFunction fill) const noexcept {
+        fill(strip, t, low, high);
+    }
+    Pack at(std::ptrdiff_t, std::ptrdiff_t k) const noexcept { return load(cost + k); }
+};
+
+struct Squares {
+    static Pack add(const Pack& sum, const Pack& delta) noexcept {
+        return simd::padd(sum, simd::pmul(delta, delta));
+    }
+    static Pack finish(const Pack& sum) noexcept { return sum; }
+};
+
+template <class Root>
+struct RootOfSquares : Squares {
+    static Pack finish(const Pack& sum) noexcept { return Root::of(sum); }
+};
+
+struct AbsoluteSum {
+    static Pack add(const Pack& sum, const Pack& delta) noexcept {
+        return simd::padd(sum, simd::pabs(delta));
+    }
+    static Pack finish(const Pack& sum) noexcept { return sum; }
+};
+
+struct AbsoluteMaximum {
+    static Pack add(const Pack& sum, const Pack& delta) noexcept {
+        return simd::pmax(sum, simd::pabs(delta));
+    }
+    static Pack finish(const Pack& sum) noexcept { return sum; }
+};
+
+template <class Norm>
+void fill_cost(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
+               std::ptrdiff_t high) noexcept {
+    const double* const q = strip.q + strip.columns - 1 - t;
+    for (std::ptrdiff_t k = low; k <= high; k += width) {
+        Pack sum = simd::pset1<Pack>(0.0);
+        for (std::ptrdiff_t c = 0; c < strip.dim; ++c) {
+            const Pack delta = simd::psub(load(strip.p + c * strip.p_stride + k),
+                                          load(q + c * strip.q_stride + k));
+            sum = Norm::add(sum, delta);
+        }
+        store(strip.cost + k, Norm::finish(sum));
+    }
+}
+
+// Scalar: std::pow dominates. The largest difference is factored out so that no power overflows.
+void fill_minkowski(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
+                    std::ptrdiff_t high) noexcept {
+    const double* const q = strip.q + strip.columns - 1 - t;
+    for (std::ptrdiff_t k = low; k <= high; ++k) {
+        const auto delta = [&](std::ptrdiff_t c) {
+            return std::abs(strip.p[c * strip.p_stride + k] - q[c * strip.q_stride + k]);
+        };
+        double largest = 0.0;
+        for (std::ptrdiff_t c = 0; c < strip.dim; ++c) {
+            if (delta(c) > largest) largest = delta(c);
+        }
+        double sum = 0.0;
+        for (std::ptrdiff_t c = 0; c < strip.dim && largest > 0.0; ++c) {
+            sum += std::pow(delta(c) / largest, strip.minkowski_p);
+        }
+        strip.cost[k] = largest * std::pow(sum, 1.0 / strip.minkowski_p);
+    }
+}
+
+CostFunction select_fill(Cost cost) noexcept {
+    switch (cost.metric) {
+        case Metric::euclidean:
+            return cost.squares_in_domain ? fill_cost<RootOfSquares<FastRoot>>
+                                          : fill_cost<RootOfSquares<DividerRoot>>;
+        case Metric::sqeuclidean:
+            return fill_cost<Squares>;
+        case Metric::cityblock:
+            return fill_cost<AbsoluteSum>;
+        case Metric::chebyshev:
+            return fill_cost<AbsoluteMaximum>;
+        case Metric::minkowski:
+            return fill_minkowski;
+    }
+    return nullptr;
+}

@@ -1,0 +1,16 @@
+// The kernels of one instruction-set level, compiled once for each: CURVEWISE_LEVEL is `baseline`
+// (SSE2 on x86-64, NEON on arm64), `v3` or `v4`.
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+
+#include "strip.hpp"
+
+namespace curvewise::kernels {
+namespace {
+#include "sweep.inl.hpp"
+}  // namespace
+
+const KernelSet CURVEWISE_LEVEL = {select_advance, select_fill};
+
+}  // namespace curvewise::kernels

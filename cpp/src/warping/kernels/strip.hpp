@@ -1,0 +1,104 @@
+// The boundary between the library and its kernels: plain pointers and sizes, so that a kernel
+// may be compiled for another instruction set than the rest. No Eigen type, no standard
+// container, no allocation and no exception crosses it.
+//
+// The cumulative table is cut into strips of rows. A strip is swept by anti-diagonals: on
+// diagonal t, lane k is the cell of row k (of the strip) and column t - k. `before` and
+// `before_last` hold the two last diagonals, lane k at index k + 1; index 0 holds the cell above
+// lane 0, from the strip above. So for lanes a..b of diagonal t
+//
+//   up = before[a..b],  left = before[a+1..b+1],  diagonal = before_last[a..b]
+//
+// are contiguous, and with Q stored reversed so are the points of Q. Only the strip's bottom row
+// leaves it: `boundary` is the row above on the way in and the bottom row on the way out; column
+// j is written rows - 1 diagonals after it was read.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "curvewise/ground_distance.hpp"
+
+namespace curvewise::kernels {
+
+// Lanes may be computed past the last active one, up to a whole SIMD vector: every array that a
+// sweep touches is this much longer than its content, and P and Q are finite there.
+inline constexpr std::ptrdiff_t padding = 8;
+
+enum class Recurrence { dtw_symmetric1, dtw_symmetric2, frechet };
+
+// The predecessor of a cell, as stored per cell when a path is asked for.
+enum Predecessor : std::uint8_t { diagonal = 0, up = 1, left = 2 };
+
+struct Strip {
+    // Coordinate c of row k is p[c * p_stride + k]; of column j, q[c * q_stride + columns - 1 - j].
+    const double* p;
+    const double* q;
+    std::ptrdiff_t p_stride;
+    std::ptrdiff_t q_stride;
+    std::ptrdiff_t dim;
+    std::ptrdiff_t rows;
+    std::ptrdiff_t columns;
+    double minkowski_p;
+
+    // Row k may hold columns first_column[k]..last_column[k]; both never fall from row to row.
+    const std::ptrdiff_t* first_column;
+    const std::ptrdiff_t* last_column;
+
+    double* boundary;
+
+    // The state between two calls: the next diagonal, and the active lanes of the last one.
+    std::ptrdiff_t next_diagonal;
+    std::ptrdiff_t low_lane;
+    std::ptrdiff_t high_lane;
+    double* before;
+    double* before_last;
+    double* current;
+    double* cost;  // one diagonal of ground distances, for those that are not fused
+
+    // Where asked for: the column at which the path of a cell leaves the row above the region, in
+    // lanes and a boundary row of their own, moved along with the values.
+    double* origin_boundary;
+    double* origin_before;
+    double* origin_before_last;
+    double* origin_current;
+
+    // Where asked for: the predecessor of lane k on diagonal t, at codes[t * code_stride + k];
+    // the cell of row k and column j, at table[k * table_stride + j].
+    std::uint8_t* codes;
+    std::ptrdiff_t code_stride;
+    double* table;
+    std::ptrdiff_t table_stride;
+};
+
+// Writes the ground distances of lanes low..high of diagonal t to strip.cost.
+using CostFunction = void (*)(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
+                              std::ptrdiff_t high) noexcept;
+
+// Sweeps the diagonals from strip.next_diagonal to `end`, which is not swept. `fill` is called
+// per diagonal where the cost is not fused.
+using AdvanceFunction = void (*)(Strip& strip, std::ptrdiff_t end, CostFunction fill) noexcept;
+
+enum class Output { boundary_only, origins, codes, table };
+
+// A ground distance, and whether every sum of squares is 0 or within the domain of the fast square
+// root.
+struct Cost {
+    Metric metric;
+    bool squares_in_domain;
+};
+
+// What one instruction-set level offers.
+struct KernelSet {
+    AdvanceFunction (*advance)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
+                               Output output) noexcept;
+    CostFunction (*fill)(Cost cost) noexcept;
+};
+
+extern const KernelSet baseline;
+#ifdef CURVEWISE_X86_64_LEVELS
+extern const KernelSet v3;  // AVX2 and FMA
+extern const KernelSet v4;  // AVX-512 F, BW, CD, DQ and VL
+#endif
+
+}  // namespace curvewise::kernels

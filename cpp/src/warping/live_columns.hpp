@@ -1,0 +1,75 @@
+// The columns of the table that a sweep looks at, row by row. The band is the one that never
+// narrows. A sweep may also look at what an earlier one left of every row, or narrow what it looks
+// at while it goes: cells from which no path of interest leads on are dead, and count as infinite.
+//
+// That changes no value on a path of interest, nor a decision on it: sums and minima are monotone
+// in floating point too, so that a predecessor which is not on such a path, and so is worse, can
+// only become worse still.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "warping/band.hpp"
+
+namespace curvewise::detail {
+
+// What the rest of a path costs at least, and what a whole path may cost: which cells are dead.
+struct CostToGo {
+    // No path that costs more is of interest.
+    double most;
+    // Just below 1: sums in another order than the table's are this much too large at most.
+    double slack;
+    // The least that the rows after row i, the columns after column j cost, from index -1 on.
+    const double* after_row;
+    const double* after_column;
+    // Whether a path pays for both (symmetric2 counts a diagonal step twice), or for the larger.
+    bool they_add;
+
+    bool is_live(std::ptrdiff_t row, std::ptrdiff_t column, double value) const noexcept {
+        const double rows = after_row[row], columns = after_column[column];
+        const double rest = they_add ? rows + columns : std::max(rows, columns);
+        return (value + rest) * slack <= most;
+    }
+};
+
+// What a sweep that narrows has looked at.
+struct SweptColumns {
+    // Per row, ends that never fall: every path of interest keeps to them.
+    std::vector<ColumnRange> rows;
+    std::int64_t cells = 0;
+};
+
+class LiveColumns {
+   public:
+    LiveColumns(const Band& band) noexcept : band_(band) {}
+    // What `kept` says of every row, within the band. It must outlive the sweep.
+    LiveColumns(const Band& band, const SweptColumns& kept) noexcept
+        : band_(band), kept_(kept.rows.data()) {}
+    // The band, narrowed strip by strip to the cells that are live; `swept` says what was left.
+    // Both must outlive the sweep, which has one thread and covers the whole table.
+    LiveColumns(const Band& band, const CostToGo& cost_to_go, SweptColumns& swept) noexcept
+        : band_(band), cost_to_go_(&cost_to_go), swept_(&swept) {}
+
+    // Whether some cells are left out from the outset.
+    bool is_limited() const noexcept { return kept_ != nullptr || band_.is_limited(); }
+
+    // What a row may hold at most; both ends never fall from row to row.
+    ColumnRange columns(std::ptrdiff_t row) const noexcept {
+        return kept_ != nullptr ? kept_[row] : band_.columns(row);
+    }
+
+    // Null where nothing narrows.
+    const CostToGo* cost_to_go() const noexcept { return cost_to_go_; }
+    SweptColumns* swept() const noexcept { return swept_; }
+
+   private:
+    Band band_;
+    const ColumnRange* kept_ = nullptr;
+    const CostToGo* cost_to_go_ = nullptr;
+    SweptColumns* swept_ = nullptr;
+};
+
+}  // namespace curvewise::detail

@@ -1,0 +1,53 @@
+// A curve as the kernels read it: one array per coordinate, padded to whole SIMD vectors, scaled
+// into the safe range; rows of a table in order, columns in reverse. One allocation; O(n).
+#pragma once
+
+#include <cstddef>
+
+#include "curves/range_scale.hpp"
+#include "curvewise/curve.hpp"
+#include "runtime/aligned_buffer.hpp"
+
+namespace curvewise::detail {
+
+enum class PointOrder { forward, reversed };
+
+class PackedCurve {
+   public:
+    PackedCurve(const CurveView& curve, const RangeScale& range, PointOrder order);
+
+    std::ptrdiff_t size() const noexcept { return n_; }
+    std::ptrdiff_t dim() const noexcept { return dim_; }
+
+    // Coordinate c of point i is data()[c * stride() + i]; in reverse order, at
+    // [c * stride() + size() - 1 - i].
+    const double* data() const noexcept { return storage_.data(); }
+    std::ptrdiff_t stride() const noexcept { return stride_; }
+
+    // Whether every |coordinate| is 0 or at least 2^-400. Differences of two such curves are then 0
+    // or at least 2^-452, the last bit of such a coordinate, and their squares 0 or at least
+    // 2^-904: what the fast square root takes.
+    bool squares_are_in_domain() const noexcept { return squares_are_in_domain_; }
+
+   private:
+    std::ptrdiff_t n_;
+    std::ptrdiff_t dim_;
+    std::ptrdiff_t stride_;
+    AlignedBuffer storage_;
+    bool squares_are_in_domain_ = true;
+};
+
+// The two sides of a table; owns neither.
+struct PackedPair {
+    const PackedCurve& p;  // forward
+    const PackedCurve& q;  // reversed
+
+    std::ptrdiff_t rows() const noexcept { return p.size(); }
+    std::ptrdiff_t columns() const noexcept { return q.size(); }
+    std::ptrdiff_t dim() const noexcept { return p.dim(); }
+    bool squares_are_in_domain() const noexcept {
+        return p.squares_are_in_domain() && q.squares_are_in_domain();
+    }
+};
+
+}  // namespace curvewise::detail

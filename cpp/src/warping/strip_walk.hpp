@@ -1,0 +1,92 @@
+// A region of the table cut into strips, and the state with which one thread sweeps one strip
+// after the other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "warping/kernels/strip.hpp"
+#include "warping/strip_narrower.hpp"
+#include "warping/sweep_problem.hpp"
+
+namespace curvewise::detail {
+
+// The threads that are worth their start for a region.
+std::ptrdiff_t worker_count(const SweepProblem& problem, const Region& region) noexcept;
+
+// How a region is swept: the strips, the kernel, and where results go. Shared by all threads.
+class StripPlan {
+   public:
+    StripPlan(const SweepProblem& problem, const Region& region, std::ptrdiff_t workers,
+              const Destination& destination) noexcept;
+
+    std::ptrdiff_t height() const noexcept { return height_; }
+    std::ptrdiff_t strips() const noexcept { return (region_.rows + height_ - 1) / height_; }
+    std::ptrdiff_t workers() const noexcept { return workers_; }
+    // What a row of the region may hold, in columns of the region.
+    ColumnRange columns(std::ptrdiff_t row) const noexcept;
+
+   private:
+    friend class StripWalk;
+    const SweepProblem* problem_;
+    Region region_;
+    Destination destination_;
+    kernels::Output output_;
+    std::ptrdiff_t height_;
+    std::ptrdiff_t workers_;
+};
+
+// The height of the strips that a sweep with `codes` cuts a region into, and where each begins.
+struct CodeLayout {
+    CodeLayout(const SweepProblem& problem, const Region& region);
+    std::ptrdiff_t height;
+    std::ptrdiff_t size = 0;  // of all codes, in bytes
+    std::vector<StripCodes> strips;
+};
+
+// Aligned to two cache lines, which processors fetch together: a kernel writes to its strip on
+// every diagonal, and the walks of two threads must not share a line.
+class alignas(128) StripWalk {
+   public:
+    StripWalk(const StripPlan& plan, bool starts_here, double* boundary, SweepMemory& memory);
+
+    void enter(std::ptrdiff_t strip) noexcept;
+    // Up to the diagonal `end`, or to where the strip turns out to end. Returns the share of the
+    // strip's rows times all columns of the region that this is: what a caller counts as done,
+    // whatever the band leaves out.
+    std::int64_t advance(std::ptrdiff_t end) noexcept;
+    // After the last diagonal. Returns the rest of that share.
+    std::int64_t leave();
+
+    std::ptrdiff_t first_diagonal_of(std::ptrdiff_t strip) const noexcept {
+        return plan_->columns(strip * plan_->height()).first;
+    }
+    std::ptrdiff_t next_diagonal() const noexcept { return strip_.next_diagonal; }
+    std::ptrdiff_t end_diagonal() const noexcept { return end_diagonal_; }
+    // The columns of the last row that have been written.
+    std::ptrdiff_t finished_columns() const noexcept {
+        return strip_.next_diagonal - strip_.rows + 1;
+    }
+
+   private:
+    void aim(std::ptrdiff_t strip) noexcept;
+    void advance_narrowing(std::ptrdiff_t end) noexcept;
+
+    const StripPlan* plan_;
+    bool starts_here_;
+    std::ptrdiff_t lane_stride_;
+    double* lanes_;
+    std::ptrdiff_t* columns_;  // first_column of every row, then last_column
+    kernels::AdvanceFunction advance_;
+    kernels::CostFunction fill_;
+    kernels::Strip strip_{};
+    StripNarrower narrower_;
+    std::ptrdiff_t first_diagonal_ = 0;
+    std::ptrdiff_t end_diagonal_ = 0;
+    std::int64_t counted_ = 0;
+    bool at_start_ = false;
+    bool is_last_ = false;
+};
+
+}  // namespace curvewise::detail

@@ -1,0 +1,119 @@
+#include "warping/sweep.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "runtime/workers.hpp"
+#include "warping/strip_walk.hpp"
+
+namespace curvewise::detail {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// The time a cell takes, roughly, in that of the fastest.
+std::ptrdiff_t cell_weight(const SweepProblem& problem) noexcept {
+    const GroundDistance ground{problem.cost.metric, problem.minkowski_p};
+    return static_cast<std::ptrdiff_t>(ground.weight(static_cast<double>(problem.curves.dim())));
+}
+
+// Columns between two looks at the poller and at what other threads have done: some 10^5 cells, 50
+// to 200 µs, or fewer where a cell has many coordinates.
+std::ptrdiff_t chunk_of(const SweepProblem& problem) noexcept {
+    return std::clamp<std::ptrdiff_t>(4096 / cell_weight(problem), 1, 1024);
+}
+
+// Whether to stop.
+bool sweep_strip(StripWalk& walk, std::ptrdiff_t strip, std::ptrdiff_t chunk, std::ptrdiff_t weight,
+                 Poller& poller) {
+    walk.enter(strip);
+    while (walk.next_diagonal() < walk.end_diagonal()) {
+        const std::ptrdiff_t end = std::min(walk.next_diagonal() + chunk, walk.end_diagonal());
+        if (poller.count_steps(walk.advance(end), weight)) return true;
+    }
+    return poller.count_steps(walk.leave(), weight);
+}
+
+bool is_hopeless(const SweepProblem& problem, const Region& region, const double* row) noexcept {
+    return problem.give_up_above < infinity &&
+           std::all_of(row, row + region.columns,
+                       [&](double value) { return value > problem.give_up_above; });
+}
+
+// Counts the strips from `strip` on as done.
+void skip_rest(const SweepProblem& problem, const StripPlan& plan, std::ptrdiff_t strip) {
+    const std::ptrdiff_t rows = problem.curves.rows() - strip * plan.height();
+    problem.poller.count_steps(std::max<std::ptrdiff_t>(rows, 0) * problem.curves.columns());
+}
+
+// Takes strips from the pipeline until none is left, or the poller says stop.
+void sweep_in_turn(StripWalk& walk, std::ptrdiff_t chunk, std::ptrdiff_t weight, Pipeline& pipeline,
+                   Poller& poller) {
+    for (std::ptrdiff_t s = pipeline.take(); s >= 0; s = pipeline.take()) {
+        if (!pipeline.wait(s, walk.first_diagonal_of(s), poller)) return;
+        walk.enter(s);
+        while (walk.next_diagonal() < walk.end_diagonal()) {
+            const std::ptrdiff_t end = std::min(walk.next_diagonal() + chunk, walk.end_diagonal());
+            if (!pipeline.wait(s, end, poller)) return;
+            const std::int64_t cells = walk.advance(end);
+            pipeline.publish(s, walk.finished_columns());
+            if (poller.count_steps(cells, weight)) return;
+        }
+        pipeline.finish(s);
+    }
+}
+
+// All of the table; returns its last row.
+const Row& sweep_all(const SweepProblem& problem, const Destination& destination) {
+    Row& row = problem.memory.row;
+    assign_start(problem, problem.curves.columns(), row);
+    sweep(problem, whole_table(problem.curves), !problem.open_begin, row.data(), destination);
+    return row;
+}
+
+}  // namespace
+
+void sweep(const SweepProblem& problem, const Region& region, bool starts_here, double* boundary,
+           const Destination& destination) {
+    const StripPlan plan(problem, region, worker_count(problem, region), destination);
+    const std::ptrdiff_t chunk = chunk_of(problem), weight = cell_weight(problem);
+    if (plan.workers() == 1) {
+        StripWalk walk(plan, starts_here, boundary, problem.memory);
+        for (std::ptrdiff_t s = 0; s < plan.strips(); ++s) {
+            if (sweep_strip(walk, s, chunk, weight, problem.poller)) throw Stopped();
+            if (is_hopeless(problem, region, boundary)) return skip_rest(problem, plan, s + 1);
+        }
+        return;
+    }
+    std::vector<SweepMemory> memories(static_cast<std::size_t>(plan.workers()));
+    std::vector<StripWalk> walks;
+    walks.reserve(memories.size());
+    for (SweepMemory& memory : memories) walks.emplace_back(plan, starts_here, boundary, memory);
+    Pipeline pipeline(plan.strips());
+    run_workers(plan.workers(), problem.poller, [&](std::ptrdiff_t w, Poller& poller) {
+        sweep_in_turn(walks[static_cast<std::size_t>(w)], chunk, weight, pipeline, poller);
+    });
+    problem.poller.throw_if_stopped();
+}
+
+double lone_cell(const SweepProblem& problem, std::ptrdiff_t row, std::ptrdiff_t column) {
+    SweepProblem cell = problem;
+    cell.columns = Band(1, 1, std::nullopt);
+    Row above(1, 0.0);
+    sweep(cell, {row, 1, column, 1}, true, above.data(), {});
+    return above[0];
+}
+
+const Row& last_row(const SweepProblem& problem) { return sweep_all(problem, {}); }
+
+void sweep_table(const SweepProblem& problem, double* table) {
+    if (problem.columns.is_limited()) {
+        std::fill_n(table, problem.curves.rows() * problem.curves.columns(), infinity);
+    }
+    Destination destination;
+    destination.table = table;
+    sweep_all(problem, destination);
+}
+
+}  // namespace curvewise::detail

@@ -1,0 +1,262 @@
+// dtw and frechet: one measure class over the cumulative table, with their paths and tables.
+//
+// For Fréchet with the Euclidean distance the table holds squares and one sqrt is taken at the end:
+// sqrt is monotone, so the value has the same bits. The path is decided on the squares, that is
+// before the rounding of sqrt can make two of them equal. Time O(n m), memory O(n + m), except for
+// the table.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "curves/range_scale.hpp"
+#include "curvewise/dtw.hpp"
+#include "curvewise/frechet.hpp"
+#include "pairwise/batch_of.hpp"
+#include "pairwise/evaluate.hpp"
+#include "runtime/workers.hpp"
+#include "warping/dispatch.hpp"
+#include "warping/ground_distance.hpp"
+#include "warping/path.hpp"
+#include "warping/sweep.hpp"
+
+namespace curvewise {
+namespace {
+
+using detail::PackedCurve;
+using detail::PackedPair;
+using detail::Path;
+using detail::PointOrder;
+using detail::Poller;
+using detail::RangeScale;
+using detail::Row;
+using detail::SweepMemory;
+using detail::SweepProblem;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// The options of either measure, as the sweep takes them, checked.
+struct WarpingOptions {
+    const char* measure;
+    kernels::Recurrence recurrence;
+    GroundDistance ground;
+    std::ptrdiff_t workers;
+    std::optional<std::ptrdiff_t> window = std::nullopt;
+    bool open_begin = false;
+    bool open_end = false;
+};
+
+WarpingOptions checked(const DtwOptions& options) {
+    detail::check_ground_distance(options.ground);
+    if (options.window) detail::check_whole_number("window", *options.window, window_range);
+    const bool is_symmetric1 = options.step_pattern == StepPattern::symmetric1;
+    if (options.open_begin || options.open_end) {
+        if (!is_symmetric1) {
+            throw std::invalid_argument("open_begin and open_end need step_pattern='symmetric1'");
+        }
+        if (options.window) {
+            throw std::invalid_argument("open_begin and open_end cannot be combined with window");
+        }
+    }
+    return {
+        options.measure,
+        is_symmetric1 ? kernels::Recurrence::dtw_symmetric1 : kernels::Recurrence::dtw_symmetric2,
+        options.ground,
+        detail::resolve_workers(options.workers),
+        options.window,
+        options.open_begin,
+        options.open_end};
+}
+
+WarpingOptions checked(const FrechetOptions& options) {
+    detail::check_ground_distance(options.ground);
+    return {options.measure, kernels::Recurrence::frechet, options.ground,
+            detail::resolve_workers(options.workers)};
+}
+
+// Two packed curves, and the table between them.
+class WarpingProblem {
+   public:
+    WarpingProblem(const WarpingOptions& options, const PackedPair& curves, const RangeScale& range,
+                   const detail::Call<SweepMemory>& call)
+        : range_(range),
+          degree_(detail::degree(options.ground.metric)),
+          open_end_(options.open_end),
+          sweep_{*detail::active_level().kernels,
+                 curves,
+                 options.recurrence,
+                 detail::canonical_cost(options.ground, curves),
+                 options.ground.p,
+                 detail::Band(curves.rows(), curves.columns(), options.window),
+                 options.open_begin,
+                 call.workers,
+                 call.poller,
+                 call.memory} {
+        squared_ = options.recurrence == kernels::Recurrence::frechet &&
+                   sweep_.cost.metric == Metric::euclidean;
+        if (squared_) sweep_.cost.metric = Metric::sqeuclidean;
+    }
+
+    // One above `cutoff` may come back as any other that is.
+    double distance(double cutoff) {
+        if (cutoff < infinity && range_.is_identity()) {
+            if (!ends_are_within(cutoff)) {
+                sweep_.poller.count_steps(sweep_.curves.rows() * sweep_.curves.columns());
+                return infinity;
+            }
+            // A little above its square, so that the rounding of squares and roots gives nothing
+            // up.
+            sweep_.give_up_above = squared_ ? cutoff * cutoff * (1.0 + 1e-15) : cutoff;
+        }
+        const Row& bottom = last_row(sweep_);
+        return restore(bottom[open_end_ ? bottom.argmin() : sweep_.curves.columns() - 1]);
+    }
+
+    Alignment alignment() const {
+        sweep_.poller.begin(2 * sweep_.curves.rows() * sweep_.curves.columns());
+        Path path = find_path(sweep_, open_end_);
+        return {restore(path.value), std::move(path.pairs)};
+    }
+
+    void write_table(double* out) const {
+        sweep_table(sweep_, out);
+        if (range_.is_identity() && !squared_) return;
+        const std::ptrdiff_t n = sweep_.curves.rows(), m = sweep_.curves.columns();
+        for (std::ptrdiff_t i = 0; i < n; ++i) {
+            for (std::ptrdiff_t j = 0; j < m; ++j) out[i * m + j] = restore(out[i * m + j]);
+            if (sweep_.poller.poll()) throw Stopped();
+        }
+    }
+
+   private:
+    double restore(double value) const noexcept {
+        return range_.restore(squared_ ? std::sqrt(value) : value, degree_);
+    }
+
+    // Every path holds the first and the last cell, unless an end is open.
+    bool ends_are_within(double cutoff) const {
+        const std::ptrdiff_t n = sweep_.curves.rows(), m = sweep_.curves.columns();
+        if (!sweep_.open_begin && restore(lone_cell(sweep_, 0, 0)) > cutoff) return false;
+        return open_end_ || restore(lone_cell(sweep_, n - 1, m - 1)) <= cutoff;
+    }
+
+    RangeScale range_;
+    int degree_;            // of homogeneity in the coordinates
+    bool squared_ = false;  // the table holds squares of the values
+    bool open_end_;
+    SweepProblem sweep_;
+};
+
+class WarpingMeasure {
+   public:
+    using Memory = SweepMemory;
+    static constexpr bool is_swept = true;
+    // Packed without scaling, which curves within the usual range do not need.
+    template <PointOrder order>
+    struct Side {
+        explicit Side(const detail::CheckedCurve& curve)
+            : checked(curve), packed(curve.curve, RangeScale(1.0), order) {}
+        detail::CheckedCurve checked;
+        PackedCurve packed;
+    };
+    using PreparedP = Side<PointOrder::forward>;
+    using PreparedQ = Side<PointOrder::reversed>;
+
+    // Of dtw, or of frechet.
+    template <class Options>
+    explicit WarpingMeasure(const Options& options) : options_(checked(options)) {}
+    detail::Requirements requirements() const noexcept { return {options_.measure, 1, false}; }
+    void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const {
+        if (options_.window && *options_.window == 0 && n != m && n > 1 && m > 1) {
+            throw std::invalid_argument("window=0 admits no path between " + std::to_string(n) +
+                                        " and " + std::to_string(m) + " points; use at least 1");
+        }
+    }
+    static void check_p(const PreparedP& /*P*/) noexcept {}
+    std::ptrdiff_t workers() const noexcept { return options_.workers; }
+    static std::int64_t steps(std::int64_t n, std::int64_t /*count*/,
+                              std::int64_t points) noexcept {
+        return n * points;
+    }
+
+    // Calls use(problem).
+    template <class Use>
+    auto with_problem(const PreparedP& P, const PreparedQ& Q, const detail::Call<Memory>& call,
+                      Use use) const {
+        const RangeScale range(std::max(P.checked.largest, Q.checked.largest));
+        if (range.is_identity()) {
+            WarpingProblem problem(options_, {P.packed, Q.packed}, range, call);
+            return use(problem);
+        }
+        const PackedCurve p(P.checked.curve, range, PointOrder::forward);
+        const PackedCurve q(Q.checked.curve, range, PointOrder::reversed);
+        WarpingProblem problem(options_, {p, q}, range, call);
+        return use(problem);
+    }
+
+    double operator()(const PreparedP& P, const PreparedQ& Q,
+                      const detail::Call<Memory>& call) const {
+        return with_problem(P, Q, call,
+                            [&](WarpingProblem& problem) { return problem.distance(call.cutoff); });
+    }
+
+   private:
+    WarpingOptions options_;
+};
+
+template <class Options, class Use>
+auto with_table(const CurveView& P, const CurveView& Q, const Options& options, Control* control,
+                Use use) {
+    const WarpingMeasure measure(options);
+    return detail::with_pair(measure, P, Q, control,
+                             [&](const auto& p, const auto& q, const auto& call) {
+                                 return measure.with_problem(p, q, call, use);
+                             });
+}
+
+}  // namespace
+
+double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options, Control* control) {
+    return detail::evaluate(WarpingMeasure(options), P, Q, control);
+}
+
+double frechet(const CurveView& P, const CurveView& Q, const FrechetOptions& options,
+               Control* control) {
+    return detail::evaluate(WarpingMeasure(options), P, Q, control);
+}
+
+Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& options,
+                   Control* control) {
+    return with_table(P, Q, options, control, std::mem_fn(&WarpingProblem::alignment));
+}
+
+Alignment frechet_path(const CurveView& P, const CurveView& Q, const FrechetOptions& options,
+                       Control* control) {
+    return with_table(P, Q, options, control, std::mem_fn(&WarpingProblem::alignment));
+}
+
+void dtw_table(const CurveView& P, const CurveView& Q, double* out, const DtwOptions& options,
+               Control* control) {
+    with_table(P, Q, options, control,
+               [&](const WarpingProblem& problem) { problem.write_table(out); });
+}
+
+void frechet_table(const CurveView& P, const CurveView& Q, double* out,
+                   const FrechetOptions& options, Control* control) {
+    with_table(P, Q, options, control,
+               [&](const WarpingProblem& problem) { problem.write_table(out); });
+}
+
+std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(const DtwOptions& options) {
+    return std::make_unique<BatchOf<WarpingMeasure>>(WarpingMeasure(options));
+}
+
+std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(const FrechetOptions& options) {
+    return std::make_unique<BatchOf<WarpingMeasure>>(WarpingMeasure(options));
+}
+
+}  // namespace curvewise

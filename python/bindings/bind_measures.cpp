@@ -1,0 +1,111 @@
+// The measures of one pair: values, paths, tables, quadrilaterals, matches and residuals. Each
+// takes two arrays and a dict of options.
+#include "bind_topics.hpp"
+#include "interruptible.hpp"
+#include "numpy_view.hpp"
+#include "options.hpp"
+
+namespace curvewise::bindings {
+namespace {
+
+// Calls compute(P, Q, options, control).
+template <class Options, class Compute>
+auto computed(const CurveArray& P, const CurveArray& Q, const Options& options, Compute compute) {
+    const CurveView p = view(P), q = view(Q);
+    const double work = options.work(static_cast<double>(p.size()), static_cast<double>(q.size()),
+                                     static_cast<double>(p.dim()));
+    return interruptible(work, py::none(),
+                         [&](Control* control) { return compute(p, q, options, control); });
+}
+
+// The function `name`, which returns what shape(found) makes of what compute() finds.
+template <class Options, class Compute, class Shape>
+void bind(py::module_& module, const char* name, Compute compute, Shape shape) {
+    module.def(name,
+               [compute, shape](const CurveArray& P, const CurveArray& Q, const py::dict& options) {
+                   return shape(computed(P, Q, read_options<Options>(options), compute));
+               });
+}
+
+template <class Options>
+void bind_value(py::module_& module,
+                double (*measure)(const CurveView&, const CurveView&, const Options&, Control*)) {
+    bind<Options>(module, Options::measure, measure, [](double value) { return value; });
+}
+
+py::tuple as_tuple(const Alignment& alignment) {
+    const auto length = static_cast<py::ssize_t>(alignment.path.size());
+    return py::make_tuple(
+        alignment.distance,
+        py::array_t<std::int64_t>({length, py::ssize_t{2}}, alignment.path.front().data()));
+}
+
+py::tuple as_tuple(const AreaQuads& found) {
+    const auto count = static_cast<py::ssize_t>(found.areas.size());
+    return py::make_tuple(
+        py::array_t<double>({count, py::ssize_t{4}, py::ssize_t{2}}, found.quads[0][0].data()),
+        py::array_t<double>(count, found.areas.data()));
+}
+
+py::tuple as_tuple(const PcmMatch& match) {
+    const auto count = static_cast<py::ssize_t>(match.points.size());
+    return py::make_tuple(
+        match.value, match.offset, match.coverage, match.maps_p ? "P" : "Q",
+        py::array_t<double>({count, py::ssize_t{2}}, match.points.front().data()));
+}
+
+constexpr auto to_tuple = [](const auto& found) { return as_tuple(found); };
+
+py::array_t<double> allocate_table(const CurveArray& P, const CurveArray& Q) {
+    try {
+        return py::array_t<double>({P.shape(0), Q.shape(0)});
+    } catch (const py::error_already_set&) {  // numpy names the size in units of its choice
+        const double cells = static_cast<double>(P.shape(0)) * static_cast<double>(Q.shape(0));
+        const double size = cells * sizeof(double) / (1024.0 * 1024.0 * 1024.0);
+        PyErr_Format(PyExc_MemoryError, "no memory for a table of shape (%zd, %zd), %s GiB",
+                     P.shape(0), Q.shape(0),
+                     py::str("{:.3g}").format(size).cast<std::string>().c_str());
+        throw py::error_already_set();
+    }
+}
+
+// `fill` writes a table, or whatever has an array of the shape that allocate(P, Q) returns.
+template <class Options, class Allocate, class Fill>
+void bind_array(py::module_& module, const char* name, Allocate allocate, Fill fill) {
+    module.def(name,
+               [allocate, fill](const CurveArray& P, const CurveArray& Q, const py::dict& given) {
+                   const auto options = read_options<Options>(given);
+                   py::array_t<double> out = allocate(P, Q);
+                   double* const data = out.mutable_data();
+                   computed(P, Q, options,
+                            [&](const CurveView& p, const CurveView& q, const Options& o,
+                                Control* control) { fill(p, q, data, o, control); });
+                   return out;
+               });
+}
+
+}  // namespace
+
+void bind_measures(py::module_& module) {
+    bind_value<AreaOptions>(module, area);
+    bind_value<PcmOptions>(module, pcm);
+    bind_value<FrechetOptions>(module, frechet);
+    bind_value<DtwOptions>(module, dtw);
+    bind_value<CurveLengthOptions>(module, curve_length);
+    bind<AreaOptions>(module, "area_quads", area_quads, to_tuple);
+    bind<PcmOptions>(module, "pcm_match", pcm_match, to_tuple);
+    bind<FrechetOptions>(module, "frechet_path", frechet_path, to_tuple);
+    bind<DtwOptions>(module, "dtw_path", dtw_path, to_tuple);
+    bind_array<FrechetOptions>(module, "frechet_table", allocate_table, frechet_table);
+    bind_array<DtwOptions>(module, "dtw_table", allocate_table, dtw_table);
+    const auto allocate_residuals = [](const CurveArray& P, const CurveArray& /*Q*/) {
+        return py::array_t<double>({P.shape(0), py::ssize_t{2}});
+    };
+    bind_array<CurveLengthOptions>(module, "curve_length_residuals", allocate_residuals,
+                                   curve_length_residuals);
+    module.def("measures", measure_defaults);
+    module.def("choices", option_choices);
+    module.def("presets", preset_conditions);
+}
+
+}  // namespace curvewise::bindings

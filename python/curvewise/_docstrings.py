@@ -1,0 +1,73 @@
+"""Text that several docstrings share, written once.
+
+A docstring marked with :func:`filled` names a shared paragraph, or a list of choices, in braces:
+a line ``{metric}`` becomes the description of that parameter, and ``{measures}`` becomes the names
+of the measures. :func:`pass_on` gives the functions of the reference the docstrings of the
+measures. Both run once, at import.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable
+from typing import Any, TypeVar, get_args
+
+from ._options import MeasureName, Metric
+
+__all__ = ["filled", "listed", "pass_on"]
+
+Documented = TypeVar("Documented", bound=Callable[..., Any])
+
+
+def listed(names: Iterable[str]) -> str:
+    """Return names as numpydoc lists choices: {"a", "b"}."""
+    return "{" + ", ".join(f'"{name}"' for name in names) + "}"
+
+
+_SHARED = {
+    "measures": listed(get_args(MeasureName)),
+    "metric": f"""\
+metric : {listed(get_args(Metric))}
+    The ground distance between points.""",
+    "p": """\
+p : float, 1 <= p <= inf, optional
+    The order of "minkowski"; 2 if not given.""",
+    "workers": """\
+workers : int
+    Threads for this call: at least 1, or -1 for one per core. Never changes the result.""",
+}
+
+
+def filled(**lists: str) -> Callable[[Documented], Documented]:
+    """Put shared text, and that of `lists`, in the place of its name in braces."""
+
+    def fill(documented: Documented) -> Documented:
+        doc = inspect.getdoc(documented)
+        for name, text in {**_SHARED, **lists}.items():
+            doc = doc and doc.replace(f"{{{name}}}", text)
+        documented.__doc__ = doc
+        return documented
+
+    return fill
+
+
+def pass_on(functions: Iterable[Callable[..., Any]], target: Any) -> None:
+    """Give each function's docstring to the function of its name in the module `target`.
+
+    The docstring that the target's function has in its source becomes the Notes. The examples
+    call the target instead of the package, and the parameter ``workers`` is left out where the
+    target's function does not have it.
+    """
+    package, _, module = target.__name__.rpartition(".")
+    for function in functions:
+        heir = getattr(target, function.__name__)
+        doc, notes = inspect.getdoc(function), inspect.getdoc(heir)
+        if doc is None or notes is None:  # python -OO
+            continue
+        if "workers" not in inspect.signature(heir).parameters:
+            doc = doc.replace(f"{_SHARED['workers']}\n", "").replace(", workers\n", "\n")
+        head, _, tail = doc.partition("\nNotes\n-----\n")
+        examples = tail[tail.index("\n\nExamples\n") :]
+        examples = examples.replace(f"import {package}\n", f"from {package} import {module}\n")
+        examples = examples.replace(f"{package}.", f"{module}.")
+        heir.__doc__ = f"{head}\nNotes\n-----\n{notes}{examples}"

@@ -1,0 +1,47 @@
+"""The measures: what each means, its options, its cost and where it comes from.
+
+Every function takes two curves, ``P`` (the reference, e.g. the experiment) and ``Q`` (e.g. the
+simulation): anything ``numpy.asarray`` turns into an array of shape (n, d), or (n,) for d = 1, of
+finite real numbers. The two may have different n. Inputs are never changed. All work is done in
+float64 by the compiled library; :mod:`curvewise.reference` has the same functions in plain numpy,
+and :mod:`curvewise.measures.registry` says what else the package has to know of each measure.
+
+"The paper" is Jekel, Venter, Venter, Stander & Haftka, "Similarity measures for identifying
+material parameters from hysteresis loops using inverse analysis", Int. J. Material Forming
+(2018).
+"""
+
+from __future__ import annotations
+
+from .._options import Crossing, LengthScale, Metric, Order, Spacing, StepPattern
+from .area import area, area_quads
+from .curve_length import curve_length, curve_length_residuals
+from .dtw import dtw, dtw_path, dtw_table
+from .frechet import frechet, frechet_path, frechet_table
+from .pcm import pcm, pcm_match
+from .pointwise import mae, mse, normalize, sum_of_squares
+
+__all__ = [
+    "Crossing",
+    "LengthScale",
+    "Metric",
+    "Order",
+    "Spacing",
+    "StepPattern",
+    "area",
+    "area_quads",
+    "curve_length",
+    "curve_length_residuals",
+    "dtw",
+    "dtw_path",
+    "dtw_table",
+    "frechet",
+    "frechet_path",
+    "frechet_table",
+    "mae",
+    "mse",
+    "normalize",
+    "pcm",
+    "pcm_match",
+    "sum_of_squares",
+]

@@ -1,0 +1,208 @@
+"""Dynamic time warping, a warping path that attains it, and its table.
+
+Sakoe & Chiba (1978); open ends: Müller (2007). Time O(n m), memory O(n + m) except for the table.
+"""
+
+from __future__ import annotations
+
+from typing import SupportsIndex
+
+from .. import _core
+from .._curves import Array, CurveLike, as_curves
+from .._docstrings import filled
+from .._options import Default, Metric, Order, StepPattern
+from ..results import Alignment
+
+__all__ = ["dtw", "dtw_path", "dtw_table"]
+
+
+@filled()
+def dtw(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    step_pattern: StepPattern = Default.step_pattern,
+    window: SupportsIndex | None = Default.window,
+    open_begin: bool = Default.open_begin,
+    open_end: bool = Default.open_end,
+    workers: SupportsIndex = Default.workers,
+) -> float:
+    """Dynamic time warping: the smallest sum of ground distances along a warping path.
+
+    Parameters
+    ----------
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves, of any d.
+    {metric}
+    {p}
+    step_pattern : {"symmetric1", "symmetric2"}
+        "symmetric2" counts a diagonal step twice; it is R's default, with which the paper's
+        tables were made.
+    window : int >= 0, optional
+        Sakoe–Chiba band: abs(i (m-1) - j (n-1)) <= window (max(n, m) - 1), that is
+        abs(i - j) <= window where n = m. No limit where n = 1 or m = 1.
+    open_begin, open_end : bool
+        Subsequence DTW: P is matched to a part of Q, which may begin, or end, anywhere. Not
+        normalised by length. With "symmetric1" and without a window only.
+    {workers}
+
+    Returns
+    -------
+    float
+        In units of the ground distance; not divided by the length of the path. Symmetric, except
+        with open ends.
+
+    Raises
+    ------
+    ValueError
+        A curve is not finite or empty; the curves differ in d; an option is unknown or out of
+        range; no path fits the window (window = 0 and n != m).
+    TypeError
+        A curve does not hold real numbers.
+
+    Notes
+    -----
+    Sakoe & Chiba (1978): c[i, j] = min(min(c[i-1, j], c[i, j-1]) + d, c[i-1, j-1] + w d), with
+    w = 1 for "symmetric1" and 2 for "symmetric2"; open ends: Müller (2007). Exact. Time O(n m),
+    or the cells of the band; memory O(n + m).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.dtw([0, 1, 2, 3], [0, 2, 3])
+    1.0
+    >>> curvewise.dtw([1, 2], [9, 1, 2, 9], open_begin=True, open_end=True)
+    0.0
+    """
+    P, Q = as_curves(P, Q)
+    return _core.dtw(
+        P,
+        Q,
+        {
+            "metric": metric,
+            "p": p,
+            "step_pattern": step_pattern,
+            "window": window,
+            "open_begin": open_begin,
+            "open_end": open_end,
+            "workers": workers,
+        },
+    )
+
+
+def dtw_path(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    step_pattern: StepPattern = Default.step_pattern,
+    window: SupportsIndex | None = Default.window,
+    open_begin: bool = Default.open_begin,
+    open_end: bool = Default.open_end,
+    workers: SupportsIndex = Default.workers,
+) -> Alignment:
+    """Dynamic time warping with a warping path that attains it.
+
+    Parameters
+    ----------
+    P, Q, metric, p, step_pattern, window, open_begin, open_end, workers
+        As for :func:`dtw`.
+
+    Returns
+    -------
+    Alignment
+        ``distance`` and ``path``, shape (k, 2). Among equal predecessors the diagonal is taken,
+        then (i-1, j), then (i, j-1); with an open end, the first best j. The sum of step weight
+        times ground distance, in path order, equals the distance to the bit.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`dtw`.
+
+    Notes
+    -----
+    As for :func:`dtw`, by divide and conquer over rows: up to three times the time of the
+    distance, memory O(n + m).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.dtw_path([0, 1, 2, 3], [0, 2, 3]).path.tolist()
+    [[0, 0], [1, 0], [2, 1], [3, 2]]
+    """
+    P, Q = as_curves(P, Q)
+    return Alignment(
+        *_core.dtw_path(
+            P,
+            Q,
+            {
+                "metric": metric,
+                "p": p,
+                "step_pattern": step_pattern,
+                "window": window,
+                "open_begin": open_begin,
+                "open_end": open_end,
+                "workers": workers,
+            },
+        )
+    )
+
+
+def dtw_table(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    step_pattern: StepPattern = Default.step_pattern,
+    window: SupportsIndex | None = Default.window,
+    open_begin: bool = Default.open_begin,
+    open_end: bool = Default.open_end,
+) -> Array:
+    """Return the cumulative table of dynamic time warping.
+
+    Parameters
+    ----------
+    P, Q, metric, p, step_pattern, window, open_begin, open_end
+        As for :func:`dtw`. An open end does not change the table: the value is then the smallest
+        entry of its last row.
+
+    Returns
+    -------
+    ndarray, shape (n, m)
+        c[i, j]; ``inf`` outside the window.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`dtw`.
+    MemoryError
+        The table does not fit.
+
+    Notes
+    -----
+    As for :func:`dtw`. Time O(n m), memory 8 n m bytes.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.dtw_table([0, 1], [0, 2, 3]).tolist()
+    [[0.0, 2.0, 5.0], [1.0, 1.0, 3.0]]
+    """
+    P, Q = as_curves(P, Q)
+    return _core.dtw_table(
+        P,
+        Q,
+        {
+            "metric": metric,
+            "p": p,
+            "step_pattern": step_pattern,
+            "window": window,
+            "open_begin": open_begin,
+            "open_end": open_end,
+        },
+    )

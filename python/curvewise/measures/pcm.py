@@ -1,0 +1,100 @@
+"""Partial curve mapping: where the shorter curve fits best on the longer one, and how well.
+
+Witowski & Stander (2012), as section 2.1 of the paper describes it. Time O(n + m) an offset.
+"""
+
+from __future__ import annotations
+
+from .. import _core
+from .._curves import CurveLike, as_curves
+from .._options import Default, Offsets
+from ..results import PcmMatch
+
+__all__ = ["pcm", "pcm_match"]
+
+
+def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> float:
+    """Partial curve mapping: the area to the best-matching part of the longer curve.
+
+    Both curves are scaled by P's bounding box. The vertices of the shorter one are laid onto the
+    longer one at equal arc length, starting at an offset along it; the value is the smallest
+    area between the two over all offsets.
+
+    A short curve that agrees with a part of the other scores well by design: a simulation that
+    died early may score 0. :func:`pcm_match` says which part of the longer curve was covered.
+
+    Parameters
+    ----------
+    P, Q : array_like, shapes (n, 2) and (m, 2)
+        The curves, each of at least 2 different points.
+    offsets : int >= 1, or "continuous"
+        The number of evenly spaced offsets (1: none), or the minimum over all offsets, to 1e-12
+        of the shorter length; never above that of 200 offsets.
+
+    Returns
+    -------
+    float
+        Dimensionless. Not symmetric: P's box scales both. inf where a scaled length is beyond the
+        range of a double.
+
+    Raises
+    ------
+    ValueError
+        A curve is not finite, has fewer than 2 points, other than 2 coordinates or no length;
+        `offsets` is out of range.
+    TypeError
+        A curve does not hold real numbers.
+
+    Notes
+    -----
+    Witowski & Stander (2012), as section 2.1 of the paper describes it. Time O(offsets (n + m));
+    "continuous" needs about 10³ evaluations of O(n + m) for curves that bend, and up to n m of
+    them where the area is level over long stretches of offsets (zigzags along one line: 4 s for
+    2201 and 4401 points). Memory O(n + m). The error of the grid is at most
+    S (T - S) / (2 (offsets - 1)) for lengths S <= T.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> loop = [(0, 0), (1, 1), (2, 0), (3, 1)]
+    >>> round(curvewise.pcm(loop, loop[1:3], offsets="continuous"), 9)
+    0.0
+    """
+    P, Q = as_curves(P, Q)
+    return _core.pcm(P, Q, {"offsets": offsets})
+
+
+def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> PcmMatch:
+    """Partial curve mapping, with where the shorter curve lies on the longer.
+
+    Parameters
+    ----------
+    P, Q, offsets
+        As for :func:`pcm`.
+
+    Returns
+    -------
+    PcmMatch
+        ``value``, ``offset``, ``coverage`` (shorter length over longer), ``mapped`` ("P" or "Q",
+        the shorter curve) and ``points``: for each of its vertices the point on the other curve,
+        in original units. Where a scaled length is beyond the range of a double, ``value`` is
+        inf, ``offset`` and ``coverage`` are 0 and ``points`` are nan.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`pcm`.
+
+    Notes
+    -----
+    As for :func:`pcm`.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> match = curvewise.pcm_match([(0, 0), (1, 0), (4, 0)], [(1, 0), (2, 0)])
+    >>> match.mapped, match.coverage
+    ('Q', 0.25)
+    """
+    P, Q = as_curves(P, Q)
+    return PcmMatch(*_core.pcm_match(P, Q, {"offsets": offsets}))

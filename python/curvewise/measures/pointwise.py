@@ -1,0 +1,146 @@
+"""Curves of equal shape compared entry by entry, and curves scaled alike. Time O(n d)."""
+
+from __future__ import annotations
+
+from .. import _core
+from .._curves import Array, CurveLike, as_curve, as_curves
+
+__all__ = ["mae", "mse", "normalize", "sum_of_squares"]
+
+
+def sum_of_squares(P: CurveLike, Q: CurveLike) -> float:
+    """Sum of squared differences of two curves of equal shape, entry by entry.
+
+    Parameters
+    ----------
+    P, Q : array_like, both of shape (n, d) or (n,)
+        The curves.
+
+    Returns
+    -------
+    float
+        In squared units of the curves. Symmetric.
+
+    Raises
+    ------
+    ValueError
+        The shapes differ; a curve is empty or not finite.
+    TypeError
+        A curve does not hold real numbers.
+
+    Notes
+    -----
+    Eq. 1 of the paper. Time O(n d).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.sum_of_squares([1, 2, 3], [1, 3, 5])
+    5.0
+    """
+    P, Q = as_curves(P, Q)
+    return _core.sum_of_squares(P, Q)
+
+
+def mse(P: CurveLike, Q: CurveLike) -> float:
+    """Mean squared difference over all n d entries of two curves of equal shape.
+
+    Parameters
+    ----------
+    P, Q : array_like, both of shape (n, d) or (n,)
+        The curves.
+
+    Returns
+    -------
+    float
+        In squared units of the curves. Symmetric.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`sum_of_squares`.
+
+    Notes
+    -----
+    :func:`sum_of_squares` over n d. Time O(n d).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.mse([1, 2, 3, 4], [1, 3, 5, 4])
+    1.25
+    """
+    P, Q = as_curves(P, Q)
+    return _core.mse(P, Q)
+
+
+def mae(P: CurveLike, Q: CurveLike) -> float:
+    """Mean absolute difference over all n d entries of two curves of equal shape.
+
+    Parameters
+    ----------
+    P, Q : array_like, both of shape (n, d) or (n,)
+        The curves.
+
+    Returns
+    -------
+    float
+        In units of the curves. Symmetric.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`sum_of_squares`.
+
+    Notes
+    -----
+    Time O(n d).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.mae([1, 2, 3, 4], [1, 3, 5, 4])
+    0.75
+    """
+    P, Q = as_curves(P, Q)
+    return _core.mae(P, Q)
+
+
+def normalize(P: CurveLike, *others: CurveLike) -> list[Array]:
+    """Scale curves by P's bounding box: P comes to lie in [0, 1] in every coordinate.
+
+    Parameters
+    ----------
+    P : array_like, shape (n, d) or (n,)
+        The curve whose minimum is subtracted and by whose extent is divided (not in a
+        coordinate in which it has none).
+    *others : array_like, shape (m, d) or (m,)
+        Curves to scale alike.
+
+    Returns
+    -------
+    list of ndarray
+        P and the others, scaled, each in the shape it came in.
+
+    Raises
+    ------
+    ValueError
+        A curve is empty, not finite, or differs from P in d.
+    TypeError
+        A curve does not hold real numbers.
+
+    Notes
+    -----
+    Section 2.1 of the paper. Time and memory O(n d) a curve.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> P, Q = curvewise.normalize([(0, 10), (2, 30)], [(1, 40)])
+    >>> P.tolist(), Q.tolist()
+    ([[0.0, 0.0], [1.0, 1.0]], [[0.5, 1.5]])
+    """
+    box = as_curve(P, "P")
+    names = ["P", "Q"] if len(others) == 1 else ["P", *(f"others[{i}]" for i in range(len(others)))]
+    curves = [box, *(as_curve(curve, name) for curve, name in zip(others, names[1:], strict=True))]
+    return [_core.normalize(box, curve, name) for curve, name in zip(curves, names, strict=True)]

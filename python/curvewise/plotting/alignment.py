@@ -1,0 +1,117 @@
+"""Which points a DTW or Fréchet coupling matches. Time and memory of the path."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .._curves import Array, CurveLike
+from .._options import Default, Metric, Order, WarpingName
+from ..reference.ground_distance import check_metric, ground_distances
+from . import drawing
+from .drawing import CurveArtists
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["plot_alignment"]
+
+
+def plot_alignment(
+    P: CurveLike,
+    Q: CurveLike,
+    ax: Axes,
+    *,
+    measure: WarpingName = "dtw",
+    every: int | None = None,
+    normalized: bool = False,
+    **options: Any,
+) -> CurveArtists:
+    """Draw which points a DTW or Fréchet coupling matches.
+
+    Curves in the plane are drawn as they are. Series (d = 1) are drawn against the index, with Q
+    moved away from P by the amount that its label gives.
+
+    Parameters
+    ----------
+    P, Q : array_like, shape (n, d) and (m, d), or (n,) and (m,), d = 1 or 2
+        The curves.
+    ax : matplotlib.axes.Axes
+        Where to draw.
+    measure : {"dtw", "frechet"}
+        Whose path to draw.
+    every : int, optional
+        Draw each `every`-th pair of the path. By default at most 80 pairs, evenly spread over
+        the path, its ends among them.
+    normalized : bool
+        As in `plot_area`.
+    **options
+        Passed to `dtw_path` or `frechet_path`.
+
+    Returns
+    -------
+    CurveArtists
+        `between` is a LineCollection, each line from a point of P to one of Q. `accent` is, for
+        Fréchet, the first pair of the path whose distance is the value.
+
+    Raises
+    ------
+    ValueError, TypeError
+        Where `dtw_path` or `frechet_path` does, for d > 2, and for `every` < 1; before anything
+        is drawn.
+
+    Notes
+    -----
+    Time and memory of the path.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from curvewise.plotting import plot_alignment
+    >>> ax = Figure().subplots()
+    >>> artists = plot_alignment([0, 1, 2], [0, 2], ax, measure="frechet")
+    >>> len(artists.between.get_segments()), artists.accent.get_label()
+    (3, 'Fréchet distance')
+    """
+    info = drawing.warping(measure)
+    if every is not None and (every < 1 or every % 1):
+        raise ValueError(f"every is {every}; give a whole number >= 1, or None")
+    measured, drawn = drawing.measured_and_drawn(P, Q, normalized)
+    if drawn[0].shape[1] > 2:
+        raise ValueError(
+            f"P has shape {drawn[0].shape}; plot_alignment draws 1 or 2 coordinates, "
+            "plot_table any number"
+        )
+    path = info.path(*measured, **options).path
+    lines = drawing.draw_curves(ax, *drawn, apart=True)
+    points = [np.asarray(line.get_xydata()) for line in lines]
+    links = np.stack([points[k][path[:, k]] for k in (0, 1)], axis=1)
+    shown = links[:: int(every)] if every else drawing.evenly(links)
+    between = drawing.draw_links(ax, shown, "matched points")
+    if measure == "dtw":
+        return CurveArtists(*lines, between)
+    farthest = _farthest_pair(*measured, path, **options)
+    (accent,) = ax.plot(
+        *links[farthest].T,
+        color=drawing.ACCENT_COLOUR,
+        linewidth=2,
+        marker="o",  # a pair at distance 0 has no length to be seen
+        markersize=4,
+        zorder=3,
+        label="Fréchet distance",
+    )
+    return CurveArtists(*lines, between, accent)
+
+
+def _farthest_pair(
+    P: Array,
+    Q: Array,
+    path: npt.NDArray[np.int64],
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+) -> int:
+    """Return the first place on the path where the ground distance is largest."""
+    p_points, q_points = (c[path[:, k]].reshape(len(path), -1) for k, c in enumerate((P, Q)))
+    return int(np.argmax(ground_distances(p_points, q_points, *check_metric(metric, p))))

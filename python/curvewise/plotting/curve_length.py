@@ -1,0 +1,78 @@
+"""The points that the curve-length measure compares. Time and memory O(n + m)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .._curves import CurveLike
+from .._options import Default, LengthScale
+from ..measures import curve_length
+from ..reference.arc_length import interpolate
+from ..reference.curve_length import corresponding_positions
+from . import drawing
+from .drawing import CurveArtists
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["plot_curve_length"]
+
+
+def plot_curve_length(
+    P: CurveLike,
+    Q: CurveLike,
+    ax: Axes,
+    *,
+    scale: LengthScale = Default.scale,
+    normalized: bool = False,
+) -> CurveArtists:
+    """Draw the points that the curve-length measure compares.
+
+    They are at equal fractions of arc length, each curve divided by its own largest abs(x) and
+    abs(y): the paper's Fig. 6.
+
+    Parameters
+    ----------
+    P, Q : array_like, shape (n, 2) and (m, 2)
+        The curves.
+    ax : matplotlib.axes.Axes
+        Where to draw.
+    scale : str
+        As in `curve_length`: it weighs the differences and does not move the points, but where
+        it is 0 there is no value and no picture.
+    normalized : bool
+        As in `plot_area`.
+
+    Returns
+    -------
+    CurveArtists
+        `between` is a LineCollection from points of P to their counterparts on Q (at most 80,
+        evenly chosen).
+
+    Raises
+    ------
+    ValueError, TypeError
+        Where `curve_length` does, before anything is drawn.
+
+    Notes
+    -----
+    O(n + m) time and memory.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from curvewise.plotting import plot_curve_length
+    >>> ax = Figure().subplots()
+    >>> artists = plot_curve_length([[0, 0], [1, 1], [2, 2]], [[0, 1], [4, 1]], ax)
+    >>> artists.between.get_segments()[1].tolist()
+    [[1.0, 1.0], [2.0, 1.0]]
+    """
+    measured, drawn = drawing.measured_and_drawn(P, Q, normalized)
+    curve_length(*measured, scale=scale)  # for its checks
+    counterparts = interpolate(drawn[1], *corresponding_positions(*measured))
+    links = np.stack([drawn[0], counterparts], axis=1)
+    lines = drawing.draw_curves(ax, *drawn)
+    between = drawing.draw_links(ax, drawing.evenly(links), "points compared")
+    return CurveArtists(*lines, between)

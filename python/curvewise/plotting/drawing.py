@@ -1,0 +1,142 @@
+"""What the pictures of `plotting` are made of: curves, the lines between them, and panels.
+
+P is always blue and Q always vermilion, equally dark and distinct to colour-blind readers; what
+lies between them is grey, what decides the value black. The number of artists does not depend on
+the number of points: each curve is one line, all lines between them are one collection. pyplot is
+never used, so any backend will do; matplotlib is imported when something is drawn, not when this
+module is.
+"""
+
+from __future__ import annotations
+
+import math
+from contextlib import AbstractContextManager
+from itertools import product
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from .._curves import Array, CurveLike, as_curves
+from .._extras import extra
+from ..measures import normalize
+from ..measures.registry import WARPINGS, WarpingInfo
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.collections import Collection, LineCollection
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+
+P_COLOUR = "#0072B2"
+Q_COLOUR = "#D55E00"
+BETWEEN_COLOUR = "#808080"
+FILL_COLOUR = "#A0A0A0"
+ACCENT_COLOUR = "#000000"
+MAX_LINKS = 80  # more lines than this merge into a grey mass
+
+
+class CurveArtists(NamedTuple):
+    """The artists of a picture of two curves.
+
+    Attributes
+    ----------
+    P, Q : matplotlib.lines.Line2D
+        The curves.
+    between : matplotlib.collections.Collection
+        A PolyCollection of quadrilaterals or a LineCollection of lines between points.
+    accent : matplotlib.lines.Line2D or None
+        Fréchet: the pair whose distance is the value. PCM: the stretch of the longer curve on
+        which the shorter one sits. Otherwise None.
+    """
+
+    P: Line2D
+    Q: Line2D
+    between: Collection
+    accent: Line2D | None = None
+
+
+def matplotlib_required() -> AbstractContextManager[None]:
+    """Say how to get matplotlib where an import of it fails."""
+    return extra("plot", "pictures need matplotlib, which is not installed")
+
+
+def measured_and_drawn(
+    P: CurveLike, Q: CurveLike, normalized: bool
+) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """Return the curves to measure, and the curves to draw: (n, d) and in original units."""
+    P, Q = as_curves(P, Q)
+    measured = tuple(normalize(P, Q)) if normalized else (P, Q)
+    P, Q = (curve[:, np.newaxis] if curve.ndim == 1 else curve for curve in (P, Q))
+    return (measured[0], measured[1]), (P, Q)
+
+
+def warping(measure: str) -> WarpingInfo:
+    """Return the measure of a name; refuse one that has no path and no table."""
+    if not isinstance(measure, str) or measure not in WARPINGS:
+        raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(sorted(WARPINGS))}")
+    return WARPINGS[measure]
+
+
+def draw_curves(ax: Axes, P: Array, Q: Array, *, apart: bool = False) -> tuple[Line2D, Line2D]:
+    """Draw curves in the plane, or series (d = 1) against the index: `apart`, with Q below P."""
+    x_label, y_label, q_label = "x", "y", "Q"
+    if P.shape[1] == 1:
+        x_label, y_label = "index", "value"
+        if apart:
+            Q, q_label = _below(P, Q)
+            y_label = f"value ({q_label})"
+        P, Q = (np.column_stack([np.arange(len(series)), series]) for series in (P, Q))
+    label_axes(ax, x_label, y_label)
+    (p_line,) = ax.plot(*P.T, color=P_COLOUR, linewidth=1.3, label="P")
+    (q_line,) = ax.plot(*Q.T, color=Q_COLOUR, linewidth=1.3, label=q_label)
+    return p_line, q_line
+
+
+def _below(P: Array, Q: Array) -> tuple[Array, str]:
+    """Return series Q moved below series P, with room between, and a label that says so."""
+    span = max(float(np.ptp(P)), float(np.ptp(Q))) or 1.0
+    digits = 1 - int(np.floor(np.log10(span)))  # a round number reads well
+    shift = round(float(P.min() - Q.max()) - 0.3 * span, digits)
+    return Q + shift, f"Q {'+' if shift > 0 else '−'} {abs(shift):.10g}"
+
+
+def label_axes(ax: Axes, x: str, y: str) -> None:
+    """Label the axes that have no label."""
+    ax.set_xlabel(ax.get_xlabel() or x)
+    ax.set_ylabel(ax.get_ylabel() or y)
+
+
+def draw_links(ax: Axes, links: Array, label: str) -> LineCollection:
+    """Draw the lines `links`, shape (k, 2, 2), under the curves that they connect."""
+    with matplotlib_required():
+        from matplotlib.collections import LineCollection
+    collection = LineCollection(
+        list(links), colors=BETWEEN_COLOUR, linewidths=0.7, alpha=0.8, zorder=1, label=label
+    )
+    ax.add_collection(collection, autolim=False)  # their ends are on the curves
+    return collection
+
+
+def evenly(links: Array) -> Array:
+    """Return at most `MAX_LINKS` of the links, the first and the last among them."""
+    shown = np.linspace(0, len(links) - 1, min(len(links), MAX_LINKS))
+    chosen: Array = links[shown.round().astype(np.intp)]
+    return chosen
+
+
+def panels(figure: Figure, dim: int, count: int) -> tuple[Axes, list[Axes]]:
+    """Return a panel for the curves, and `count` panels for their measures."""
+    if dim == 1:  # wide ones, one above the other
+        figure.set_size_inches(9, 2.4 * (1 + count))
+        main, *others = figure.subplots(1 + count, 1, sharex=True, squeeze=False)[:, 0]
+    elif dim == 2:  # a large one, with small ones to its right and below it
+        rows = 2 + math.ceil(max(0, count - 2) / 3)
+        figure.set_size_inches(11, 2.9 * rows)
+        grid = figure.add_gridspec(rows, 3)
+        main = figure.add_subplot(grid[:2, :2])
+        cells = [(0, 2), (1, 2), *product(range(2, rows), range(3))]
+        others = [figure.add_subplot(grid[cell]) for cell in cells[:count]]
+    else:
+        figure.set_size_inches(4.2 * (1 + count), 4)
+        main, *others = figure.subplots(1, 1 + count, squeeze=False)[0]
+    return main, others

@@ -1,0 +1,105 @@
+"""The cumulative table of DTW or Fréchet, and the path through it. Memory 8 n m bytes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .._curves import CurveLike
+from .._options import WarpingName
+from . import drawing
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.image import AxesImage
+    from matplotlib.lines import Line2D
+
+__all__ = ["plot_table"]
+
+_MAX_TABLE_SIDE = 1000  # entries; about the pixels of a panel
+
+
+def plot_table(
+    P: CurveLike,
+    Q: CurveLike,
+    ax: Axes,
+    *,
+    measure: WarpingName = "dtw",
+    normalized: bool = False,
+    **options: Any,
+) -> tuple[AxesImage, Line2D]:
+    """Draw the cumulative table of DTW or Fréchet, and the path through it.
+
+    Cells outside a window are blank. Of tables with more than 1000 rows or columns, every k-th
+    is drawn. ``ax.figure.colorbar(image)`` adds a colour bar.
+
+    Parameters
+    ----------
+    P, Q : array_like, shape (n, d) and (m, d), or (n,) and (m,)
+        The curves, of any d.
+    ax : matplotlib.axes.Axes
+        Where to draw: i, the index in P, upwards, and j, the index in Q, to the right.
+    measure : {"dtw", "frechet"}
+        Whose table to draw.
+    normalized : bool
+        As in `plot_area`.
+    **options
+        Passed to `dtw_table` and `dtw_path`, or `frechet_table` and `frechet_path`.
+
+    Returns
+    -------
+    image : matplotlib.image.AxesImage
+        The table.
+    path : matplotlib.lines.Line2D
+        The path.
+
+    Raises
+    ------
+    ValueError, TypeError, MemoryError
+        Where `dtw_table` or `frechet_table` does, before anything is drawn.
+
+    Notes
+    -----
+    O(n·m) time and memory: 8·n·m bytes. The paper's Fig. 5.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from curvewise.plotting import plot_table
+    >>> image, path = plot_table([0, 1, 2], [0, 2], Figure().subplots(), measure="frechet")
+    >>> path.get_xydata().tolist()
+    [[0.0, 0.0], [0.0, 1.0], [1.0, 2.0]]
+    """
+    with drawing.matplotlib_required():
+        from matplotlib.patheffects import withStroke
+    info = drawing.warping(measure)
+    measured, _ = drawing.measured_and_drawn(P, Q, normalized)
+    table = info.table(*measured, **options)
+    path = info.path(*measured, **options).path
+    n, m = table.shape
+    row_step, column_step = (-(-size // _MAX_TABLE_SIDE) for size in (n, m))
+    shown = table[::row_step, ::column_step]
+    rows, columns = shown.shape
+    image = ax.imshow(
+        shown,
+        cmap="viridis_r",
+        origin="lower",
+        aspect="auto",
+        interpolation="nearest",
+        # Pixel centres are at the indices of the rows and columns drawn.
+        extent=(
+            -column_step / 2,
+            (columns - 0.5) * column_step,
+            -row_step / 2,
+            (rows - 0.5) * row_step,
+        ),
+    )
+    (line,) = ax.plot(
+        *path.T[::-1],
+        color=drawing.ACCENT_COLOUR,
+        linewidth=1.3,
+        path_effects=[withStroke(linewidth=3, foreground="white")],  # legible on any colour
+        label="path",
+    )
+    ax.set(xlim=(-0.5, m - 0.5), ylim=(-0.5, n - 0.5))
+    drawing.label_axes(ax, "index in Q", "index in P")
+    return image, line

@@ -1,0 +1,248 @@
+"""identify: what it returns, processes, callbacks, limits, and errors."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import numpy as np
+import pytest
+from test_history import assert_same
+
+import curvewise
+from curvewise.calibration import identify
+
+X = np.linspace(0.0, 1.0, 25)
+BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
+QUICK = {"progress": False, "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}}}
+DE_ONCE = {"progress": False, "method_options": {"maxiter": 1, "popsize": 8}}
+
+
+def line(parameters):
+    return np.column_stack((X, parameters["a"] * X + parameters["b"]))
+
+
+def fragile_line(parameters):
+    if parameters["a"] > 8.0:
+        raise ValueError("too steep")
+    return line(parameters)
+
+
+def deadly_line(parameters):
+    if parameters["a"] > 9.0:
+        os._exit(3)
+    return line(parameters)
+
+
+EXPERIMENT = line({"a": 2.0, "b": 1.0})
+
+
+def test_what_is_returned():
+    found = identify(line, EXPERIMENT, BOUNDS, **QUICK)
+    history = found.history
+    assert history.dtype.names == ("evaluation", "a", "b", "value", "failed", "seconds")
+    assert history.evaluation.tolist() == list(range(1, found.evaluations + 1))
+    best = history[history.value.argmin()]
+    assert found.parameters == {"a": best.a, "b": best.b}
+    assert found.value == best.value
+    assert ((history.a >= 0) & (history.a <= 10) & (history.b >= -5) & (history.b <= 5)).all()
+    assert np.array_equal(found.simulations[0], line(found.parameters))
+    assert np.array_equal(found.experiments[0], EXPERIMENT)
+    expected = curvewise.compare(EXPERIMENT, found.simulations[0])
+    assert found.measures == expected.to_dict()
+    assert found.measures["area"] == found.value
+    with pytest.raises(AttributeError):
+        found.value = 0.0
+
+
+def test_summary_is_a_table():
+    text = str(identify(line, EXPERIMENT, BOUNDS, **QUICK))
+    for word in ("parameter", "a ", "b ", "dtw", "minimised", "sdrm+de, seed 0", "not converged"):
+        assert word in text
+
+
+def test_measures_that_cannot_be_computed_are_nan():
+    centred = line({"a": 2.0, "b": -1.0})  # mean of y is 0: curve_length, raw, is not defined
+    found = identify(line, centred, BOUNDS, preset="raw", **QUICK)
+    assert np.isnan(found.measures["curve_length"])
+    assert np.isfinite(found.measures["dtw"])
+
+
+def test_series_and_space_curves():
+    found = identify(lambda p: line(p)[:, 1], EXPERIMENT[:, 1], BOUNDS, measure="dtw", **QUICK)
+    assert list(found.measures) == ["frechet", "dtw"]
+
+    def in_space(parameters):
+        return np.column_stack((line(parameters), X**2))
+
+    found = identify(in_space, in_space({"a": 2, "b": 1}), BOUNDS, measure="frechet", **QUICK)
+    assert list(found.measures) == ["frechet", "dtw"]
+    found.plot()
+
+
+def test_same_seed_same_result_and_another_seed_another():
+    found = [identify(line, EXPERIMENT, BOUNDS, seed=seed, **QUICK) for seed in (4, 4, 5)]
+    assert_same(found[0], found[1])
+    assert not np.array_equal(found[0].history.a, found[2].history.a)
+
+
+@pytest.mark.parametrize("method", ["sdrm+de", "nelder-mead", "least_squares"])
+def test_result_does_not_depend_on_the_number_of_processes(method):
+    keywords = {"measure": "curve_length", "method": method, "progress": False}
+    if method == "sdrm+de":
+        keywords["method_options"] = QUICK["method_options"]
+    one, two = (
+        identify(fragile_line, EXPERIMENT, BOUNDS, workers=workers, **keywords)
+        for workers in (1, 2)
+    )
+    assert_same(one, two)
+
+
+def test_a_model_that_cannot_be_pickled():
+    with pytest.raises(ValueError, match=r"cannot be sent to other processes.*workers=1"):
+        identify(lambda p: line(p), EXPERIMENT, BOUNDS, workers=2, **QUICK)
+
+
+def test_a_worker_that_dies_is_one_failed_simulation():
+    found = identify(deadly_line, EXPERIMENT, BOUNDS, workers=2, method="de", seed=1, **DE_ONCE)
+    steep = found.history.a > 9.0
+    assert steep.any()
+    assert np.array_equal(found.history.failed, steep)
+    assert {message for _, message in found.failures} == {"the worker process died"}
+
+
+def test_callback_is_told_and_can_stop():
+    told = []
+
+    def callback(progress):
+        told.append(progress)
+        return progress.evaluations >= 10
+
+    found = identify(line, EXPERIMENT, BOUNDS, callback=callback, **QUICK)
+    assert found.message == "the callback ended the search"
+    assert not found.converged
+    assert [p.evaluations for p in told] == sorted({p.evaluations for p in told})
+    assert told[-1].evaluations == found.evaluations
+    assert (told[-1].value, told[-1].parameters) == (found.value, found.parameters)
+
+
+@pytest.mark.parametrize("method", ["sdrm+de", "de", "nelder-mead"])
+def test_max_evaluations(method):
+    calls = []
+
+    def counted(parameters):
+        calls.append(parameters)
+        return line(parameters)
+
+    found = identify(counted, EXPERIMENT, BOUNDS, method=method, max_evaluations=17, progress=False)
+    assert found.evaluations == len(calls) == 17
+    assert found.message == "max_evaluations = 17 reached"
+
+
+def test_no_point_is_run_twice():
+    calls = []
+
+    def counted(parameters):
+        calls.append((parameters["a"], parameters["b"]))
+        return line(parameters)
+
+    found = identify(counted, EXPERIMENT, BOUNDS, **QUICK)
+    assert len(calls) == len(set(calls)) == found.evaluations
+
+
+def test_start_is_evaluated_first():
+    start = {"b": 1.5, "a": 3.0}
+    for method in ("nelder-mead", "sdrm"):
+        found = identify(
+            line, EXPERIMENT, BOUNDS, start=start, method=method, max_evaluations=3, progress=False
+        )
+        assert found.history.a[0] == pytest.approx(3.0)
+        assert found.history.b[0] == pytest.approx(1.5)
+
+
+def test_progress_bar_shows_the_best_value(capsys):
+    identify(line, EXPERIMENT, BOUNDS, max_evaluations=5)
+    assert "best=" in capsys.readouterr().err
+
+
+def test_pictures_have_a_panel_for_every_loop():
+    def loops(parameters):
+        return [line(parameters), line(parameters) * [1.0, 2.0]]
+
+    found = identify(loops, loops({"a": 2, "b": 1}), BOUNDS, **QUICK)
+    titles = [ax.get_title() for ax in found.plot().axes]
+    assert titles == ["Loop 0", "Loop 1", ""]
+
+
+# Errors.
+
+
+@pytest.mark.parametrize(
+    ("bounds", "message"),
+    [
+        ({}, "bounds is empty"),
+        ({"a": (1, 1)}, r"bounds\['a'\] is \(1, 1\); they must be finite, low < high"),
+        ({"a": (0, np.inf)}, "must be finite"),
+        ({"a": 3}, r"bounds\['a'\] is 3; give \(low, high\)"),
+        ({"value": (0, 1)}, "cannot be called 'value'"),
+    ],
+)
+def test_wrong_bounds(bounds, message):
+    with pytest.raises(ValueError, match=message):
+        identify(line, EXPERIMENT, bounds, progress=False)
+
+
+@pytest.mark.parametrize(
+    ("keywords", "message"),
+    [
+        ({"method": "magic"}, "unknown method 'magic'; choose from sdrm"),
+        ({"method": "least_squares"}, "'area' is not a sum of squares"),
+        ({"start": {"a": 1.0}}, "give a value for each of a, b"),
+        ({"start": {"a": 11.0, "b": 0.0}}, r"start\['a'\] is 11.0; it must be from 0.0 to 10.0"),
+        ({"max_evaluations": 0}, "max_evaluations is 0"),
+        ({"workers": 0}, "workers is 0"),
+        ({"method_options": {"popsize": 3}}, "takes a dict for each of sdrm, de"),
+    ],
+)
+def test_wrong_keywords(keywords, message):
+    with pytest.raises(ValueError, match=message):
+        identify(line, EXPERIMENT, BOUNDS, progress=False, **keywords)
+
+
+@pytest.mark.parametrize("method", ["de", "sdrm+de", "nelder-mead"])
+def test_a_model_that_never_succeeds_is_an_error_at_once(method):
+    calls = []
+
+    def broken(parameters):
+        calls.append(parameters)
+        raise KeyError("no such file")
+
+    with pytest.raises(RuntimeError, match=r"no simulation succeeded.*KeyError: 'no such file'"):
+        identify(broken, EXPERIMENT, BOUNDS, method=method, progress=False)
+    assert len(calls) <= 30
+
+
+@pytest.mark.parametrize("method", ["de", "sdrm+de", "nelder-mead"])
+def test_a_model_hooked_up_wrongly_is_an_error(method):
+    with pytest.raises(ValueError, match="there are 2 simulations and 1 experiments"):
+        identify(lambda p: [line(p), line(p)], EXPERIMENT, BOUNDS, method=method, progress=False)
+    with pytest.raises(TypeError, match="real numbers"):
+        identify(lambda p: np.array(["a"]), EXPERIMENT, BOUNDS, method=method, progress=False)
+    with pytest.raises(TypeError, match="must be callable"):
+        identify(EXPERIMENT, EXPERIMENT, BOUNDS, method=method, progress=False)
+
+
+def test_the_first_failure_is_logged(caplog):
+    found = identify(fragile_line, EXPERIMENT, BOUNDS, **QUICK)
+    assert len(found.failures) > 1
+    (record,) = [r for r in caplog.records if r.levelname == "WARNING"]
+    assert record.message == f"evaluation {found.failures[0][0]} failed: ValueError: too steep"
+
+
+@pytest.mark.parametrize("missing", ["scipy", "tqdm"])
+def test_a_missing_package_is_named(monkeypatch, missing):
+    for name in [name for name in sys.modules if name.partition(".")[0] == missing]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, missing, None)
+    with pytest.raises(ImportError, match=rf'needs {missing}: pip install "curvewise\[calib'):
+        identify(line, EXPERIMENT, BOUNDS)

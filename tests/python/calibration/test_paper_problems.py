@@ -1,0 +1,221 @@
+"""The paper's problems: the material point's closed forms, the data against the tables."""
+
+from __future__ import annotations
+
+import importlib
+import math
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+
+import curvewise
+
+SCRIPTS = Path(__file__).resolve().parents[3] / "benchmarks" / "paper"
+
+STEEL = {
+    "CB": 640.0,
+    "SIGY": 455.0,
+    "C": 190.0,
+    "K": 30.0,
+    "RSAT": 450.0,
+    "SB": 160.0,
+    "H": 0.7,
+    "C1": 0.02,
+    "C2": 0.3,
+}
+E = 200e3
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _scripts() -> Iterator[None]:
+    if not SCRIPTS.is_dir():
+        pytest.skip("not a source tree: no benchmarks/paper")
+    pytest.importorskip("numba", reason='no numba: pip install "curvewise[paper]"')
+    sys.path.insert(0, str(SCRIPTS))
+    yield
+    sys.path.remove(str(SCRIPTS))
+
+
+@pytest.fixture(scope="module")
+def point() -> ModuleType:
+    return importlib.import_module("yoshida_uemori")
+
+
+@pytest.fixture(scope="module")
+def problems(data_dir: Path, _scripts: None) -> ModuleType:
+    module = importlib.import_module("problems")
+    if module.data_dir().parent != data_dir:
+        pytest.skip(f"the scripts read {module.data_dir().parent}, the tests {data_dir}")
+    return module
+
+
+def response(point: ModuleType, strain: Any, **changes: float) -> Any:
+    return point.response({**STEEL, **changes}, strain, youngs_modulus=E, substep=1e-5)
+
+
+def test_elastic_below_yield_and_on_unloading(point: ModuleType) -> None:
+    strain = np.array([0.0, 0.001, STEEL["SIGY"] / E, 0.05, 0.049, 0.0485])
+    stress = response(point, strain)
+    assert stress[:3] == pytest.approx(E * strain[:3], rel=1e-12)
+    assert np.diff(stress[3:]) == pytest.approx(E * np.diff(strain[3:]), rel=1e-9)
+
+
+def test_monotonic_loading_reaches_the_bounding_surface(point: ModuleType) -> None:
+    """On monotonic loading, stress saturates at CB + R(p) + SB, p being the plastic strain."""
+    constants = {"H": 1.0, "K": 60.0, "C": 2000.0}
+    strain = np.linspace(0.0, 0.5, 500)
+    stress = response(point, strain, **constants)
+    p = strain - stress / E
+    growth = STEEL["RSAT"] * ((STEEL["C1"] + p) ** STEEL["C2"] - STEEL["C1"] ** STEEL["C2"])
+    motion = STEEL["SB"] * -np.expm1(-constants["K"] * p)
+    late = p > 0.1
+    assert stress[late] == pytest.approx((STEEL["CB"] + growth + motion)[late], rel=2e-3)
+
+
+def test_loop_closes_without_growth(point: ModuleType) -> None:
+    """With RSAT = 0 the surfaces only move: cycles settle into one closed, odd loop."""
+    cycle = np.concatenate((np.linspace(0.02, -0.02, 81), np.linspace(-0.02, 0.02, 81)[1:]))
+    strain = np.concatenate((np.linspace(0, 0.02, 40)[:-1], *[cycle[:-1]] * 20, cycle))
+    last = response(point, strain, RSAT=0.0)[-len(cycle) :]
+    assert last[0] == pytest.approx(last[-1], abs=0.1)
+    half = len(cycle) // 2
+    assert last[: half + 1] == pytest.approx(-last[half:], abs=0.5)
+
+
+def test_work_hardening_stagnates_after_reversal(point: ModuleType) -> None:
+    """A larger H keeps the bounding surface from growing longer, so it ends smaller."""
+    strain = np.concatenate((np.linspace(0, 0.06, 60), np.linspace(0.06, -0.06, 120)[1:]))
+    ends = [abs(response(point, strain, H=h)[-1]) for h in (0.01, 0.5, 1.0)]
+    assert ends[0] > ends[1] + 1.0 > ends[2] + 2.0
+
+
+def test_substeps_converge(point: ModuleType) -> None:
+    strain = np.concatenate((np.linspace(0, 0.05, 50), np.linspace(0.05, -0.05, 99)[1:]))
+    fine = point.response(STEEL, strain, substep=1e-6)
+    errors = [np.abs(point.response(STEEL, strain, substep=h) - fine).max() for h in (2e-4, 5e-5)]
+    assert errors[1] < 1.0
+    assert errors[1] < errors[0] / 2
+
+
+def test_bounding_surface_must_enclose_the_yield_surface(point: ModuleType) -> None:
+    with pytest.raises(ValueError, match=r"CB is 455\.0, SIGY 455\.0.*give CB > SIGY"):
+        response(point, [0.0, 0.01], CB=455.0)
+
+
+@pytest.mark.parametrize(
+    ("measure", "limit"),
+    [("area", 20.5), ("dtw", 20.5), ("curve_length", 21.0), ("pcm", 30.0), ("frechet", 43.0)],
+)
+def test_point_follows_the_papers_responses(
+    problems: ModuleType, measure: str, limit: float
+) -> None:
+    parameters = problems.paper_parameters(measure)
+    theirs = problems.paper_responses(measure)
+    ours = problems.HardeningModel.of_the_paper()(parameters)
+    errors = [Q[:, 1] - P[:, 1] for P, Q in zip(theirs, ours, strict=True)]
+    assert math.sqrt(np.mean(np.concatenate(errors) ** 2)) < limit
+
+
+def test_papers_responses_give_table_4(problems: ModuleType) -> None:
+    """Fréchet, DTW and curve length to every printed digit, area within 1.5 %."""
+    for measure in problems.MEASURES:
+        pairs = zip(problems.test_loops(), problems.paper_responses(measure), strict=True)
+        rows = [curvewise.compare(P, Q, preset="paper").to_dict() for P, Q in pairs]
+        area, _, frechet, dtw, length = problems.tables()["table_4_without_noise"][measure]
+        total = {name: sum(row[name] for row in rows) for name in problems.MEASURES}
+        assert total["area"] == pytest.approx(area, rel=0.015)
+        assert round(total["frechet"], 2) == pytest.approx(frechet, abs=0.0101)
+        assert total["dtw"] == pytest.approx(dtw, abs=0.0501)
+        assert total["curve_length"] == pytest.approx(length, abs=0.0501)
+
+
+def test_load_unload_is_the_papers_data(problems: ModuleType) -> None:
+    ours = problems.load_unload(problems.LOAD_UNLOAD_TRUTH)
+    theirs = problems.load_unload_data(noise=False)
+    assert ours == pytest.approx(theirs, abs=1e-14)
+    noisy = problems.load_unload_data(noise=True)
+    assert noisy[:, 0].tolist() == theirs[:, 0].tolist()
+    assert (noisy - theirs)[:, 1].std() == pytest.approx(0.052, abs=5e-4)
+
+
+def test_definitions_agree_with_the_tables(problems: ModuleType) -> None:
+    truth = problems.tables()["table_1_load_unload"]["true"]
+    assert list(problems.LOAD_UNLOAD_TRUTH.values()) == truth
+    for (low, high), value in zip(problems.load_unload_bounds().values(), truth, strict=True):
+        assert low < value < high
+    bounds = problems.hardening_bounds()
+    assert tuple(bounds) == importlib.import_module("yoshida_uemori").PARAMETERS
+    for measure in problems.MEASURES:
+        for noise in (False, True):
+            row = problems.paper_parameters(measure, noise=noise)
+            assert all(low <= row[name] <= high for name, (low, high) in bounds.items())
+
+
+@pytest.mark.parametrize("key", ["figure_7_line_with_outlier", "figure_8a_quadratic"])
+def test_least_squares_lines(problems: ModuleType, key: str) -> None:
+    points = problems.line_with_outlier() if "7" in key else problems.quadratic()
+    line = problems.tables()[key]["slope_intercept"]["sum_of_squares"]
+    assert np.polyfit(*points.T, 1) == pytest.approx(line, rel=1e-4)
+
+
+def test_normalised_quadratic(problems: ModuleType) -> None:
+    line = problems.tables()["figure_8b_quadratic_normalized"]["slope_intercept"]["sum_of_squares"]
+    assert np.polyfit(*problems.quadratic(scaled=True).T, 1) == pytest.approx(line, abs=1e-4)
+
+
+def test_noise_has_the_deviation_asked_for(problems: ModuleType) -> None:
+    loops = problems.test_loops()
+    noisy = problems.with_noise(loops, 35.0, seed=1)
+    added = np.concatenate([b - a for a, b in zip(loops, noisy, strict=True)])
+    assert not added[:, 0].any()
+    assert added[:, 1].std() == pytest.approx(35.0, rel=0.1)
+
+
+def test_filter_keeps_parabolas_and_turning_points(problems: ModuleType) -> None:
+    """Second order, branch by branch: it returns a piecewise parabola as it is."""
+    pytest.importorskip("curvewise.calibration")
+    table6 = importlib.import_module("table6")
+    x = np.concatenate((np.linspace(0, 1, 60), np.linspace(1, 0.5, 40)))
+    curve = np.column_stack((x, np.where(np.arange(100) < 60, x**2, 4 * x - 3)))
+    assert table6.filtered(curve, 11) == pytest.approx(curve, abs=1e-12)
+    noisy = curve + np.random.default_rng(0).normal(0, [0, 0.1], (100, 2))
+    assert np.abs(table6.filtered(noisy, 11) - curve).mean() < np.abs(noisy - curve).mean() / 1.5
+
+
+def test_smoothness_counts_minima_and_steps(problems: ModuleType) -> None:
+    pytest.importorskip("curvewise.calibration")
+    smoothness = importlib.import_module("table6").smoothness
+    t = np.linspace(-1, 1, 2001)
+    minima, variation, step = smoothness(np.abs(t))
+    assert (minima, variation) == (1, pytest.approx(1.0))
+    assert step < 2e-3
+    assert smoothness(t**2 + 0.3 * np.cos(20 * t))[0] > 4
+    assert smoothness(t + (t > 0))[2] == pytest.approx(1 / 3, rel=0.01)
+    assert smoothness(t)[:2] == (1, pytest.approx(1.0))  # its minimum is at an end
+
+
+@pytest.mark.parametrize(
+    "script", ["straight_line", "load_unload", "kinematic_hardening", "partial", "table6"]
+)
+def test_quick_run(problems: ModuleType, tmp_path: Path, script: str) -> None:
+    """It succeeds, and what it writes a second time takes the place of the first."""
+    if "CURVEWISE_PAPER" not in os.environ:
+        pytest.skip("the scripts take a minute: set CURVEWISE_PAPER=1")
+    command = [sys.executable, str(SCRIPTS / f"{script}.py"), "--quick", f"--output={tmp_path}"]
+    texts = []
+    for _ in range(2 if script == "straight_line" else 1):
+        done = subprocess.run(command, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        texts.append((tmp_path / "results.md").read_text())
+    assert len(set(texts)) == 1
+    assert texts[0].count(": begin -->") == texts[0].count(": end -->") > 0
+    pictures = list(tmp_path.glob("*.png"))
+    assert pictures
+    assert all(1_000 < picture.stat().st_size < 150_000 for picture in pictures)

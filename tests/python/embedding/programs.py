@@ -1,0 +1,115 @@
+"""Programs that embed curvewise, as tests need them: built by CMake or by a compiler, and run."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+PURELIB = Path(sysconfig.get_path("purelib"))
+WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"]
+
+# For `pytestmark` of a file whose tests build such programs.
+MARKS = [
+    pytest.mark.embed,
+    pytest.mark.skipif(
+        not (ROOT / "cpp" / "CMakeLists.txt").is_file(), reason="not a source tree: no cpp"
+    ),
+    pytest.mark.skipif(os.name == "nt", reason="drives compilers by the flags of gcc and clang"),
+]
+
+
+def tool(name: str) -> str:
+    """Return where a build tool is: beside the running Python, or else on the PATH."""
+    beside = str(Path(sys.executable).parent)
+    found = shutil.which(name, path=beside) or shutil.which(name)
+    assert found, f"no {name}: pip install curvewise[test]"
+    return found
+
+
+def compiler(*names: str) -> str:
+    """Return the first compiler of these names that there is; skip the test without one."""
+    for name in names:
+        if shutil.which(name):
+            return name
+    pytest.skip(f"no {' or '.join(names)}")
+
+
+def run(
+    *command: str | Path, cwd: Path | None = None, **environment: str
+) -> subprocess.CompletedProcess[str]:
+    """Run a command; keep all that it printed, and its status."""
+    return subprocess.run(
+        [str(part) for part in command],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        cwd=cwd,
+        env={**os.environ, **environment},
+    )
+
+
+def output(*command: str | Path, cwd: Path | None = None, **environment: str) -> str:
+    """Run a command and return what it printed; fail with all that it printed."""
+    done = run(*command, cwd=cwd, **environment)
+    if done.returncode != 0:
+        pytest.fail(f"{' '.join(map(str, command))}\n{done.stdout}", pytrace=False)
+    return done.stdout
+
+
+def numbers(text: str) -> dict[str, float]:
+    """Return the lines `name number` that a program printed."""
+    return {name: float(value) for name, value in re.findall(r"^(\w+) +(\S+)$", text, re.M)}
+
+
+def build(source: Path, folder: Path, *options: str) -> None:
+    """Configure and build a CMake project with ninja."""
+    output(
+        tool("cmake"),
+        "-G=Ninja",
+        f"-DCMAKE_MAKE_PROGRAM={Path(tool('ninja')).as_posix()}",
+        *options,
+        f"-S={source}",
+        f"-B={folder}",
+    )
+    output(tool("cmake"), "--build", folder)
+
+
+def write_page(folder: Path, *names: str) -> Path:
+    """Write files that docs/embedding.md shows into a folder, and return it."""
+    text = (ROOT / "docs" / "embedding.md").read_text(encoding="utf-8")
+    shown = dict(re.findall(r"<!-- file: (\S+) -->\n```\w+\n(.*?)```", text, re.S))
+    assert len(shown) == text.count("<!-- file: ")
+    folder.mkdir()
+    for name in names:
+        (folder / Path(name).name).write_text(shown[name], encoding="utf-8")
+    return folder
+
+
+def eigen() -> Path:
+    """Return the prefix of Eigen."""
+    places = [PURELIB / "cmeel.prefix", Path("/usr"), Path("/usr/local"), Path("/opt/homebrew")]
+    for place in places:
+        if (place / "include/eigen3/Eigen/Core").is_file():
+            return place
+    pytest.skip("no Eigen: pip install cmeel-eigen")
+
+
+def pkg_config(prefix: Path, *arguments: str) -> list[str]:
+    program = compiler("pkg-config", "pkgconf")
+    environment = {"PKG_CONFIG_PATH": str(prefix / "lib" / "pkgconfig")}
+    return shlex.split(output(program, *arguments, "curvewise", **environment))
+
+
+def library_path(prefix: Path) -> dict[str, str]:
+    """Return how a program finds a shared library that is not where the system looks."""
+    return {"LD_LIBRARY_PATH": str(prefix / "lib"), "DYLD_LIBRARY_PATH": str(prefix / "lib")}

@@ -1,0 +1,253 @@
+"""What the layers say of the measures, held together.
+
+Names, choices, signatures and defaults stand once in each layer: in curvewise._options for Python
+and the reference, beside the enumerators for C++, in curvewise.h for C, in curvewise.f90 for
+Fortran. Whoever changes one of them and not the others learns it here.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any, get_args, get_type_hints
+
+import numpy as np
+import pytest
+
+import curvewise
+from curvewise import _core, _options, measures, plotting, reference
+from curvewise.measures.registry import MEASURES, PRESETS, WARPINGS
+
+ROOT = next(folder for folder in Path(__file__).parents if (folder / "pyproject.toml").is_file())
+C_HEADER = ROOT / "cpp" / "include" / "curvewise" / "curvewise.h"
+FORTRAN = ROOT / "cpp" / "fortran" / "curvewise.f90"
+STUB = ROOT / "python" / "curvewise" / "_core.pyi"
+
+# By option, the alias that lists its choices, and what C and Fortran put before a choice.
+CHOICES = {
+    "metric": (_options.Metric, ""),
+    "step_pattern": (_options.StepPattern, ""),
+    "spacing": (_options.Spacing, "spacing_"),
+    "crossing": (_options.Crossing, ""),
+    "scale": (_options.LengthScale, "scale_"),
+}
+
+
+def keyword_defaults(function: Any) -> dict[str, Any]:
+    parameters = inspect.signature(function).parameters.values()
+    return {p.name: p.default for p in parameters if p.kind is p.KEYWORD_ONLY}
+
+
+def families() -> list[str]:
+    """Return the functions of two curves, e.g. area and area_quads."""
+    return [name for name in reference.__all__ if name != "normalize"]
+
+
+def measure_of(function: str) -> str:
+    """Return the measure a function belongs to: the longest one that its name begins with."""
+    return max((name for name in MEASURES if function.startswith(name)), key=len, default="")
+
+
+def test_every_layer_has_the_same_measures_in_the_same_order() -> None:
+    names = list(MEASURES)
+    assert list(_core.measures()) == names
+    assert list(get_args(_options.MeasureName)) == names
+    assert curvewise.available_measures() == sorted(names)
+    assert c_choices("measure", "") == names
+    assert fortran_choices("measure_", names) == names
+
+
+@pytest.mark.parametrize("option", CHOICES)
+def test_every_layer_has_the_same_choices_in_the_same_order(option: str) -> None:
+    alias, prefix = CHOICES[option]
+    choices = list(get_args(alias))
+    assert _core.choices().keys() == CHOICES.keys()
+    assert list(_core.choices()[option]) == choices
+    c_enum = {"scale": "length_scale"}.get(option, option)
+    assert c_choices(c_enum, "spacing_" if option == "spacing" else "") == choices
+    assert fortran_choices(prefix, choices) == choices
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_every_layer_has_the_same_options_and_defaults(name: str) -> None:
+    options = keyword_defaults(MEASURES[name].function)
+    assert list(options.items()) == list(_core.measures()[name].items())
+    for option, default in options.items():
+        assert default is getattr(_options.Default, option)
+        if option in CHOICES:
+            assert default in get_args(CHOICES[option][0])
+    without_workers = {key: value for key, value in options.items() if key != "workers"}
+    assert keyword_defaults(MEASURES[name].reference) == without_workers
+    expected = {option: written(option, default) for option, default in options.items()}
+    if name == "pcm":  # "continuous" is an option of its own where there are no unions
+        expected["continuous"] = "0"
+    assert c_defaults(name) == expected
+    assert fortran_defaults(name) == expected
+
+
+@pytest.mark.parametrize("function", families())
+def test_functions_of_a_measure_take_its_options(function: str) -> None:
+    options = keyword_defaults(getattr(measures, function))
+    measure = measure_of(function)
+    of_measure = keyword_defaults(MEASURES[measure].function) if measure else {}
+    assert options.items() <= of_measure.items()
+    without_workers = {key: value for key, value in options.items() if key != "workers"}
+    assert keyword_defaults(getattr(reference, function)) == without_workers
+    if not measure:
+        return
+    P = np.array([(0.0, 0.0), (1.0, 2.0), (3.0, 1.0)])
+    Q = P + 1.0
+    compiled = getattr(_core, function)
+    assert repr(compiled(P, Q, {})) == repr(compiled(P, Q, options))
+    with pytest.raises(TypeError, match=rf"^{measure} has no option 'foo'; it has "):
+        compiled(P, Q, {"foo": 1})
+
+
+@pytest.mark.parametrize("function", reference.__all__)
+def test_annotations_of_measure_and_reference_agree(function: str) -> None:
+    ours, theirs = (get_type_hints(getattr(m, function)) for m in (measures, reference))
+    ours.pop("workers", None)
+    assert ours == theirs
+
+
+def test_the_stub_has_what_the_module_has() -> None:
+    stub = ast.parse(STUB.read_text(encoding="utf-8"))
+    declared = {node.name for node in stub.body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+    compiled = {name for name in vars(_core) if not name.startswith("_")}
+    assert declared - {"BuildInfo"} == compiled
+    functions = [node for node in stub.body if isinstance(node, ast.FunctionDef)]
+    with_options = {node.name for node in functions if takes_a_pair_and_options(node)}
+    assert with_options == {name for name in families() if measure_of(name)}
+
+
+def test_presets_have_a_condition_for_every_measure() -> None:
+    assert tuple(PRESETS) == get_args(_options.Preset)
+    for conditions in PRESETS.values():
+        assert list(conditions) == list(MEASURES)
+        for name, condition in conditions.items():
+            assert condition.options.keys() <= _core.measures()[name].keys()
+    assert all(condition == (False, {}) for condition in PRESETS["raw"].values())
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_the_registry_tells_the_truth(name: str) -> None:
+    info = MEASURES[name]
+    assert info.name == name == info.function.__name__ == info.reference.__name__
+    assert info.function is getattr(curvewise, name)
+    assert callable(getattr(plotting, info.picture))
+    assert _core.is_symmetric(name, {}) == info.symmetric
+    solid = np.arange(12.0).reshape(4, 3)
+    if info.planar:
+        with pytest.raises(ValueError, match=f"{name} needs 2 coordinates, x and y"):
+            info.function(solid, solid)
+    else:
+        assert info.function(solid, solid) == 0.0
+    assert (f"{name}_path" in measures.__all__) == (name in WARPINGS)
+    assert (f"{name}_residuals" in measures.__all__) == (info.residuals is not None)
+    curves = [(1, 2), (2, 5), (4, 1)], [(1, 0), (2, 3), (4, 2)]
+    scaled = info.function(*curvewise.normalize(*curves))
+    assert (scaled == pytest.approx(info.function(*curves), rel=1e-12)) == info.scales_itself
+
+
+def test_warpings_are_what_their_alias_lists() -> None:
+    assert sorted(WARPINGS) == sorted(get_args(_options.WarpingName))
+
+
+def test_every_default_has_an_option() -> None:
+    defaults = {name for name in vars(_options.Default) if not name.startswith("_")}
+    assert defaults == {option for options in _core.measures().values() for option in options}
+
+
+@pytest.mark.parametrize("name", reference.__all__)
+def test_the_reference_is_documented_as_the_measures_are(name: str) -> None:
+    ours, theirs = (inspect.getdoc(getattr(m, name)) or "" for m in (measures, reference))
+    assert "{metric}" not in ours
+    assert ours.partition("\n")[0] == theirs.partition("\n")[0]
+    for section in ("Parameters", "Returns", "Raises", "Notes", "Examples"):
+        assert f"\n{section}\n---" in theirs
+    assert "workers" not in theirs
+    assert "curvewise." not in theirs
+
+
+def test_the_reference_imports_nothing_compiled() -> None:
+    allowed = {"_curves", "_options", "results"}
+    for file in (ROOT / "python" / "curvewise" / "reference").glob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.level == 2:
+                assert {node.module} <= allowed, file.name
+
+
+@pytest.mark.parametrize("name", ["calibration", "compat", "dask", "plotting"])
+def test_submodules_are_reachable_and_imported_late(name: str) -> None:
+    late = ("curvewise.calibration", "curvewise.compat", "curvewise.dask", "curvewise.plotting")
+    code = (
+        "import sys, curvewise\n"
+        f"early = {{*{late}, 'matplotlib', 'scipy', 'dask'}} & sys.modules.keys()\n"
+        "assert not early, early\n"
+        f"assert curvewise.{name} is sys.modules['curvewise.{name}']\n"
+        "assert {'calibration', 'compat', 'plotting', 'dtw'} <= set(dir(curvewise))\n"
+        "assert not {'matplotlib', 'scipy'} & sys.modules.keys()\n"
+    )
+    if name == "dask":
+        code = code.replace("assert not {'matplotlib', 'scipy'} & sys.modules.keys()\n", "")
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_an_attribute_that_is_not_there_is_an_error() -> None:
+    with pytest.raises(AttributeError, match="module 'curvewise' has no attribute 'hausdorff'"):
+        _ = curvewise.hausdorff
+
+
+def takes_a_pair_and_options(function: ast.FunctionDef) -> bool:
+    return [argument.arg for argument in function.args.posonlyargs] == ["P", "Q", "options"]
+
+
+def written(option: str, default: Any) -> str:
+    """Return a default as a C or Fortran constant, in small letters and without a prefix."""
+    if default is None:
+        return {"p": "2", "window": "no_window"}[option]
+    return str(int(default) if isinstance(default, bool) else default)
+
+
+def c_choices(enum: str, prefix: str) -> list[str]:
+    text = C_HEADER.read_text(encoding="utf-8")
+    body = re.search(rf"enum curvewise_{enum} {{(.*?)}}", text, re.DOTALL)
+    assert body, enum
+    names = re.findall(r"CURVEWISE_(\w+)", body[1])
+    return [name.lower().removeprefix(prefix) for name in names]
+
+
+def c_defaults(measure: str) -> dict[str, str]:
+    text = re.sub(r"/\*.*?\*/", "", C_HEADER.read_text(encoding="utf-8"), flags=re.DOTALL)
+    struct = re.search(rf"struct curvewise_{measure}_options {{(.*?)}}", text, re.DOTALL)
+    values = re.search(rf"CURVEWISE_{measure.upper()}_DEFAULTS[\s\\]*{{(.*?)}}", text, re.DOTALL)
+    assert struct, measure
+    assert values, measure
+    members = re.findall(r"(\w+);", struct[1])
+    constants = [bare(value) for value in values[1].split(",")]
+    return dict(zip(members, constants, strict=True))
+
+
+def fortran_choices(prefix: str, expected: list[str]) -> list[str]:
+    """Return those of `expected` that have a constant, in the order of the constants' values."""
+    values = dict(re.findall(r"(\w+) = (-?\d+)", FORTRAN.read_text(encoding="utf-8")))
+    codes = {choice: values.get(prefix + choice) for choice in expected}
+    assert sorted(codes.values(), key=str) == [str(i) for i in range(len(expected))], codes
+    return sorted(codes, key=lambda choice: int(codes[choice] or 0))
+
+
+def fortran_defaults(measure: str) -> dict[str, str]:
+    text = re.sub(r"!.*", "", FORTRAN.read_text(encoding="utf-8"))
+    body = re.search(rf"public :: {measure}_options\n(.*?)end type", text, re.DOTALL)
+    assert body, measure
+    return {name: bare(value) for name, value in re.findall(r":: (\w+) = (\S+)", body[1])}
+
+
+def bare(constant: str) -> str:
+    """Return a constant without what says whose it is."""
+    name = constant.strip().lower().removeprefix("curvewise_").removesuffix(".0")
+    return name.removeprefix("spacing_").removeprefix("scale_")
