@@ -9,6 +9,11 @@
 namespace curvewise::detail {
 namespace {
 
+// A single point is a curve of one edge of no length.
+double coordinate(const CurveView& curve, std::ptrdiff_t i, std::ptrdiff_t c) noexcept {
+    return curve(std::min(i, curve.size() - 1), c);
+}
+
 constexpr int no_exponent = std::numeric_limits<int>::max();
 
 // x = mantissa 2^exponent.
@@ -27,7 +32,7 @@ class Unit {
    public:
     void admit(double x) { exponent_ = std::min(exponent_, Parts(x).exponent); }
     void admit(const CurveView& curve, std::ptrdiff_t i) {
-        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) admit(curve(i, c));
+        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) admit(coordinate(curve, i, c));
     }
     Integer count(double x) const {
         const Parts parts(x);
@@ -60,7 +65,7 @@ class WholeEdge {
     Quadratic quadratic(const Reach& z) const {
         Integer a, square;
         for (std::ptrdiff_t c = 0; c < edges_.dim(); ++c) {
-            const Integer w = unit_.count(points_(z.index, c)) - unit_.count(edges_(edge_, c));
+            const Integer w = unit_.count(coordinate(points_, z.index, c)) - unit_.count(coordinate(edges_, edge_, c));
             a = a + component(c) * w;
             square = square + w * w;
         }
@@ -70,7 +75,7 @@ class WholeEdge {
 
    private:
     Integer component(std::ptrdiff_t c) const {
-        return unit_.count(edges_(edge_ + 1, c)) - unit_.count(edges_(edge_, c));
+        return unit_.count(coordinate(edges_, edge_ + 1, c)) - unit_.count(coordinate(edges_, edge_, c));
     }
 
     const CurveView& edges_;
@@ -108,7 +113,7 @@ int ExactSigns::distance(std::ptrdiff_t vertex, const Reach& z) const {
     const Integer radius = unit.count(z.radius);
     Integer difference = -(radius * radius);
     for (std::ptrdiff_t c = 0; c < edges_.dim(); ++c) {
-        const Integer w = unit.count(points_(z.index, c)) - unit.count(edges_(vertex, c));
+        const Integer w = unit.count(coordinate(points_, z.index, c)) - unit.count(coordinate(edges_, vertex, c));
         difference = difference + w * w;
     }
     return difference.sign();
@@ -124,7 +129,7 @@ int ExactSigns::inside(std::ptrdiff_t edge, const Reach& z) const {
 
 bool ExactSigns::same_point(std::ptrdiff_t one, std::ptrdiff_t other) const noexcept {
     for (std::ptrdiff_t c = 0; c < points_.dim(); ++c) {
-        if (points_(one, c) != points_(other, c)) return false;
+        if (coordinate(points_, one, c) != coordinate(points_, other, c)) return false;
     }
     return true;
 }

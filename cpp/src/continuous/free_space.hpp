@@ -5,8 +5,9 @@
 //
 // Error bounds. With eps = 2^-53, a difference of two coordinates is right to eps relatively,
 // however large both are, so that nothing is lost far from the origin; a sum of d products to
-// g = (d + 4) eps of the sum of magnitudes. `slack` below is 8 g. Coordinates are scaled to at most
-// 1, so that nothing overflows; what underflow may add is below `tiny`.
+// g = (d + 4) eps of the sum of magnitudes. `slack` below is 8 g. Coordinates are between 2^-100
+// and 2^100 or scaled to at most 1 (plain_scale), so that nothing overflows; what underflow may add
+// is below `tiny`.
 #pragma once
 
 #include <algorithm>
@@ -26,15 +27,22 @@ enum class FreeSet { closed, open };
 // A radius with what the filters need of it, in units of the scaled curves.
 class Radius {
    public:
-    Radius(double given, double scaled, int dim, FreeSet set) noexcept
+    Radius(double given, double scaled, std::ptrdiff_t dim, FreeSet set) noexcept
         : given_(given),
           scaled_(scaled),
           square_(scaled * scaled),
-          slack_(8 * (dim + 4) * 0x1p-53),
-          tiny_(dim * dim * 0x1p-1056),
+          slack_(slack_of(dim)),
+          tiny_(tiny_of(dim)),
           holds_below_(square_ * (1.0 - slack_) - tiny_),
           misses_above_(square_ * (1.0 + slack_) + tiny_),
           set_(set) {}
+
+    static double slack_of(std::ptrdiff_t dim) noexcept {
+        return 8.0 * static_cast<double>(dim + 4) * 0x1p-53;
+    }
+    static double tiny_of(std::ptrdiff_t dim) noexcept {
+        return static_cast<double>(dim * dim) * 0x1p-1056;
+    }
 
     double given() const noexcept { return given_; }
     double scaled() const noexcept { return scaled_; }
@@ -53,15 +61,20 @@ class Radius {
 };
 
 // An end of an interval on an edge: where the edge enters, or leaves, the reach of vertex `index`
-// of the other curve, or its own end. Where that is along the edge is computed when it is asked for.
+// of the other curve, or its own end. Where that is along the edge is computed when it is first
+// asked for: 0 is the first vertex and 1 the second.
 struct Bound {
     static constexpr std::ptrdiff_t own_end = -1;
+    static constexpr double unknown = -1.0;
 
     bool is_own_end() const noexcept { return index == own_end; }
+    bool is_placed() const noexcept { return error != unknown; }
 
     std::ptrdiff_t index = own_end;
     double radius = 0.0;
     double scaled_radius = 0.0;
+    double t = 0.0;
+    double error = unknown;  // of t
 };
 
 // What of an edge is free: everything from low to high, or nothing.
@@ -75,7 +88,7 @@ struct FreePart {
 template <int Dim>
 class EdgeFamily {
    public:
-    EdgeFamily(const BoxedCurve<Dim>& edges, const BoxedCurve<Dim>& points, const ExactSigns& exact)
+    EdgeFamily(const BoxedCurve& edges, const BoxedCurve& points, const ExactSigns& exact)
         : edges_(edges), points_(points), exact_(exact) {}
 
     std::ptrdiff_t vertices() const noexcept { return edges_.size(); }
@@ -83,7 +96,7 @@ class EdgeFamily {
     // Whether a vertex is within the radius of point k of the other curve.
     bool vertex_is_free(std::ptrdiff_t vertex, std::ptrdiff_t k, const Radius& radius) const {
         const double square =
-            square_distance<Dim>(edges_.point(vertex), points_.point(k), edges_.dim());
+            square_distance<Dim>(edges_.point<Dim>(vertex), points_.point<Dim>(k), edges_.dim());
         if (radius.surely_holds(square)) return true;
         if (radius.surely_misses(square)) return false;
         return radius.holds(exact_.distance(vertex, {k, radius.given()}));
@@ -97,11 +110,11 @@ class EdgeFamily {
     // right to 6 g u.u (w.w + r^2); and its foot lies inside where 0 < u.w < u.u, the signs of
     // which are right where that expression is beyond its error, since w.w > r^2.
     bool inside_is_free(std::ptrdiff_t edge, std::ptrdiff_t k, const Radius& radius) const {
-        const double* const x = edges_.point(edge);
-        const double* const y = edges_.point(edge + 1);
-        const double* const z = points_.point(k);
+        const double* const x = edges_.point<Dim>(edge);
+        const double* const y = edges_.point<Dim>(edge + 1);
+        const double* const z = points_.point<Dim>(k);
         double uu = 0.0, uw = 0.0, ww = 0.0;
-        for (int c = 0; c < edges_.dim(); ++c) {
+        for (std::ptrdiff_t c = 0; c < edges_.dim(); ++c) {
             const double u = y[c] - x[c], w = z[c] - x[c];
             uu += u * u;
             uw += u * w;
@@ -124,22 +137,21 @@ class EdgeFamily {
     }
 
     // What is left of a free part, which is not empty, from a lower bound on.
-    FreePart from(std::ptrdiff_t edge, const Bound& low, const FreePart& part,
-                  const Radius& radius) const {
+    FreePart from(std::ptrdiff_t edge, Bound low, FreePart part, const Radius& radius) const {
         if (low.is_own_end()) return part;
         if (part.low.is_own_end() && part.high.is_own_end()) return {false, low, part.high};
-        const Bound& reach = part.low.is_own_end() ? part.high : part.low;
-        const Roots roots = roots_of(edge, reach);
-        const Roots low_roots = roots_of(edge, low);
-        const Root at{low_roots.middle - low_roots.half, low_roots.error};
-        if (!part.high.is_own_end() &&
-            !is_in_order(edge, low, at, reach, {roots.middle + roots.half, roots.error}, radius)) {
-            return {true, {}, {}};
+        const Roots roots = roots_of(edge, part.low.is_own_end() ? part.high : part.low);
+        if (!low.is_placed()) place(low, roots_of(edge, low), -1);
+        if (!part.high.is_own_end()) {
+            place(part.high, roots, 1);
+            if (!is_in_order(edge, low, part.high, radius)) return {true, {}, {}};
         }
-        const bool begins_later =
-            !part.low.is_own_end() &&
-            !is_later(edge, low, at, reach, {roots.middle - roots.half, roots.error});
-        return {false, begins_later ? part.low : low, part.high};
+        if (!part.low.is_own_end()) {
+            place(part.low, roots, -1);
+            if (!is_later(edge, low, part.low)) return part;
+        }
+        part.low = low;
+        return part;
     }
 
     // The first vertex from `from` to `last` that is not free, or last + 1.
@@ -147,52 +159,54 @@ class EdgeFamily {
                                         const Radius& radius) const {
         const auto is_free = [&](const double* box) {
             return radius.surely_holds(
-                square_distance_across_box<Dim>(points_.point(k), box, edges_.dim()));
+                square_distance_across_box<Dim>(points_.point<Dim>(k), box, edges_.dim()));
         };
         const auto is_blocked = [&](std::ptrdiff_t i) { return !vertex_is_free(i, k, radius); };
         return first_where(from, last, is_free, is_blocked);
+    }
+
+    // The first vertex from `from` to `last` that is free, or last + 1.
+    std::ptrdiff_t first_free_vertex(std::ptrdiff_t from, std::ptrdiff_t last, std::ptrdiff_t k,
+                                     const Radius& radius) const {
+        const auto is_free = [&](std::ptrdiff_t i) { return vertex_is_free(i, k, radius); };
+        return first_where(from, last, blocked_box(k, radius), is_free);
     }
 
     // The first edge from `from` to `last` with a free point, or last + 1. Vertex `from` is not
     // free.
     std::ptrdiff_t first_free_edge(std::ptrdiff_t from, std::ptrdiff_t last, std::ptrdiff_t k,
                                    const Radius& radius) const {
-        const auto is_blocked = [&](const double* box) {
-            return radius.surely_misses(
-                square_distance_to_box<Dim>(points_.point(k), box, edges_.dim()));
-        };
         const auto is_free = [&](std::ptrdiff_t edge) {
             return vertex_is_free(edge + 1, k, radius) || inside_is_free(edge, k, radius);
         };
-        return first_where(from, last, is_blocked, is_free);
+        return first_where(from, last, blocked_box(k, radius), is_free);
     }
 
    private:
-    // A parameter of an edge, 0 at its first and 1 at its second vertex.
-    struct Root {
-        double t;
-        double error;
-    };
     // Where the line through an edge enters and leaves the reach of a point, middle -+ half.
     struct Roots {
         double middle, half, error;
     };
 
+    static void place(Bound& bound, const Roots& roots, int side) noexcept {
+        bound.t = roots.middle + side * roots.half;
+        bound.error = roots.error;
+    }
+
     // Whether the lower end of one reach comes behind that of another.
-    bool is_later(std::ptrdiff_t edge, const Bound& one, const Root& first, const Bound& other,
-                  const Root& second) const {
-        const double difference = first.t - second.t;
-        const double error = first.error + second.error;
+    bool is_later(std::ptrdiff_t edge, const Bound& one, const Bound& other) const {
+        const double difference = one.t - other.t;
+        const double error = one.error + other.error;
         if (difference > error) return true;
         if (difference < -error || is_same(one, other)) return false;
         return exact_.low_to_low(edge, reach_of(one), reach_of(other)) > 0;
     }
 
     // Whether the lower end of one reach comes before the upper end of another.
-    bool is_in_order(std::ptrdiff_t edge, const Bound& low, const Root& first, const Bound& high,
-                     const Root& second, const Radius& radius) const {
-        const double difference = second.t - first.t;
-        const double error = first.error + second.error;
+    bool is_in_order(std::ptrdiff_t edge, const Bound& low, const Bound& high,
+                     const Radius& radius) const {
+        const double difference = high.t - low.t;
+        const double error = low.error + high.error;
         if (difference > error) return true;
         if (difference < -error) return false;
         if (is_same(low, high)) return true;
@@ -200,13 +214,13 @@ class EdgeFamily {
     }
 
     // With h = w - (u.w / u.u) u, from the line to the point, r^2 - h.h is right to 15 g (r + |u|)^2
-    // and the middle to 5 g (r + |u|) / |u|, because |w| <= r + |u| where any of the edge is free.
+    // and the middle to 6 g (r + |u|) / |u|, because |w| <= r + |u| where any of the edge is free.
     Roots roots_of(std::ptrdiff_t edge, const Bound& bound) const noexcept {
-        const double* const x = edges_.point(edge);
-        const double* const y = edges_.point(edge + 1);
-        const double* const z = points_.point(bound.index);
+        const double* const x = edges_.point<Dim>(edge);
+        const double* const y = edges_.point<Dim>(edge + 1);
+        const double* const z = points_.point<Dim>(bound.index);
         double uu = 0.0, uw = 0.0;
-        for (int c = 0; c < edges_.dim(); ++c) {
+        for (std::ptrdiff_t c = 0; c < edges_.dim(); ++c) {
             const double u = y[c] - x[c];
             uu += u * u;
             uw += u * (z[c] - x[c]);
@@ -214,22 +228,30 @@ class EdgeFamily {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         // What is left of so short an edge when squared is worth nothing.
         if (uu < 0x1p-960) return {0.5, 0.0, infinity};
-        const double middle = uw / uu;
+        const double inverse = 1.0 / uu;
+        const double middle = uw * inverse;
         double hh = 0.0;
-        for (int c = 0; c < edges_.dim(); ++c) {
+        for (std::ptrdiff_t c = 0; c < edges_.dim(); ++c) {
             const double h = (z[c] - x[c]) - middle * (y[c] - x[c]);
             hh += h * h;
         }
         const double radius = bound.scaled_radius;
-        const double length = std::sqrt(uu);
-        const double span = radius + length;
-        const double slack = 8 * (edges_.dim() + 4) * 0x1p-53;
-        const double wrong = 4.0 * slack * span * span + 0x1p-1040 * edges_.dim();
+        const double slack = Radius::slack_of(edges_.dim());
         const double margin = std::max(radius * radius - hh, 0.0);
-        const double half = std::sqrt(margin) / length;
-        const double half_error = margin > 2.0 * wrong ? half * (wrong / margin)
-                                                       : 2.0 * std::sqrt(wrong + margin) / length;
-        return {middle, half, slack * span / length + half_error};
+        const double wrong = 8.0 * slack * (radius * radius + uu) + Radius::tiny_of(edges_.dim());
+        const double half = std::sqrt(margin * inverse);
+        const double half_error = margin > 2.0 * wrong
+                                      ? half * (wrong / margin)
+                                      : 2.0 * std::sqrt((wrong + margin) * inverse);
+        return {middle, half, slack * (radius * std::sqrt(inverse) + 1.0) + half_error};
+    }
+
+    // Tells whether nothing in a box is within the radius of point k.
+    auto blocked_box(std::ptrdiff_t k, const Radius& radius) const noexcept {
+        return [this, k, &radius](const double* box) {
+            return radius.surely_misses(
+                square_distance_to_box<Dim>(points_.point<Dim>(k), box, edges_.dim()));
+        };
     }
 
     static Reach reach_of(const Bound& bound) noexcept { return {bound.index, bound.radius}; }
@@ -244,7 +266,7 @@ class EdgeFamily {
     template <class Passes, class Found>
     std::ptrdiff_t first_where(std::ptrdiff_t from, std::ptrdiff_t last, Passes passes,
                                Found found) const {
-        constexpr std::ptrdiff_t leaf = BoxedCurve<Dim>::leaf;
+        constexpr std::ptrdiff_t leaf = BoxedCurve::leaf;
         std::ptrdiff_t at = from;
         const std::ptrdiff_t ragged = std::min((from + leaf - 1) / leaf * leaf, last + 1);
         for (; at < ragged; ++at) {
@@ -254,7 +276,7 @@ class EdgeFamily {
         while (at <= last && at / leaf < edges_.boxes(0)) {
             const std::ptrdiff_t b = at / leaf;
             while ((b & ((std::ptrdiff_t{1} << level) - 1)) != 0) --level;
-            while (level >= 0 && !passes(edges_.box(level, b >> level))) --level;
+            while (level >= 0 && !passes(edges_.box<Dim>(level, b >> level))) --level;
             if (level >= 0) {
                 at += leaf << level;
                 level = std::min(level + 1, edges_.levels() - 1);
@@ -272,8 +294,8 @@ class EdgeFamily {
         return last + 1;
     }
 
-    const BoxedCurve<Dim>& edges_;
-    const BoxedCurve<Dim>& points_;
+    const BoxedCurve& edges_;
+    const BoxedCurve& points_;
     ExactSigns exact_;
 };
 

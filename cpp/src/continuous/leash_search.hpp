@@ -26,15 +26,16 @@
 #include <utility>
 #include <vector>
 
-#include "checks.hpp"
 #include "continuous/boxed_curve.hpp"
+#include "continuous/coupling.hpp"
 #include "continuous/exact_signs.hpp"
 #include "continuous/free_space.hpp"
 #include "continuous/least_double.hpp"
 #include "continuous/nearest.hpp"
 #include "continuous/reachable.hpp"
+#include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
-#include "watch.hpp"
+#include "runtime/poller.hpp"
 
 namespace curvewise::detail {
 
@@ -86,19 +87,27 @@ class Trail {
     std::vector<Mark> marks_;
 };
 
+// What a search keeps from one pair to the next.
+struct LeashMemory {
+    Runs runs, next;
+};
+
 template <int Dim>
 class LeashSearch {
    public:
-    // Two curves of at least two points each.
-    LeashSearch(const CurveView& P, const CurveView& Q, const RangeScale& range, Watch& watch)
+    // The curves, and the same boxed and scaled. The first one gives the rows.
+    LeashSearch(const CurveView& P, const CurveView& Q, const BoxedCurve& p, const BoxedCurve& q,
+                const RangeScale& range, Poller& poller, LeashMemory& memory)
         : range_(range),
-          watch_(watch),
-          p_(P, range),
-          q_(Q, range),
-          diagram_(EdgeFamily<Dim>(p_, q_, ExactSigns(P, Q)),
-                   EdgeFamily<Dim>(q_, p_, ExactSigns(Q, P))),
-          last_(diagram_.rows() - 1),
-          trail_(P.size() + Q.size()) {}
+          poller_(poller),
+          p_(p),
+          q_(q),
+          second_signs_(Q, P),
+          diagram_({p, q, ExactSigns(P, Q)}, {q, p, second_signs_}),
+          last_(p.size() - 1),
+          runs_(memory.runs),
+          next_(memory.next),
+          trail_(p.size() + q.size()) {}
 
     // Whether the distance is at most, or below, a number.
     bool is_within(double distance, FreeSet set = FreeSet::closed) {
@@ -112,12 +121,21 @@ class LeashSearch {
         return trail_end_ == last_ && diagram_.is_through(runs_, radius);
     }
 
-    // The real number rounded up; inf beyond the range of a double.
-    double value() {
+    // The same of the discrete distance, and at most.
+    bool is_coupled_within(double distance) const {
+        return CouplingWalk<Dim>({q_, p_, second_signs_}, last_ + 1, poller_)
+            .succeeds(radius_of(distance));
+    }
+
+    // The real number rounded up; inf beyond the range of a double, and where it is above
+    // `cutoff`.
+    double value(double cutoff) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        if (cutoff < infinity && !is_within(cutoff)) return infinity;
         find_witnesses();
         double low = least_of_witnesses();
         if (is_within(low)) return low;  // and nothing below it holds the witnesses
-        double high = std::numeric_limits<double>::infinity();
+        double high = infinity;
         std::ptrdiff_t window = 16;
         for (const std::uint64_t tolerance : {std::uint64_t{1} << 42, std::uint64_t{1}}) {
             for (;;) {
@@ -144,24 +162,37 @@ class LeashSearch {
 
     // The vertices of either curve that are furthest from the other.
     void find_witnesses() {
-        Furthest floor{std::max(square_distance<Dim>(p_.point(0), q_.point(0), p_.dim()),
-                                square_distance<Dim>(p_.point(last_), q_.point(q_.size() - 1),
-                                                     p_.dim())),
-                       0};
-        floor = NearestEdges<Dim>(q_).furthest(p_, floor);
-        row_witness_ = floor.vertex;
-        floor.vertex = 0;
-        floor = NearestEdges<Dim>(p_).furthest(q_, floor);
-        column_witness_ = floor.vertex;
-        guess_ = range_.restore(std::sqrt(floor.square), 1);
+        const double first = square_distance<Dim>(p_.point<Dim>(0), q_.point<Dim>(0), p_.dim());
+        const double last = square_distance<Dim>(p_.point<Dim>(last_),
+                                                 q_.point<Dim>(q_.size() - 1), p_.dim());
+        Furthest found{std::max(first, last), 0};
+        found = NearestEdges<Dim>(q_, poller_).furthest(p_, found);
+        row_witness_ = found.vertex;
+        found.vertex = 0;
+        found = NearestEdges<Dim>(p_, poller_).furthest(q_, found);
+        column_witness_ = found.vertex;
+        guess_ = range_.restore(std::sqrt(found.square), 1);
     }
 
-    // Whether the ends, or the witnesses, are too far apart.
+    // Whether the ends, or the witnesses, are too far apart, or the curves reach too far beyond
+    // each other in a coordinate.
     bool is_too_short(const Radius& radius) const {
         return !diagram_.corner_is_free(0, 0, radius) ||
                !diagram_.corner_is_free(last_, diagram_.cells(), radius) ||
+               boxes_surely_miss(radius) ||
                (row_witness_ > 0 && diagram_.row_is_blocked(row_witness_, radius)) ||
                (column_witness_ > 0 && diagram_.column_is_blocked(column_witness_, radius));
+    }
+
+    // What reaches furthest in a coordinate must meet something that reaches nearly as far.
+    bool boxes_surely_miss(const Radius& radius) const noexcept {
+        const double* const p = p_.box<Dim>(p_.levels() - 1, 0);
+        const double* const q = q_.box<Dim>(q_.levels() - 1, 0);
+        for (std::ptrdiff_t k = 0; k < 2 * p_.dim(); ++k) {
+            const double delta = p[k] - q[k];
+            if (radius.surely_misses(delta * delta)) return true;
+        }
+        return false;
     }
 
     double least_of_witnesses() const {
@@ -177,11 +208,10 @@ class LeashSearch {
     std::ptrdiff_t walk(std::ptrdiff_t from, std::ptrdiff_t to, const Radius& radius,
                         Trail* trail) {
         for (std::ptrdiff_t i = from; i < to; ++i) {
-            diagram_.advance(i, runs_, radius, next_);
+            poller_.spend(8 + 2 * diagram_.advance(i, runs_, radius, next_));
             if (next_.empty()) return i;
             std::swap(runs_, next_);
             if (trail != nullptr) trail->note(i + 1, runs_);
-            if (watch_.step(0)) throw Stopped();
         }
         return to;
     }
@@ -222,14 +252,17 @@ class LeashSearch {
     }
 
     RangeScale range_;
-    Watch& watch_;
-    BoxedCurve<Dim> p_, q_;
+    Poller& poller_;
+    const BoxedCurve& p_;
+    const BoxedCurve& q_;
+    ExactSigns second_signs_;  // of the edges of the second curve
     Diagram<Dim> diagram_;
     std::ptrdiff_t last_;  // row
     std::ptrdiff_t row_witness_ = 0;
     std::ptrdiff_t column_witness_ = 0;
     double guess_ = 0.0;
-    Runs runs_, next_;
+    Runs& runs_;
+    Runs& next_;
     Trail trail_;
     double trail_radius_ = none;  // of the walk from row 0 that left the trail
     std::ptrdiff_t trail_end_ = 0;

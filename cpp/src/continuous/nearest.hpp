@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "continuous/boxed_curve.hpp"
+#include "runtime/poller.hpp"
 
 namespace curvewise::detail {
 
@@ -22,17 +23,18 @@ struct Furthest {
 template <int Dim>
 class NearestEdges {
    public:
-    explicit NearestEdges(const BoxedCurve<Dim>& curve) : curve_(curve) {}
+    NearestEdges(const BoxedCurve& curve, Poller& poller) : curve_(curve), poller_(poller) {}
 
     // Of all vertices of `points`, or `floor` where none is further.
-    Furthest furthest(const BoxedCurve<Dim>& points, const Furthest& floor) const {
+    Furthest furthest(const BoxedCurve& points, const Furthest& floor) const {
         Furthest found = floor;
         std::ptrdiff_t near = 0;
         // The vertices between those of a coarse round lie hardly further: few are searched for.
         for (const std::ptrdiff_t step : {std::ptrdiff_t{61}, std::ptrdiff_t{1}}) {
-            near = 0;
+                near = 0;
             for (std::ptrdiff_t i = 0; i < points.size(); i += step) {
-                const double* const z = points.point(i);
+                poller_.spend(8);
+                const double* const z = points.point<Dim>(i);
                 double square = descend(z, near);
                 if (square <= found.square) continue;
                 square = search(z, square, near);
@@ -67,9 +69,10 @@ class NearestEdges {
 
     void search_box(const double* z, int level, std::ptrdiff_t b, double& square,
                     std::ptrdiff_t& near) const {
-        if (square_distance_to_box<Dim>(z, curve_.box(level, b), curve_.dim()) >= square) return;
+        if (square_distance_to_box<Dim>(z, curve_.box<Dim>(level, b), curve_.dim()) >= square) return;
+        poller_.spend(8);
         if (level == 0) {
-            constexpr std::ptrdiff_t leaf = BoxedCurve<Dim>::leaf;
+            constexpr std::ptrdiff_t leaf = BoxedCurve::leaf;
             const std::ptrdiff_t end = std::min((b + 1) * leaf, curve_.size() - 1);
             for (std::ptrdiff_t edge = b * leaf; edge < end; ++edge) {
                 const double other = square_to_edge(z, edge);
@@ -84,24 +87,25 @@ class NearestEdges {
     }
 
     double square_to_edge(const double* z, std::ptrdiff_t edge) const noexcept {
-        const double* const x = curve_.point(edge);
-        const double* const y = curve_.point(edge + 1);
+        const double* const x = curve_.point<Dim>(edge);
+        const double* const y = curve_.point<Dim>(edge + 1);
         double uu = 0.0, uw = 0.0;
-        for (int c = 0; c < curve_.dim(); ++c) {
+        for (std::ptrdiff_t c = 0; c < curve_.dim(); ++c) {
             const double u = y[c] - x[c];
             uu += u * u;
             uw += u * (z[c] - x[c]);
         }
         const double t = uu > 0.0 ? std::min(std::max(uw / uu, 0.0), 1.0) : 0.0;
         double square = 0.0;
-        for (int c = 0; c < curve_.dim(); ++c) {
+        for (std::ptrdiff_t c = 0; c < curve_.dim(); ++c) {
             const double h = (z[c] - x[c]) - t * (y[c] - x[c]);
             square += h * h;
         }
         return square;
     }
 
-    const BoxedCurve<Dim>& curve_;
+    const BoxedCurve& curve_;
+    Poller& poller_;
 };
 
 }  // namespace curvewise::detail

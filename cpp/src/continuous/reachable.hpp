@@ -10,8 +10,8 @@
 // bounds of free parts of that edge.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "continuous/free_space.hpp"
@@ -59,9 +59,12 @@ class Diagram {
         runs[0].last = std::min(runs[0].last, cells() - 1);
     }
 
-    // From what is reached of row i to what is reached of row i + 1.
-    void advance(std::ptrdiff_t i, const Runs& from, const Radius& radius, Runs& to) const {
+    // From what is reached of row i to what is reached of row i + 1. Returns the number of cells
+    // between the ends of what was looked at.
+    std::ptrdiff_t advance(std::ptrdiff_t i, const Runs& from, const Radius& radius,
+                           Runs& to) const {
         to.clear();
+        std::ptrdiff_t cells_passed = 0;
         std::ptrdiff_t entered = -1;  // of the cells looked at, the last whose left side is reached
         for (std::size_t r = 0; r < from.size(); ++r) {
             const Run& run = from[r];
@@ -74,7 +77,9 @@ class Diagram {
             entered = last_entered(i, run.last, next, radius);
             const bool again = r + 1 < from.size() && entered == next;
             enter_from_left(i, first, again ? entered - 1 : entered, radius, to);
+            cells_passed += entered - run.first + 1;
         }
+        return cells_passed;
     }
 
     // Whether a path that has reached the runs of the last row has reached its end.

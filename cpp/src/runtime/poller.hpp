@@ -37,6 +37,12 @@ class Poller {
         if (effort_ < effort_between_polls) return control_->stopped();
         return poll();
     }
+    // The same for work that is counted as no step: throws Stopped.
+    void spend(std::int64_t effort) {
+        if (control_ == nullptr) return;
+        effort_ += effort;
+        if (effort_ >= effort_between_polls && poll()) throw Stopped();
+    }
     // For loops over points: polls in every 2^16th iteration and throws Stopped.
     void poll_in_loop(std::size_t i) {
         if ((i & 0xffff) == 0 && poll()) throw Stopped();
