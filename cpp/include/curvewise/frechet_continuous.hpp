@@ -17,8 +17,10 @@
 //   if (curvewise::frechet_within(experiment, simulation, 0.1)) std::puts("close enough");
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
@@ -58,6 +60,25 @@ CURVEWISE_EXPORT double frechet_continuous(const CurveView& P, const CurveView& 
 CURVEWISE_EXPORT Interval frechet_continuous_bounds(const CurveView& P, const CurveView& Q,
                                                     const FrechetContinuousOptions& options = {},
                                                     Control* control = nullptr);
+
+// Two walks that attain the distance.
+struct Matching {
+    // The longest leash between the walks: frechet_continuous(), or, where the rounding of the
+    // parameters stretches it, the least double that is not below what they need: some units in
+    // the last place of the longest edge times the number of points.
+    double distance = 0.0;
+    // Pairs of a parameter of P and one of Q, each a vertex's index plus a fraction of the edge
+    // behind it. Neither ever decreases; the first are 0, the last the indices of the last points;
+    // between two rows both walks stay on one edge, at steady speeds.
+    std::vector<std::array<double, 2>> parameters;
+};
+
+// Takes the way where the curves are close, as far as the distance leaves a choice. Twice the time
+// of the distance; memory O(n + m), and sqrt(n) times what a row of the free-space diagram holds
+// of separate pieces.
+CURVEWISE_EXPORT Matching frechet_continuous_path(const CurveView& P, const CurveView& Q,
+                                                  const FrechetContinuousOptions& options = {},
+                                                  Control* control = nullptr);
 
 // Whether the continuous distance, or the discrete one of Euclidean distances, is at most
 // `distance`, a number >= 0: of the real numbers, not of rounded ones. Faster than the distance,

@@ -119,6 +119,26 @@ int ExactSigns::distance(std::ptrdiff_t vertex, const Reach& z) const {
     return difference.sign();
 }
 
+// With t = k 2^-l: of |2^l w - k u|^2 and (2^l r)^2.
+int ExactSigns::distance_at(std::ptrdiff_t edge, double t, const Reach& z) const {
+    const Parts parts(t);
+    if (parts.mantissa == 0) return distance(edge, z);
+    const Unit unit = unit_of(edges_, edge, points_, z, z);
+    // A t below 1 has a negative exponent.
+    const int shift = -parts.exponent;
+    const Integer k(parts.mantissa, 0);
+    const Integer radius = unit.count(z.radius).times_power_of_two(shift);
+    Integer difference = -(radius * radius);
+    for (std::ptrdiff_t c = 0; c < edges_.dim(); ++c) {
+        const Integer x = unit.count(coordinate(edges_, edge, c));
+        const Integer u = unit.count(coordinate(edges_, edge + 1, c)) - x;
+        const Integer w = unit.count(coordinate(points_, z.index, c)) - x;
+        const Integer h = w.times_power_of_two(shift) - k * u;
+        difference = difference + h * h;
+    }
+    return difference.sign();
+}
+
 int ExactSigns::inside(std::ptrdiff_t edge, const Reach& z) const {
     const Unit unit = unit_of(edges_, edge, points_, z, z);
     const WholeEdge whole(edges_, edge, points_, unit);

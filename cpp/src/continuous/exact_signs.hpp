@@ -29,6 +29,8 @@ class ExactSigns {
 
     // The sign of |Z - X| - r, X being a vertex of the curve of the edges.
     int distance(std::ptrdiff_t vertex, const Reach& z) const;
+    // The same of X + t (Y - X), a point of an edge.
+    int distance_at(std::ptrdiff_t edge, double t, const Reach& z) const;
     // Neither end of the edge is within r of Z. -1 where a piece of its inside is closer than r,
     // 0 where one point of it is at r, 1 otherwise.
     int inside(std::ptrdiff_t edge, const Reach& z) const;

@@ -3,10 +3,12 @@
 #include "curvewise/frechet_continuous.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "continuous/coupling.hpp"
 #include "continuous/leash_search.hpp"
@@ -120,6 +122,23 @@ Interval frechet_continuous_bounds(const CurveView& P, const CurveView& Q,
         const bool is_exact = high < infinity && !search.is_within(high, detail::FreeSet::open);
         return Interval{is_exact ? high : detail::next_below(high), high};
     });
+}
+
+Matching frechet_continuous_path(const CurveView& P, const CurveView& Q,
+                                 const FrechetContinuousOptions& options, Control* control) {
+    const bool swapped = P.size() < Q.size();  // with_search() puts the longer curve first
+    const std::array<double, 2> ends{static_cast<double>(P.size() - 1),
+                                     static_cast<double>(Q.size() - 1)};
+    Matching found = with_search(P, Q, options, control, [](auto& search) {
+        auto [distance, parameters] = search.matching(search.value(infinity));
+        return Matching{distance, std::move(parameters)};
+    });
+    for (std::array<double, 2>& pair : found.parameters) {
+        if (swapped) std::swap(pair[0], pair[1]);
+        // A single point was searched as an edge of no length.
+        for (std::size_t side = 0; side < 2; ++side) pair[side] = std::min(pair[side], ends[side]);
+    }
+    return found;
 }
 
 bool frechet_within(const CurveView& P, const CurveView& Q, double distance, bool continuous,

@@ -14,9 +14,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "continuous/boxed_curve.hpp"
 #include "continuous/exact_signs.hpp"
+#include "continuous/least_double.hpp"
 
 namespace curvewise::detail {
 
@@ -152,6 +154,40 @@ class EdgeFamily {
         }
         part.low = low;
         return part;
+    }
+
+    // The ends of a part as parameters of its edge, rounded.
+    std::pair<double, double> ends(std::ptrdiff_t edge, FreePart part) const noexcept {
+        const auto end = [&](Bound& bound, double own_end, int side) {
+            if (bound.is_own_end()) return own_end;
+            if (!bound.is_placed()) place(bound, roots_of(edge, bound), side);
+            return std::min(std::max(bound.t, 0.0), 1.0);
+        };
+        const double low = end(part.low, 0.0, -1), high = end(part.high, 1.0, 1);
+        return {low, std::max(low, high)};
+    }
+    // The parameter of the point of an edge that is nearest to point k, rounded.
+    double nearest(std::ptrdiff_t edge, std::ptrdiff_t k) const noexcept {
+        const Roots roots = roots_of(edge, {k, 0.0, 0.0});
+        return std::min(std::max(roots.middle, 0.0), 1.0);
+    }
+    double square_distance_at(std::ptrdiff_t edge, double t, std::ptrdiff_t k) const noexcept {
+        const double* const x = edges_.point<Dim>(edge);
+        const double* const y = edges_.point<Dim>(edge + 1);
+        const double* const z = points_.point<Dim>(k);
+        double sum = 0.0;
+        for (std::ptrdiff_t c = 0; c < edges_.dim(); ++c) {
+            const double h = (z[c] - x[c]) - t * (y[c] - x[c]);
+            sum += h * h;
+        }
+        return sum;
+    }
+    // The least double that is not below the distance of a point of an edge to point k, nor below
+    // `least`; in units of the given curves.
+    double distance_at(std::ptrdiff_t edge, double t, std::ptrdiff_t k, double least) const {
+        const auto suffices = [&](double x) { return exact_.distance_at(edge, t, {k, x}) <= 0; };
+        if (suffices(least)) return least;
+        return least_double(least, std::numeric_limits<double>::infinity(), 1, 1, suffices);
     }
 
     // The first vertex from `from` to `last` that is not free, or last + 1.

@@ -31,6 +31,7 @@
 #include "continuous/exact_signs.hpp"
 #include "continuous/free_space.hpp"
 #include "continuous/least_double.hpp"
+#include "continuous/matching.hpp"
 #include "continuous/nearest.hpp"
 #include "continuous/reachable.hpp"
 #include "curves/range_scale.hpp"
@@ -125,6 +126,14 @@ class LeashSearch {
     bool is_coupled_within(double distance) const {
         return CouplingWalk<Dim>({q_, p_, second_signs_}, last_ + 1, poller_)
             .succeeds(radius_of(distance));
+    }
+
+    // A matching within a distance that is sufficient, and its longest leash.
+    std::pair<double, MatchedParameters> matching(double distance) {
+        const Radius radius = radius_of(distance);
+        MatchedParameters matched = MatchingTrace<Dim>(diagram_, radius, poller_).parameters();
+        const double longest = LeashMeasure<Dim>(diagram_, radius).longest(matched);
+        return {longest, std::move(matched)};
     }
 
     // The real number rounded up; inf beyond the range of a double, and where it is above

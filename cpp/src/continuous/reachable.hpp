@@ -51,6 +51,19 @@ class Diagram {
                columns_.first_free_edge(0, edges - 1, j, radius) == edges;
     }
 
+    // What is free of edge j of the second curve in row i, of edge i of the first in column j.
+    FreePart part_of_row(std::ptrdiff_t i, std::ptrdiff_t j, const Radius& radius) const {
+        return rows_.free_part(j, i, corner_is_free(i, j, radius), corner_is_free(i, j + 1, radius),
+                               radius);
+    }
+    FreePart part_of_column(std::ptrdiff_t i, std::ptrdiff_t j, const Radius& radius) const {
+        return columns_.free_part(i, j, corner_is_free(i, j, radius),
+                                  corner_is_free(i + 1, j, radius), radius);
+    }
+    // The edges of the first curve, seen from columns, and of the second, seen from rows.
+    const EdgeFamily<Dim>& first_edges() const noexcept { return columns_; }
+    const EdgeFamily<Dim>& second_edges() const noexcept { return rows_; }
+
     // What is reached of row 0, whose first corner is free.
     void start(const Radius& radius, Runs& runs) const {
         runs.clear();
@@ -92,9 +105,7 @@ class Diagram {
     // The cell above the first edge of a run, whose left side nothing reaches.
     void enter_from_below(std::ptrdiff_t i, const Run& run, const Radius& radius, Runs& to) const {
         const std::ptrdiff_t j = run.first;
-        const bool first_is_free = corner_is_free(i + 1, j, radius);
-        const bool second_is_free = corner_is_free(i + 1, j + 1, radius);
-        const FreePart top = rows_.free_part(j, i + 1, first_is_free, second_is_free, radius);
+        const FreePart top = part_of_row(i + 1, j, radius);
         if (top.is_empty) return;
         const FreePart reached = rows_.from(j, run.low, top, radius);
         if (!reached.is_empty) to.push_back({j, j, reached.low});
@@ -138,9 +149,7 @@ class Diagram {
                                 const Radius& radius) const {
         Bound low;  // of the edge of the first curve
         for (std::ptrdiff_t j = from + 1; j <= most; ++j) {
-            const bool first_is_free = corner_is_free(i, j, radius);
-            const bool second_is_free = corner_is_free(i + 1, j, radius);
-            const FreePart left = columns_.free_part(i, j, first_is_free, second_is_free, radius);
+            const FreePart left = part_of_column(i, j, radius);
             if (left.is_empty) return j - 1;
             const FreePart reached = columns_.from(i, low, left, radius);
             if (reached.is_empty) return j - 1;
