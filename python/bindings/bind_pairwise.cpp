@@ -73,6 +73,14 @@ void cdist_into(const py::list& XA, const py::object& XB, const py::object& name
                   [&](Control* control) { cdist(a.views, b.views, chosen, data, batch, control); });
 }
 
+void check_batch_of(const py::list& XA, const py::object& XB, const py::object& name,
+                    const py::dict& options) {
+    const Measure chosen = read_measure(name, options);
+    const Curves a(XA);
+    if (XB.is_none()) return check_batch(a.views, chosen);
+    check_batch(a.views, Curves(XB.cast<py::list>()).views, chosen);
+}
+
 void pdist_into(const py::list& X, const py::object& name, const py::dict& options, Out out,
                 const py::object& workers, double cutoff, const py::object& progress) {
     const Measure chosen = read_measure(name, options);
@@ -127,6 +135,7 @@ class PreparedCurve {
 
 void bind_pairwise(py::module_& module) {
     module.def("cdist", cdist_into);
+    module.def("check_batch", check_batch_of);
     module.def("pdist", pdist_into);
     module.def("is_symmetric", [](const py::object& name, const py::dict& options) {
         return is_symmetric(read_measure(name, options));

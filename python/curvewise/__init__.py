@@ -10,8 +10,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from . import _core, datasets, measures, reference
-from ._docstrings import pass_on
+from . import _core, datasets
 from .compare import Comparison, compare
 from .embedding import get_include
 from .measures import (
@@ -40,6 +39,7 @@ if TYPE_CHECKING:
     from . import compat as compat
     from . import dask as dask
     from . import plotting as plotting
+    from . import reference as reference
 
 __all__ = [
     "Alignment",
@@ -74,9 +74,7 @@ __all__ = [
     "sum_of_squares",
 ]
 
-_LAZY = ("calibration", "compat", "dask", "plotting")
-
-pass_on((getattr(measures, name) for name in reference.__all__), reference)
+_LAZY = ("calibration", "compat", "dask", "plotting", "reference")
 
 # Hidden from type checkers, which would otherwise accept every misspelt attribute.
 if not TYPE_CHECKING:

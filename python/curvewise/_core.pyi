@@ -54,6 +54,9 @@ def cdist(
     progress: _Report | None,
     /,
 ) -> None: ...
+def check_batch(
+    XA: list[_Array], XB: list[_Array] | None, measure: str, options: _Options, /
+) -> None: ...
 def pdist(
     X: list[_Array],
     measure: str,

@@ -71,6 +71,16 @@ def _aligned(array: Array) -> Array:
 
 def as_curves(P: Any, Q: Any) -> tuple[Array, Array]:
     """Return both curves as arrays; DataFrames must have the same columns."""
+    # What is to be returned as it is, found without a call: short curves take a microsecond.
+    if (
+        type(P) is type(Q) is np.ndarray
+        and P.dtype is Q.dtype is _FLOAT64
+        and 1 <= P.ndim <= 2
+        and 1 <= Q.ndim <= 2
+        and P.flags.aligned
+        and Q.flags.aligned
+    ):
+        return P, Q
     if type(P) is not np.ndarray and type(Q) is not np.ndarray:
         check_column_names(column_names(P), "P", column_names(Q), "Q")
     return as_curve(P, "P"), as_curve(Q, "Q")

@@ -2,8 +2,8 @@
 
 A docstring marked with :func:`filled` names a shared paragraph, or a list of choices, in braces:
 a line ``{metric}`` becomes the description of that parameter, and ``{measures}`` becomes the names
-of the measures. :func:`pass_on` gives the functions of the reference the docstrings of the
-measures. Both run once, at import.
+of the measures. :func:`inherit` gives a function of the reference the docstring of its measure.
+Both run once, at import.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any, TypeVar, get_args
 
 from ._options import MeasureName, Metric
 
-__all__ = ["filled", "listed", "pass_on"]
+__all__ = ["filled", "inherit", "listed"]
 
 Documented = TypeVar("Documented", bound=Callable[..., Any])
 
@@ -51,23 +51,20 @@ def filled(**lists: str) -> Callable[[Documented], Documented]:
     return fill
 
 
-def pass_on(functions: Iterable[Callable[..., Any]], target: Any) -> None:
-    """Give each function's docstring to the function of its name in the module `target`.
+def inherit(function: Callable[..., Any], measure: Callable[..., Any]) -> None:
+    """Give a function of the reference the docstring of the measure that it computes.
 
-    The docstring that the target's function has in its source becomes the Notes. The examples
-    call the target instead of the package, and the parameter ``workers`` is left out where the
-    target's function does not have it.
+    The docstring that the function has in its source becomes the Notes. The examples call the
+    reference instead of the package, and the parameter ``workers`` is left out where the function
+    does not have it.
     """
-    package, _, module = target.__name__.rpartition(".")
-    for function in functions:
-        heir = getattr(target, function.__name__)
-        doc, notes = inspect.getdoc(function), inspect.getdoc(heir)
-        if doc is None or notes is None:  # python -OO
-            continue
-        if "workers" not in inspect.signature(heir).parameters:
-            doc = doc.replace(f"{_SHARED['workers']}\n", "").replace(", workers\n", "\n")
-        head, _, tail = doc.partition("\nNotes\n-----\n")
-        examples = tail[tail.index("\n\nExamples\n") :]
-        examples = examples.replace(f"import {package}\n", f"from {package} import {module}\n")
-        examples = examples.replace(f"{package}.", f"{module}.")
-        heir.__doc__ = f"{head}\nNotes\n-----\n{notes}{examples}"
+    doc, notes = inspect.getdoc(measure), inspect.getdoc(function)
+    if doc is None or notes is None:  # python -OO
+        return
+    if "workers" not in inspect.signature(function).parameters:
+        doc = doc.replace(f"{_SHARED['workers']}\n", "").replace(", workers\n", "\n")
+    head, _, tail = doc.partition("\nNotes\n-----\n")
+    examples = tail[tail.index("\n\nExamples\n") :]
+    examples = examples.replace("import curvewise\n", "from curvewise import reference\n")
+    examples = examples.replace("curvewise.", "reference.")
+    function.__doc__ = f"{head}\nNotes\n-----\n{notes}{examples}"

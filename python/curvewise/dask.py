@@ -99,7 +99,8 @@ def cdist(
     if not callable(measure):
         name = pairwise._check_names(measure, options)
         mirrored = _core.is_symmetric(name, options) and XB is None  # it checks the options too
-        _check_curves(rows, None if XB is None else columns, name, options)
+        # A block cannot say where in the whole list a curve is.
+        _core.check_batch(rows, None if XB is None else columns, name, options)
     size = _block_size(block, rows, columns)
     token = tokenize(rows, columns, measure, limit, options, size, mirrored)
     compute = partial(_block, measure=measure, cutoff=limit, options=options)
@@ -202,34 +203,3 @@ def _refuse_local_only(options: dict[str, Any]) -> None:
                 f"curvewise.dask.cdist has no {name!r}: the scheduler runs the blocks, shows how "
                 "far they are and holds the result"
             )
-
-
-def _check_curves(
-    rows: list[Array], columns: list[Array] | None, measure: str, options: dict[str, Any]
-) -> None:
-    """Refuse what a block would refuse: a block cannot say where in the whole list a curve is.
-
-    The compiled library checks whatever it computes; so each curve is compared with a line of two
-    points, in linear time.
-    """
-    if not rows or columns == []:
-        return
-    dim = _dimension(rows[0])
-    line = np.array([np.zeros(dim), np.ones(dim)])
-    # Neither a band, which a line does not fit, nor a long search.
-    cheap = {"window": None} if measure == "dtw" else {"offsets": 1} if measure == "pcm" else {}
-    options = {**options, **cheap}
-    _core.cdist(rows, [line], measure, options, np.empty(len(rows)), 1, np.inf, None)
-    if columns is None:
-        return
-    for j, curve in enumerate(columns):
-        if _dimension(curve) != dim:
-            raise ValueError(
-                f"XA[0] has shape {rows[0].shape} and XB[{j}] has shape {curve.shape}; "
-                "both need the same number of coordinates"
-            )
-    _core.cdist([line], columns, measure, options, np.empty(len(columns)), 1, np.inf, None)
-
-
-def _dimension(curve: Array) -> int:
-    return 1 if curve.ndim == 1 else curve.shape[1]

@@ -18,7 +18,7 @@ import numpy as np
 
 from . import _core, reference
 from ._curves import Array
-from .measures.registry import MEASURES, MeasureInfo, WarpingInfo
+from .measures.registry import MEASURES, MeasureInfo
 from .results import Alignment
 
 __all__ = ["run"]
@@ -114,10 +114,10 @@ def _label(info: MeasureInfo, options: dict[str, Any]) -> str:
 def _agree(info: MeasureInfo, options: dict[str, Any], P: Array, Q: Array) -> bool:
     """Tell whether the compiled library and the reference agree on two curves."""
     functions: list[Callable[..., Any]] = [info.function]
-    if isinstance(info, WarpingInfo):
-        functions += [info.table, info.path]
+    if info.warping:
+        functions += info.warping
     powers = options.get("metric") == "minkowski"
-    exact = isinstance(info, WarpingInfo) and not powers
+    exact = info.warping is not None and not powers
     if powers:
         options = {**options, "p": 3.0}
     return all(

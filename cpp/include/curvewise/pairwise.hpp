@@ -47,6 +47,12 @@ CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& XA, const std::vector<
 CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
                             const BatchOptions& options = {}, Control* control = nullptr);
 
+// Throws what cdist of these lists would throw before its work, for whoever cuts a batch into
+// parts: a part cannot say which curve of the whole list is at fault.
+CURVEWISE_EXPORT void check_batch(const std::vector<CurveView>& XA,
+                                  const std::vector<CurveView>& XB, const Measure& measure);
+CURVEWISE_EXPORT void check_batch(const std::vector<CurveView>& X, const Measure& measure);
+
 // Writes the measure of X[i] and X[j] for i < j, row by row, k (k-1) / 2 values: the pair (i, j)
 // goes to out[i k - i (i+1) / 2 + j - i - 1]. For symmetric measures only. Throws as cdist does.
 CURVEWISE_EXPORT void pdist(const std::vector<CurveView>& X, const Measure& measure, double* out,

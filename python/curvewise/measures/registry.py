@@ -1,16 +1,17 @@
 """What the package knows of each measure, in one table.
 
 The command line, compare, the batches, the pictures, the objectives of a calibration and the
-self-check go through this table, and have no list of measures of their own.
+self-check go through this table, and have no list of measures of their own. What draws a measure,
+and its reference, are named and not imported, so that ``import curvewise`` stays fast.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from importlib import import_module
 from typing import Any, NamedTuple
 
-from .. import _core, reference
+from .. import _core
 from .._curves import Array
 from .._options import MeasureName
 from ..results import Alignment
@@ -26,7 +27,7 @@ __all__ = [
     "WARPINGS",
     "Condition",
     "MeasureInfo",
-    "WarpingInfo",
+    "Warping",
     "default_measures",
 ]
 
@@ -38,25 +39,32 @@ class Condition(NamedTuple):
     options: dict[str, Any]
 
 
-@dataclass(frozen=True, kw_only=True)
-class MeasureInfo:
+class Warping(NamedTuple):
+    """What more there is of a measure that is read off a table of all pairs of points."""
+
+    path: Callable[..., Alignment]
+    table: Callable[..., Array]
+
+
+class MeasureInfo(NamedTuple):
     """One measure.
 
     Attributes
     ----------
     name : str
-        The name by which users choose it.
+        The name by which users choose it, and that of the function in the reference.
     title : str
         The title of its picture.
-    function, reference : callable
-        The measure, compiled and in plain numpy.
+    function : callable
+        The measure.
     planar : bool
         Whether it is for curves in the plane only, or for any dimension.
     symmetric : bool
         Whether P and Q may change places, with the default options.
     picture : str
-        The function of :mod:`curvewise.plotting` that draws it; by name, since that module is
-        imported where something is drawn and not before.
+        The function of :mod:`curvewise.plotting` that draws it.
+    warping : Warping, optional
+        The functions that return the path and the table, where there is a table.
     residuals : callable, optional
         The function that returns the vector of which the measure is the norm, where it is one.
     scales_itself : bool
@@ -66,26 +74,18 @@ class MeasureInfo:
     name: MeasureName
     title: str
     function: Callable[..., float]
-    reference: Callable[..., float]
     planar: bool
     symmetric: bool
     picture: str
+    warping: Warping | None = None
     residuals: Callable[..., Array] | None = None
     scales_itself: bool = False
 
-
-@dataclass(frozen=True, kw_only=True)
-class WarpingInfo(MeasureInfo):
-    """One measure that is read off a table of all pairs of points.
-
-    Attributes
-    ----------
-    path, table : callable
-        The functions that return the path through the table, and the table.
-    """
-
-    path: Callable[..., Alignment]
-    table: Callable[..., Array]
+    @property
+    def reference(self) -> Callable[..., float]:
+        """The same in plain numpy."""
+        function: Callable[..., float] = getattr(import_module("curvewise.reference"), self.name)
+        return function
 
 
 MEASURES: Mapping[str, MeasureInfo] = {
@@ -95,7 +95,6 @@ MEASURES: Mapping[str, MeasureInfo] = {
             name="area",
             title="Area",
             function=area,
-            reference=reference.area,
             planar=True,
             symmetric=True,
             picture="plot_area",
@@ -104,39 +103,33 @@ MEASURES: Mapping[str, MeasureInfo] = {
             name="pcm",
             title="Partial curve mapping",
             function=pcm,
-            reference=reference.pcm,
             planar=True,
             symmetric=False,
             picture="plot_pcm",
             scales_itself=True,
         ),
-        WarpingInfo(
+        MeasureInfo(
             name="frechet",
             title="Fréchet",
             function=frechet,
-            reference=reference.frechet,
             planar=False,
             symmetric=True,
             picture="plot_alignment",
-            path=frechet_path,
-            table=frechet_table,
+            warping=Warping(frechet_path, frechet_table),
         ),
-        WarpingInfo(
+        MeasureInfo(
             name="dtw",
             title="DTW",
             function=dtw,
-            reference=reference.dtw,
             planar=False,
             symmetric=True,
             picture="plot_alignment",
-            path=dtw_path,
-            table=dtw_table,
+            warping=Warping(dtw_path, dtw_table),
         ),
         MeasureInfo(
             name="curve_length",
             title="Curve length",
             function=curve_length,
-            reference=reference.curve_length,
             planar=True,
             symmetric=False,
             picture="plot_curve_length",
@@ -145,7 +138,7 @@ MEASURES: Mapping[str, MeasureInfo] = {
     )
 }
 
-WARPINGS = {name: info for name, info in MEASURES.items() if isinstance(info, WarpingInfo)}
+WARPINGS = {name: info.warping for name, info in MEASURES.items() if info.warping}
 
 PRESETS: dict[str, dict[str, Condition]] = {
     preset: {name: Condition(*condition) for name, condition in conditions.items()}

@@ -75,7 +75,7 @@ def plot_alignment(
     >>> len(artists.between.get_segments()), artists.accent.get_label()
     (3, 'Fréchet distance')
     """
-    info = drawing.warping(measure)
+    warping = drawing.warping(measure)
     if every is not None and (every < 1 or every % 1):
         raise ValueError(f"every is {every}; give a whole number >= 1, or None")
     measured, drawn = drawing.measured_and_drawn(P, Q, normalized)
@@ -84,7 +84,7 @@ def plot_alignment(
             f"P has shape {drawn[0].shape}; plot_alignment draws 1 or 2 coordinates, "
             "plot_table any number"
         )
-    path = info.path(*measured, **options).path
+    path = warping.path(*measured, **options).path
     lines = drawing.draw_curves(ax, *drawn, apart=True)
     points = [np.asarray(line.get_xydata()) for line in lines]
     links = np.stack([points[k][path[:, k]] for k in (0, 1)], axis=1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from ..measures.registry import MEASURES, PRESETS, WarpingInfo
+from ..measures.registry import MEASURES, PRESETS
 from . import drawing
 from .table import plot_table
 
@@ -77,7 +77,7 @@ def _draw_measure(comparison: Comparison, name: str, ax: Axes, dim: int) -> Line
     """Draw the picture of one measure into a small panel, and return its accent."""
     info, condition = MEASURES[name], PRESETS[comparison.preset][name]
     options: dict[str, Any] = dict(condition.options)
-    if isinstance(info, WarpingInfo):
+    if info.warping:
         options["measure"] = name
     if not info.scales_itself:
         options["normalized"] = condition.scaled

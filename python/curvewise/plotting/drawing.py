@@ -19,7 +19,7 @@ import numpy as np
 from .._curves import Array, CurveLike, as_curves
 from .._extras import extra
 from ..measures import normalize
-from ..measures.registry import WARPINGS, WarpingInfo
+from ..measures.registry import WARPINGS, Warping
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -70,8 +70,8 @@ def measured_and_drawn(
     return (measured[0], measured[1]), (P, Q)
 
 
-def warping(measure: str) -> WarpingInfo:
-    """Return the measure of a name; refuse one that has no path and no table."""
+def warping(measure: str) -> Warping:
+    """Return the path and the table of a measure; refuse one that has none."""
     if not isinstance(measure, str) or measure not in WARPINGS:
         raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(sorted(WARPINGS))}")
     return WARPINGS[measure]

@@ -71,10 +71,10 @@ def plot_table(
     """
     with drawing.matplotlib_required():
         from matplotlib.patheffects import withStroke
-    info = drawing.warping(measure)
+    warping = drawing.warping(measure)
     measured, _ = drawing.measured_and_drawn(P, Q, normalized)
-    table = info.table(*measured, **options)
-    path = info.path(*measured, **options).path
+    table = warping.table(*measured, **options)
+    path = warping.path(*measured, **options).path
     n, m = table.shape
     row_step, column_step = (-(-size // _MAX_TABLE_SIDE) for size in (n, m))
     shown = table[::row_step, ::column_step]

@@ -2,8 +2,8 @@
 
 Same names, arguments (except ``workers``), defaults, results and errors as :mod:`curvewise`, one
 module for each measure, and nothing compiled except numpy. Docstrings are those of
-:mod:`curvewise.measures`, which the package hands over at its import; what a function here has as
-its own becomes the Notes. For every metric but minkowski (with p other than 1, 2 and inf) the
+:mod:`curvewise.measures`, for which alone that module is imported; those in the source here become
+the Notes. For every metric except minkowski (with p other than 1, 2 and inf) the
 values, tables and paths of dtw and frechet equal those of the compiled library bit for bit: every
 sum is written out in its order, and nothing is left to a library that may reorder it. The other
 measures agree to 1e-12 relative, where no decision (longest segment, simple or complex
@@ -18,6 +18,8 @@ material parameters from hysteresis loops using inverse analysis", Int. J. Mater
 
 from __future__ import annotations
 
+from .. import measures as _measures
+from .._docstrings import inherit
 from .area import area, area_quads
 from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_path, dtw_table
@@ -44,3 +46,6 @@ __all__ = [
     "pcm_match",
     "sum_of_squares",
 ]
+
+for _name in __all__:
+    inherit(globals()[_name], getattr(_measures, _name))

@@ -166,6 +166,7 @@ REFUSED = [
     refused(XA=[[(-1, 1), (1, -1)]], XB=None, measure="curve_length"),
     refused(measure="euclidean"),
     refused(measure="dtw", window=-1),
+    refused(measure="dtw", window=0),
     refused(measure="pcm", offsets=0),
     refused(measure="dtw", metric="frechet"),
     refused(measure="dtw", offsets=3),
@@ -180,12 +181,6 @@ def test_what_cdist_refuses_is_refused_at_once_in_its_words(arguments: dict[str,
     with pytest.raises(local.type) as lazy:
         curvewise.dask.cdist(**arguments)
     assert str(lazy.value) == str(local.value)
-
-
-def test_a_window_without_a_path_is_refused_by_the_block() -> None:
-    lazy = curvewise.dask.cdist(walks(3), window=0, block=2)
-    with pytest.raises(ValueError, match="window=0 admits no path between"):
-        lazy.compute(**THREADS)
 
 
 def test_without_dask() -> None:
