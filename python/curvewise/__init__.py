@@ -22,8 +22,11 @@ from .measures import (
     dtw_path,
     dtw_table,
     frechet,
+    frechet_continuous,
+    frechet_continuous_path,
     frechet_path,
     frechet_table,
+    frechet_within,
     mae,
     mse,
     normalize,
@@ -32,7 +35,7 @@ from .measures import (
     sum_of_squares,
 )
 from .pairwise import Prepared, available_measures, cdist, pdist
-from .results import Alignment, AreaQuads, PcmMatch
+from .results import Alignment, AreaQuads, Matching, PcmMatch
 
 if TYPE_CHECKING:
     from . import calibration as calibration
@@ -45,6 +48,7 @@ __all__ = [
     "Alignment",
     "AreaQuads",
     "Comparison",
+    "Matching",
     "PcmMatch",
     "Prepared",
     "__version__",
@@ -61,8 +65,11 @@ __all__ = [
     "dtw_path",
     "dtw_table",
     "frechet",
+    "frechet_continuous",
+    "frechet_continuous_path",
     "frechet_path",
     "frechet_table",
+    "frechet_within",
     "get_include",
     "mae",
     "mse",

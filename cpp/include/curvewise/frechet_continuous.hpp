@@ -31,8 +31,9 @@ namespace curvewise {
 
 struct FrechetContinuousOptions {
     static constexpr const char* measure = "frechet_continuous";
+    static constexpr bool is_planar = false;  // for curves of any dimension
 
-    // Threads for this call, -1 for one per core. Never changes a result.
+    // As for the other measures of any dimension. One pair is searched by one thread, however.
     std::ptrdiff_t workers = 1;
 
     static constexpr bool is_symmetric() noexcept { return true; }
@@ -85,6 +86,12 @@ CURVEWISE_EXPORT Matching frechet_continuous_path(const CurveView& P, const Curv
 // and far faster where curves lie far apart.
 CURVEWISE_EXPORT bool frechet_within(const CurveView& P, const CurveView& Q, double distance,
                                      bool continuous = true, Control* control = nullptr);
+
+// For code that serves all measures alike (measure.hpp).
+inline double evaluate(const FrechetContinuousOptions& options, const CurveView& P,
+                       const CurveView& Q, Control* control = nullptr) {
+    return frechet_continuous(P, Q, options, control);
+}
 
 namespace detail {
 class BatchMeasure;

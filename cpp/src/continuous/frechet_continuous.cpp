@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "continuous/coupling.hpp"
@@ -144,8 +144,9 @@ Matching frechet_continuous_path(const CurveView& P, const CurveView& Q,
 bool frechet_within(const CurveView& P, const CurveView& Q, double distance, bool continuous,
                     Control* control) {
     if (!(distance >= 0.0)) {
-        throw std::invalid_argument("distance is " + std::to_string(distance) +
-                                    "; give a number >= 0");
+        std::ostringstream message;
+        message << "distance is " << distance << "; give a number >= 0";
+        throw std::invalid_argument(message.str());
     }
     return with_search(P, Q, {}, control, [&](auto& search) {
         return continuous ? search.is_within(distance) : search.is_coupled_within(distance);

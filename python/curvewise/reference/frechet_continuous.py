@@ -17,112 +17,69 @@ from __future__ import annotations
 
 import math
 import struct
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import SupportsFloat, TypeAlias
+from itertools import product
+from typing import Literal, SupportsFloat, TypeAlias, overload
 
 import numpy as np
 
 from .._curves import Array, CurveLike, as_curves
+from ..results import Matching
 from .checks import check_pair
 
-__all__ = ["frechet_continuous", "frechet_within"]
+__all__ = ["frechet_continuous", "frechet_continuous_path", "frechet_within"]
 
 _Point: TypeAlias = list[int]
+
+
+@overload
+def frechet_continuous(
+    P: CurveLike, Q: CurveLike, *, bounds: Literal[False] = False
+) -> float: ...
+
+
+@overload
+def frechet_continuous(
+    P: CurveLike, Q: CurveLike, *, bounds: bool
+) -> float | tuple[float, float]: ...
 
 
 def frechet_continuous(
     P: CurveLike, Q: CurveLike, *, bounds: bool = False
 ) -> float | tuple[float, float]:
-    """Continuous Fréchet distance.
-
-    Parameters
-    ----------
-    P, Q : array_like, shapes (n, d) and (m, d), or (n,) and (m,)
-        The vertices of polygonal curves, of any d.
-    bounds : bool, default False
-        Return the interval that holds the distance instead of its upper end.
-
-    Returns
-    -------
-    float, or tuple of two floats
-        The least double that is not below the distance, in the unit of the coordinates; with
-        `bounds`, the greatest that is not above it and that. Symmetric.
-
-    Raises
-    ------
-    ValueError
-        A curve is not finite or empty; the curves differ in d.
-    TypeError
-        A curve does not hold real numbers.
-
-    Notes
-    -----
-    Time 63 n m steps in whole numbers of any size, memory O(n m). Alt & Godau, "Computing the
-    Fréchet distance between two polygonal curves" (1995).
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> reference.frechet_continuous([(0, 0), (10, 0)], [(0, 0), (7, 0), (3, 0), (10, 0)])
-    2.0
-    """
+    """63 decisions in whole numbers of any size, O(n m) each; memory O(n m)."""
     P, Q = check_pair(*as_curves(P, Q), "frechet_continuous")
-    low, high = -1, _bits(math.inf)  # too short, and long enough
-    while high - low > 1:
-        middle = (low + high) // 2
-        if _is_long_enough(P, Q, _double(middle)):
-            high = middle
-        else:
-            low = middle
-    value = _double(high)
+    value = _value(P, Q)
     if not bounds:
         return value
-    is_exact = math.isfinite(value) and not _is_long_enough(P, Q, value, strictly=True)
-    return (value if is_exact else _double(low)), value
+    if value == 0 or (math.isfinite(value) and not _is_long_enough(P, Q, value, strictly=True)):
+        return value, value
+    return _double(_bits(value) - 1), value
+
+
+def frechet_continuous_path(P: CurveLike, Q: CurveLike) -> Matching:
+    """From the end back, each cell is left by its lower side where it can have been entered there.
+
+    The walks are others than those of the compiled library. Time and memory as for
+    frechet_continuous.
+    """
+    P, Q = check_pair(*as_curves(P, Q), "frechet_continuous")
+    value = _value(P, Q)
+    parameters = np.array(_trace(_Diagram(*_with_edges(P, Q), value)))
+    parameters = np.minimum(parameters, (len(P) - 1, len(Q) - 1))
+    return Matching(max([value, *_leashes(P, Q, parameters)]), parameters)
 
 
 def frechet_within(
     P: CurveLike, Q: CurveLike, distance: SupportsFloat, *, continuous: bool = True
 ) -> bool:
-    """Whether the Fréchet distance is at most a number.
-
-    Parameters
-    ----------
-    P, Q : array_like, shapes (n, d) and (m, d), or (n,) and (m,)
-        The curves, of any d.
-    distance : float
-        The number, at least 0.
-    continuous : bool, default True
-        Whether the distance meant is the continuous one, or the discrete one.
-
-    Returns
-    -------
-    bool
-        Exact: of the real number, not of a rounded one.
-
-    Raises
-    ------
-    ValueError
-        `distance` is below 0 or nan; a curve is not finite or empty; the curves differ in d.
-    TypeError
-        A curve does not hold real numbers.
-
-    Notes
-    -----
-    Time and memory O(n m), in whole numbers of any size.
-
-    Examples
-    --------
-    >>> from curvewise import reference
-    >>> P, Q = [(0, 0), (10, 0)], [(0, 0), (7, 0), (3, 0), (10, 0)]
-    >>> reference.frechet_within(P, Q, 2), reference.frechet_within(P, Q, 1.9999)
-    (True, False)
-    """
+    """One decision in whole numbers of any size: time and memory O(n m)."""
     P, Q = as_curves(P, Q)
     distance = float(distance)
     if not distance >= 0:
         raise ValueError(f"distance is {distance:g}; give a number >= 0")
-    P, Q = check_pair(P, Q, "frechet_within")
+    P, Q = check_pair(P, Q, "frechet_continuous")
     return _is_long_enough(P, Q, distance) if continuous else _is_coupled(P, Q, distance)
 
 
@@ -140,6 +97,16 @@ class _Position:
 
     def __le__(self, other: _Position) -> bool:
         return not other < self
+
+    def fraction(self, x: _Point, y: _Point) -> float:
+        """Return the position as a fraction of the edge from x to y, rounded."""
+        length = _dot(u := _minus(y, x), u)
+        if length == 0:
+            return 0.0
+        # 64 more bits of the root than of the rest.
+        shift = 2 * max(0, 64 + length.bit_length() - abs(self.c).bit_length() // 2)
+        root = Fraction(math.isqrt(abs(self.c) << shift), 1 << (shift // 2))
+        return float((self.a + (root if self.c > 0 else -root)) / length)
 
 
 _Part: TypeAlias = tuple[_Position, _Position] | None
@@ -177,37 +144,99 @@ class _Diagram:
         return (low, high) if low < high or (low <= high and not self.strictly) else None
 
 
+    def reached(self) -> tuple[list[list[_Part]], list[list[_Part]]]:
+        """What is reached of the lower side, and of the left side, of every cell.
+
+        There is a row of lower sides, and a column of left sides, more than there are cells.
+        """
+        p, q = self.P, self.Q
+        n, m = len(p) - 1, len(q) - 1  # edges
+        lower: list[list[_Part]] = [[None] * m for _ in range(n + 1)]
+        left: list[list[_Part]] = [[None] * (m + 1) for _ in range(n)]
+        for j in range(m):  # along the sides of the diagram as far as all is free
+            if self.is_free(0, j) and (j == 0 or lower[0][j - 1]):
+                lower[0][j] = self.free(q[j], q[j + 1], p[0])
+        for i in range(n):
+            if self.is_free(i, 0) and (i == 0 or left[i - 1][0]):
+                left[i][0] = self.free(p[i], p[i + 1], q[0])
+        for i, j in product(range(n), range(m)):
+            below, beside = lower[i][j], left[i][j]
+            if below or beside:
+                upper_from = None if beside else below and below[0]
+                right_from = None if below else beside and beside[0]
+                lower[i + 1][j] = self.free(q[j], q[j + 1], p[i + 1], upper_from)
+                left[i][j + 1] = self.free(p[i], p[i + 1], q[j + 1], right_from)
+        return lower, left
+
+
+def _value(P: Array, Q: Array) -> float:
+    low, high = -1, _bits(math.inf)  # too short, and long enough
+    while high - low > 1:
+        middle = (low + high) // 2
+        if _is_long_enough(P, Q, _double(middle)):
+            high = middle
+        else:
+            low = middle
+    return _double(high)
+
+
+def _with_edges(P: Array, Q: Array) -> tuple[Array, Array]:
+    """Return both curves, a single point as an edge of no length."""
+    P, Q = (np.repeat(C, 2, axis=0) if len(C) == 1 else C for C in (P, Q))
+    return P, Q
+
+
 def _is_long_enough(P: Array, Q: Array, radius: float, *, strictly: bool = False) -> bool:
     """Whether a path leads through the free space; `strictly`: through its inside."""
     if math.isinf(radius):
         return True
-    P, Q = (np.repeat(C, 2, axis=0) if len(C) == 1 else C for C in (P, Q))
-    diagram = _Diagram(P, Q, radius, strictly)
-    n, m = len(P) - 1, len(Q) - 1  # edges
+    diagram = _Diagram(*_with_edges(P, Q), radius, strictly)
+    n, m = len(diagram.P) - 1, len(diagram.Q) - 1
     if not (diagram.is_free(0, 0) and diagram.is_free(n, m)):
         return False
+    return diagram.reached()[0][n][m - 1] is not None
+
+
+def _trace(diagram: _Diagram) -> list[tuple[float, float]]:
+    """Return the parameters of a path from corner to corner."""
+    lower, left = diagram.reached()
     p, q = diagram.P, diagram.Q
-    # What is reached of the lower sides of the cells (i, j), i = 0: as far as all is free.
-    lower: list[_Part] = []
-    for j in range(m):
-        starts = diagram.is_free(0, j) and (j == 0 or lower[-1] is not None)
-        lower.append(diagram.free(q[j], q[j + 1], p[0]) if starts else None)
-    left_end_is_reached = True
-    for i in range(n):
-        left_end_is_reached = left_end_is_reached and diagram.is_free(i, 0)
-        left = diagram.free(p[i], p[i + 1], q[0]) if left_end_is_reached else None
-        for j in range(m):
-            # Cell (i, j): its upper and right sides, from its lower and left ones.
-            below, beside = lower[j], left
-            lower[j] = left = None
-            if beside is not None:
-                lower[j] = diagram.free(q[j], q[j + 1], p[i + 1])
-                left = diagram.free(p[i], p[i + 1], q[j + 1], beside[0])
-            if below is not None:
-                left = diagram.free(p[i], p[i + 1], q[j + 1])
-                if beside is None:
-                    lower[j] = diagram.free(q[j], q[j + 1], p[i + 1], below[0])
-    return lower[-1] is not None
+    i, j = len(left) - 1, len(lower[0]) - 1  # the cell that the path leaves
+    x, y = i + 1.0, j + 1.0
+    path = [(x, y)]
+    while i >= 0 and j >= 0:
+        below, beside = lower[i][j], left[i][j]
+        y_from = j + below[0].fraction(q[j], q[j + 1]) if below else math.inf
+        if below and (y_from <= y or beside is None):
+            x, y, i = float(i), min(y, max(y_from, j)), i - 1
+        else:
+            assert beside is not None
+            x_from = i + beside[0].fraction(p[i], p[i + 1])
+            x, y, j = min(x, max(x_from, i)), float(j), j - 1
+        path.append((x, y))
+    # Along a side of the diagram.
+    path += [(0.0, float(k)) for k in range(math.ceil(y) - 1, -1, -1) if x == 0]
+    path += [(float(k), 0.0) for k in range(math.ceil(x) - 1, -1, -1) if x > 0]
+    return path[::-1]
+
+
+def _leashes(P: Array, Q: Array, parameters: Array) -> Iterator[float]:
+    """Yield for each row the least double that is not below its leash."""
+    for x, y in parameters.tolist():
+        square = sum((a - b) ** 2 for a, b in zip(_point(P, x), _point(Q, y), strict=True))
+        low, high = -1, _bits(math.inf)
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (low, middle) if Fraction(_double(middle)) ** 2 >= square else (middle, high)
+        yield _double(high)
+
+
+def _point(C: Array, parameter: float) -> list[Fraction]:
+    i = min(int(parameter), max(len(C) - 2, 0))
+    j = min(i + 1, len(C) - 1)
+    t = Fraction(parameter) - i
+    ends = zip(C[i].tolist(), C[j].tolist(), strict=True)
+    return [Fraction(a) + t * (Fraction(b) - Fraction(a)) for a, b in ends]
 
 
 def _is_coupled(P: Array, Q: Array, radius: float) -> bool:
