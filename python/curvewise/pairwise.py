@@ -50,7 +50,7 @@ def available_measures() -> list[str]:
     --------
     >>> import curvewise
     >>> curvewise.available_measures()
-    ['area', 'curve_length', 'dtw', 'frechet', 'pcm']
+    ['area', 'curve_length', 'dtw', 'frechet', 'frechet_continuous', 'pcm']
     """
     return sorted(MEASURES)
 

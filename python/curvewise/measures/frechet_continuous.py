@@ -60,13 +60,13 @@ def frechet_continuous(
     float, or tuple of two floats
         The least double that is not below the distance, in units of the coordinates; with
         `bounds`, the greatest double that is not above it, and that: they are equal or
-        neighbours. Symmetric. Not above :func:`frechet`, and below it by at most the longest
-        edge of either curve. inf where it is beyond the range of a double.
+        neighbours. Symmetric. Not above :func:`frechet` before that is rounded, and below it by
+        at most the longest edge of either curve. inf where it is beyond the range of a double.
 
     Raises
     ------
     ValueError
-        A curve is not finite or empty; the curves differ in d; `workers` is out of range.
+        A curve is not finite or empty; the curves differ in d; an option is out of range.
     TypeError
         A curve does not hold real numbers.
 

@@ -34,9 +34,7 @@ _Point: TypeAlias = list[int]
 
 
 @overload
-def frechet_continuous(
-    P: CurveLike, Q: CurveLike, *, bounds: Literal[False] = False
-) -> float: ...
+def frechet_continuous(P: CurveLike, Q: CurveLike, *, bounds: Literal[False] = False) -> float: ...
 
 
 @overload
@@ -123,12 +121,12 @@ class _Diagram:
         self.strictly = strictly
 
     def is_free(self, i: int, j: int) -> bool:
-        """Whether the leash holds P[i] and Q[j]."""
+        """Tell whether the leash holds P[i] and Q[j]."""
         square = _dot(w := _minus(self.P[i], self.Q[j]), w)
         return square < self.square or (square == self.square and not self.strictly)
 
     def free(self, x: _Point, y: _Point, z: _Point, reached: _Position | None = None) -> _Part:
-        """What of the edge from `x` to `y` is within reach of `z`, from `reached` on."""
+        """Return what of the edge from `x` to `y` is within reach of `z`, from `reached` on."""
         u, w = _minus(y, x), _minus(z, x)
         length, middle = _dot(u, u), _dot(u, w)
         half = middle**2 - length * (_dot(w, w) - self.square)
@@ -143,9 +141,8 @@ class _Diagram:
         high = min(_Position(length), _Position(middle, half))
         return (low, high) if low < high or (low <= high and not self.strictly) else None
 
-
     def reached(self) -> tuple[list[list[_Part]], list[list[_Part]]]:
-        """What is reached of the lower side, and of the left side, of every cell.
+        """Return what is reached of the lower side, and of the left side, of every cell.
 
         There is a row of lower sides, and a column of left sides, more than there are cells.
         """
@@ -187,7 +184,7 @@ def _with_edges(P: Array, Q: Array) -> tuple[Array, Array]:
 
 
 def _is_long_enough(P: Array, Q: Array, radius: float, *, strictly: bool = False) -> bool:
-    """Whether a path leads through the free space; `strictly`: through its inside."""
+    """Tell whether a path leads through the free space; `strictly`: through its inside."""
     if math.isinf(radius):
         return True
     diagram = _Diagram(*_with_edges(P, Q), radius, strictly)
@@ -227,7 +224,10 @@ def _leashes(P: Array, Q: Array, parameters: Array) -> Iterator[float]:
         low, high = -1, _bits(math.inf)
         while high - low > 1:
             middle = (low + high) // 2
-            low, high = (low, middle) if Fraction(_double(middle)) ** 2 >= square else (middle, high)
+            if Fraction(_double(middle)) ** 2 >= square:
+                high = middle
+            else:
+                low = middle
         yield _double(high)
 
 
@@ -240,7 +240,7 @@ def _point(C: Array, parameter: float) -> list[Fraction]:
 
 
 def _is_coupled(P: Array, Q: Array, radius: float) -> bool:
-    """Whether a coupling of the vertices keeps the leash."""
+    """Tell whether a coupling of the vertices keeps the leash."""
     if math.isinf(radius):
         return True
     diagram = _Diagram(P, Q, radius)

@@ -22,7 +22,7 @@ pytestmark = MARKS
 
 OK, INVALID_ARGUMENT, NO_MEMORY, FAILED = range(4)
 METRICS = ["euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"]
-MEASURES = ["area", "pcm", "frechet", "dtw", "curve_length"]
+MEASURES = ["area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous"]
 
 
 def structure(name: str, *fields: tuple[str, type]) -> type[Structure]:

@@ -99,7 +99,8 @@ BAD: list[tuple[Callable[[], object], type[Exception], str]] = [
     (
         lambda: curvewise.cdist([GOOD], measure="hausdorff"),
         ValueError,
-        "unknown measure 'hausdorff'; choose from area, curve_length, dtw, frechet, pcm",
+        "unknown measure 'hausdorff'; choose from area, curve_length, dtw, frechet, "
+        "frechet_continuous, pcm",
     ),
     (
         lambda: curvewise.cdist([GOOD], measure="frechet", window=3),
