@@ -55,9 +55,7 @@ py::tuple as_tuple(const Matching& matching) {
         py::array_t<double>({count, py::ssize_t{2}}, matching.parameters.front().data()));
 }
 
-py::tuple as_tuple(const Interval& interval) {
-    return py::make_tuple(interval.low, interval.high);
-}
+py::tuple as_tuple(const Interval& interval) { return py::make_tuple(interval.low, interval.high); }
 
 constexpr auto to_tuple = [](const auto& found) { return as_tuple(found); };
 

@@ -16,9 +16,8 @@
 namespace curvewise {
 
 // A measure, chosen by the type of its options.
-using Measure =
-    std::variant<AreaOptions, PcmOptions, FrechetOptions, DtwOptions, CurveLengthOptions,
-                 FrechetContinuousOptions>;
+using Measure = std::variant<AreaOptions, PcmOptions, FrechetOptions, DtwOptions,
+                             CurveLengthOptions, FrechetContinuousOptions>;
 
 namespace detail {
 template <class Visit, class... Options>

@@ -71,8 +71,7 @@ double square_distance(const double* x, const double* y, std::ptrdiff_t dim) noe
 
 // From x to the nearest point of a box.
 template <int Dim>
-double square_distance_to_box(const double* x, const double* box,
-                              std::ptrdiff_t dim) noexcept {
+double square_distance_to_box(const double* x, const double* box, std::ptrdiff_t dim) noexcept {
     const std::ptrdiff_t d = Dim > 0 ? Dim : dim;
     double sum = 0.0;
     for (std::ptrdiff_t c = 0; c < d; ++c) {
@@ -84,8 +83,7 @@ double square_distance_to_box(const double* x, const double* box,
 
 // From x to the furthest point of a box.
 template <int Dim>
-double square_distance_across_box(const double* x, const double* box,
-                              std::ptrdiff_t dim) noexcept {
+double square_distance_across_box(const double* x, const double* box, std::ptrdiff_t dim) noexcept {
     const std::ptrdiff_t d = Dim > 0 ? Dim : dim;
     double sum = 0.0;
     for (std::ptrdiff_t c = 0; c < d; ++c) {

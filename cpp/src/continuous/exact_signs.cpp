@@ -52,7 +52,8 @@ struct Quadratic {
 // One edge in whole numbers.
 class WholeEdge {
    public:
-    WholeEdge(const CurveView& edges, std::ptrdiff_t edge, const CurveView& points, const Unit& unit)
+    WholeEdge(const CurveView& edges, std::ptrdiff_t edge, const CurveView& points,
+              const Unit& unit)
         : edges_(edges), edge_(edge), points_(points), unit_(unit) {
         for (std::ptrdiff_t c = 0; c < edges.dim(); ++c) {
             const Integer u = component(c);
@@ -65,7 +66,8 @@ class WholeEdge {
     Quadratic quadratic(const Reach& z) const {
         Integer a, square;
         for (std::ptrdiff_t c = 0; c < edges_.dim(); ++c) {
-            const Integer w = unit_.count(coordinate(points_, z.index, c)) - unit_.count(coordinate(edges_, edge_, c));
+            const Integer w = unit_.count(coordinate(points_, z.index, c)) -
+                              unit_.count(coordinate(edges_, edge_, c));
             a = a + component(c) * w;
             square = square + w * w;
         }
@@ -75,7 +77,8 @@ class WholeEdge {
 
    private:
     Integer component(std::ptrdiff_t c) const {
-        return unit_.count(coordinate(edges_, edge_ + 1, c)) - unit_.count(coordinate(edges_, edge_, c));
+        return unit_.count(coordinate(edges_, edge_ + 1, c)) -
+               unit_.count(coordinate(edges_, edge_, c));
     }
 
     const CurveView& edges_;
@@ -85,8 +88,8 @@ class WholeEdge {
     Integer d_;
 };
 
-Unit unit_of(const CurveView& edges, std::ptrdiff_t edge, const CurveView& points,
-             const Reach& one, const Reach& other) {
+Unit unit_of(const CurveView& edges, std::ptrdiff_t edge, const CurveView& points, const Reach& one,
+             const Reach& other) {
     Unit unit;
     unit.admit(edges, edge);
     unit.admit(edges, edge + 1);
@@ -113,7 +116,8 @@ int ExactSigns::distance(std::ptrdiff_t vertex, const Reach& z) const {
     const Integer radius = unit.count(z.radius);
     Integer difference = -(radius * radius);
     for (std::ptrdiff_t c = 0; c < edges_.dim(); ++c) {
-        const Integer w = unit.count(coordinate(points_, z.index, c)) - unit.count(coordinate(edges_, vertex, c));
+        const Integer w =
+            unit.count(coordinate(points_, z.index, c)) - unit.count(coordinate(edges_, vertex, c));
         difference = difference + w * w;
     }
     return difference.sign();

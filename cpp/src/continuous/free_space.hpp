@@ -133,8 +133,7 @@ class EdgeFamily {
     FreePart free_part(std::ptrdiff_t edge, std::ptrdiff_t k, bool first_is_free,
                        bool second_is_free, const Radius& radius) const {
         const Bound reach{k, radius.given(), radius.scaled()};
-        const bool is_empty =
-            !first_is_free && !second_is_free && !inside_is_free(edge, k, radius);
+        const bool is_empty = !first_is_free && !second_is_free && !inside_is_free(edge, k, radius);
         return {is_empty, first_is_free ? Bound{} : reach, second_is_free ? Bound{} : reach};
     }
 
@@ -249,8 +248,9 @@ class EdgeFamily {
         return radius.holds(exact_.low_to_high(edge, reach_of(low), reach_of(high)));
     }
 
-    // With h = w - (u.w / u.u) u, from the line to the point, r^2 - h.h is right to 15 g (r + |u|)^2
-    // and the middle to 6 g (r + |u|) / |u|, because |w| <= r + |u| where any of the edge is free.
+    // With h = w - (u.w / u.u) u, from the line to the point, r^2 - h.h is right to 15 g (r +
+    // |u|)^2 and the middle to 6 g (r + |u|) / |u|, because |w| <= r + |u| where any of the edge is
+    // free.
     Roots roots_of(std::ptrdiff_t edge, const Bound& bound) const noexcept {
         const double* const x = edges_.point<Dim>(edge);
         const double* const y = edges_.point<Dim>(edge + 1);

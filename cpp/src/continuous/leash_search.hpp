@@ -172,8 +172,8 @@ class LeashSearch {
     // The vertices of either curve that are furthest from the other.
     void find_witnesses() {
         const double first = square_distance<Dim>(p_.point<Dim>(0), q_.point<Dim>(0), p_.dim());
-        const double last = square_distance<Dim>(p_.point<Dim>(last_),
-                                                 q_.point<Dim>(q_.size() - 1), p_.dim());
+        const double last =
+            square_distance<Dim>(p_.point<Dim>(last_), q_.point<Dim>(q_.size() - 1), p_.dim());
         Furthest found{std::max(first, last), 0};
         found = NearestEdges<Dim>(q_, poller_).furthest(p_, found);
         row_witness_ = found.vertex;
@@ -240,8 +240,7 @@ class LeashSearch {
                 return walk(mark.row, goal, tried, nullptr) == goal &&
                        (goal < last_ || diagram_.is_through(runs_, tried));
             };
-            const double found =
-                least_double(low, high, std::uint64_t{1} << 40, tolerance, passes);
+            const double found = least_double(low, high, std::uint64_t{1} << 40, tolerance, passes);
             if (found == high) return high;
             const Radius radius = radius_of(found);
             runs_ = mark.runs;

@@ -31,7 +31,7 @@ class NearestEdges {
         std::ptrdiff_t near = 0;
         // The vertices between those of a coarse round lie hardly further: few are searched for.
         for (const std::ptrdiff_t step : {std::ptrdiff_t{61}, std::ptrdiff_t{1}}) {
-                near = 0;
+            near = 0;
             for (std::ptrdiff_t i = 0; i < points.size(); i += step) {
                 poller_.spend(8);
                 const double* const z = points.point<Dim>(i);
@@ -69,7 +69,8 @@ class NearestEdges {
 
     void search_box(const double* z, int level, std::ptrdiff_t b, double& square,
                     std::ptrdiff_t& near) const {
-        if (square_distance_to_box<Dim>(z, curve_.box<Dim>(level, b), curve_.dim()) >= square) return;
+        if (square_distance_to_box<Dim>(z, curve_.box<Dim>(level, b), curve_.dim()) >= square)
+            return;
         poller_.spend(8);
         if (level == 0) {
             constexpr std::ptrdiff_t leaf = BoxedCurve::leaf;

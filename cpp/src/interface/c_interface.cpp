@@ -124,8 +124,7 @@ curvewise::CurveLengthOptions translate(const curvewise_curve_length_options& gi
     return {choice<LengthScale>("scale", given.scale)};
 }
 
-curvewise::FrechetContinuousOptions translate(
-    const curvewise_frechet_continuous_options& given) {
+curvewise::FrechetContinuousOptions translate(const curvewise_frechet_continuous_options& given) {
     return {given.workers};
 }
 
@@ -248,8 +247,8 @@ int curvewise_curve_length(const curvewise_curve* P, const curvewise_curve* Q,
 }
 
 int curvewise_frechet_continuous(const curvewise_curve* P, const curvewise_curve* Q,
-                                 const curvewise_frechet_continuous_options* options,
-                                 double* value, curvewise_error* error) {
+                                 const curvewise_frechet_continuous_options* options, double* value,
+                                 curvewise_error* error) {
     return measured(CURVEWISE_FRECHET_CONTINUOUS, P, Q, options, value, error);
 }
 

@@ -108,9 +108,9 @@ void check_what_changes_nothing(const Curve& P, const Curve& Q) {
     CHECK_EQUAL(frechet_continuous(reversed(P), reversed(Q)), value);
     CHECK_EQUAL(frechet_continuous(rotated_axes(P), rotated_axes(Q)), value);
     for (const int exponent : {-900, -40, 3, 900}) {
-        CHECK_EQUAL(frechet_continuous(P.times_power_of_two(exponent),
-                                       Q.times_power_of_two(exponent)),
-                    std::ldexp(value, exponent));
+        CHECK_EQUAL(
+            frechet_continuous(P.times_power_of_two(exponent), Q.times_power_of_two(exponent)),
+            std::ldexp(value, exponent));
     }
 }
 

@@ -18,8 +18,8 @@ bool equal(const Integer& a, const Integer& b) { return (a - b).sign() == 0; }
 Integer whole(std::int64_t x) { return {x, 0}; }
 
 void small_numbers() {
-    const std::vector<std::int64_t> numbers{0, 1, -1, 2, 65535, -65536, 4294967295, -4294967296,
-                                            1234567890123, -3000000000};
+    const std::vector<std::int64_t> numbers{
+        0, 1, -1, 2, 65535, -65536, 4294967295, -4294967296, 1234567890123, -3000000000};
     for (const std::int64_t a : numbers) {
         CHECK_EQUAL(whole(a).sign(), sign_of(a));
         CHECK(equal(-whole(a), whole(-a)));
@@ -62,6 +62,5 @@ void large_numbers() {
 }  // namespace
 
 int main() {
-    return check::run({{"small numbers", small_numbers},
-                       {"large numbers", large_numbers}});
+    return check::run({{"small numbers", small_numbers}, {"large numbers", large_numbers}});
 }
