@@ -114,6 +114,7 @@ class LeashSearch {
     bool is_within(double distance, FreeSet set = FreeSet::closed) {
         const Radius radius = radius_of(distance, set);
         if (is_too_short(radius)) return false;
+        if (greedy_walk_succeeds<Dim>(p_, q_, radius)) return true;
         diagram_.start(radius, runs_);
         trail_.forget_from(0);
         trail_.note(0, runs_);

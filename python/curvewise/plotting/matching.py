@@ -91,7 +91,12 @@ def plot_matching(
 
 
 def plot_free_space(
-    P: CurveLike, Q: CurveLike, ax: Axes, *, distance: float | None = None
+    P: CurveLike,
+    Q: CurveLike,
+    ax: Axes,
+    *,
+    distance: float | None = None,
+    normalized: bool = False,
 ) -> tuple[AxesImage, Line2D | None]:
     """Draw the free-space diagram of two short curves, and a path through it.
 
@@ -107,6 +112,8 @@ def plot_free_space(
         Where to draw: the vertices of P upwards, those of Q to the right.
     distance : float, optional
         The length of the leash; the continuous Fréchet distance if not given.
+    normalized : bool
+        As in `plot_area`.
 
     Returns
     -------
@@ -134,7 +141,8 @@ def plot_free_space(
     """
     with drawing.matplotlib_required():
         from matplotlib.colors import ListedColormap
-    (P, Q), points = drawing.measured_and_drawn(P, Q, normalized=False)
+    (P, Q), _ = drawing.measured_and_drawn(P, Q, normalized)
+    points = [curve.reshape(len(curve), -1) for curve in (P, Q)]
     matching = frechet_continuous_path(P, Q)
     leash = matching.distance if distance is None else float(distance)
     n, m = (max(len(curve) - 1, 1) for curve in points)
