@@ -14,6 +14,7 @@ import timing  # before numpy: it sets the number of threads
 # isort: split
 import argparse
 import importlib.util
+import itertools
 import math
 import os
 import time
@@ -112,7 +113,7 @@ def resampled(curve: Array, n: int) -> Array:
 
 def loop_pair(file: Path, n: int) -> tuple[Array, Array]:
     """Return a loop, and itself with 0.9 n points, 3 % larger and with noise."""
-    curve = np.loadtxt(file, delimiter=",", skiprows="resslab" in file.name)
+    curve = np.loadtxt(file, delimiter=",", skiprows=int("resslab" in file.name))
     curve = (curve - curve.min(axis=0)) / np.ptp(curve, axis=0)
     rng = np.random.default_rng(n)
     P, Q = resampled(curve, n), 1.03 * resampled(curve, round(0.9 * n))
@@ -147,9 +148,10 @@ def against_curvesimilarities(file: Path) -> None:
         start = time.perf_counter()
         value = curvesimilarities.fd(P, Q)
         theirs = 1e3 * (time.perf_counter() - start)
+        difference = value - curvewise.frechet_continuous(P, Q)
         print(
             f"curvesimilarities, n = {n}: {theirs:.4g} ms, here {ours:.3g} ms: "
-            f"{theirs / ours:.0f} times; values differ by {value - curvewise.frechet_continuous(P, Q):.1e}"
+            f"{theirs / ours:.0f} times; values differ by {difference:.1e}"
         )
 
 
@@ -166,7 +168,7 @@ def roads() -> None:
     rng = np.random.default_rng(1)
     bases = [road(rng) for _ in range(40)]
     same = [(P, P + rng.normal(0, 5, P.shape)) for P in bases]
-    started_alike = [(P - P[0], Q - Q[0]) for P, Q in zip(bases, bases[1:], strict=False)]
+    started_alike = [(P - P[0], Q - Q[0]) for P, Q in itertools.pairwise(bases)]
     print("\ndecisions a second, roads of 250 points")
     for name, pairs, radii in (
         ("driven twice", same, (15.0, 20.0, 25.0)),
