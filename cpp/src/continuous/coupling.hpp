@@ -16,8 +16,8 @@
 
 namespace curvewise::detail {
 
-// What keeps a discrete leash keeps a continuous one: both ends of every step are in one cell, whose
-// free space is convex.
+// What keeps a discrete leash keeps a continuous one: both ends of every step are in one cell,
+// whose free space is convex.
 template <int Dim>
 bool greedy_walk_succeeds(const BoxedCurve& p, const BoxedCurve& q, const Radius& radius) {
     const auto square = [&](std::ptrdiff_t i, std::ptrdiff_t j) {

@@ -28,14 +28,15 @@ using MatchedParameters = std::vector<std::array<double, 2>>;
 template <int Dim>
 class LeashMeasure {
    public:
-    LeashMeasure(const Diagram<Dim>& diagram, const Radius& radius) noexcept
-        : diagram_(diagram), radius_(radius) {}
+    LeashMeasure(const Diagram<Dim>& diagram, const Radius& radius, Poller& poller) noexcept
+        : diagram_(diagram), radius_(radius), poller_(poller) {}
 
     // The least double that is not below the radius nor below the leash of any row. Rows that the
     // radius is too short for are first moved by a unit in the last place, if that helps.
     double longest(MatchedParameters& matched) const {
         double longest = radius_.given();
         for (std::size_t k = 1; k + 1 < matched.size(); ++k) {
+            poller_.spend(64);
             std::array<double, 2>& row = matched[k];
             if (leash(row, radius_.given()) == radius_.given()) continue;
             const std::size_t side = row[0] == std::floor(row[0]) ? 1 : 0;
@@ -66,6 +67,7 @@ class LeashMeasure {
 
     const Diagram<Dim>& diagram_;
     const Radius& radius_;
+    Poller& poller_;
 };
 
 template <int Dim>
