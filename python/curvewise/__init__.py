@@ -19,11 +19,13 @@ from .measures import (
     curve_length,
     curve_length_residuals,
     dtw,
+    dtw_info,
     dtw_path,
     dtw_table,
     frechet,
     frechet_continuous,
     frechet_continuous_path,
+    frechet_info,
     frechet_path,
     frechet_table,
     frechet_within,
@@ -35,7 +37,7 @@ from .measures import (
     sum_of_squares,
 )
 from .pairwise import Prepared, available_measures, cdist, pdist
-from .results import Alignment, AreaQuads, Matching, PcmMatch
+from .results import Alignment, AreaQuads, Matching, PcmMatch, WarpingInfo
 
 if TYPE_CHECKING:
     from . import calibration as calibration
@@ -51,6 +53,7 @@ __all__ = [
     "Matching",
     "PcmMatch",
     "Prepared",
+    "WarpingInfo",
     "__version__",
     "area",
     "area_quads",
@@ -62,11 +65,13 @@ __all__ = [
     "curve_length_residuals",
     "datasets",
     "dtw",
+    "dtw_info",
     "dtw_path",
     "dtw_table",
     "frechet",
     "frechet_continuous",
     "frechet_continuous_path",
+    "frechet_info",
     "frechet_path",
     "frechet_table",
     "frechet_within",
