@@ -84,7 +84,8 @@ def compare(
     P, Q : array_like, shapes (n, d) and (m, d)
         The curves; P is the reference.
     preset : {"scaled", "paper", "raw"}
-        "scaled": everything on curves scaled by P's box, curve_length with scale="mean_abs".
+        "scaled": everything on curves scaled by P's box, area with crossing="split",
+        curve_length with scale="mean_abs".
         "paper": the conditions of the paper's Table 4 (area raw with spacing="x"; frechet, and
         dtw with step_pattern="symmetric2", on scaled curves; curve_length raw with
         scale="mean"). "raw": every default on the curves as they are.

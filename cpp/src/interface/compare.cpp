@@ -44,6 +44,8 @@ Condition condition(Preset preset, FrechetContinuousOptions options) {
 
 Condition condition(Preset preset, AreaOptions options) {
     if (preset == Preset::paper) options.spacing = Spacing::x;
+    // "rearrange" jumps where curves cross, which an identification takes for minima.
+    if (preset == Preset::scaled) options.crossing = Crossing::split;
     return {options, preset == Preset::scaled};
 }
 

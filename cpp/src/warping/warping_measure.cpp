@@ -69,7 +69,7 @@ WarpingOptions checked(const DtwOptions& options) {
         }
     }
     return {
-        options.measure,
+        DtwOptions::measure,
         is_symmetric1 ? kernels::Recurrence::dtw_symmetric1 : kernels::Recurrence::dtw_symmetric2,
         options.ground,
         detail::resolve_workers(options.workers),
@@ -83,10 +83,14 @@ WarpingOptions checked(const DtwOptions& options) {
 WarpingOptions checked(const FrechetOptions& options) {
     detail::check_ground_distance(options.ground);
     detail::check_cutoff(options.cutoff);
-    return {options.measure, kernels::Recurrence::frechet,
-            options.ground,  detail::resolve_workers(options.workers),
-            std::nullopt,    false,
-            false,           options.prune,
+    return {FrechetOptions::measure,
+            kernels::Recurrence::frechet,
+            options.ground,
+            detail::resolve_workers(options.workers),
+            std::nullopt,
+            false,
+            false,
+            options.prune,
             options.cutoff};
 }
 

@@ -21,6 +21,7 @@ from ._extra import required
 from .curve_list import as_points, curve_list
 from .evaluations import Evaluations, Finish, Progress, SearchEndedError
 from .history import Evaluation, History, as_records
+from .loop_measure import Measure, Part
 from .methods import METHODS, search
 from .model_pool import Model, ModelPool
 from .objective import LEAST_SQUARES, Objective
@@ -127,7 +128,7 @@ def identify(
     experiments: Any,
     bounds: Mapping[str, tuple[float, float]],
     *,
-    measure: str = "area",
+    measure: Measure = "area",
     preset: Preset = "scaled",
     method: str = "sdrm+de",
     seed: int = 0,
@@ -140,6 +141,7 @@ def identify(
     weights: Sequence[float] | None = None,
     failure_value: float | None = None,
     min_coverage: float = 0.5,
+    part: Part = "experiment",
     method_options: Mapping[str, Any] | None = None,
     **options: Any,
 ) -> Identification:
@@ -154,7 +156,7 @@ def identify(
         The measured curve, or curves.
     bounds : mapping of str to (low, high)
         The parameters and where to search.
-    measure, preset, weights, failure_value, min_coverage, **options
+    measure, preset, weights, failure_value, min_coverage, part, **options
         The objective: see :class:`Objective`.
     method : {"sdrm+de", "de", "sdrm", "nelder-mead", "least_squares"}
         "de": differential evolution, global. "sdrm": successive linear response surfaces with
@@ -177,7 +179,7 @@ def identify(
     history : path-like, optional
         A CSV file to which every evaluation is appended at once. If it exists, the search is
         resumed: it runs again with the evaluations that the file holds looked up instead of
-        computed, and goes on from there.
+        computed, and goes on from there. Of a callable measure it knows the name alone.
     start : mapping of str to float, optional
         Where the search starts: the middle of the bounds if not given; for "de" one member of
         the first population.
@@ -185,9 +187,11 @@ def identify(
         End the search after so many parameter sets.
     method_options : mapping, optional
         Passed on. "de": those of `scipy.optimize.differential_evolution` (popsize, tol, atol,
-        maxiter, ...). "sdrm": gamma_osc, gamma_pan, eta, initial_range, tol, maxiter.
+        maxiter, ...), and stall: (improvement, generations), with which the search ends once the
+        best value has improved by less than that fraction over so many generations, as
+        (0.001, 100) in the paper. "sdrm": gamma_osc, gamma_pan, eta, initial_range, tol, maxiter.
         "nelder-mead": size (of the simplex, 0.1), restarts (10), and scipy's options (xatol,
-        fatol, ...). "least_squares": those of `scipy.optimize.least_squares`. "sdrm+de": a
+            fatol, ...). "least_squares": those of `scipy.optimize.least_squares`. "sdrm+de": a
         mapping for each, ``{"sdrm": {...}, "de": {...}}``.
 
     Returns
@@ -244,6 +248,7 @@ def identify(
         weights=weights,
         failure_value=failure_value,
         min_coverage=min_coverage,
+        part=part,
         **options,
     )
     required("scipy.optimize")
@@ -310,7 +315,7 @@ def _result(
     )
 
 
-def _check_method(method: str, measure: str, method_options: dict[str, Any]) -> None:
+def _check_method(method: str, measure: Measure, method_options: dict[str, Any]) -> None:
     if method not in METHODS:
         raise ValueError(f"unknown method {method!r}; choose from {', '.join(METHODS)}")
     if method == "least_squares" and measure not in LEAST_SQUARES:
@@ -331,10 +336,13 @@ def _settings(objective: Objective) -> dict[str, Any]:
     digest = hashlib.sha256()
     for curve in objective.experiments:
         digest.update(repr(curve.shape).encode() + curve.tobytes())
+    options = dict(objective.options)
+    if objective.part != "experiment":  # histories from before this option have none
+        options["part"] = objective.part
     return {
         "measure": objective.measure,
         "preset": objective.preset,
-        "options": objective.options,
+        "options": options,
         "weights": objective.weights.tolist(),
         "failure_value": objective.failure_value.tolist(),
         "min_coverage": objective.min_coverage,
@@ -356,6 +364,7 @@ def _measures(objective: Objective, simulations: Any, value: float) -> dict[str,
                 preset=objective.preset,
                 weights=objective.weights.tolist(),
                 min_coverage=objective.min_coverage,
+                part=objective.part if name == "pcm" else "experiment",
             )
         except ValueError:  # e.g. curve_length, raw, of a loop centred on zero
             values[name] = np.nan
