@@ -140,7 +140,8 @@ class MatchingTrace {
     bool leave_cell(std::ptrdiff_t i, const FreePart& below, const FreePart& left) {
         const auto& rows = diagram_.second_edges();
         const auto& columns = diagram_.first_edges();
-        const double i0 = static_cast<double>(i), j0 = static_cast<double>(j_);
+        const auto i0 = static_cast<double>(i);
+        const auto j0 = static_cast<double>(j_);
         const auto [below_low, below_high] = rows.ends(j_, below);
         const auto [left_low, left_high] = columns.ends(i, left);
         // What rounding alone puts out of reach is in reach.

@@ -29,8 +29,8 @@ def frechet_continuous(
 
 @overload
 def frechet_continuous(
-    P: CurveLike, Q: CurveLike, *, bounds: bool, workers: SupportsIndex = Default.workers
-) -> float | tuple[float, float]: ...
+    P: CurveLike, Q: CurveLike, *, bounds: Literal[True], workers: SupportsIndex = Default.workers
+) -> tuple[float, float]: ...
 
 
 @filled()
