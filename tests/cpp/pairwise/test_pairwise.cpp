@@ -56,10 +56,14 @@ const std::vector<Measure>& measures() {
         DtwOptions window, open;
         window.window = 30;
         open.open_begin = open.open_end = true;
-        return std::vector<Measure>{DtwOptions{},  window,
-                                    open,          FrechetOptions{{Metric::cityblock}},
-                                    AreaOptions{}, AreaOptions{Spacing::arc_length},
-                                    PcmOptions{},  CurveLengthOptions{LengthScale::range},
+        return std::vector<Measure>{DtwOptions{},
+                                    window,
+                                    open,
+                                    FrechetOptions{{Metric::cityblock}},
+                                    AreaOptions{},
+                                    AreaOptions{Spacing::arc_length},
+                                    PcmOptions{},
+                                    CurveLengthOptions{LengthScale::range},
                                     FrechetContinuousOptions{}};
     }();
     return all;
