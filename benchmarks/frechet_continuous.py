@@ -4,7 +4,7 @@ Four parts, each printed as a table: (1) random pairs of up to 12 vertices again
 of `curvewise.reference`; (2) measured loops against themselves resampled, 3 % larger and with
 noise, where ../shared/data or CURVEWISE_DATA has them, and curvesimilarities, if it is installed;
 (3) decisions on simulated roads of 250 points; (4) walks of 1,000 points that have nothing to do
-with each other. One thread; the best of some runs.
+with each other. One thread; medians.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import importlib.util
 import itertools
 import math
 import os
+import statistics
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -46,14 +47,14 @@ def main() -> None:
     walks()
 
 
-def best(call: Callable[[], object], runs: int = 5) -> float:
-    """Return the least time of a call in milliseconds."""
+def median(call: Callable[[], object], runs: int = 5) -> float:
+    """Return the median time of a call in milliseconds."""
     times = []
     for _ in range(runs):
         start = time.perf_counter()
         call()
         times.append(time.perf_counter() - start)
-    return 1e3 * min(times)
+    return 1e3 * statistics.median(times)
 
 
 def random_curve(rng: np.random.Generator, kind: int, n: int, d: int) -> Array:
@@ -131,7 +132,7 @@ def loops(sizes: tuple[int, ...]) -> None:
         times = []
         for n in sizes:
             P, Q = loop_pair(file, n)
-            times.append(best(lambda P=P, Q=Q: curvewise.frechet_continuous(P, Q), 3))  # type: ignore[misc]
+            times.append(median(lambda P=P, Q=Q: curvewise.frechet_continuous(P, Q), 3))  # type: ignore[misc]
         print(f"{file.stem[:16]:<17}" + "".join(f"{t:<14.3g}" for t in times))
     if importlib.util.find_spec("curvesimilarities"):
         against_curvesimilarities(files[0])
@@ -144,7 +145,7 @@ def against_curvesimilarities(file: Path) -> None:
     curvesimilarities.fd(*loop_pair(file, 10))  # numba compiles
     for n in PEER_SIZES:
         P, Q = loop_pair(file, n)
-        ours = best(lambda P=P, Q=Q: curvewise.frechet_continuous(P, Q))  # type: ignore[misc]
+        ours = median(lambda P=P, Q=Q: curvewise.frechet_continuous(P, Q))  # type: ignore[misc]
         start = time.perf_counter()
         value = curvesimilarities.fd(P, Q)
         theirs = 1e3 * (time.perf_counter() - start)
@@ -176,7 +177,7 @@ def roads() -> None:
     ):
         for radius in radii:
             yes = sum(curvewise.frechet_within(P, Q, radius) for P, Q in pairs)
-            ms = best(
+            ms = median(
                 lambda pairs=pairs, radius=radius: [  # type: ignore[misc]
                     curvewise.frechet_within(P, Q, radius) for P, Q in pairs
                 ]
@@ -191,7 +192,7 @@ def walks() -> None:
     times = []
     for _ in range(5):
         P, Q = np.cumsum(rng.normal(size=(2, 1000, 2)), axis=1)
-        times.append(best(lambda P=P, Q=Q: curvewise.frechet_continuous(P, Q), 3))  # type: ignore[misc]
+        times.append(median(lambda P=P, Q=Q: curvewise.frechet_continuous(P, Q), 3))  # type: ignore[misc]
     print("\nunrelated walks of 1,000 points, ms: " + ", ".join(f"{t:.3g}" for t in times))
 
 
