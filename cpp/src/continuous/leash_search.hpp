@@ -8,8 +8,9 @@
 //      curve (nearest.hpp): the least radius that does is found without a walk, and a walk with it
 //      succeeds for many curves that are alike;
 //   2. a walk that fails dies at the row of a bottleneck. The least radius that passes it is found
-//      by bisection on walks that begin `window` rows before it and end as many behind it. Where
-//      that only pushes the walk on into a blind alley, the window grows;
+//      by bisection on walks that begin `window` rows before it and end as many behind it. Where a
+//      window eight times as wide would say another radius, or where that only pushes the walk on
+//      into a blind alley, the window grows;
 //   3. the walk goes on with that radius, to its end or to the next bottleneck;
 //   4. the radius r it ends with is sufficient; a whole walk with the double below r, which dies at
 //      the bottleneck, shows that it is necessary. If that walk ends well, the bottleneck was not
@@ -153,13 +154,12 @@ class LeashSearch {
         for (const std::uint64_t tolerance : {std::uint64_t{1} << 42, std::uint64_t{1}}) {
             for (;;) {
                 high = climb(low, high, window, tolerance);
-                const std::uint64_t gap = bits_of(high) - bits_of(low);
-                const double below = double_of(bits_of(high) - std::min(tolerance, gap));
-                if (below == low || !is_within(below)) {
-                    low = below;
+                const double less = below(high, tolerance, low);
+                if (less == low || !is_within(less)) {
+                    low = less;
                     break;
                 }
-                high = below;
+                high = less;
                 window *= 8;
             }
         }
@@ -168,6 +168,11 @@ class LeashSearch {
 
    private:
     static constexpr double none = -1.0;
+
+    // The number that is `tolerance` doubles below x, not below `low`.
+    static double below(double x, std::uint64_t tolerance, double low) noexcept {
+        return double_of(bits_of(x) - std::min(tolerance, bits_of(x) - bits_of(low)));
+    }
 
     Radius radius_of(double distance, FreeSet set = FreeSet::closed) const noexcept {
         return {distance, range_.shrink(distance), p_.dim(), set};
@@ -230,33 +235,49 @@ class LeashSearch {
         return to;
     }
 
+    // Rows before and behind a bottleneck, and what was reached of the first of them.
+    struct Stretch {
+        const Trail::Mark& mark;
+        std::ptrdiff_t goal;
+    };
+
+    Stretch around(std::ptrdiff_t row, std::ptrdiff_t window) const noexcept {
+        return {trail_.before(row - window), std::min(row + window, last_)};
+    }
+
+    bool passes(const Stretch& stretch, double distance) {
+        const Radius radius = radius_of(distance);
+        runs_ = stretch.mark.runs;
+        return walk(stretch.mark.row, stretch.goal, radius, nullptr) == stretch.goal &&
+               (stretch.goal < last_ || diagram_.is_through(runs_, radius));
+    }
+
     // A sufficient radius above `low`, which is not, from one bottleneck to the next. Nearly the
     // least that passes the last one, within `tolerance` doubles, as far as the window shows; or
     // `high`, which is sufficient.
-    double climb(double low, double high, std::ptrdiff_t window, std::uint64_t tolerance) {
+    double climb(double low, double high, std::ptrdiff_t& window, std::uint64_t tolerance) {
         if (trail_radius_ != low) is_within(low);
         std::ptrdiff_t dead = trail_end_;
         for (;;) {
-            const Trail::Mark mark = trail_.before(dead - window);
-            const std::ptrdiff_t goal = std::min(dead + window, last_);
-            const auto passes = [&](double x) {
-                const Radius tried = radius_of(x);
-                runs_ = mark.runs;
-                return walk(mark.row, goal, tried, nullptr) == goal &&
-                       (goal < last_ || diagram_.is_through(runs_, tried));
-            };
-            const double found = least_double(low, high, std::uint64_t{1} << 40, tolerance, passes);
+            const Stretch stretch = around(dead, window);
+            const double found = least_double(low, high, std::uint64_t{1} << 40, tolerance,
+                                              [&](double x) { return passes(stretch, x); });
             if (found == high) return high;
+            const Stretch wider = around(dead, 8 * window);
+            if (!passes(wider, found) || passes(wider, below(found, tolerance, low))) {
+                window *= 8;
+                continue;
+            }
             const Radius radius = radius_of(found);
-            runs_ = mark.runs;
-            trail_.forget_from(mark.row + 1);
+            runs_ = stretch.mark.runs;
+            trail_.forget_from(stretch.mark.row + 1);
             trail_radius_ = none;
-            const std::ptrdiff_t reached = walk(mark.row, last_, radius, &trail_);
+            const std::ptrdiff_t reached = walk(stretch.mark.row, last_, radius, &trail_);
             if (reached == last_ && diagram_.is_through(runs_, radius)) return found;
-            if (reached < goal + window) {
+            if (reached < stretch.goal + window) {
                 // Pushed on into a blind alley: the way out of it begins earlier.
                 window *= 4;
-                trail_.forget_from(mark.row + 1);
+                trail_.forget_from(stretch.mark.row + 1);
             } else {
                 low = found;
                 dead = reached;

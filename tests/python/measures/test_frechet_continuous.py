@@ -98,6 +98,17 @@ def test_pairs_that_others_get_wrong() -> None:
     assert frechet_continuous(P, Q) == reference.frechet_continuous(P, Q) < 5.0
 
 
+def test_examples_of_other_packages() -> None:
+    # shapely's frechet_distance, which has the discrete distance (70.7) unless points are added.
+    assert frechet_continuous([(0, 0), (100, 0)], [(0, 0), (50, 50), (100, 0)]) == 50.0
+    # curvesimilarities' fd, which is right to 1e-15 or so.
+    assert frechet_continuous([(0, 0), (0.5, 0), (1, 0)], [(0, 1), (1, 1)]) == 1.0
+    P = [(0, 0), (2, 2), (4, 2), (4, 4), (2, 1), (5, 1), (7, 2)]
+    Q = [(2, 0), (1, 3), (5, 3), (5, 2), (7, 3)]
+    low, high = frechet_continuous(P, Q, bounds=True)
+    assert low < 2.0155644370746377 == high == math.nextafter(low, 3)
+
+
 coordinates = st.integers(-64, 64).map(lambda k: k / 8)
 curves = st.lists(st.tuples(coordinates, coordinates), min_size=1, max_size=10).map(
     lambda points: np.array(points, float)
