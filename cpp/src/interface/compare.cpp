@@ -37,6 +37,10 @@ Condition condition(Preset preset, FrechetOptions options) {
 
 Condition condition(Preset preset, AreaOptions options) {
     if (preset == Preset::paper) options.spacing = Spacing::x;
+    if (preset == Preset::scaled) {
+        options.spacing = Spacing::matched;
+        options.crossing = Crossing::split;  // for whoever chooses another spacing
+    }
     return {options, preset == Preset::scaled};
 }
 

@@ -113,12 +113,12 @@ def test_table_options(metric, call) -> None:
 
 
 def test_planar_options(call) -> None:
-    for spacing in ("distance", "x", "arc_length"):
+    for spacing in ("distance", "x", "arc_length", "matched"):
         for crossing in ("rearrange", "split"):
             for squared in (False, True):
                 given = {"spacing": spacing, "crossing": crossing, "squared": squared}
                 codes = (
-                    ["distance", "x", "arc_length"].index(spacing),
+                    ["distance", "x", "arc_length", "matched"].index(spacing),
                     ["rearrange", "split"].index(crossing),
                     int(squared),
                 )
@@ -133,7 +133,7 @@ def test_planar_options(call) -> None:
 @pytest.mark.parametrize(
     ("name", "options", "message"),
     [
-        ("area", Area(3, 0, 0), "unknown spacing 3; choose from 0 to 2"),
+        ("area", Area(4, 0, 0), "unknown spacing 4; choose from 0 to 3"),
         ("area", Area(0, -1, 0), "unknown crossing -1; choose from 0 to 1"),
         ("pcm", Pcm(0, 0), "offsets is 0; give a whole number >= 1, or 'continuous'"),
         ("frechet", Frechet(5, 2.0, 1), "unknown metric 5; choose from 0 to 4"),

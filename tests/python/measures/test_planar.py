@@ -27,7 +27,7 @@ Pair = tuple[Array, Array]
 AREA_OPTIONS: list[Options] = [
     {"spacing": spacing, "crossing": crossing}
     for spacing, crossing in itertools.product(
-        ("distance", "x", "arc_length"), ("rearrange", "split")
+        ("distance", "x", "arc_length", "matched"), ("rearrange", "split")
     )
 ]
 PCM_OPTIONS: list[Options] = [{}, {"offsets": 1}, {"offsets": 2}, {"offsets": 37}]

@@ -132,7 +132,7 @@ def test_twenty_thousand_points_are_few_artists_drawn_quickly(picture, ax):
 
 
 @pytest.mark.parametrize("crossing", ["rearrange", "split"])
-@pytest.mark.parametrize("spacing", ["distance", "x", "arc_length"])
+@pytest.mark.parametrize("spacing", ["distance", "x", "arc_length", "matched"])
 def test_polygons_are_the_quadrilaterals(spacing, crossing, ax):
     options = {"spacing": spacing, "crossing": crossing}
     artists = plotting.plot_area(P, Q, ax, **options)
