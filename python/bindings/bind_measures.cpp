@@ -27,12 +27,6 @@ void bind(py::module_& module, const char* name, Compute compute, Shape shape) {
                });
 }
 
-template <class Options>
-void bind_value(py::module_& module,
-                double (*measure)(const CurveView&, const CurveView&, const Options&, Control*)) {
-    bind<Options>(module, Options::measure, measure, [](double value) { return value; });
-}
-
 py::tuple as_tuple(const Alignment& alignment) {
     const auto length = static_cast<py::ssize_t>(alignment.path.size());
     return py::make_tuple(
@@ -87,11 +81,12 @@ void bind_array(py::module_& module, const char* name, Allocate allocate, Fill f
 }  // namespace
 
 void bind_measures(py::module_& module) {
-    bind_value<AreaOptions>(module, area);
-    bind_value<PcmOptions>(module, pcm);
-    bind_value<FrechetOptions>(module, frechet);
-    bind_value<DtwOptions>(module, dtw);
-    bind_value<CurveLengthOptions>(module, curve_length);
+    for_each_measure([&](const auto& defaults) {
+        using Options = std::decay_t<decltype(defaults)>;
+        const auto value = [](const CurveView& p, const CurveView& q, const Options& options,
+                              Control* control) { return evaluate(options, p, q, control); };
+        bind<Options>(module, Options::measure, value, [](double found) { return found; });
+    });
     bind<AreaOptions>(module, "area_quads", area_quads, to_tuple);
     bind<PcmOptions>(module, "pcm_match", pcm_match, to_tuple);
     bind<FrechetOptions>(module, "frechet_path", frechet_path, to_tuple);

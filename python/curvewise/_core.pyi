@@ -55,7 +55,7 @@ def cdist(
     /,
 ) -> None: ...
 def check_batch(
-    XA: list[_Array], XB: list[_Array] | None, measure: str, options: Options, /
+    XA: list[_Array], XB: list[_Array] | None, measure: str, options: _Options, /
 ) -> None: ...
 def pdist(
     X: list[_Array],

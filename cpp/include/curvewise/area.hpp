@@ -51,6 +51,7 @@ constexpr auto choice_names(Crossing /*crossing*/) noexcept {
 
 struct AreaOptions {
     static constexpr const char* measure = "area";
+    static constexpr bool is_planar = true;  // for curves of two coordinates only
 
     Spacing spacing = Spacing::distance;
     Crossing crossing = Crossing::rearrange;
@@ -91,6 +92,12 @@ CURVEWISE_EXPORT double area(const CurveView& P, const CurveView& Q,
 // The quadrilaterals behind area(); options.squared is not used.
 CURVEWISE_EXPORT AreaQuads area_quads(const CurveView& P, const CurveView& Q,
                                       const AreaOptions& options = {}, Control* control = nullptr);
+
+// For code that serves all measures alike (measure.hpp).
+inline double evaluate(const AreaOptions& options, const CurveView& P, const CurveView& Q,
+                       Control* control = nullptr) {
+    return area(P, Q, options, control);
+}
 
 namespace detail {
 class BatchMeasure;

@@ -41,6 +41,12 @@ CURVEWISE_EXPORT std::vector<Condition> conditions(Preset preset);
 // One value for each measure. Those of the plane have none where curves have other than two
 // coordinates.
 struct Comparison {
+    struct Value {
+        const char* measure;
+        double value;
+    };
+    // Of all measures, in the order of the list (measure.hpp); and, of five, by name.
+    std::vector<Value> values;
     std::optional<double> area;
     std::optional<double> pcm;
     double frechet = 0.0;

@@ -35,6 +35,7 @@ constexpr auto choice_names(LengthScale /*scale*/) noexcept {
 
 struct CurveLengthOptions {
     static constexpr const char* measure = "curve_length";
+    static constexpr bool is_planar = true;  // for curves of two coordinates only
 
     LengthScale scale = LengthScale::mean;
 
@@ -57,6 +58,12 @@ CURVEWISE_EXPORT double curve_length(const CurveView& P, const CurveView& Q,
 CURVEWISE_EXPORT void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
                                              const CurveLengthOptions& options = {},
                                              Control* control = nullptr);
+
+// For code that serves all measures alike (measure.hpp).
+inline double evaluate(const CurveLengthOptions& options, const CurveView& P, const CurveView& Q,
+                       Control* control = nullptr) {
+    return curve_length(P, Q, options, control);
+}
 
 namespace detail {
 class BatchMeasure;

@@ -1,17 +1,12 @@
 // How alike two curves are: everything curvewise offers to C++, except the Eigen adaptors.
 #pragma once
 
-#include "curvewise/area.hpp"
 #include "curvewise/build_info.hpp"
 #include "curvewise/compare.hpp"
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
-#include "curvewise/curve_length.hpp"
-#include "curvewise/dtw.hpp"
-#include "curvewise/frechet.hpp"
-#include "curvewise/measure.hpp"
+#include "curvewise/measure.hpp"  // and all measures
 #include "curvewise/options.hpp"
 #include "curvewise/pairwise.hpp"
-#include "curvewise/pcm.hpp"
 #include "curvewise/pointwise.hpp"
 #include "curvewise/version.hpp"

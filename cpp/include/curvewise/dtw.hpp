@@ -36,6 +36,7 @@ constexpr auto choice_names(StepPattern /*pattern*/) noexcept {
 
 struct DtwOptions {
     static constexpr const char* measure = "dtw";
+    static constexpr bool is_planar = false;  // for curves of any dimension
 
     GroundDistance ground;
     StepPattern step_pattern = StepPattern::symmetric1;
@@ -76,6 +77,12 @@ CURVEWISE_EXPORT Alignment dtw_path(const CurveView& P, const CurveView& Q,
 // Writes c to out[i * m + j]; infinity outside the window.
 CURVEWISE_EXPORT void dtw_table(const CurveView& P, const CurveView& Q, double* out,
                                 const DtwOptions& options = {}, Control* control = nullptr);
+
+// For code that serves all measures alike (measure.hpp).
+inline double evaluate(const DtwOptions& options, const CurveView& P, const CurveView& Q,
+                       Control* control = nullptr) {
+    return dtw(P, Q, options, control);
+}
 
 namespace detail {
 class BatchMeasure;

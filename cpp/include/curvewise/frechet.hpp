@@ -25,6 +25,7 @@ namespace curvewise {
 
 struct FrechetOptions {
     static constexpr const char* measure = "frechet";
+    static constexpr bool is_planar = false;  // for curves of any dimension
 
     GroundDistance ground;
     // Threads for this call, -1 for one per core. Never changes a result.
@@ -55,6 +56,12 @@ CURVEWISE_EXPORT Alignment frechet_path(const CurveView& P, const CurveView& Q,
 // Writes c to out[i * m + j].
 CURVEWISE_EXPORT void frechet_table(const CurveView& P, const CurveView& Q, double* out,
                                     const FrechetOptions& options = {}, Control* control = nullptr);
+
+// For code that serves all measures alike (measure.hpp).
+inline double evaluate(const FrechetOptions& options, const CurveView& P, const CurveView& Q,
+                       Control* control = nullptr) {
+    return frechet(P, Q, options, control);
+}
 
 namespace detail {
 class BatchMeasure;

@@ -26,6 +26,7 @@ namespace curvewise {
 
 struct PcmOptions {
     static constexpr const char* measure = "pcm";
+    static constexpr bool is_planar = true;  // for curves of two coordinates only
 
     // The number of evenly spaced offsets, at least 1 (1: no offset). Time O(offsets (n + m)).
     std::ptrdiff_t offsets = 200;
@@ -60,6 +61,12 @@ CURVEWISE_EXPORT double pcm(const CurveView& P, const CurveView& Q, const PcmOpt
                             Control* control = nullptr);
 CURVEWISE_EXPORT PcmMatch pcm_match(const CurveView& P, const CurveView& Q,
                                     const PcmOptions& options = {}, Control* control = nullptr);
+
+// For code that serves all measures alike (measure.hpp).
+inline double evaluate(const PcmOptions& options, const CurveView& P, const CurveView& Q,
+                       Control* control = nullptr) {
+    return pcm(P, Q, options, control);
+}
 
 namespace detail {
 class BatchMeasure;

@@ -27,7 +27,9 @@ class Scaled {
     std::vector<double> values_;
 };
 
-Condition condition(Preset preset, PcmOptions options) {
+// Where a measure has no other conditions.
+template <class Options>
+Condition condition(Preset preset, Options options) {
     return {options, preset == Preset::scaled};
 }
 
@@ -54,17 +56,16 @@ Condition condition(Preset preset, CurveLengthOptions options) {
     return {options, preset == Preset::scaled};
 }
 
-// Where a Comparison has the value of a measure.
-std::optional<double>& place(Comparison& found, const AreaOptions& /*of*/) { return found.area; }
-std::optional<double>& place(Comparison& found, const PcmOptions& /*of*/) { return found.pcm; }
-double& place(Comparison& found, const FrechetOptions& /*of*/) { return found.frechet; }
-double& place(Comparison& found, const DtwOptions& /*of*/) { return found.dtw; }
-std::optional<double>& place(Comparison& found, const CurveLengthOptions& /*of*/) {
-    return found.curve_length;
+// A value that a Comparison has by name, too.
+void keep(Comparison& found, const AreaOptions& /*of*/, double value) { found.area = value; }
+void keep(Comparison& found, const PcmOptions& /*of*/, double value) { found.pcm = value; }
+void keep(Comparison& found, const FrechetOptions& /*of*/, double value) { found.frechet = value; }
+void keep(Comparison& found, const DtwOptions& /*of*/, double value) { found.dtw = value; }
+void keep(Comparison& found, const CurveLengthOptions& /*of*/, double value) {
+    found.curve_length = value;
 }
-
-bool is_optional(const double& /*place*/) noexcept { return false; }
-bool is_optional(const std::optional<double>& /*place*/) noexcept { return true; }
+template <class Options>
+void keep(Comparison& /*found*/, const Options& /*of*/, double /*value*/) noexcept {}
 
 }  // namespace
 
@@ -80,14 +81,17 @@ Comparison compare(const CurveView& P, const CurveView& Q, Preset preset, Contro
         p.emplace(P, P, "P");
         q.emplace(P, Q, "Q");
     }
+    const auto value = [&](const auto& options, bool scaled) {
+        return scaled ? evaluate(options, p->view(), q->view(), control)
+                      : evaluate(options, P, Q, control);
+    };
     Comparison result;
     for (const Condition& given : conditions(preset)) {
         std::visit(
             [&](const auto& options) {
-                auto& value = place(result, options);
-                if (is_optional(value) && P.dim() != 2) return;
-                value = given.scaled ? evaluate(options, p->view(), q->view(), control)
-                                     : evaluate(options, P, Q, control);
+                if (options.is_planar && P.dim() != 2) return;
+                result.values.push_back({options.measure, value(options, given.scaled)});
+                keep(result, options, result.values.back().value);
             },
             given.measure);
     }

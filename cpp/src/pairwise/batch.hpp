@@ -1,39 +1,33 @@
-// A measure whatever its class: what cdist, pdist, Prepared and evaluate() call.
+// A measure of many curves, whatever its class: what cdist, pdist and Prepared go through. Every
+// curve is checked and prepared once; pair_run.hpp computes the pairs.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "curves/checks.hpp"
 #include "curvewise/pairwise.hpp"
+#include "pairwise/pair_run.hpp"
+#include "runtime/poller.hpp"
 
 namespace curvewise::detail {
 
-// Where the value of pair (i, j) goes.
-class PairDestination {
-   public:
-    enum class Shape { matrix, mirrored, condensed };
-
-    PairDestination(double* out, std::size_t columns, Shape shape) noexcept
-        : out_(out), columns_(static_cast<std::ptrdiff_t>(columns)), shape_(shape) {}
-
-    void write(std::ptrdiff_t i, std::ptrdiff_t j, double value) const noexcept {
-        if (shape_ == Shape::condensed) {
-            out_[i * columns_ - i * (i + 1) / 2 + j - i - 1] = value;
-            return;
-        }
-        out_[i * columns_ + j] = value;
-        if (shape_ == Shape::mirrored) out_[j * columns_ + i] = value;
-    }
-
-   private:
-    double* out_;
-    std::ptrdiff_t columns_;
-    Shape shape_;
-};
-
+// The hooks are what a measure class offers (measure.hpp); BatchOf implements them.
 class BatchMeasure {
    public:
+    // All curves that take P's place, prepared.
+    class Rows {
+       public:
+        Rows() = default;
+        Rows(const Rows&) = delete;
+        Rows(Rows&&) = delete;
+        Rows& operator=(const Rows&) = delete;
+        Rows& operator=(Rows&&) = delete;
+        virtual ~Rows() = default;
+    };
+
     BatchMeasure() = default;
     BatchMeasure(const BatchMeasure&) = delete;
     BatchMeasure(BatchMeasure&&) = delete;
@@ -41,36 +35,50 @@ class BatchMeasure {
     BatchMeasure& operator=(BatchMeasure&&) = delete;
     virtual ~BatchMeasure() = default;
 
-    // Throws what rectangle(), or square(), would throw before its work.
-    virtual void check(const CurveList& XA, const CurveList& XB) const = 0;
-    virtual void check(const CurveList& X) const = 0;
     // Of one pair.
     virtual double value(const CurveView& P, const CurveView& Q, Control* control) const = 0;
-    // Every curve of one list with every curve of the other.
-    virtual void rectangle(const CurveList& XA, const CurveList& XB,
-                           const PairDestination& destination, const BatchOptions& options,
-                           Control* control) const = 0;
-    // The same of a list with itself.
-    virtual void square(const CurveList& X, const PairDestination& destination,
-                        const BatchOptions& options, Control* control) const = 0;
-    // Every two curves of one list, for a symmetric measure.
-    virtual void triangle(const CurveList& X, const PairDestination& destination,
-                          const BatchOptions& options, Control* control) const = 0;
-    virtual std::shared_ptr<const Prepared::State> prepared(const CurveView& P) const = 0;
+    // Of the one curve of `rows`, and Q.
+    virtual double value(const Rows& rows, const CheckedCurve& Q, Poller& poller) const = 0;
+
+    virtual Requirements requirements() const noexcept = 0;
+    virtual void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const = 0;
+    virtual std::unique_ptr<const Rows> prepare_rows(const std::vector<CheckedCurve>& P) const = 0;
+    // The pairs of the rows, which must outlive them, with the curves that take Q's place.
+    virtual std::unique_ptr<const PairValues> pairs(const Rows& rows,
+                                                    const std::vector<CheckedCurve>& Q) const = 0;
+    // Throws where a row serves no Q.
+    virtual void check_rows(const Rows& rows) const = 0;
+};
+
+// What a batch writes, and how.
+struct BatchOutput {
+    PairDestination destination;
+    const BatchOptions& options;
+    Control* control;
+};
+
+// Throws what the functions below would throw before their work.
+void check_batch(const BatchMeasure& measure, const CurveList& XA, const CurveList& XB);
+void check_batch(const BatchMeasure& measure, const CurveList& X);
+
+// Every curve of one list with every curve of the other; of one list, as pairs of `set`.
+void compute_batch(const BatchMeasure& measure, const CurveList& XA, const CurveList& XB,
+                   const BatchOutput& output);
+void compute_batch(const BatchMeasure& measure, const CurveList& X, PairSet set,
+                   const BatchOutput& output);
+
+// A curve and a measure, prepared. Owns a copy of P.
+class PreparedCurve {
+   public:
+    PreparedCurve(std::unique_ptr<const BatchMeasure> measure, const CurveView& P);
+    double value(const CurveView& Q, Control* control) const;
+    void values(const CurveList& Qs, const BatchOutput& output) const;
+
+   private:
+    std::unique_ptr<const BatchMeasure> measure_;
+    std::vector<double> points_;
+    CurveView P_;
+    std::unique_ptr<const BatchMeasure::Rows> rows_;
 };
 
 }  // namespace curvewise::detail
-
-// A curve and a measure, prepared.
-class curvewise::Prepared::State {
-   public:
-    State() = default;
-    State(const State&) = delete;
-    State(State&&) = delete;
-    State& operator=(const State&) = delete;
-    State& operator=(State&&) = delete;
-    virtual ~State() = default;
-    virtual double value(const CurveView& Q, Control* control) const = 0;
-    virtual void values(const std::vector<CurveView>& Qs, double* out, const BatchOptions& options,
-                        Control* control) const = 0;
-};

@@ -36,30 +36,32 @@ double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q, 
 
 void check_batch(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
                  const Measure& measure) {
-    batch_of(measure)->check({XA, "XA"}, {XB, "XB"});
+    check_batch(*batch_of(measure), {XA, "XA"}, {XB, "XB"});
 }
 
 void check_batch(const std::vector<CurveView>& X, const Measure& measure) {
-    batch_of(measure)->check({X, "XA"});
+    check_batch(*batch_of(measure), {X, "XA"});
 }
 
 void cdist(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
            const Measure& measure, double* out, const BatchOptions& options, Control* control) {
     check_options(options);
-    const PairDestination destination(out, XB.size(), PairDestination::Shape::matrix);
-    batch_of(measure)->rectangle({XA, "XA"}, {XB, "XB"}, destination, options, control);
+    const PairDestination matrix(out, XB.size(), PairDestination::Shape::matrix);
+    compute_batch(*batch_of(measure), {XA, "XA"}, {XB, "XB"}, {matrix, options, control});
 }
 
 void cdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
            const BatchOptions& options, Control* control) {
     check_options(options);
-    if (!is_symmetric(measure)) {
-        const PairDestination matrix(out, X.size(), PairDestination::Shape::matrix);
-        return batch_of(measure)->square({X, "XA"}, matrix, options, control);
+    const bool halves = is_symmetric(measure);
+    if (halves) {
+        for (std::size_t i = 0; i < X.size(); ++i) out[i * X.size() + i] = 0.0;
     }
-    for (std::size_t i = 0; i < X.size(); ++i) out[i * X.size() + i] = 0.0;
-    const PairDestination mirrored(out, X.size(), PairDestination::Shape::mirrored);
-    batch_of(measure)->triangle({X, "XA"}, mirrored, options, control);
+    const PairDestination destination(
+        out, X.size(), halves ? PairDestination::Shape::mirrored : PairDestination::Shape::matrix);
+    compute_batch(*batch_of(measure), {X, "XA"},
+                  halves ? detail::PairSet::triangle : detail::PairSet::rectangle,
+                  {destination, options, control});
 }
 
 void pdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
@@ -71,11 +73,17 @@ void pdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
     }
     check_options(options);
     const PairDestination condensed(out, X.size(), PairDestination::Shape::condensed);
-    batch_of(measure)->triangle({X, "X"}, condensed, options, control);
+    compute_batch(*batch_of(measure), {X, "X"}, detail::PairSet::triangle,
+                  {condensed, options, control});
 }
 
+class Prepared::State : public detail::PreparedCurve {
+   public:
+    using PreparedCurve::PreparedCurve;
+};
+
 Prepared::Prepared(const CurveView& P, const Measure& measure)
-    : state_(batch_of(measure)->prepared(P)) {}
+    : state_(std::make_shared<const State>(batch_of(measure), P)) {}
 
 double Prepared::operator()(const CurveView& Q, Control* control) const {
     return state_->value(Q, control);
@@ -84,7 +92,8 @@ double Prepared::operator()(const CurveView& Q, Control* control) const {
 void Prepared::operator()(const std::vector<CurveView>& Qs, double* out,
                           const BatchOptions& options, Control* control) const {
     check_options(options);
-    state_->values(Qs, out, options, control);
+    const PairDestination row(out, Qs.size(), PairDestination::Shape::matrix);
+    state_->values({Qs, "Q"}, {row, options, control});
 }
 
 }  // namespace curvewise

@@ -93,7 +93,7 @@ class AreaMeasure : public detail::LinearMeasure {
     using PreparedQ = detail::UnpreparedCurve;
 
     explicit AreaMeasure(const AreaOptions& options) : options_(options) {}
-    static detail::Requirements requirements() noexcept { return {"area", 2, true}; }
+    static detail::Requirements requirements() noexcept { return {AreaOptions::measure, 2, true}; }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
                       const detail::Call<Memory>& call) const {

@@ -145,7 +145,9 @@ class CurveLengthMeasure : public detail::LinearMeasure {
     using PreparedQ = Side;
 
     explicit CurveLengthMeasure(const CurveLengthOptions& options) : options_(options) {}
-    static detail::Requirements requirements() noexcept { return {"curve_length", 2, true}; }
+    static detail::Requirements requirements() noexcept {
+        return {CurveLengthOptions::measure, 2, true};
+    }
 
     // Throws where there is nothing to divide by.
     void check_p(const PreparedP& P) const {

@@ -1,7 +1,7 @@
 // The continuous search is a branch and bound over offsets. f is S-Lipschitz, which discards an
 // interval far from the best value in O(n + m). Near it that bound is too weak (of first order in
 // the interval's width h), so a second one is used: d_i is convex as long as s_i + o stays on one
-// segment, so it lies above its tangent at the interval's centre, but for what the corners inside
+// segment, so it lies above its tangent at the interval's centre, less what the corners inside
 // the interval take away; that is added up exactly, corner by corner. What is lost is of second
 // order in h, so that a few intervals per halving survive. Typically 10^3 evaluations.
 #include "planar/offset_search.hpp"

@@ -85,7 +85,7 @@ class PcmMeasure : public detail::LinearMeasure {
             detail::check_whole_number("offsets", options.offsets, offsets_range);
         }
     }
-    static detail::Requirements requirements() noexcept { return {"pcm", 2, true}; }
+    static detail::Requirements requirements() noexcept { return {PcmOptions::measure, 2, true}; }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
                       const detail::Call<Memory>& call) const {

@@ -76,7 +76,7 @@ std::ptrdiff_t Pipeline::take() noexcept {
 }
 
 bool Pipeline::reached(std::ptrdiff_t strip, std::ptrdiff_t columns) const noexcept {
-    const Progress& above = strips_[static_cast<std::size_t>(strip - 1)];
+    const FinishedColumns& above = strips_[static_cast<std::size_t>(strip - 1)];
     return above.columns.load(std::memory_order_acquire) >= columns;
 }
 

@@ -40,12 +40,12 @@ class Pipeline {
 
    private:
     // On a cache line of its own: written by one thread, read by another.
-    struct alignas(64) Progress {
+    struct alignas(64) FinishedColumns {
         std::atomic<std::ptrdiff_t> columns{0};
     };
     bool reached(std::ptrdiff_t strip, std::ptrdiff_t columns) const noexcept;
 
-    std::vector<Progress> strips_;
+    std::vector<FinishedColumns> strips_;
     std::atomic<std::ptrdiff_t> next_{0};
     std::mutex mutex_;
     std::condition_variable moved_;

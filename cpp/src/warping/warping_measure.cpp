@@ -6,7 +6,6 @@
 // the table.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -208,14 +207,21 @@ class WarpingMeasure {
     WarpingOptions options_;
 };
 
-template <class Options, class Use>
-auto with_table(const CurveView& P, const CurveView& Q, const Options& options, Control* control,
-                Use use) {
-    const WarpingMeasure measure(options);
-    return detail::with_pair(measure, P, Q, control,
-                             [&](const auto& p, const auto& q, const auto& call) {
-                                 return measure.with_problem(p, q, call, use);
-                             });
+Alignment path(const WarpingMeasure& measure, const CurveView& P, const CurveView& Q,
+               Control* control) {
+    return detail::with_pair(
+        measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
+            return measure.with_problem(
+                p, q, call, [](const WarpingProblem& problem) { return problem.alignment(); });
+        });
+}
+
+void table(const WarpingMeasure& measure, const CurveView& P, const CurveView& Q, double* out,
+           Control* control) {
+    detail::with_pair(measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
+        measure.with_problem(p, q, call,
+                             [&](const WarpingProblem& problem) { problem.write_table(out); });
+    });
 }
 
 }  // namespace
@@ -231,24 +237,22 @@ double frechet(const CurveView& P, const CurveView& Q, const FrechetOptions& opt
 
 Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& options,
                    Control* control) {
-    return with_table(P, Q, options, control, std::mem_fn(&WarpingProblem::alignment));
+    return path(WarpingMeasure(options), P, Q, control);
 }
 
 Alignment frechet_path(const CurveView& P, const CurveView& Q, const FrechetOptions& options,
                        Control* control) {
-    return with_table(P, Q, options, control, std::mem_fn(&WarpingProblem::alignment));
+    return path(WarpingMeasure(options), P, Q, control);
 }
 
 void dtw_table(const CurveView& P, const CurveView& Q, double* out, const DtwOptions& options,
                Control* control) {
-    with_table(P, Q, options, control,
-               [&](const WarpingProblem& problem) { problem.write_table(out); });
+    table(WarpingMeasure(options), P, Q, out, control);
 }
 
 void frechet_table(const CurveView& P, const CurveView& Q, double* out,
                    const FrechetOptions& options, Control* control) {
-    with_table(P, Q, options, control,
-               [&](const WarpingProblem& problem) { problem.write_table(out); });
+    table(WarpingMeasure(options), P, Q, out, control);
 }
 
 std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(const DtwOptions& options) {

@@ -2,7 +2,7 @@
 
 scipy does the work, except for the response surfaces. What is set here differently from scipy's
 defaults follows from the objective: it has kinks (a sum of absolute values, a maximum) and jumps,
-so no method but least squares takes its gradient; and its smallest value is 0 for a perfect model,
+so only least squares takes its gradient; and its smallest value is 0 for a perfect model,
 so that a tolerance relative to the value alone would never be met.
 """
 

@@ -40,7 +40,7 @@ struct EuclideanCost : SquaredCost<dim> {
     }
 };
 
-// |difference|, which every metric but sqeuclidean is in one dimension.
+// |difference|, which every metric except sqeuclidean is in one dimension.
 struct AbsoluteCost {
     const double* p;
     const double* q;

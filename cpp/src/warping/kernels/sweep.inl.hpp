@@ -175,7 +175,7 @@ void advance(Strip& strip, std::ptrdiff_t end, CostFunction fill) noexcept {
 // The ground distances that are worth their own loop are fused.
 template <class Rule, class Keep>
 AdvanceFunction select_cost(Cost cost, std::ptrdiff_t dim) noexcept {
-    if (dim == 1 && cost.metric != Metric::sqeuclidean) return advance<Rule, AbsoluteCost, Keep>;
+    if (cost.metric == Metric::cityblock && dim == 1) return advance<Rule, AbsoluteCost, Keep>;
     if (cost.metric == Metric::sqeuclidean) {
         if (dim == 1) return advance<Rule, SquaredCost<1>, Keep>;
         if (dim == 2) return advance<Rule, SquaredCost<2>, Keep>;

@@ -1,0 +1,124 @@
+#include "pairwise/pair_run.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "runtime/workers.hpp"
+
+namespace curvewise::detail {
+namespace {
+
+class PairRun {
+   public:
+    PairRun(const PairValues& pairs, const PairTiles& tiles, const PairDestination& destination,
+            const BatchOptions& options)
+        : pairs_(pairs),
+          tiles_(tiles),
+          destination_(destination),
+          workers_(resolve_workers(options.workers)),
+          cutoff_(options.cutoff) {}
+
+    void run(Poller& poller) {
+        if (pairs_.is_swept() && workers_ > 1) run_giants(poller);
+        const auto useful = static_cast<std::ptrdiff_t>(tiles_.tiles().size());
+        run_workers(std::min(workers_, useful), poller,
+                    [this](std::ptrdiff_t /*w*/, Poller& own) { take_tiles(own); });
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+   private:
+    // A pair of at least this many steps a thread is worth sweeping by all threads at once, if
+    // there are too few of them to keep every thread busy to the end.
+    static constexpr std::int64_t giant_cells_per_worker = std::int64_t{1} << 23;
+    static constexpr std::size_t few = 8;  // a thread
+
+    bool is_giant(std::ptrdiff_t i, std::ptrdiff_t j) const noexcept {
+        return steps(i, j) >= giant_;
+    }
+    std::int64_t steps(std::ptrdiff_t i, std::ptrdiff_t j) const noexcept {
+        return pairs_.steps()(pairs_.row_points(i), 1, pairs_.column_points(j));
+    }
+
+    double value(std::ptrdiff_t i, std::ptrdiff_t j, const PairCall& call) const {
+        // The transposed table holds the same values, to the bit, and fewer, longer rows are swept
+        // faster.
+        if (pairs_.is_swept() && tiles_.set() == PairSet::triangle &&
+            pairs_.row_points(i) > pairs_.column_points(j)) {
+            std::swap(i, j);
+        }
+        const double found = pairs_.value(i, j, call);
+        return found > cutoff_ ? std::numeric_limits<double>::infinity() : found;
+    }
+
+    void run_giants(Poller& poller) {
+        std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> giants;
+        giant_ = giant_cells_per_worker * workers_;
+        const std::size_t most = few * static_cast<std::size_t>(workers_);
+        for (const Tile& tile : tiles_.tiles()) {
+            if (tile.largest < giant_ || giants.size() > most) break;
+            tiles_.for_each(tile, [&](std::ptrdiff_t i, std::ptrdiff_t j) {
+                if (is_giant(i, j)) giants.emplace_back(i, j);
+                return giants.size() <= most;
+            });
+        }
+        if (giants.size() > most) giants.clear();
+        if (giants.empty()) giant_ = no_giant;
+        const std::unique_ptr<ThreadMemory> memory = pairs_.make_memory();
+        for (const auto& [i, j] : giants) {
+            destination_.write(i, j, value(i, j, {cutoff_, workers_, poller, *memory}));
+        }
+    }
+
+    void take_tiles(Poller& poller) noexcept {
+        try {
+            const std::unique_ptr<ThreadMemory> memory = pairs_.make_memory();
+            const PairCall call{cutoff_, 1, poller, *memory};
+            const std::vector<Tile>& tiles = tiles_.tiles();
+            for (std::size_t t = next_++; t < tiles.size() && !has_failed_; t = next_++) {
+                tiles_.for_each(tiles[t], [&](std::ptrdiff_t i, std::ptrdiff_t j) {
+                    if (is_giant(i, j)) return true;
+                    destination_.write(i, j, value(i, j, call));
+                    if (pairs_.is_swept() ? poller.stopped() : poller.count_steps(steps(i, j))) {
+                        throw Stopped();
+                    }
+                    return true;
+                });
+            }
+        } catch (...) {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            if (!failure_) failure_ = std::current_exception();
+            has_failed_ = true;
+        }
+    }
+
+    static constexpr std::int64_t no_giant = std::numeric_limits<std::int64_t>::max();
+
+    const PairValues& pairs_;
+    const PairTiles& tiles_;
+    const PairDestination& destination_;
+    std::ptrdiff_t workers_;
+    double cutoff_;
+    std::int64_t giant_ = no_giant;
+    std::atomic<std::size_t> next_{0};
+    std::atomic<bool> has_failed_{false};
+    std::mutex mutex_;
+    std::exception_ptr failure_;
+};
+
+}  // namespace
+
+void run_pairs(const PairValues& pairs, const PairTiles& tiles, const PairDestination& destination,
+               const BatchOptions& options, Control* control) {
+    Poller poller(control);
+    poller.begin(tiles.total());
+    PairRun(pairs, tiles, destination, options).run(poller);
+    poller.finish();
+}
+
+}  // namespace curvewise::detail
