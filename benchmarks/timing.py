@@ -179,12 +179,12 @@ def _serve(task: dict[str, Any] | None) -> None:
     sample = sampler(Task(**task).call()) if task else None
     for question in sys.stdin:
         if question.strip() == "peak":
-            print(_peak_bytes(), flush=True)
+            print(peak_bytes(), flush=True)
         elif sample:
             print(sample(int(question)), flush=True)
 
 
-def _peak_bytes() -> int:
+def peak_bytes() -> int:
     """Return the peak resident memory of this process.
 
     Linux hands ru_maxrss down from the process that started this one, whose peak may be larger;

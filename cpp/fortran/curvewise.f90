@@ -45,6 +45,8 @@ module curvewise
         integer(c_int) :: metric = euclidean
         real(c_double) :: p = 2                 ! the order of minkowski
         integer(c_ptrdiff_t) :: workers = 1     ! threads, -1 for one per core
+        integer(c_int) :: prune = 1             ! not 0: leave out what cannot matter
+        real(c_double) :: cutoff = huge(1.0_c_double)  ! a value above it becomes infinity
     end type
 
     type, bind(C), public :: dtw_options
@@ -55,6 +57,8 @@ module curvewise
         integer(c_int) :: open_end = 0
         integer(c_ptrdiff_t) :: window = no_window
         integer(c_ptrdiff_t) :: workers = 1
+        integer(c_int) :: prune = 1
+        real(c_double) :: cutoff = huge(1.0_c_double)
     end type
 
     type, bind(C), public :: curve_length_options

@@ -48,6 +48,13 @@ py::tuple as_tuple(const PcmMatch& match) {
         py::array_t<double>({count, py::ssize_t{2}}, match.points.front().data()));
 }
 
+py::tuple as_tuple(const WarpingInfo& info) {
+    py::dict seconds;
+    for (const WarpingInfo::Phase& phase : info.phases) seconds[phase.name] = phase.seconds;
+    return py::make_tuple(info.value, info.pruned, info.cells_swept, info.share,
+                          py::make_tuple(info.lower, info.upper), seconds);
+}
+
 constexpr auto to_tuple = [](const auto& found) { return as_tuple(found); };
 
 py::array_t<double> allocate_table(const CurveArray& P, const CurveArray& Q) {
@@ -91,6 +98,8 @@ void bind_measures(py::module_& module) {
     bind<PcmOptions>(module, "pcm_match", pcm_match, to_tuple);
     bind<FrechetOptions>(module, "frechet_path", frechet_path, to_tuple);
     bind<DtwOptions>(module, "dtw_path", dtw_path, to_tuple);
+    bind<FrechetOptions>(module, "frechet_info", frechet_info, to_tuple);
+    bind<DtwOptions>(module, "dtw_info", dtw_info, to_tuple);
     bind_array<FrechetOptions>(module, "frechet_table", allocate_table, frechet_table);
     bind_array<DtwOptions>(module, "dtw_table", allocate_table, dtw_table);
     const auto allocate_residuals = [](const CurveArray& P, const CurveArray& /*Q*/) {

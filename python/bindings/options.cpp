@@ -1,5 +1,6 @@
 #include "options.hpp"
 
+#include <limits>
 #include <string>
 
 #include "curvewise/compare.hpp"
@@ -24,7 +25,6 @@ class ChoiceCollector {
     void operator()(const GroundDistance& ground) { (*this)("metric", ground.metric); }
     template <class... Other>
     void operator()(const char* /*name*/, const Other&... /*not a choice*/) noexcept {}
-    void operator()(const char* /*name*/, bool /*not a choice*/) noexcept {}
 
    private:
     py::dict& choices_;
@@ -63,6 +63,16 @@ std::ptrdiff_t whole_number(const char* option, const py::object& given,
         PyErr_Clear();
     }
     throw py::value_error(std::string(option) + " is " + repr(given) + "; " + range.advice);
+}
+
+double real_number(const char* option, const py::object& given, const RealNumberRange& range) {
+    if (given.is_none()) return std::numeric_limits<double>::infinity();
+    const double value = PyFloat_AsDouble(given.ptr());
+    if (PyErr_Occurred() || !(value >= range.least)) {
+        PyErr_Clear();
+        throw py::value_error(std::string(option) + " is " + repr(given) + "; " + range.advice);
+    }
+    return value;
 }
 
 bool is_true(const py::object& given) {

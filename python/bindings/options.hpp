@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <type_traits>
 
@@ -26,13 +27,16 @@ bool is_text(const py::object& given, const char* text);
 std::ptrdiff_t whole_number(const char* option, const py::object& given,
                             const WholeNumberRange& range);
 
+// A number within the range, or infinity for None.
+double real_number(const char* option, const py::object& given, const RealNumberRange& range);
+
 // Python's truth.
 bool is_true(const py::object& given);
 
 // The order of minkowski; no other metric takes one.
 double minkowski_order(const py::object& p, Metric metric);
 
-// Whether the options are those of a batch, which has workers of its own.
+// Whether the options are those of a batch, which has workers and a cutoff of its own.
 enum class OptionsOf { pair, batch };
 
 // Reads the options of one measure (see curvewise/options.hpp) from a dict. Fastest where the dict
@@ -64,6 +68,11 @@ class OptionReader {
         if (!object) return;
         continuous = is_text(object, "continuous");
         if (!continuous) value = whole_number(name, object, range);
+    }
+    // Only `cutoff` is a real number.
+    void operator()(const char* name, double& value, const RealNumberRange& range) {
+        if (what_ == OptionsOf::batch) return;
+        if (const py::object object = take(name)) value = real_number(name, object, range);
     }
     void operator()(GroundDistance& ground) {
         const py::object metric = take("metric");
@@ -119,6 +128,10 @@ class OptionWriter {
                     const WholeNumberRange& /*range*/) {
         options_[name] = continuous ? py::object(py::str("continuous")) : py::int_(value);
     }
+    void operator()(const char* name, double value, const RealNumberRange& /*range*/) {
+        const bool is_none = value == std::numeric_limits<double>::infinity();
+        options_[name] = is_none ? py::object(py::none()) : py::object(py::float_(value));
+    }
     void operator()(const GroundDistance& ground) {
         (*this)("metric", ground.metric);
         const bool has_order = ground.metric == Metric::minkowski;
@@ -143,7 +156,9 @@ Options read_options(const py::dict& given, OptionsOf what = OptionsOf::pair) {
     visit_options(options, reader);
     if (reader.has_more()) {
         py::dict valid = written(options);
-        if (what == OptionsOf::batch && valid.contains("workers")) valid.attr("pop")("workers");
+        if (what == OptionsOf::batch) {
+            for (const char* own : {"workers", "cutoff"}) valid.attr("pop")(own, py::none());
+        }
         refuse_unknown_option(Options::measure, given, valid);
     }
     return options;

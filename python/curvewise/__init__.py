@@ -19,9 +19,11 @@ from .measures import (
     curve_length,
     curve_length_residuals,
     dtw,
+    dtw_info,
     dtw_path,
     dtw_table,
     frechet,
+    frechet_info,
     frechet_path,
     frechet_table,
     mae,
@@ -32,7 +34,7 @@ from .measures import (
     sum_of_squares,
 )
 from .pairwise import Prepared, available_measures, cdist, pdist
-from .results import Alignment, AreaQuads, PcmMatch
+from .results import Alignment, AreaQuads, PcmMatch, WarpingInfo
 
 if TYPE_CHECKING:
     from . import calibration as calibration
@@ -47,6 +49,7 @@ __all__ = [
     "Comparison",
     "PcmMatch",
     "Prepared",
+    "WarpingInfo",
     "__version__",
     "area",
     "area_quads",
@@ -58,9 +61,11 @@ __all__ = [
     "curve_length_residuals",
     "datasets",
     "dtw",
+    "dtw_info",
     "dtw_path",
     "dtw_table",
     "frechet",
+    "frechet_info",
     "frechet_path",
     "frechet_table",
     "get_include",

@@ -35,7 +35,15 @@ p : float, 1 <= p <= inf, optional
     "workers": """\
 workers : int
     Threads for this call: at least 1, or -1 for one per core. Never changes the result.""",
+    "prune": """\
+prune : bool
+    Whether to leave out what cannot matter of the table. Never changes the result.""",
+    "cutoff": """\
+cutoff : float >= 0, optional
+    A distance above it is inf, and is found to be so early.""",
 }
+# What the reference does not have: it computes the plain table in one thread.
+_NOT_OF_THE_REFERENCE = ("workers", "prune", "cutoff")
 
 
 def filled(**lists: str) -> Callable[[Documented], Documented]:
@@ -55,14 +63,14 @@ def inherit(function: Callable[..., Any], measure: Callable[..., Any]) -> None:
     """Give a function of the reference the docstring of the measure that it computes.
 
     The docstring that the function has in its source becomes the Notes. The examples call the
-    reference instead of the package, and the parameter ``workers`` is left out where the function
-    does not have it.
+    reference instead of the package, and parameters that only the measures have are left out.
     """
     doc, notes = inspect.getdoc(measure), inspect.getdoc(function)
     if doc is None or notes is None:  # python -OO
         return
-    if "workers" not in inspect.signature(function).parameters:
-        doc = doc.replace(f"{_SHARED['workers']}\n", "").replace(", workers\n", "\n")
+    for name in reversed(_NOT_OF_THE_REFERENCE):
+        if name not in inspect.signature(function).parameters:
+            doc = doc.replace(f"{_SHARED[name]}\n", "").replace(f", {name}\n", "\n")
     head, _, tail = doc.partition("\nNotes\n-----\n")
     examples = tail[tail.index("\n\nExamples\n") :]
     examples = examples.replace("import curvewise\n", "from curvewise import reference\n")

@@ -52,3 +52,5 @@ class Default:
     offsets: Final[Offsets] = 200
     scale: Final[LengthScale] = "mean"
     workers: Final[SupportsIndex] = 1
+    prune: Final[bool] = True
+    cutoff: Final[SupportsFloat | None] = None

@@ -49,8 +49,8 @@ def available_measures() -> list[str]:
     Examples
     --------
     >>> import curvewise
-    >>> curvewise.available_measures()
-    ['area', 'curve_length', 'dtw', 'frechet', 'pcm']
+    >>> curvewise.available_measures()[:2]
+    ['area', 'curve_length']
     """
     return sorted(MEASURES)
 

@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Alignment", "AreaQuads", "PcmMatch"]
+__all__ = ["Alignment", "AreaQuads", "PcmMatch", "WarpingInfo"]
 
 
 @dataclass(frozen=True)
@@ -68,3 +68,33 @@ class PcmMatch:
     coverage: float
     mapped: Literal["P", "Q"]
     points: npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class WarpingInfo:
+    """A distance with how much of the table it took, and why.
+
+    Attributes
+    ----------
+    value : float
+        The distance.
+    pruned : bool
+        Whether a part of the table was left out. If not, all of it was swept: because
+        ``prune=False`` asked for it, because the curves are short, or because the bounds said
+        early that they would not help.
+    cells_swept : int
+        Cells of the table that were computed; some of them may have been computed twice.
+    share : float
+        `cells_swept` over n m.
+    bounds : tuple of float
+        A lower and an upper bound of the distance, as they were known before the last step.
+    seconds : dict of str to float
+        Time by phase, and of "all".
+    """
+
+    value: float
+    pruned: bool
+    cells_swept: int
+    share: float
+    bounds: tuple[float, float]
+    seconds: dict[str, float]

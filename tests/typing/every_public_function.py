@@ -39,6 +39,9 @@ alignment: curvewise.Alignment = curvewise.frechet_path(P, Q, metric="chebyshev"
 path: npt.NDArray[np.int64] = alignment.path
 number = alignment.distance
 table: FloatArray = curvewise.frechet_table(P, Q, metric="cityblock")
+info: curvewise.WarpingInfo = curvewise.frechet_info(P, Q, prune=False)
+info = curvewise.dtw_info(P, Q, step_pattern="symmetric2", window=3)
+bounds: tuple[float, float] = info.bounds
 number = curvewise.dtw(P, Q, metric="sqeuclidean", step_pattern="symmetric2", window=10)
 number = curvewise.dtw(P[:, 0], Q[:, 0], open_begin=True, open_end=True)
 alignment = curvewise.dtw_path(P, Q, window=np.int32(3), workers=2)

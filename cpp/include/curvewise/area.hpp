@@ -99,9 +99,8 @@ inline double evaluate(const AreaOptions& options, const CurveView& P, const Cur
     return area(P, Q, options, control);
 }
 
-namespace detail {
-class BatchMeasure;
-std::unique_ptr<const BatchMeasure> batch_measure(const AreaOptions& options);  // for pairwise.hpp
+namespace detail {  // for pairwise.hpp
+std::unique_ptr<const class BatchMeasure> batch_measure(const AreaOptions& options);
 }  // namespace detail
 
 }  // namespace curvewise

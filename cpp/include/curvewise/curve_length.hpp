@@ -65,10 +65,8 @@ inline double evaluate(const CurveLengthOptions& options, const CurveView& P, co
     return curve_length(P, Q, options, control);
 }
 
-namespace detail {
-class BatchMeasure;
-std::unique_ptr<const BatchMeasure> batch_measure(
-    const CurveLengthOptions& options);  // for pairwise.hpp
+namespace detail {  // for pairwise.hpp
+std::unique_ptr<const class BatchMeasure> batch_measure(const CurveLengthOptions& options);
 }  // namespace detail
 
 }  // namespace curvewise

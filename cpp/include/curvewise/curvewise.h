@@ -86,9 +86,11 @@ typedef struct curvewise_frechet_options {
     int metric;        /* curvewise_metric */
     double p;          /* the order of CURVEWISE_MINKOWSKI; not used by other metrics */
     ptrdiff_t workers; /* threads, -1 for one per core */
+    int prune;         /* not 0: leave out what cannot matter of the table */
+    double cutoff;     /* a value above it becomes infinity */
 } curvewise_frechet_options;
 #define CURVEWISE_FRECHET_DEFAULTS \
-    { CURVEWISE_EUCLIDEAN, 2.0, 1 }
+    { CURVEWISE_EUCLIDEAN, 2.0, 1, 1, HUGE_VAL }
 
 typedef struct curvewise_dtw_options {
     int metric;
@@ -98,10 +100,12 @@ typedef struct curvewise_dtw_options {
     int open_end;      /* not 0: ... that may end anywhere */
     ptrdiff_t window;  /* Sakoe-Chiba band; CURVEWISE_NO_WINDOW for none */
     ptrdiff_t workers; /* threads, -1 for one per core */
+    int prune;         /* not 0: leave out what cannot matter of the table */
+    double cutoff;     /* a value above it becomes infinity */
 } curvewise_dtw_options;
 #define CURVEWISE_NO_WINDOW (-1)
 #define CURVEWISE_DTW_DEFAULTS \
-    { CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1 }
+    { CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL }
 
 typedef struct curvewise_curve_length_options {
     int scale; /* curvewise_length_scale */

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -25,6 +26,7 @@
 #include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
 #include "curvewise/options.hpp"
+#include "curvewise/warping_info.hpp"
 
 namespace curvewise {
 
@@ -48,6 +50,11 @@ struct DtwOptions {
     bool open_end = false;
     // Threads for this call, -1 for one per core. Never changes a result.
     std::ptrdiff_t workers = 1;
+    // Whether to leave out what cannot matter of the table. Never changes a result.
+    bool prune = true;
+    // A distance above it, at least 0, becomes infinity, and is found to be so early. Paths and
+    // tables do not look at it; batches have one of their own besides.
+    double cutoff = std::numeric_limits<double>::infinity();
 
     constexpr bool is_symmetric() const noexcept { return !open_begin && !open_end; }
     // The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
@@ -64,6 +71,8 @@ void visit_options(DtwOptions& options, Visit&& visit) {
     visit("open_begin", options.open_begin);
     visit("open_end", options.open_end);
     visit("workers", options.workers, workers_range);
+    visit("prune", options.prune);
+    visit("cutoff", options.cutoff, cutoff_range);
 }
 
 CURVEWISE_EXPORT double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options = {},
@@ -78,15 +87,18 @@ CURVEWISE_EXPORT Alignment dtw_path(const CurveView& P, const CurveView& Q,
 CURVEWISE_EXPORT void dtw_table(const CurveView& P, const CurveView& Q, double* out,
                                 const DtwOptions& options = {}, Control* control = nullptr);
 
+// The distance, with how it was found (see docs/performance.md).
+CURVEWISE_EXPORT WarpingInfo dtw_info(const CurveView& P, const CurveView& Q,
+                                      const DtwOptions& options = {}, Control* control = nullptr);
+
 // For code that serves all measures alike (measure.hpp).
 inline double evaluate(const DtwOptions& options, const CurveView& P, const CurveView& Q,
                        Control* control = nullptr) {
     return dtw(P, Q, options, control);
 }
 
-namespace detail {
-class BatchMeasure;
-std::unique_ptr<const BatchMeasure> batch_measure(const DtwOptions& options);  // for pairwise.hpp
+namespace detail {  // for pairwise.hpp
+std::unique_ptr<const class BatchMeasure> batch_measure(const DtwOptions& options);
 }  // namespace detail
 
 }  // namespace curvewise

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 
 #include "curvewise/alignment.hpp"
@@ -20,6 +21,7 @@
 #include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
 #include "curvewise/options.hpp"
+#include "curvewise/warping_info.hpp"
 
 namespace curvewise {
 
@@ -30,6 +32,12 @@ struct FrechetOptions {
     GroundDistance ground;
     // Threads for this call, -1 for one per core. Never changes a result.
     std::ptrdiff_t workers = 1;
+    // Whether to leave out what cannot matter of the table: similar curves then take nearly linear
+    // time. Never changes a result.
+    bool prune = true;
+    // A distance above it, at least 0, becomes infinity, and is found to be so early. Paths and
+    // tables do not look at it; batches have one of their own besides.
+    double cutoff = std::numeric_limits<double>::infinity();
 
     static constexpr bool is_symmetric() noexcept { return true; }
     // The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
@@ -42,6 +50,8 @@ template <class Visit>
 void visit_options(FrechetOptions& options, Visit&& visit) {
     visit(options.ground);
     visit("workers", options.workers, workers_range);
+    visit("prune", options.prune);
+    visit("cutoff", options.cutoff, cutoff_range);
 }
 
 CURVEWISE_EXPORT double frechet(const CurveView& P, const CurveView& Q,
@@ -57,16 +67,19 @@ CURVEWISE_EXPORT Alignment frechet_path(const CurveView& P, const CurveView& Q,
 CURVEWISE_EXPORT void frechet_table(const CurveView& P, const CurveView& Q, double* out,
                                     const FrechetOptions& options = {}, Control* control = nullptr);
 
+// The distance, with how it was found (see docs/performance.md).
+CURVEWISE_EXPORT WarpingInfo frechet_info(const CurveView& P, const CurveView& Q,
+                                          const FrechetOptions& options = {},
+                                          Control* control = nullptr);
+
 // For code that serves all measures alike (measure.hpp).
 inline double evaluate(const FrechetOptions& options, const CurveView& P, const CurveView& Q,
                        Control* control = nullptr) {
     return frechet(P, Q, options, control);
 }
 
-namespace detail {
-class BatchMeasure;
-std::unique_ptr<const BatchMeasure> batch_measure(
-    const FrechetOptions& options);  // for pairwise.hpp
+namespace detail {  // for pairwise.hpp
+std::unique_ptr<const class BatchMeasure> batch_measure(const FrechetOptions& options);
 }  // namespace detail
 
 }  // namespace curvewise

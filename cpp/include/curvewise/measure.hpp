@@ -31,11 +31,6 @@ void for_each_measure(Visit&& visit) {
     detail::for_each_alternative(static_cast<const Measure*>(nullptr), visit);
 }
 
-// The name of a measure: "dtw".
-inline const char* measure_name(const Measure& measure) noexcept {
-    return std::visit([](const auto& options) { return options.measure; }, measure);
-}
-
 // The measure of P and Q. Throws what the measure's own function throws.
 CURVEWISE_EXPORT double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q,
                                  Control* control = nullptr);

@@ -7,6 +7,7 @@
 //   visit(name, number, range)             a whole number
 //   visit(name, optional_number, range)    a whole number, or none
 //   visit(name, number, switch, range)     a whole number, or "continuous", which sets the switch
+//   visit(name, real_number, range)        a number; infinity stands for none
 //
 // An example: python/bindings/options.hpp, which reads all of them from a dict.
 #pragma once
@@ -22,10 +23,16 @@ struct WholeNumberRange {
     const char* advice;
 };
 
+struct RealNumberRange {
+    double least;
+    const char* advice;
+};
+
 inline constexpr WholeNumberRange workers_range{
     -1, "give a whole number >= 1, or -1 for all cores"};  // 0 is refused, too
 inline constexpr WholeNumberRange window_range{0, "give a whole number >= 0, or None"};
 inline constexpr WholeNumberRange offsets_range{1, "give a whole number >= 1, or 'continuous'"};
+inline constexpr RealNumberRange cutoff_range{0.0, "give a number >= 0, or None"};
 
 // The names of an enumeration's enumerators, in their order, as choice_names() gives them; `last`
 // is the last one there is.

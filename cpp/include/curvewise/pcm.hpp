@@ -68,9 +68,8 @@ inline double evaluate(const PcmOptions& options, const CurveView& P, const Curv
     return pcm(P, Q, options, control);
 }
 
-namespace detail {
-class BatchMeasure;
-std::unique_ptr<const BatchMeasure> batch_measure(const PcmOptions& options);  // for pairwise.hpp
+namespace detail {  // for pairwise.hpp
+std::unique_ptr<const class BatchMeasure> batch_measure(const PcmOptions& options);
 }  // namespace detail
 
 }  // namespace curvewise

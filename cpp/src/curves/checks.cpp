@@ -122,5 +122,9 @@ void check_whole_number(const char* option, std::ptrdiff_t value, const WholeNum
     refuse(std::string(option) + " is " + std::to_string(value), range.advice);
 }
 
+void check_cutoff(double cutoff) {
+    if (!(cutoff >= 0.0)) refuse("cutoff is " + std::to_string(cutoff), "give a number >= 0");
+}
+
 }  // namespace detail
 }  // namespace curvewise

@@ -106,6 +106,8 @@ curvewise::FrechetOptions translate(const curvewise_frechet_options& given) {
     curvewise::FrechetOptions options;
     options.ground = ground_distance(given.metric, given.p);
     options.workers = given.workers;
+    options.prune = given.prune != 0;
+    options.cutoff = given.cutoff;
     return options;
 }
 
@@ -117,6 +119,8 @@ curvewise::DtwOptions translate(const curvewise_dtw_options& given) {
     options.open_begin = given.open_begin != 0;
     options.open_end = given.open_end != 0;
     options.workers = given.workers;
+    options.prune = given.prune != 0;
+    options.cutoff = given.cutoff;
     return options;
 }
 
@@ -125,25 +129,24 @@ curvewise::CurveLengthOptions translate(const curvewise_curve_length_options& gi
 }
 
 // Options given as a null pointer are the defaults.
-template <class Options, class Given>
+template <class Given>
 curvewise::Measure measure_or_default(const void* given) {
+    using Options = decltype(translate(Given{}));
     return given == nullptr ? Options{} : translate(*static_cast<const Given*>(given));
 }
 
 curvewise::Measure measure_of(int measure, const void* options) {
     switch (measure) {
         case CURVEWISE_AREA:
-            return measure_or_default<curvewise::AreaOptions, curvewise_area_options>(options);
+            return measure_or_default<curvewise_area_options>(options);
         case CURVEWISE_PCM:
-            return measure_or_default<curvewise::PcmOptions, curvewise_pcm_options>(options);
+            return measure_or_default<curvewise_pcm_options>(options);
         case CURVEWISE_FRECHET:
-            return measure_or_default<curvewise::FrechetOptions, curvewise_frechet_options>(
-                options);
+            return measure_or_default<curvewise_frechet_options>(options);
         case CURVEWISE_DTW:
-            return measure_or_default<curvewise::DtwOptions, curvewise_dtw_options>(options);
+            return measure_or_default<curvewise_dtw_options>(options);
         case CURVEWISE_CURVE_LENGTH:
-            return measure_or_default<curvewise::CurveLengthOptions,
-                                      curvewise_curve_length_options>(options);
+            return measure_or_default<curvewise_curve_length_options>(options);
         default:
             refuse_choice("measure", measure, measures);
     }

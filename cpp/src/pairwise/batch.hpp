@@ -35,8 +35,6 @@ class BatchMeasure {
     BatchMeasure& operator=(BatchMeasure&&) = delete;
     virtual ~BatchMeasure() = default;
 
-    // Of one pair.
-    virtual double value(const CurveView& P, const CurveView& Q, Control* control) const = 0;
     // Of the one curve of `rows`, and Q.
     virtual double value(const Rows& rows, const CheckedCurve& Q, Poller& poller) const = 0;
 

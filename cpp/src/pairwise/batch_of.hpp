@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "pairwise/batch.hpp"
-#include "pairwise/evaluate.hpp"
 #include "pairwise/measure.hpp"
 
 namespace curvewise::detail {
@@ -17,10 +16,6 @@ template <class M>
 class BatchOf final : public BatchMeasure {
    public:
     explicit BatchOf(const M& measure) : measure_(measure) {}
-
-    double value(const CurveView& P, const CurveView& Q, Control* control) const override {
-        return evaluate(measure_, P, Q, control);
-    }
 
     double value(const Rows& rows, const CheckedCurve& Q, Poller& poller) const override {
         const PreparedP& p = sides(rows).front();

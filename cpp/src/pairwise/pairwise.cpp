@@ -18,10 +18,7 @@ std::unique_ptr<const detail::BatchMeasure> batch_of(const Measure& measure) {
 
 void check_options(const BatchOptions& options) {
     detail::resolve_workers(options.workers);
-    if (!(options.cutoff >= 0.0)) {
-        throw std::invalid_argument("cutoff is " + std::to_string(options.cutoff) +
-                                    "; give a number >= 0");
-    }
+    detail::check_cutoff(options.cutoff);
 }
 
 }  // namespace
@@ -31,7 +28,14 @@ bool is_symmetric(const Measure& measure) noexcept {
 }
 
 double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q, Control* control) {
-    return batch_of(measure)->value(P, Q, control);
+    return std::visit(
+        [&](const auto& options) {
+            // The overload for this very type, which every measure has.
+            using Options = decltype(options);
+            double (*const value)(Options, const CurveView&, const CurveView&, Control*) = evaluate;
+            return value(options, P, Q, control);
+        },
+        measure);
 }
 
 void check_batch(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "curvewise/control.hpp"
 
@@ -32,11 +33,18 @@ class Poller {
     // when enough have come together. Whether to stop.
     bool count_steps(std::int64_t steps, std::int64_t weight = 1) {
         if (control_ == nullptr) return false;
-        uncounted_ += steps;
+        if (is_counting_) uncounted_ += steps;
         effort_ += steps * weight;
         if (effort_ < effort_between_polls) return control_->stopped();
         return poll();
     }
+    // Whether steps are counted, as they are at first, or lead to polls only. Returns what was so
+    // before.
+    bool set_counting(bool is_counting) noexcept {
+        return std::exchange(is_counting_, is_counting);
+    }
+    // Takes back steps that have been counted, and are to be done again in another way.
+    void take_back(std::int64_t steps) noexcept { uncounted_ -= steps; }
     // For loops over points: polls in every 2^16th iteration and throws Stopped.
     void poll_in_loop(std::size_t i) {
         if ((i & 0xffff) == 0 && poll()) throw Stopped();
@@ -61,6 +69,7 @@ class Poller {
 
     Control* control_;
     Role role_;
+    bool is_counting_ = true;
     std::int64_t uncounted_ = 0;
     std::int64_t effort_ = 0;
     Clock::time_point next_report_;

@@ -108,4 +108,8 @@ void Pipeline::finish(std::ptrdiff_t strip) {
     publish(strip, std::numeric_limits<std::ptrdiff_t>::max());
 }
 
+bool Pipeline::is_finished(std::ptrdiff_t strip) const noexcept {
+    return strip < 0 || reached(strip + 1, std::numeric_limits<std::ptrdiff_t>::max());
+}
+
 }  // namespace curvewise::detail

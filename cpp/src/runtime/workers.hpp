@@ -37,6 +37,8 @@ class Pipeline {
     bool wait(std::ptrdiff_t strip, std::ptrdiff_t columns, Poller& poller);
     void publish(std::ptrdiff_t strip, std::ptrdiff_t columns);
     void finish(std::ptrdiff_t strip);
+    // Whether a strip is finished, as all above the first one are.
+    bool is_finished(std::ptrdiff_t strip) const noexcept;
 
    private:
     // On a cache line of its own: written by one thread, read by another.

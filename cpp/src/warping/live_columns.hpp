@@ -45,13 +45,13 @@ struct SweptColumns {
 class LiveColumns {
    public:
     LiveColumns(const Band& band) noexcept : band_(band) {}
-    // What `kept` says of every row, within the band. It must outlive the sweep.
-    LiveColumns(const Band& band, const SweptColumns& kept) noexcept
-        : band_(band), kept_(kept.rows.data()) {}
-    // The band, narrowed strip by strip to the cells that are live; `swept` says what was left.
-    // Both must outlive the sweep, which has one thread and covers the whole table.
-    LiveColumns(const Band& band, const CostToGo& cost_to_go, SweptColumns& swept) noexcept
-        : band_(band), cost_to_go_(&cost_to_go), swept_(&swept) {}
+    // What `kept` says of every row of `base`. It must outlive the sweep.
+    LiveColumns(const LiveColumns& base, const SweptColumns& kept) noexcept
+        : band_(base.band_), kept_(kept.rows.data()) {}
+    // `base`, narrowed strip by strip to the cells that are live; `swept` says what was left. Both
+    // must outlive the sweep, which covers the whole table.
+    LiveColumns(const LiveColumns& base, const CostToGo& cost_to_go, SweptColumns& swept) noexcept
+        : band_(base.band_), kept_(base.kept_), cost_to_go_(&cost_to_go), swept_(&swept) {}
 
     // Whether some cells are left out from the outset.
     bool is_limited() const noexcept { return kept_ != nullptr || band_.is_limited(); }

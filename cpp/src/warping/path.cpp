@@ -28,10 +28,6 @@ struct Part {
     bool starts_here;    // at the whole table's beginning; otherwise
     double value_above;  // the value of the cell above the region's first column
     bool open_end;       // in the first column with the smallest value; otherwise in the last
-
-    std::ptrdiff_t end_column(const Row& last_row) const noexcept {
-        return open_end ? last_row.argmin() : region.columns - 1;
-    }
 };
 
 class PathFinder {
@@ -41,7 +37,7 @@ class PathFinder {
 
     // Appends the part's path, from its end to its beginning, and returns its last value.
     double find(const Part& part) {
-        if (part.region.rows == 1 || part.region.rows * part.region.columns <= max_codes_) {
+        if (part.region.rows == 1 || codes_of(part.region) <= max_codes_) {
             return read_off(part);
         }
         const std::ptrdiff_t upper_rows = part.region.rows / 2;
@@ -76,6 +72,24 @@ class PathFinder {
         double end_value;
     };
 
+    // Of a table whose columns are limited, only these take codes.
+    std::ptrdiff_t codes_of(const Region& region) const {
+        const bool is_limited = problem_.columns.is_limited();
+        return is_limited ? CodeLayout(problem_, region).size : region.rows * region.columns;
+    }
+
+    // In the last row, beside whose columns anything may stand.
+    std::ptrdiff_t end_column(const Part& part, const Row& last_row) const noexcept {
+        const Region& region = part.region;
+        if (!part.open_end) return region.columns - 1;
+        const ColumnRange live = problem_.columns.columns(region.first_row + region.rows - 1);
+        const double* const first =
+            last_row.data() + std::max<std::ptrdiff_t>(live.first - region.first_column, 0);
+        const double* const end =
+            last_row.data() + std::min(live.last + 1 - region.first_column, region.columns);
+        return std::min_element(first, end) - last_row.data();
+    }
+
     // The row above the part.
     Row entry(const Part& part) const {
         Row row;
@@ -107,7 +121,7 @@ class PathFinder {
         half.first_row += upper_rows;
         half.rows = part.region.rows - upper_rows;
         sweep(problem_, half, false, row.data(), destination);
-        const std::ptrdiff_t end = part.end_column(row);
+        const std::ptrdiff_t end = end_column(part, row);
         const auto column = static_cast<std::ptrdiff_t>(origins[end]);
         return {column, values[column], end, row[end]};
     }
@@ -122,7 +136,7 @@ class PathFinder {
         sweep(problem_, part.region, needs_start(part), row.data(), destination);
 
         std::ptrdiff_t i = part.region.rows - 1;
-        std::ptrdiff_t j = part.end_column(row);
+        std::ptrdiff_t j = end_column(part, row);
         const double end_value = row[j];
         const auto code_at = [&]() {
             const StripCodes& strip = layout.strips[static_cast<std::size_t>(i / layout.height)];

@@ -1,60 +1,84 @@
-// Narrows the strips of a sweep, one after the other, to the cells that are live (see
-// live_columns.hpp): the columns where a strip begins, by the row above it; while it is swept, the
-// lanes at both ends, by the last two diagonals, across one of which every path goes. Dead cells
-// between live ones are swept. Time O(1) a lane that is dropped, O(w) a strip of w live columns.
+// Narrows the strips of a sweep to the cells that are live (see live_columns.hpp): the columns
+// where a strip begins, by the row above it; while it is swept, the lanes at both ends, by the last
+// two diagonals, across one of which every path goes. Dead cells between live ones are swept. Time
+// O(1) a lane that is dropped, and O(1) a row.
+//
+// Several threads may take turns with the strips. A strip may be entered as soon as a column of the
+// row above it is live, and ends after the strip above it has.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "warping/kernels/strip.hpp"
 #include "warping/live_columns.hpp"
 
 namespace curvewise::detail {
 
+// What the sweeping threads say to each other of a strip's last row, in the order of Pipeline.
+struct StripEdge {
+    std::ptrdiff_t first =
+        0;  // the first live column; said with the first column that is published
+    std::ptrdiff_t last = -1;  // the last column that was swept; said when the strip is finished
+};
+
 class StripNarrower {
    public:
     // Diagonals between two looks: each lets the live lanes grow by one, and looks at those lanes.
-    static constexpr std::ptrdiff_t stride = 16;
+    static std::ptrdiff_t stride(const kernels::Strip& strip) noexcept {
+        return std::clamp<std::ptrdiff_t>(strip.rows / 8, 2, 16);
+    }
 
     StripNarrower() noexcept = default;
-    StripNarrower(const CostToGo& cost_to_go, SweptColumns& swept, std::ptrdiff_t columns) noexcept
-        : cost_to_go_(&cost_to_go), swept_(&swept), written_end_(columns), above_{0, columns - 1} {}
+    // `edges`: of the row above the table, all of which may be live, and of every strip.
+    StripNarrower(const CostToGo& cost_to_go, SweptColumns& swept, StripEdge* edges) noexcept
+        : cost_to_go_(&cost_to_go), swept_(&swept), edges_(edges) {}
 
     bool is_on() const noexcept { return cost_to_go_ != nullptr; }
 
     // Before a strip's first diagonal: moves the beginnings of its rows to the first live column of
-    // the row above, in the strip's boundary. False where there is none.
-    bool enter(const kernels::Strip& strip, std::ptrdiff_t first_row,
+    // the row above. False where there is none, and the strip above is finished.
+    bool enter(const kernels::Strip& strip, std::ptrdiff_t number, std::ptrdiff_t first_row,
                std::ptrdiff_t* first_column) noexcept;
+    // The strip above the present one is finished.
+    void above_is_finished() noexcept;
     // After some diagonals: drops dead lanes at both ends. False where no live lane is left, or
     // can come.
     bool narrow(kernels::Strip& strip, std::ptrdiff_t* first_column,
                 std::ptrdiff_t* last_column) noexcept;
-    // After a strip's last diagonal: what lies beside its bottom row's live columns is infinite.
+    // Whether a path may have left the strip through its last row; what that row holds from then on
+    // stays as it is.
+    bool has_left() const noexcept { return has_left_; }
+    // After a strip's last diagonal: what lies beside its last row's columns is infinite.
     void leave(const kernels::Strip& strip, const std::ptrdiff_t* first_column,
-               const std::ptrdiff_t* last_column, bool is_last);
+               const std::ptrdiff_t* last_column, bool is_last) noexcept;
+
+    // What this one has swept.
+    std::int64_t cells() const noexcept { return cells_; }
 
    private:
     bool was_live(const kernels::Strip& strip, std::ptrdiff_t lane) const noexcept;
     bool is_live(const kernels::Strip& strip, std::ptrdiff_t lane) const noexcept;
     bool may_enter(const kernels::Strip& strip) const noexcept;
-    bool has_left(const kernels::Strip& strip) noexcept;
+    bool look_for_leaving(const kernels::Strip& strip) noexcept;
     void count(const kernels::Strip& strip) noexcept;
 
     const CostToGo* cost_to_go_ = nullptr;
     SweptColumns* swept_ = nullptr;
+    StripEdge* edges_ = nullptr;
+    std::int64_t cells_ = 0;
+
+    StripEdge* edge_ = nullptr;  // of the present strip; the one before it is of the row above
     std::ptrdiff_t first_row_ = 0;
     // At the last look: the next diagonal, and the lanes.
     std::ptrdiff_t counted_to_ = 0;
     std::ptrdiff_t low_ = 0;
     std::ptrdiff_t high_ = -1;
-    // Whether a column of the last row before this one was live.
+    // Columns of the last row before this one have been looked at.
     std::ptrdiff_t left_to_ = 0;
     bool has_left_ = false;
-    // The boundary is infinite from this column on.
-    std::ptrdiff_t written_end_ = 0;
-    // What of the boundary, the row above, may be live; then what is.
-    ColumnRange above_{0, -1};
+    bool is_above_finished_ = false;
 };
 
 }  // namespace curvewise::detail

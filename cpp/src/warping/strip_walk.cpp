@@ -43,7 +43,6 @@ enum Lanes : std::ptrdiff_t { values = 0, costs = 3, origins = 4, count = 7 };
 }  // namespace
 
 std::ptrdiff_t worker_count(const SweepProblem& problem, const Region& region) noexcept {
-    if (problem.columns.cost_to_go() != nullptr) return 1;
     const std::ptrdiff_t useful = region.rows * region.columns / problem.cells_per_worker;
     return std::max<std::ptrdiff_t>(1, std::min(problem.workers, useful));
 }
@@ -63,7 +62,8 @@ ColumnRange StripPlan::columns(std::ptrdiff_t row) const noexcept {
             std::min(range.last - region_.first_column, region_.columns - 1)};
 }
 
-StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, SweepMemory& memory)
+StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, SweepMemory& memory,
+                     StripEdge* edges)
     : plan_(&plan),
       starts_here_(starts_here),
       lane_stride_(AlignedBuffer::rounded(plan.height_ + 2 + kernels::padding)),
@@ -90,7 +90,7 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, 
     strip_.table_stride = region.columns;
     const LiveColumns& live = plan.problem_->columns;
     if (live.cost_to_go() != nullptr) {
-        narrower_ = StripNarrower(*live.cost_to_go(), *live.swept(), region.columns);
+        narrower_ = StripNarrower(*live.cost_to_go(), *live.swept(), edges);
     }
 }
 
@@ -103,7 +103,7 @@ void StripWalk::enter(std::ptrdiff_t strip) noexcept {
         columns_[k] = range.first;
         columns_[plan_->height_ + k] = range.last;
     }
-    const bool is_dead = narrower_.is_on() && !narrower_.enter(strip_, row, columns_);
+    const bool is_dead = narrower_.is_on() && !narrower_.enter(strip_, strip, row, columns_);
     strip_.low_lane = 0;
     strip_.high_lane = -1;
     strip_.next_diagonal = strip_.first_column[0];
@@ -165,8 +165,9 @@ std::int64_t StripWalk::advance(std::ptrdiff_t end) noexcept {
 
 void StripWalk::advance_narrowing(std::ptrdiff_t end) noexcept {
     std::ptrdiff_t* const last_column = columns_ + plan_->height_;
+    const std::ptrdiff_t stride = StripNarrower::stride(strip_);
     while (strip_.next_diagonal < end) {
-        advance_(strip_, std::min(strip_.next_diagonal + StripNarrower::stride, end), fill_);
+        advance_(strip_, std::min(strip_.next_diagonal + stride, end), fill_);
         if (!narrower_.narrow(strip_, columns_, last_column)) {
             end_diagonal_ = strip_.next_diagonal;
             return;
@@ -174,7 +175,7 @@ void StripWalk::advance_narrowing(std::ptrdiff_t end) noexcept {
     }
 }
 
-std::int64_t StripWalk::leave() {
+std::int64_t StripWalk::leave() noexcept {
     if (narrower_.is_on()) {
         narrower_.leave(strip_, strip_.first_column, strip_.last_column, is_last_);
     }

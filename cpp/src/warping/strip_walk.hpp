@@ -49,7 +49,9 @@ struct CodeLayout {
 // every diagonal, and the walks of two threads must not share a line.
 class alignas(128) StripWalk {
    public:
-    StripWalk(const StripPlan& plan, bool starts_here, double* boundary, SweepMemory& memory);
+    // `edges`: what narrowing needs, see StripNarrower.
+    StripWalk(const StripPlan& plan, bool starts_here, double* boundary, SweepMemory& memory,
+              StripEdge* edges);
 
     void enter(std::ptrdiff_t strip) noexcept;
     // Up to the diagonal `end`, or to where the strip turns out to end. Returns the share of the
@@ -57,17 +59,22 @@ class alignas(128) StripWalk {
     // whatever the band leaves out.
     std::int64_t advance(std::ptrdiff_t end) noexcept;
     // After the last diagonal. Returns the rest of that share.
-    std::int64_t leave();
+    std::int64_t leave() noexcept;
 
-    std::ptrdiff_t first_diagonal_of(std::ptrdiff_t strip) const noexcept {
-        return plan_->columns(strip * plan_->height()).first;
+    // Of the strip above, finished, before a strip can be entered.
+    std::ptrdiff_t columns_to_enter(std::ptrdiff_t strip) const noexcept {
+        return narrower_.is_on() ? 1 : plan_->columns(strip * plan_->height()).first;
     }
     std::ptrdiff_t next_diagonal() const noexcept { return strip_.next_diagonal; }
     std::ptrdiff_t end_diagonal() const noexcept { return end_diagonal_; }
-    // The columns of the last row that have been written.
+    // The columns of the last row that have been written, to stay.
     std::ptrdiff_t finished_columns() const noexcept {
+        if (narrower_.is_on() && !narrower_.has_left()) return 0;
         return strip_.next_diagonal - strip_.rows + 1;
     }
+    // The strip above the present one is finished.
+    void above_is_finished() noexcept { narrower_.above_is_finished(); }
+    std::int64_t narrowed_cells() const noexcept { return narrower_.cells(); }
 
    private:
     void aim(std::ptrdiff_t strip) noexcept;
@@ -75,6 +82,8 @@ class alignas(128) StripWalk {
 
     const StripPlan* plan_;
     bool starts_here_;
+    bool at_start_ = false;
+    bool is_last_ = false;
     std::ptrdiff_t lane_stride_;
     double* lanes_;
     std::ptrdiff_t* columns_;  // first_column of every row, then last_column
@@ -85,8 +94,6 @@ class alignas(128) StripWalk {
     std::ptrdiff_t first_diagonal_ = 0;
     std::ptrdiff_t end_diagonal_ = 0;
     std::int64_t counted_ = 0;
-    bool at_start_ = false;
-    bool is_last_ = false;
 };
 
 }  // namespace curvewise::detail

@@ -24,10 +24,14 @@ std::ptrdiff_t chunk_of(const SweepProblem& problem) noexcept {
     return std::clamp<std::ptrdiff_t>(4096 / cell_weight(problem), 1, 1024);
 }
 
+// The same where threads share a narrowed strip: few columns are live in it.
+constexpr std::ptrdiff_t narrow_chunk = 64;
+
 // Whether to stop.
 bool sweep_strip(StripWalk& walk, std::ptrdiff_t strip, std::ptrdiff_t chunk, std::ptrdiff_t weight,
                  Poller& poller) {
     walk.enter(strip);
+    walk.above_is_finished();
     while (walk.next_diagonal() < walk.end_diagonal()) {
         const std::ptrdiff_t end = std::min(walk.next_diagonal() + chunk, walk.end_diagonal());
         if (poller.count_steps(walk.advance(end), weight)) return true;
@@ -51,16 +55,29 @@ void skip_rest(const SweepProblem& problem, const StripPlan& plan, std::ptrdiff_
 void sweep_in_turn(StripWalk& walk, std::ptrdiff_t chunk, std::ptrdiff_t weight, Pipeline& pipeline,
                    Poller& poller) {
     for (std::ptrdiff_t s = pipeline.take(); s >= 0; s = pipeline.take()) {
-        if (!pipeline.wait(s, walk.first_diagonal_of(s), poller)) return;
+        if (!pipeline.wait(s, walk.columns_to_enter(s), poller)) return;
         walk.enter(s);
         while (walk.next_diagonal() < walk.end_diagonal()) {
             const std::ptrdiff_t end = std::min(walk.next_diagonal() + chunk, walk.end_diagonal());
             if (!pipeline.wait(s, end, poller)) return;
+            if (pipeline.is_finished(s - 1)) walk.above_is_finished();
             const std::int64_t cells = walk.advance(end);
             pipeline.publish(s, walk.finished_columns());
             if (poller.count_steps(cells, weight)) return;
         }
+        const std::int64_t rest = walk.leave();
         pipeline.finish(s);
+        if (poller.count_steps(rest, weight)) return;
+    }
+}
+
+// What the walks of a narrowing sweep, and the strips one by one, have found.
+void gather(const std::vector<StripWalk>& walks, SweptColumns& swept) {
+    for (const StripWalk& walk : walks) swept.cells += walk.narrowed_cells();
+    ColumnRange range{0, -1};
+    for (ColumnRange& row : swept.rows) {
+        range = {std::max(range.first, row.first), std::max(range.last, row.last)};
+        row = range;
     }
 }
 
@@ -77,24 +94,38 @@ const Row& sweep_all(const SweepProblem& problem, const Destination& destination
 void sweep(const SweepProblem& problem, const Region& region, bool starts_here, double* boundary,
            const Destination& destination) {
     const StripPlan plan(problem, region, worker_count(problem, region), destination);
-    const std::ptrdiff_t chunk = chunk_of(problem), weight = cell_weight(problem);
-    if (plan.workers() == 1) {
-        StripWalk walk(plan, starts_here, boundary, problem.memory);
+    const bool is_narrowing = problem.columns.cost_to_go() != nullptr;
+    std::vector<StripEdge> edges;
+    if (is_narrowing) {
+        edges.resize(static_cast<std::size_t>(plan.strips() + 1));
+        edges[0].last = starts_here ? 0 : region.columns - 1;
+        problem.columns.swept()->rows.resize(static_cast<std::size_t>(region.rows));
+    }
+    const auto workers = static_cast<std::size_t>(plan.workers());
+    std::vector<StripWalk> walks;
+    walks.reserve(workers);
+    std::vector<SweepMemory> memories(workers - 1);
+    walks.emplace_back(plan, starts_here, boundary, problem.memory, edges.data());
+    for (SweepMemory& memory : memories) {
+        walks.emplace_back(plan, starts_here, boundary, memory, edges.data());
+    }
+    const std::ptrdiff_t weight = cell_weight(problem);
+    if (workers == 1) {
+        const std::ptrdiff_t chunk = chunk_of(problem);
         for (std::ptrdiff_t s = 0; s < plan.strips(); ++s) {
-            if (sweep_strip(walk, s, chunk, weight, problem.poller)) throw Stopped();
+            if (sweep_strip(walks[0], s, chunk, weight, problem.poller)) throw Stopped();
             if (is_hopeless(problem, region, boundary)) return skip_rest(problem, plan, s + 1);
         }
-        return;
+    } else {
+        const std::ptrdiff_t chunk =
+            is_narrowing ? std::min(chunk_of(problem), narrow_chunk) : chunk_of(problem);
+        Pipeline pipeline(plan.strips());
+        run_workers(plan.workers(), problem.poller, [&](std::ptrdiff_t w, Poller& poller) {
+            sweep_in_turn(walks[static_cast<std::size_t>(w)], chunk, weight, pipeline, poller);
+        });
+        problem.poller.throw_if_stopped();
     }
-    std::vector<SweepMemory> memories(static_cast<std::size_t>(plan.workers()));
-    std::vector<StripWalk> walks;
-    walks.reserve(memories.size());
-    for (SweepMemory& memory : memories) walks.emplace_back(plan, starts_here, boundary, memory);
-    Pipeline pipeline(plan.strips());
-    run_workers(plan.workers(), problem.poller, [&](std::ptrdiff_t w, Poller& poller) {
-        sweep_in_turn(walks[static_cast<std::size_t>(w)], chunk, weight, pipeline, poller);
-    });
-    problem.poller.throw_if_stopped();
+    if (is_narrowing) gather(walks, *problem.columns.swept());
 }
 
 double lone_cell(const SweepProblem& problem, std::ptrdiff_t row, std::ptrdiff_t column) {

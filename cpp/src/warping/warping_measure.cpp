@@ -5,6 +5,7 @@
 // before the rounding of sqrt can make two of them equal. Time O(n m), memory O(n + m), except for
 // the table.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -19,6 +20,9 @@
 #include "pairwise/evaluate.hpp"
 #include "runtime/workers.hpp"
 #include "warping/dispatch.hpp"
+#include "warping/dtw_pruned.hpp"
+#include "warping/frechet_corridor.hpp"
+#include "warping/frechet_pruned.hpp"
 #include "warping/ground_distance.hpp"
 #include "warping/path.hpp"
 #include "warping/sweep.hpp"
@@ -47,10 +51,13 @@ struct WarpingOptions {
     std::optional<std::ptrdiff_t> window = std::nullopt;
     bool open_begin = false;
     bool open_end = false;
+    bool prune = false;
+    double cutoff = infinity;
 };
 
 WarpingOptions checked(const DtwOptions& options) {
     detail::check_ground_distance(options.ground);
+    detail::check_cutoff(options.cutoff);
     if (options.window) detail::check_whole_number("window", *options.window, window_range);
     const bool is_symmetric1 = options.step_pattern == StepPattern::symmetric1;
     if (options.open_begin || options.open_end) {
@@ -68,13 +75,19 @@ WarpingOptions checked(const DtwOptions& options) {
         detail::resolve_workers(options.workers),
         options.window,
         options.open_begin,
-        options.open_end};
+        options.open_end,
+        options.prune,
+        options.cutoff};
 }
 
 WarpingOptions checked(const FrechetOptions& options) {
     detail::check_ground_distance(options.ground);
-    return {options.measure, kernels::Recurrence::frechet, options.ground,
-            detail::resolve_workers(options.workers)};
+    detail::check_cutoff(options.cutoff);
+    return {options.measure, kernels::Recurrence::frechet,
+            options.ground,  detail::resolve_workers(options.workers),
+            std::nullopt,    false,
+            false,           options.prune,
+            options.cutoff};
 }
 
 // Two packed curves, and the table between them.
@@ -85,6 +98,7 @@ class WarpingProblem {
         : range_(range),
           degree_(detail::degree(options.ground.metric)),
           open_end_(options.open_end),
+          prune_(options.prune),
           sweep_{*detail::active_level().kernels,
                  curves,
                  options.recurrence,
@@ -111,14 +125,41 @@ class WarpingProblem {
             // up.
             sweep_.give_up_above = squared_ ? cutoff * cutoff * (1.0 + 1e-15) : cutoff;
         }
+        if (const std::optional<double> value = pruned_value()) return restore(*value);
         const Row& bottom = last_row(sweep_);
         return restore(bottom[open_end_ ? bottom.argmin() : sweep_.curves.columns() - 1]);
     }
 
+    // The distance, and how it was found.
+    WarpingInfo info() {
+        const Clock::time_point start = Clock::now();
+        WarpingInfo info;
+        std::optional<double> value;
+        if (prune_) value = is_frechet() ? frechet_with_info(info) : dtw_with_info(info);
+        info.pruned = value.has_value();
+        if (!value) {
+            for (std::ptrdiff_t i = 0; i < sweep_.curves.rows(); ++i) {
+                const detail::ColumnRange columns = sweep_.columns.columns(i);
+                info.cells_swept += columns.last - columns.first + 1;
+            }
+            const Clock::time_point before = Clock::now();
+            const Row& bottom = last_row(sweep_);
+            value = bottom[open_end_ ? bottom.argmin() : sweep_.curves.columns() - 1];
+            info.phases.push_back({"full sweep", seconds_since(before)});
+        }
+        info.value = restore(*value);
+        info.share =
+            static_cast<double>(info.cells_swept) / (static_cast<double>(sweep_.curves.rows()) *
+                                                     static_cast<double>(sweep_.curves.columns()));
+        info.phases.push_back({"all", seconds_since(start)});
+        return info;
+    }
+
     Alignment alignment() const {
         sweep_.poller.begin(2 * sweep_.curves.rows() * sweep_.curves.columns());
-        Path path = find_path(sweep_, open_end_);
-        return {restore(path.value), std::move(path.pairs)};
+        std::optional<Path> path = pruned_path();
+        if (!path) path = find_path(sweep_, open_end_);
+        return {restore(path->value), std::move(path->pairs)};
     }
 
     void write_table(double* out) const {
@@ -132,8 +173,71 @@ class WarpingProblem {
     }
 
    private:
+    using Clock = std::chrono::steady_clock;
+    static double seconds_since(Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    }
+
+    std::optional<double> frechet_with_info(WarpingInfo& info) const {
+        detail::PruningRecord record;
+        const std::int64_t steps = sweep_.curves.rows() * sweep_.curves.columns();
+        const auto value = frechet_pruned(sweep_, {infinity, true, steps}, record);
+        info.cells_swept = record.swept_cells;
+        info.lower = restore(record.lower);
+        info.upper = restore(record.upper);
+        info.phases = {{"bounds", record.bound_seconds}, {"search", record.search_seconds}};
+        return value;
+    }
+
+    std::optional<double> dtw_with_info(WarpingInfo& info) const {
+        detail::DtwPruningRecord record;
+        const auto value = dtw_pruned(sweep_, {infinity, open_end_}, record);
+        info.cells_swept = record.swept_cells + record.corridor_cells;
+        info.lower = restore(record.lower);
+        info.upper = restore(record.upper);
+        info.phases = {{"coarse path", record.path_seconds},
+                       {"upper bound", record.upper_seconds},
+                       {"lower bounds", record.lower_seconds},
+                       {"sweep", record.sweep_seconds}};
+        return value;
+    }
+
     double restore(double value) const noexcept {
         return range_.restore(squared_ ? std::sqrt(value) : value, degree_);
+    }
+
+    bool is_frechet() const noexcept { return sweep_.recurrence == kernels::Recurrence::frechet; }
+
+    // Nothing where pruning is off, or does not pay.
+    std::optional<double> pruned_value() const {
+        if (!prune_) return std::nullopt;
+        if (is_frechet()) {
+            detail::PruningRecord record;
+            const std::int64_t steps = sweep_.curves.rows() * sweep_.curves.columns();
+            return frechet_pruned(sweep_, {sweep_.give_up_above, true, steps}, record);
+        }
+        detail::DtwPruningRecord record;
+        return dtw_pruned(sweep_, {sweep_.give_up_above, open_end_}, record);
+    }
+
+    std::optional<Path> pruned_path() const {
+        if (!prune_) return std::nullopt;
+        if (is_frechet()) return frechet_path_in_corridor();
+        detail::DtwPruningRecord record;
+        return dtw_path_pruned(sweep_, {infinity, open_end_}, record);
+    }
+
+    std::optional<Path> frechet_path_in_corridor() const {
+        detail::PruningRecord record;
+        const std::optional<double> value = frechet_pruned(sweep_, {}, record);
+        if (!value) return std::nullopt;
+        const detail::SweptColumns corridor = frechet_corridor(sweep_, *value);
+        SweepProblem narrow = sweep_;
+        const std::ptrdiff_t n = sweep_.curves.rows(), m = sweep_.curves.columns();
+        narrow.columns = {detail::Band(n, m, std::nullopt), corridor};
+        // Threads are worth their start by the cells that are left.
+        narrow.cells_per_worker *= std::max<std::int64_t>(1, n * m / corridor.cells);
+        return find_path(narrow, open_end_);
     }
 
     // Every path holds the first and the last cell, unless an end is open.
@@ -147,6 +251,7 @@ class WarpingProblem {
     int degree_;            // of homogeneity in the coordinates
     bool squared_ = false;  // the table holds squares of the values
     bool open_end_;
+    bool prune_;
     SweepProblem sweep_;
 };
 
@@ -199,8 +304,10 @@ class WarpingMeasure {
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
                       const detail::Call<Memory>& call) const {
-        return with_problem(P, Q, call,
-                            [&](WarpingProblem& problem) { return problem.distance(call.cutoff); });
+        const double cutoff = std::min(call.cutoff, options_.cutoff);
+        const double value = with_problem(
+            P, Q, call, [&](WarpingProblem& problem) { return problem.distance(cutoff); });
+        return value > options_.cutoff ? infinity : value;
     }
 
    private:
@@ -213,6 +320,15 @@ Alignment path(const WarpingMeasure& measure, const CurveView& P, const CurveVie
         measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
             return measure.with_problem(
                 p, q, call, [](const WarpingProblem& problem) { return problem.alignment(); });
+        });
+}
+
+WarpingInfo info(const WarpingMeasure& measure, const CurveView& P, const CurveView& Q,
+                 Control* control) {
+    return detail::with_pair(
+        measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
+            return measure.with_problem(p, q, call,
+                                        [](WarpingProblem& problem) { return problem.info(); });
         });
 }
 
@@ -243,6 +359,16 @@ Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& opt
 Alignment frechet_path(const CurveView& P, const CurveView& Q, const FrechetOptions& options,
                        Control* control) {
     return path(WarpingMeasure(options), P, Q, control);
+}
+
+WarpingInfo dtw_info(const CurveView& P, const CurveView& Q, const DtwOptions& options,
+                     Control* control) {
+    return info(WarpingMeasure(options), P, Q, control);
+}
+
+WarpingInfo frechet_info(const CurveView& P, const CurveView& Q, const FrechetOptions& options,
+                         Control* control) {
+    return info(WarpingMeasure(options), P, Q, control);
 }
 
 void dtw_table(const CurveView& P, const CurveView& Q, double* out, const DtwOptions& options,

@@ -77,7 +77,8 @@ def dtw(
     """
     P, Q = _curves(exp_data, num_data)
     if _is_compiled(metric, kwargs) and _is_finite(P, Q):
-        table = dtw_table(P, Q, metric=cast(Metric, metric), p=kwargs.get("p"))
+        order = kwargs.get("p")
+        table = dtw_table(P, Q, metric=cast(Metric, metric), p=order, step_pattern="symmetric1")
     else:
         # With the dtypes that were given: callables and scipy's metrics for bits look at them.
         P, Q = np.asarray(exp_data).reshape(P.shape), np.asarray(num_data).reshape(Q.shape)

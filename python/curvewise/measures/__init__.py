@@ -16,8 +16,8 @@ from __future__ import annotations
 from .._options import Crossing, LengthScale, Metric, Order, Spacing, StepPattern
 from .area import area, area_quads
 from .curve_length import curve_length, curve_length_residuals
-from .dtw import dtw, dtw_path, dtw_table
-from .frechet import frechet, frechet_path, frechet_table
+from .dtw import dtw, dtw_info, dtw_path, dtw_table
+from .frechet import frechet, frechet_info, frechet_path, frechet_table
 from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, normalize, sum_of_squares
 
@@ -33,9 +33,11 @@ __all__ = [
     "curve_length",
     "curve_length_residuals",
     "dtw",
+    "dtw_info",
     "dtw_path",
     "dtw_table",
     "frechet",
+    "frechet_info",
     "frechet_path",
     "frechet_table",
     "mae",

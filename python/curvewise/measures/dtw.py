@@ -5,15 +5,15 @@ Sakoe & Chiba (1978); open ends: Müller (2007). Time O(n m), memory O(n + m) ex
 
 from __future__ import annotations
 
-from typing import SupportsIndex
+from typing import SupportsFloat, SupportsIndex
 
 from .. import _core
 from .._curves import Array, CurveLike, as_curves
 from .._docstrings import filled
 from .._options import Default, Metric, Order, StepPattern
-from ..results import Alignment
+from ..results import Alignment, WarpingInfo
 
-__all__ = ["dtw", "dtw_path", "dtw_table"]
+__all__ = ["dtw", "dtw_info", "dtw_path", "dtw_table"]
 
 
 @filled()
@@ -28,6 +28,8 @@ def dtw(
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
     workers: SupportsIndex = Default.workers,
+    prune: bool = Default.prune,
+    cutoff: SupportsFloat | None = Default.cutoff,
 ) -> float:
     """Dynamic time warping: the smallest sum of ground distances along a warping path.
 
@@ -47,6 +49,8 @@ def dtw(
         Subsequence DTW: P is matched to a part of Q, which may begin, or end, anywhere. Not
         normalised by length. With "symmetric1" and without a window only.
     {workers}
+    {prune}
+    {cutoff}
 
     Returns
     -------
@@ -88,7 +92,70 @@ def dtw(
             "open_begin": open_begin,
             "open_end": open_end,
             "workers": workers,
+            "prune": prune,
+            "cutoff": cutoff,
         },
+    )
+
+
+def dtw_info(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    step_pattern: StepPattern = Default.step_pattern,
+    window: SupportsIndex | None = Default.window,
+    open_begin: bool = Default.open_begin,
+    open_end: bool = Default.open_end,
+    workers: SupportsIndex = Default.workers,
+    prune: bool = Default.prune,
+) -> WarpingInfo:
+    """Dynamic time warping, with how much of the table it took and why.
+
+    Parameters
+    ----------
+    P, Q, metric, p, step_pattern, window, open_begin, open_end, workers, prune
+        As for :func:`dtw`.
+
+    Returns
+    -------
+    WarpingInfo
+        The value, the cells that were swept and their share of the table, the bounds, and the
+        seconds by phase.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`dtw`.
+
+    Notes
+    -----
+    As for :func:`dtw`, whose value it has.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> info = curvewise.dtw_info([0, 1, 2, 3], [0, 2, 3])
+    >>> info.value, info.cells_swept, info.share  # short curves are swept as a whole
+    (1.0, 12, 1.0)
+    """
+    P, Q = as_curves(P, Q)
+    return WarpingInfo(
+        *_core.dtw_info(
+            P,
+            Q,
+            {
+                "metric": metric,
+                "p": p,
+                "step_pattern": step_pattern,
+                "window": window,
+                "open_begin": open_begin,
+                "open_end": open_end,
+                "workers": workers,
+                "prune": prune,
+            },
+        )
     )
 
 
@@ -103,12 +170,13 @@ def dtw_path(
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
     workers: SupportsIndex = Default.workers,
+    prune: bool = Default.prune,
 ) -> Alignment:
     """Dynamic time warping with a warping path that attains it.
 
     Parameters
     ----------
-    P, Q, metric, p, step_pattern, window, open_begin, open_end, workers
+    P, Q, metric, p, step_pattern, window, open_begin, open_end, workers, prune
         As for :func:`dtw`.
 
     Returns
@@ -147,6 +215,7 @@ def dtw_path(
                 "open_begin": open_begin,
                 "open_end": open_end,
                 "workers": workers,
+                "prune": prune,
             },
         )
     )

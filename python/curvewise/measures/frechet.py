@@ -5,15 +5,15 @@ Eiter & Mannila (1994). Time O(n m), memory O(n + m) except for the table.
 
 from __future__ import annotations
 
-from typing import SupportsIndex
+from typing import SupportsFloat, SupportsIndex
 
 from .. import _core
 from .._curves import Array, CurveLike, as_curves
 from .._docstrings import filled
 from .._options import Default, Metric, Order
-from ..results import Alignment
+from ..results import Alignment, WarpingInfo
 
-__all__ = ["frechet", "frechet_path", "frechet_table"]
+__all__ = ["frechet", "frechet_info", "frechet_path", "frechet_table"]
 
 
 @filled()
@@ -24,6 +24,8 @@ def frechet(
     metric: Metric = Default.metric,
     p: Order = Default.p,
     workers: SupportsIndex = Default.workers,
+    prune: bool = Default.prune,
+    cutoff: SupportsFloat | None = Default.cutoff,
 ) -> float:
     """Discrete Fréchet distance: the shortest leash for two walks along the points.
 
@@ -34,6 +36,8 @@ def frechet(
     {metric}
     {p}
     {workers}
+    {prune}
+    {cutoff}
 
     Returns
     -------
@@ -61,7 +65,54 @@ def frechet(
     3.0
     """
     P, Q = as_curves(P, Q)
-    return _core.frechet(P, Q, {"metric": metric, "p": p, "workers": workers})
+    return _core.frechet(
+        P,
+        Q,
+        {"metric": metric, "p": p, "workers": workers, "prune": prune, "cutoff": cutoff},
+    )
+
+
+def frechet_info(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    workers: SupportsIndex = Default.workers,
+    prune: bool = Default.prune,
+) -> WarpingInfo:
+    """Discrete Fréchet distance, with how much of the table it took and why.
+
+    Parameters
+    ----------
+    P, Q, metric, p, workers, prune
+        As for :func:`frechet`.
+
+    Returns
+    -------
+    WarpingInfo
+        The value, the cells that were swept and their share of the table, the bounds, and the
+        seconds by phase.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`frechet`.
+
+    Notes
+    -----
+    As for :func:`frechet`, whose value it has.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> info = curvewise.frechet_info([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 3)])
+    >>> info.value, info.cells_swept, info.share  # short curves are swept as a whole
+    (3.0, 6, 1.0)
+    """
+    P, Q = as_curves(P, Q)
+    options = {"metric": metric, "p": p, "workers": workers, "prune": prune}
+    return WarpingInfo(*_core.frechet_info(P, Q, options))
 
 
 def frechet_path(
@@ -71,12 +122,13 @@ def frechet_path(
     metric: Metric = Default.metric,
     p: Order = Default.p,
     workers: SupportsIndex = Default.workers,
+    prune: bool = Default.prune,
 ) -> Alignment:
     """Discrete Fréchet distance with a coupling that attains it.
 
     Parameters
     ----------
-    P, Q, metric, p, workers
+    P, Q, metric, p, workers, prune
         As for :func:`frechet`.
 
     Returns
@@ -103,7 +155,8 @@ def frechet_path(
     [[0, 0], [1, 0], [2, 1]]
     """
     P, Q = as_curves(P, Q)
-    return Alignment(*_core.frechet_path(P, Q, {"metric": metric, "p": p, "workers": workers}))
+    options = {"metric": metric, "p": p, "workers": workers, "prune": prune}
+    return Alignment(*_core.frechet_path(P, Q, options))
 
 
 def frechet_table(

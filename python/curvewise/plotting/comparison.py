@@ -82,7 +82,7 @@ def _draw_measure(comparison: Comparison, name: str, ax: Axes, dim: int) -> Line
     if not info.scales_itself:
         options["normalized"] = condition.scaled
     curves = comparison.P, comparison.Q
-    if dim > 2:
+    if info.warping and dim > 2:
         image, _ = plot_table(*curves, ax, **options)
         ax.figure.colorbar(image)
         return None

@@ -35,13 +35,15 @@ Curve = structure(
 Error = structure("Error", ("message", c_char * 256))
 Area = structure("Area", ("spacing", c_int), ("crossing", c_int), ("squared", c_int))
 Pcm = structure("Pcm", ("offsets", c_ssize_t), ("continuous", c_int))
-Frechet = structure("Frechet", ("metric", c_int), ("p", c_double), ("workers", c_ssize_t))
+PRUNING = ("prune", c_int), ("cutoff", c_double)
+Frechet = structure("Frechet", ("metric", c_int), ("p", c_double), ("workers", c_ssize_t), *PRUNING)
 Dtw = structure(
     "Dtw",
     ("metric", c_int),
     ("p", c_double),
     *((x, c_int) for x in ("step_pattern", "open_begin", "open_end")),
     *((x, c_ssize_t) for x in ("window", "workers")),
+    *PRUNING,
 )
 CurveLength = structure("CurveLength", ("scale", c_int))
 Batch = structure("Batch", ("workers", c_ssize_t), ("cutoff", c_double))
@@ -97,10 +99,10 @@ def test_null_options_are_the_defaults(name, call) -> None:
 def test_table_options(metric, call) -> None:
     order = {"p": 3.5} if metric == "minkowski" else {}
     code = METRICS.index(metric)
-    value = call("frechet", P, Q, Frechet(code, 3.5, 2))
+    value = call("frechet", P, Q, Frechet(code, 3.5, 2, 1, math.inf))
     assert value == curvewise.frechet(P, Q, metric=metric, **order)
     for pattern, window in ((0, None), (1, None), (0, 7), (1, 20)):
-        options = Dtw(code, 3.5, pattern, 0, 0, -1 if window is None else window, 1)
+        options = Dtw(code, 3.5, pattern, 0, 0, -1 if window is None else window, 1, 0, math.inf)
         expected = curvewise.dtw(
             P, Q, metric=metric, step_pattern=f"symmetric{pattern + 1}", window=window, **order
         )
@@ -109,7 +111,16 @@ def test_table_options(metric, call) -> None:
         expected = curvewise.dtw(
             P, Q, metric=metric, open_begin=bool(begin), open_end=bool(end), **order
         )
-        assert call("dtw", P, Q, Dtw(code, 3.5, 0, begin, end, -1, -1)) == expected
+        assert call("dtw", P, Q, Dtw(code, 3.5, 0, begin, end, -1, -1, 1, math.inf)) == expected
+
+
+def test_cutoff(call) -> None:
+    for name, options in (("frechet", Frechet(0, 2.0, 1, 1)), ("dtw", Dtw(0, 2.0, 0, 0, 0, -1, 1))):
+        distance = getattr(curvewise, name)(P, Q)
+        options.cutoff = distance
+        assert call(name, P, Q, options) == distance
+        options.cutoff = math.nextafter(distance, 0)
+        assert call(name, P, Q, options) == math.inf
 
 
 def test_planar_options(call) -> None:
@@ -139,6 +150,7 @@ def test_planar_options(call) -> None:
         ("frechet", Frechet(5, 2.0, 1), "unknown metric 5; choose from 0 to 4"),
         ("frechet", Frechet(4, 0.5, 1), "minkowski needs 1 <= p <= inf"),
         ("frechet", Frechet(), "workers is 0"),
+        ("frechet", Frechet(0, 2.0, 1, 1, -1.0), "cutoff is -1"),
         ("dtw", Dtw(), "workers is 0"),
         ("dtw", Dtw(0, 2.0, 2, 0, 0, -1, 1), "unknown step_pattern 2; choose from 0 to 1"),
         ("dtw", Dtw(0, 2.0, 1, 1, 0, -1, 1), "open_begin and open_end need step_pattern="),
@@ -211,7 +223,7 @@ def test_batches_take_the_options_of_their_measure(library) -> None:
     X = [P[:20], P[10:50], Q]
     error, out = Error(), np.empty(3)
     pointer, count = out.ctypes.data_as(POINTER(c_double)), c_ssize_t(3)
-    options = Dtw(2, 2.0, 1, 0, 0, -1, 1)
+    options = Dtw(2, 2.0, 1, 0, 0, -1, 1, 1, math.inf)
     arguments = byref(options), None, pointer, byref(error)
     assert library.curvewise_pdist(curves(*X), count, 3, *arguments) == OK
     expected = curvewise.pdist(X, "dtw", metric="cityblock", step_pattern="symmetric2")

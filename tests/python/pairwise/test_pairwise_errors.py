@@ -97,14 +97,14 @@ BAD: list[tuple[Callable[[], object], type[Exception], str]] = [
         "one of euclidean, sqeuclidean, cityblock, chebyshev, minkowski: use measure='dtw'",
     ),
     (
-        lambda: curvewise.cdist([GOOD], measure="hausdorff"),
+        lambda: curvewise.cdist([GOOD], measure="no_such"),
         ValueError,
-        "unknown measure 'hausdorff'; choose from area, curve_length, dtw, frechet, pcm",
+        "unknown measure 'no_such'; choose from area, curve_length, dtw, frechet, pcm",
     ),
     (
         lambda: curvewise.cdist([GOOD], measure="frechet", window=3),
         TypeError,
-        "frechet has no option 'window'; it has metric, p",
+        "frechet has no option 'window'; it has metric, p, prune",
     ),
     (
         lambda: curvewise.pdist([GOOD], "curve_length", scale="range"),

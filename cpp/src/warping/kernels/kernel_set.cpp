@@ -8,9 +8,9 @@
 
 namespace curvewise::kernels {
 namespace {
-#include "sweep.inl.hpp"
+#include "block.inl.hpp"
 }  // namespace
 
-const KernelSet CURVEWISE_LEVEL = {select_advance, select_fill};
+const KernelSet CURVEWISE_LEVEL = {select_advance, select_fill, select_reach, select_values};
 
 }  // namespace curvewise::kernels

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "block.hpp"
 #include "curvewise/ground_distance.hpp"
 
 namespace curvewise::kernels {
@@ -93,6 +94,9 @@ struct KernelSet {
     AdvanceFunction (*advance)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
                                Output output) noexcept;
     CostFunction (*fill)(Cost cost) noexcept;
+    // Null for a ground distance without bounds.
+    ReachFunction (*reach)(Metric metric, std::ptrdiff_t dim) noexcept;
+    ValueFunction (*values)(Metric metric, std::ptrdiff_t dim) noexcept;
 };
 
 extern const KernelSet baseline;

@@ -1,0 +1,71 @@
+// The cells of the Fréchet table along the front of a recursion over its blocks, as far as they
+// are at most the recursion's upper bound: those are exact, or the lower bound where they are
+// below it; others are above the upper bound. In a free block of similar curves most values along
+// the front are alike: a run of equal values is kept as one, and blocked runs cost next to nothing.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "runtime/aligned_buffer.hpp"
+#include "warping/block_recursion.hpp"
+
+namespace curvewise::detail {
+
+// The values along one of the curves.
+class FrontSide {
+   public:
+    explicit FrontSide(std::ptrdiff_t points);
+
+    double operator[](std::ptrdiff_t point) const noexcept {
+        const auto run = static_cast<std::size_t>(point / kernels::block_side);
+        return is_even_[run] ? lowest_[run] : values_.data()[point];
+    }
+    double lowest(const Runs& runs) const noexcept;
+    void fill(const Runs& runs, double value) noexcept;
+    // Every value to the smallest of itself, those before it, and `entering`.
+    void take_smallest_so_far(const Runs& runs, double entering) noexcept;
+    // The values of a run, one by one; after they have been changed, `changed`.
+    double* spread(std::ptrdiff_t run) noexcept;
+    void changed(std::ptrdiff_t run, double upper) noexcept;
+
+   private:
+    std::ptrdiff_t points_of(std::ptrdiff_t run) const noexcept;
+
+    std::ptrdiff_t points_;
+    std::vector<double> lowest_;         // of each run
+    std::vector<std::uint8_t> is_even_;  // all of a run are the lowest
+    AlignedBuffer values_;
+};
+
+class ValueFront {
+   public:
+    using Value = double;
+
+    ValueFront(const PackedPair& curves, double upper, kernels::ValueFunction values);
+
+    bool is_entered(const Runs& p, const Runs& q, double corner) const noexcept {
+        return corner <= upper_ || p_.lowest(p) <= upper_ || q_.lowest(q) <= upper_;
+    }
+    void block(const Runs& p, const Runs& q) noexcept;
+    void pass(const Runs& p, const Runs& q, double corner) noexcept;
+    std::int64_t sweep(std::ptrdiff_t p_run, std::ptrdiff_t q_run, double corner) noexcept;
+
+    double p_value_before(std::ptrdiff_t run) const noexcept {
+        return p_[run * kernels::block_side - 1];
+    }
+    double q_value_before(std::ptrdiff_t run) const noexcept {
+        return q_[run * kernels::block_side - 1];
+    }
+    double last_cell() const noexcept { return p_[curves_.rows() - 1]; }
+
+   private:
+    PackedPair curves_;
+    double upper_;
+    kernels::ValueFunction values_;
+    FrontSide p_;
+    FrontSide q_;
+};
+
+}  // namespace curvewise::detail

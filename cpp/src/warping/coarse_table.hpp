@@ -1,0 +1,38 @@
+// The Fréchet table of two curves in boxes, coarsely: with the smallest ground distance of each
+// pair of boxes in place of a cell, the recurrence gives a lower bound of the distance, with the
+// largest an upper one (take, of the path of boxes, the path of points that goes through all of
+// their points). How many boxes the paths of a distance between the two may cross says, before
+// much has been done, whether the table can be pruned. Time and memory O(boxes), a small part of
+// the table's cells.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "warping/box_tree.hpp"
+#include "warping/kernels/strip.hpp"
+
+namespace curvewise::detail {
+
+class CoarseTable {
+   public:
+    // Of at most some `most_boxes` pairs of boxes.
+    CoarseTable(const BoxTree& P, const BoxTree& Q, Metric metric, std::ptrdiff_t most_boxes);
+
+    double lower() const noexcept { return lower_; }
+    double upper() const noexcept { return upper_; }
+    // The share of the pairs of boxes that can be reached over ground distances of at most `upper`
+    // and that are not wholly at or below `lower`: what a recursion between the two has to split or
+    // sweep.
+    double undecided_share(double lower, double upper) const;
+
+   private:
+    std::ptrdiff_t rows_;
+    std::ptrdiff_t columns_;
+    std::vector<double> smallest_;
+    std::vector<double> largest_;
+    double lower_;
+    double upper_;
+};
+
+}  // namespace curvewise::detail

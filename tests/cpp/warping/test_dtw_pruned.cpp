@@ -1,0 +1,268 @@
+// Pruned DTW against the full sweep, value and path, to the bit, at every instruction-set level of
+// this machine, with 1 to 3 threads: random pairs of hard curves, every ground distance with
+// bounds, both step patterns, windows, open ends, cutoffs around the value, coarse curves of one
+// level and of several. `test_dtw_pruned 100000` is the long run.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "check.hpp"
+#include "curves/range_scale.hpp"
+#include "hard_curves.hpp"
+#include "warping/dispatch.hpp"
+#include "warping/dtw_pruned.hpp"
+#include "warping/ground_distance.hpp"
+#include "warping/least_distances.hpp"
+#include "warping/path.hpp"
+#include "warping/sweep.hpp"
+
+namespace {
+
+using curvewise::Metric;
+using curvewise::detail::available_levels;
+using curvewise::detail::Band;
+using curvewise::detail::DtwPruningOptions;
+using curvewise::detail::DtwPruningRecord;
+using curvewise::detail::Level;
+using curvewise::detail::PackedCurve;
+using curvewise::detail::Path;
+using curvewise::detail::PointOrder;
+using curvewise::detail::Poller;
+using curvewise::detail::RangeScale;
+using curvewise::detail::Row;
+using curvewise::detail::SweepMemory;
+using curvewise::detail::SweepProblem;
+using curvewise::kernels::Recurrence;
+using test::Curve;
+using test::Random;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Metric metrics[] = {Metric::euclidean, Metric::sqeuclidean, Metric::cityblock,
+                              Metric::chebyshev};
+
+std::ptrdiff_t pairs = 2000;  // in each test
+
+struct Setup {
+    Metric metric = Metric::euclidean;
+    Recurrence recurrence = Recurrence::dtw_symmetric1;
+    std::optional<std::ptrdiff_t> window;
+    DtwPruningOptions options;
+    std::ptrdiff_t workers = 1;
+};
+
+Setup any_setup(const test::Pair& pair, Random& random) {
+    Setup setup;
+    setup.metric = metrics[random.index(4)];
+    if (random.index(2) == 0) setup.recurrence = Recurrence::dtw_symmetric2;
+    if (random.index(4) == 0) {
+        setup.window = 1 + random.index(std::max(pair.P.size(), pair.Q.size()));
+    } else if (setup.recurrence == Recurrence::dtw_symmetric1) {
+        setup.options.open_end = random.index(4) == 0;
+    }
+    setup.options.gives_up = false;
+    setup.options.decimation = 2 + random.index(8);
+    setup.options.most_coarse_cells = random.index(2) == 0 ? 1 << 18 : 50;
+    setup.workers = 1 + random.index(3);
+    return setup;
+}
+
+std::string described(const test::Pair& pair, const Setup& setup) {
+    return test::described(pair.P, pair.Q) + ", metric " +
+           std::to_string(static_cast<int>(setup.metric)) + ", recurrence " +
+           std::to_string(static_cast<int>(setup.recurrence)) + ", window " +
+           (setup.window ? std::to_string(*setup.window) : "none") +
+           (setup.options.open_end ? ", open end" : "") + ", decimation " +
+           std::to_string(setup.options.decimation) + ", coarse cells " +
+           std::to_string(setup.options.most_coarse_cells) + ", workers " +
+           std::to_string(setup.workers);
+}
+
+class Comparison {
+   public:
+    Comparison(const test::Pair& pair, const Setup& setup)
+        : setup_(setup),
+          rows_(pair.P, RangeScale(1.0), PointOrder::forward),
+          columns_(pair.Q, RangeScale(1.0), PointOrder::reversed) {}
+
+    void run() const {
+        for (const Level& level : available_levels()) {
+            const check::Note note(level.name);
+            Poller poller(nullptr);
+            SweepMemory memory;
+            const SweepProblem problem{
+                *level.kernels,
+                {rows_, columns_},
+                setup_.recurrence,
+                curvewise::detail::canonical_cost({setup_.metric}, {rows_, columns_}),
+                2.0,
+                Band(rows_.size(), columns_.size(), setup_.window),
+                false,
+                setup_.workers,
+                poller,
+                memory,
+                1};
+            compare(problem);
+        }
+    }
+
+   private:
+    void compare(const SweepProblem& problem) const {
+        const Path full = find_path(problem, setup_.options.open_end);
+        const Row& bottom = last_row(problem);
+        CHECK_EQUAL(bottom[setup_.options.open_end ? bottom.argmin() : columns_.size() - 1],
+                    full.value);
+        DtwPruningRecord record;
+        const std::optional<double> value = dtw_pruned(problem, setup_.options, record);
+        if (!value) return check::fail({__FILE__, __LINE__, "dtw_pruned"}, "returns nothing");
+        CHECK_EQUAL(*value, full.value);
+        CHECK(record.upper >= full.value);
+        CHECK(record.lower <= full.value * (1.0 + 1e-9));
+        const std::optional<Path> path = dtw_path_pruned(problem, setup_.options, record);
+        if (!path) return check::fail({__FILE__, __LINE__, "dtw_path_pruned"}, "returns nothing");
+        CHECK_EQUAL(path->value, full.value);
+        CHECK_EQUAL(path->pairs, full.pairs);
+        check_cutoffs(problem, full.value);
+    }
+
+    void check_cutoffs(const SweepProblem& problem, double value) const {
+        DtwPruningOptions options = setup_.options;
+        for (const double cutoff : {value, 1.5 * value, std::nextafter(value, 0.0), 0.5 * value}) {
+            options.cutoff = cutoff;
+            DtwPruningRecord record;
+            const std::optional<double> found = dtw_pruned(problem, options, record);
+            CHECK_EQUAL(found.value_or(-1.0), value > cutoff ? infinity : value);
+        }
+    }
+
+    const Setup& setup_;
+    PackedCurve rows_;
+    PackedCurve columns_;
+};
+
+void compare(const test::Pair& pair, const Setup& setup) {
+    const check::Note note(described(pair, setup));
+    Comparison(pair, setup).run();
+}
+
+void random_pairs() {
+    Random random(1);
+    for (std::ptrdiff_t k = 0; k < pairs; ++k) {
+        test::Pair pair = test::any_pair(random);
+        // Against itself, or with points repeated, which cost nothing: no path may cost less.
+        if (k % 8 == 0) pair.Q = k % 16 == 0 ? pair.P : test::with_plateaus(pair.P, random);
+        compare(pair, any_setup(pair, random));
+    }
+}
+
+// Several strips, and coarse tables that give up or not.
+void large_pairs() {
+    Random random(2);
+    for (std::ptrdiff_t k = 0; k < std::max<std::ptrdiff_t>(pairs / 500, 4); ++k) {
+        const Curve P = test::any_curve(600 + random.index(1500), 2, random);
+        const test::Pair pair{P, test::alike(P, 600 + random.index(1500), random)};
+        Setup setup = any_setup(pair, random);
+        setup.options.decimation = 8 + random.index(9);
+        setup.options.most_coarse_cells = random.index(2) == 0 ? 1 << 18 : 4000;
+        compare(pair, setup);
+    }
+}
+
+// Each bound against the smallest of all distances.
+void least_distances_are_bounds() {
+    Random random(3);
+    for (std::ptrdiff_t k = 0; k < pairs; ++k) {
+        const auto [P, Q] = test::any_pair(random);
+        const Metric metric = metrics[random.index(4)];
+        const check::Note note(test::described(P, Q));
+        const PackedCurve p(P, RangeScale(1.0), PointOrder::forward);
+        const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed);
+        const curvewise::detail::BoxTree from(p, PointOrder::forward), to(q, PointOrder::reversed);
+        std::vector<double> bounds(static_cast<std::size_t>(P.size()), -1.0);
+        Poller poller(nullptr);
+        least_distances(from, to, metric, poller, bounds.data());
+        curvewise::detail::with_norm(metric, [&](auto norm) {
+            using Norm = decltype(norm);
+            for (std::ptrdiff_t i = 0; i < P.size(); ++i) {
+                double least = infinity;
+                for (std::ptrdiff_t j = 0; j < Q.size(); ++j) {
+                    least = std::min(least, curvewise::detail::point_distance<Norm>(
+                                                from.points(), i, to.points(), j, P.dim()));
+                }
+                const double bound = bounds[static_cast<std::size_t>(i)];
+                CHECK(bound >= 0.0);
+                CHECK(bound <= least);
+            }
+        });
+    }
+}
+
+// Walks and noise leave nothing to prune; short curves are not worth it; curves that are alike are,
+// and their coarse curves of several levels too.
+void gives_up_where_it_should() {
+    Random random(4);
+    const auto gives_up = [](const Curve& P, const Curve& Q) {
+        const PackedCurve p(P, RangeScale(1.0), PointOrder::forward);
+        const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed);
+        Poller poller(nullptr);
+        SweepMemory memory;
+        const SweepProblem problem{*available_levels().front().kernels,
+                                   {p, q},
+                                   Recurrence::dtw_symmetric1,
+                                   curvewise::detail::canonical_cost({}, {p, q}),
+                                   2.0,
+                                   Band(P.size(), Q.size(), std::nullopt),
+                                   false,
+                                   1,
+                                   poller,
+                                   memory};
+        DtwPruningRecord record;
+        return !dtw_pruned(problem, {}, record).has_value();
+    };
+    CHECK(gives_up(random.curve(1300, 2), random.curve(1200, 2)));
+    CHECK(gives_up(random.walk(1300), random.walk(1200)));
+    const Curve loop = test::loops(20000, 2, 2.0, 0.0, false);
+    CHECK(gives_up(loop.part(0, 100), loop.part(0, 90)));
+    for (const std::ptrdiff_t m : {1200, 1300, 12000, 18000}) {
+        CHECK(!gives_up(loop, test::alike(loop, m, random)));
+    }
+}
+
+// The table, once: neither the coarse curves' nor the corridor.
+void progress_counts_the_table() {
+    Random random(5);
+    const Curve P = test::loops(14000, 2, 2.0, 0.0, false), Q = test::alike(P, 13000, random);
+    curvewise::Control control;
+    const PackedCurve p(P, RangeScale(1.0), PointOrder::forward);
+    const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed);
+    Poller poller(&control);
+    poller.begin(P.size() * Q.size());
+    SweepMemory memory;
+    const SweepProblem problem{*available_levels().back().kernels,
+                               {p, q},
+                               Recurrence::dtw_symmetric1,
+                               curvewise::detail::canonical_cost({}, {p, q}),
+                               2.0,
+                               Band(P.size(), Q.size(), std::nullopt),
+                               false,
+                               1,
+                               poller,
+                               memory};
+    DtwPruningRecord record;
+    CHECK(dtw_pruned(problem, {}, record).has_value());
+    poller.poll();
+    CHECK_EQUAL(control.done(), P.size() * Q.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc > 1) pairs = std::atol(argv[1]);
+    return check::run({{"random pairs", random_pairs},
+                       {"large pairs", large_pairs},
+                       {"least distances are bounds", least_distances_are_bounds},
+                       {"gives up where it should", gives_up_where_it_should},
+                       {"progress counts the table", progress_counts_the_table}});
+}

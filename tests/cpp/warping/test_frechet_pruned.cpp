@@ -1,0 +1,385 @@
+// The pruned Fréchet distance against the full sweep, to the bit, at every instruction-set level of
+// this machine: random pairs of curves of all kinds that make pruning hard (ties, plateaus,
+// repeated points, loops that cross, spirals, one far point, curves of one point), every ground
+// distance with bounds, cutoffs around the value. `test_frechet_pruned 100000` is the long run.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "curves.hpp"
+#include "warping/dispatch.hpp"
+#include "warping/frechet_corridor.hpp"
+#include "warping/frechet_pruned.hpp"
+#include "warping/path.hpp"
+#include "warping/sweep.hpp"
+
+namespace {
+
+using curvewise::Metric;
+using curvewise::detail::available_levels;
+using curvewise::detail::Band;
+using curvewise::detail::frechet_corridor;
+using curvewise::detail::frechet_pruned;
+using curvewise::detail::Level;
+using curvewise::detail::LiveColumns;
+using curvewise::detail::PackedCurve;
+using curvewise::detail::Path;
+using curvewise::detail::PointOrder;
+using curvewise::detail::Poller;
+using curvewise::detail::PruningRecord;
+using curvewise::detail::RangeScale;
+using curvewise::detail::SweepMemory;
+using curvewise::detail::SweepProblem;
+using curvewise::detail::SweptColumns;
+using curvewise::kernels::Recurrence;
+using test::Curve;
+using test::Random;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Metric metrics[] = {Metric::sqeuclidean, Metric::cityblock, Metric::chebyshev};
+constexpr std::ptrdiff_t dimensions[] = {1, 2, 2, 2, 3, 4, 7};
+
+std::ptrdiff_t pairs = 800;  // in each test
+
+Curve empty_curve(std::ptrdiff_t n, std::ptrdiff_t dim) {
+    return {std::vector<double>(static_cast<std::size_t>(n * dim)), dim};
+}
+
+// A closed figure run through `turns` times, a circle or an eight in its first two coordinates;
+// with `growth`, a spiral.
+Curve loops(std::ptrdiff_t n, std::ptrdiff_t dim, double turns, double growth, bool eight) {
+    Curve curve = empty_curve(n, dim);
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        const double angle =
+            6.283185307179586 * turns * static_cast<double>(i) / static_cast<double>(n);
+        const double radius = 1.0 + growth * angle;
+        for (std::ptrdiff_t c = 0; c < dim; ++c) {
+            const double phase = angle * (c == 1 && eight ? 2.0 : 1.0);
+            curve(i, c) = radius * (c % 2 == 0 ? std::cos(phase) : std::sin(phase));
+        }
+    }
+    return curve;
+}
+
+Curve walk(std::ptrdiff_t n, std::ptrdiff_t dim, double step, Random& random) {
+    Curve curve = empty_curve(n, dim);
+    for (std::ptrdiff_t i = 1; i < n; ++i) {
+        for (std::ptrdiff_t c = 0; c < dim; ++c) {
+            curve(i, c) = curve(i - 1, c) + random.uniform(-step, step);
+        }
+    }
+    return curve;
+}
+
+Curve any_curve(std::ptrdiff_t n, std::ptrdiff_t dim, Random& random) {
+    switch (random.index(6)) {
+        case 0:
+            return random.curve(n, dim);
+        case 1:
+            return random.lattice_curve(n, dim);
+        case 2:
+            return walk(n, dim, 0.1, random);
+        default:
+            return loops(n, dim, random.uniform(0.5, 6.0),
+                         random.index(2) == 0 ? 0.0 : random.uniform(-0.02, 0.1),
+                         random.index(2) == 0);
+    }
+}
+
+// Runs of equal points.
+Curve with_plateaus(const Curve& curve, std::ptrdiff_t longest, Random& random) {
+    Curve result = curve;
+    for (std::ptrdiff_t i = 0; i < curve.size();) {
+        const std::ptrdiff_t end = std::min(curve.size(), i + 1 + random.index(longest));
+        for (std::ptrdiff_t k = i; k < end; ++k) {
+            for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) result(k, c) = curve(i, c);
+        }
+        i = end;
+    }
+    return result;
+}
+
+Curve rounded(Curve curve, double grid) {
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
+            curve(i, c) = std::round(curve(i, c) * grid);
+        }
+    }
+    return curve;
+}
+
+// The curve at m points from its first to its last, larger by a little, with noise.
+Curve alike(const Curve& curve, std::ptrdiff_t m, Random& random) {
+    const double size =
+        1.0 + 0.05 * random.uniform(-1.0, 1.0) * static_cast<double>(random.index(2));
+    const double noise = random.index(3) == 0 ? 0.0 : random.uniform(0.0, 0.05);
+    Curve result = empty_curve(m, curve.dim());
+    for (std::ptrdiff_t j = 0; j < m; ++j) {
+        const std::ptrdiff_t i = m == 1 ? 0 : j * (curve.size() - 1) / (m - 1);
+        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
+            result(j, c) = size * curve(i, c) + random.uniform(-noise, noise);
+        }
+    }
+    return result;
+}
+
+std::ptrdiff_t any_size(Random& random) {
+    switch (random.index(4)) {
+        case 0:
+            return 1 + random.index(10);
+        case 1:
+            return 60 + random.index(10);
+        case 2:
+            return 120 + random.index(20);
+        default:
+            return 1 + random.index(400);
+    }
+}
+
+struct Pair {
+    Curve P;
+    Curve Q;
+};
+
+Pair any_pair(Random& random) {
+    const std::ptrdiff_t n = any_size(random), m = any_size(random);
+    const std::ptrdiff_t dim = dimensions[random.index(std::size(dimensions))];
+    Curve P = any_curve(n, dim, random);
+    if (random.index(4) == 0) P = with_plateaus(P, 1 + random.index(80), random);
+    Curve Q = random.index(3) == 0 ? any_curve(m, dim, random) : alike(P, m, random);
+    if (random.index(4) == 0) Q = with_plateaus(Q, 1 + random.index(80), random);
+    if (random.index(8) == 0) Q(random.index(m), random.index(dim)) += 100.0;
+    if (random.index(8) == 0) P(random.index(n), 0) -= 3.0;
+    if (random.index(3) == 0) {
+        const double grid = random.uniform(0.5, 20.0);
+        P = rounded(P, grid);
+        Q = rounded(Q, grid);
+    }
+    if (random.index(2) == 0) std::swap(P, Q);
+    return {P, Q};
+}
+
+class Comparison {
+   public:
+    Comparison(const Curve& P, const Curve& Q)
+        : rows_(P, RangeScale(1.0), PointOrder::forward),
+          columns_(Q, RangeScale(1.0), PointOrder::reversed) {}
+
+    void run() const {
+        for (const Level& level : available_levels()) {
+            const check::Note note(level.name);
+            for (const Metric metric : metrics) {
+                const check::Note metric_note("metric " + std::to_string(static_cast<int>(metric)));
+                compare(level, metric);
+            }
+        }
+    }
+
+    void run_values(Metric metric) const {
+        for (const Level& level : available_levels()) {
+            const check::Note note(level.name);
+            with_problem(level, metric, compare_values);
+        }
+    }
+
+   private:
+    void compare(const Level& level, Metric metric) const {
+        with_problem(level, metric, [](const SweepProblem& problem) {
+            compare_paths(problem, compare_values(problem));
+        });
+    }
+
+    template <class Use>
+    void with_problem(const Level& level, Metric metric, Use use) const {
+        Poller poller(nullptr);
+        SweepMemory memory;
+        const SweepProblem problem{*level.kernels,
+                                   {rows_, columns_},
+                                   Recurrence::frechet,
+                                   {metric, false},
+                                   2.0,
+                                   Band(rows_.size(), columns_.size(), std::nullopt),
+                                   false,
+                                   1,
+                                   poller,
+                                   memory};
+        use(problem);
+    }
+
+    static double compare_values(const SweepProblem& problem) {
+        const double expected = last_row(problem)[problem.curves.columns() - 1];
+        CHECK_EQUAL(pruned(problem, infinity), expected);
+        CHECK_EQUAL(pruned(problem, expected), expected);
+        CHECK_EQUAL(pruned(problem, expected * 1.3), expected);
+        if (expected > 0.0) {
+            CHECK_EQUAL(pruned(problem, std::nextafter(expected, 0.0)), infinity);
+            CHECK_EQUAL(pruned(problem, expected * 0.7), infinity);
+        }
+        return expected;
+    }
+
+    static double pruned(const SweepProblem& problem, double cutoff) {
+        PruningRecord record;
+        const std::optional<double> value = frechet_pruned(problem, {cutoff, false, 0}, record);
+        CHECK(value.has_value());
+        if (!value) return -1.0;
+        CHECK(record.lower <= record.upper);
+        return *value;
+    }
+
+    // Read off from one table of predecessors, and by divide and conquer.
+    static void compare_paths(const SweepProblem& problem, double value) {
+        const SweptColumns corridor = frechet_corridor(problem, value);
+        SweepProblem narrow = problem;
+        narrow.columns = LiveColumns(
+            Band(problem.curves.rows(), problem.curves.columns(), std::nullopt), corridor);
+        for (const std::ptrdiff_t max_codes : {1 << 24, 400}) {
+            const Path expected = find_path(problem, false, max_codes);
+            const Path path = find_path(narrow, false, max_codes);
+            CHECK_EQUAL(path.value, value);
+            CHECK_EQUAL(path.pairs, expected.pairs);
+        }
+    }
+
+    PackedCurve rows_;
+    PackedCurve columns_;
+};
+
+void compare(const Curve& P, const Curve& Q) {
+    const check::Note note(test::described(P, Q));
+    Comparison(P, Q).run();
+}
+
+void random_pairs() {
+    Random random(1);
+    for (std::ptrdiff_t k = 0; k < pairs; ++k) {
+        const check::Note note("pair " + std::to_string(k));
+        const auto [P, Q] = any_pair(random);
+        compare(P, Q);
+    }
+}
+
+// Runs of equal points, most of them longer than a block, whose coordinates are `base` and a few
+// units in the last place of 1.
+Curve steps_of_an_ulp(std::ptrdiff_t n, std::ptrdiff_t dim, double base, Random& random) {
+    Curve curve = empty_curve(n, dim);
+    for (std::ptrdiff_t i = 0; i < n;) {
+        const std::ptrdiff_t end = std::min(n, i + 1 + random.index(250));
+        for (std::ptrdiff_t c = 0; c < dim; ++c) {
+            const double value = base + 0x1p-52 * static_cast<double>(random.index(4));
+            for (std::ptrdiff_t k = i; k < end; ++k) curve(k, c) = value;
+        }
+        i = end;
+    }
+    return curve;
+}
+
+// Ground distances that are equal or differ in their last bits, in whole blocks: what is free, what
+// is blocked and what is neither hangs on a bit. Long steps, so that the distance is often above
+// the lower bound and values pass through free blocks.
+void bounds_that_are_met() {
+    Random random(3);
+    for (std::ptrdiff_t k = 0; k < pairs / 5; ++k) {
+        const check::Note note("pair " + std::to_string(k));
+        const std::ptrdiff_t dim = 1 + random.index(2);
+        const std::ptrdiff_t n = 100 + random.index(700), m = 100 + random.index(700);
+        compare(steps_of_an_ulp(n, dim, 0.0, random), steps_of_an_ulp(m, dim, 1.0, random));
+        compare(with_plateaus(random.lattice_curve(n, dim), 250, random),
+                with_plateaus(random.lattice_curve(m, dim), 250, random));
+    }
+}
+
+// Curves whose table consists of rooms with one ground distance each (chebyshev): runs of equal
+// points, of the given lengths, with a coordinate for each pair of runs.
+using Rooms = std::vector<std::vector<double>>;
+using Lengths = std::vector<std::ptrdiff_t>;
+
+Pair curves_of(const Rooms& rooms, const Lengths& heights, const Lengths& widths) {
+    const std::size_t dim = heights.size() * widths.size();
+    std::vector<double> p, q;
+    for (std::size_t a = 0; a < heights.size(); ++a) {
+        std::vector<double> point(dim, 0.0);
+        for (std::size_t b = 0; b < widths.size(); ++b) {
+            point[a * widths.size() + b] = 0.5 * rooms[a][b];
+        }
+        for (std::ptrdiff_t k = 0; k < heights[a]; ++k)
+            p.insert(p.end(), point.begin(), point.end());
+    }
+    for (std::size_t b = 0; b < widths.size(); ++b) {
+        std::vector<double> point(dim, 0.0);
+        for (std::size_t a = 0; a < heights.size(); ++a) {
+            point[a * widths.size() + b] = -0.5 * rooms[a][b];
+        }
+        for (std::ptrdiff_t k = 0; k < widths[b]; ++k)
+            q.insert(q.end(), point.begin(), point.end());
+    }
+    const auto d = static_cast<std::ptrdiff_t>(dim);
+    return {Curve(p, d), Curve(q, d)};
+}
+
+// Most rooms are free or blocked as a whole; some decide the value. Walls on the borders of blocks,
+// or anywhere.
+Pair maze(Random& random) {
+    const double distances[] = {1.0, 1.0, 1.0, 1.01, 1.02, 1.03, 2.0, 2.0};
+    const std::ptrdiff_t side = random.index(2) == 0 ? 32 : 20 + random.index(30);
+    Lengths heights, widths;
+    for (std::ptrdiff_t k = 3 + random.index(4); k > 0; --k) {
+        heights.push_back((1 + random.index(4)) * side);
+    }
+    for (std::ptrdiff_t k = 3 + random.index(4); k > 0; --k) {
+        widths.push_back((1 + random.index(4)) * side);
+    }
+    Rooms rooms(heights.size(), std::vector<double>(widths.size()));
+    for (std::vector<double>& row : rooms) {
+        for (double& room : row) room = distances[random.index(std::size(distances))];
+    }
+    return curves_of(rooms, heights, widths);
+}
+
+// The only way leads into a free block from the left, in the middle, and out of it below, in the
+// middle; no corner helps. The distance, 1.02, is above the lower bound, 1.
+void turn_in_a_free_block() {
+    constexpr double wall = 2.0;
+    const Rooms rooms = {{1, 1, wall, wall, wall},    {1, wall, wall, wall, wall},
+                         {1, 1.02, 1, 1, wall},       {wall, wall, 1, 1, wall},
+                         {wall, wall, wall, 1, wall}, {wall, wall, wall, 1, 1}};
+    const auto [P, Q] = curves_of(rooms, {32, 32, 32, 32, 32, 32}, {32, 32, 32, 32, 64});
+    Comparison(P, Q).run_values(Metric::chebyshev);
+    Comparison(Q, P).run_values(Metric::chebyshev);
+}
+
+void mazes() {
+    Random random(4);
+    for (std::ptrdiff_t k = 0; k < pairs; ++k) {
+        const check::Note note("pair " + std::to_string(k));
+        const auto [P, Q] = maze(random);
+        Comparison(P, Q).run_values(Metric::chebyshev);
+    }
+}
+
+// On and beside the points where one block ends and the next begins.
+void sizes_around_a_block() {
+    Random random(2);
+    for (const std::ptrdiff_t n : {1, 2, 63, 64, 65, 127, 128, 129, 256, 257}) {
+        for (const std::ptrdiff_t m : {1, 7, 64, 65, 128, 193}) {
+            const Curve P = loops(n, 2, 3.0, 0.01, true);
+            compare(P, alike(P, m, random));
+            compare(random.lattice_curve(n, 2), random.lattice_curve(m, 2));
+        }
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc > 1) pairs = std::atol(argv[1]);
+    return check::run({{"random pairs", random_pairs},
+                       {"bounds that are met", bounds_that_are_met},
+                       {"mazes", mazes},
+                       {"turn in a free block", turn_in_a_free_block},
+                       {"sizes around a block", sizes_around_a_block}});
+}
