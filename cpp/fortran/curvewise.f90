@@ -59,6 +59,8 @@ module curvewise
         integer(c_ptrdiff_t) :: workers = 1
         integer(c_int) :: prune = 1
         real(c_double) :: cutoff = huge(1.0_c_double)
+        real(c_double) :: window_fraction = 0   ! not 0: of the longer curve's points, as window
+        integer(c_int) :: normalize = 0         ! not 0: divide by n + m; symmetric2 only
     end type
 
     type, bind(C), public :: curve_length_options

@@ -102,10 +102,13 @@ typedef struct curvewise_dtw_options {
     ptrdiff_t workers; /* threads, -1 for one per core */
     int prune;         /* not 0: leave out what cannot matter of the table */
     double cutoff;     /* a value above it becomes infinity */
+    double window_fraction; /* not 0: in place of window, a fraction of the longer curve's points */
+    int normalize;          /* not 0: divide by n + m; CURVEWISE_SYMMETRIC2 only */
 } curvewise_dtw_options;
 #define CURVEWISE_NO_WINDOW (-1)
 #define CURVEWISE_DTW_DEFAULTS \
-    { CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL }
+    { CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL, \
+      0.0, 0 }
 
 typedef struct curvewise_curve_length_options {
     int scale; /* curvewise_length_scale */

@@ -116,6 +116,8 @@ curvewise::DtwOptions translate(const curvewise_dtw_options& given) {
     options.ground = ground_distance(given.metric, given.p);
     options.step_pattern = choice<StepPattern>("step_pattern", given.step_pattern);
     if (given.window != CURVEWISE_NO_WINDOW) options.window = given.window;
+    if (given.window_fraction != 0.0) options.window_fraction = given.window_fraction;
+    options.normalize = given.normalize != 0;
     options.open_begin = given.open_begin != 0;
     options.open_end = given.open_end != 0;
     options.workers = given.workers;

@@ -16,7 +16,8 @@ import numpy as np
 
 from .._curves import Array
 from .._options import Preset
-from ..measures.registry import default_measures
+from ..deviations import Deviation, deviation
+from ..measures.registry import PRESETS, default_measures
 from ._extra import required
 from .curve_list import as_points, curve_list
 from .evaluations import Evaluations, Finish, Progress, SearchEndedError
@@ -81,6 +82,18 @@ class Identification:
     preset: Preset
 
     @property
+    def deviations(self) -> tuple[Deviation | None, ...]:
+        """How far each simulation is from its experiment, in units of y, as the measure sees it.
+
+        With the preset's options. None where the measure compares no points.
+        """
+        if self.measure not in PRESETS[self.preset]:
+            return (None,) * len(self.experiments)
+        condition = PRESETS[self.preset][self.measure]
+        pairs = zip(self.experiments, self.simulations, strict=True)
+        return tuple(deviation(self.measure, condition, *pair) for pair in pairs)
+
+    @property
     def evaluations(self) -> int:
         """How many parameter sets were evaluated."""
         return len(self.history)
@@ -103,6 +116,8 @@ class Identification:
             note = "  minimised" if name == self.measure else ""
             lines.append(f"{name:<{width}}  {value:>12.6g}{note}")
         failed = f", {len(self.failures)} failed" if self.failures else ""
+        for number, found in enumerate(self.deviations):
+            lines += [f"curve {number}: {self.measure}, {found}"] if found else []
         lines += [
             "",
             f"{self.method}, seed {self.seed}: {self.evaluations} evaluations{failed}",

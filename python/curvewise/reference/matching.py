@@ -28,7 +28,7 @@ from .arc_length import arc_lengths, interpolate, locate
 from .dtw import dtw_path
 from .scaling import box_scaled
 
-__all__ = ["Matching", "matched_curves"]
+__all__ = ["Matching", "matched_curves", "travel"]
 
 Indices = npt.NDArray[np.intp]
 
@@ -54,7 +54,8 @@ class Matching(NamedTuple):
 def matched_curves(P: Array, Q: Array) -> Matching:
     """Return P and Q with a vertex at every vertex of the other, and at every end of a piece."""
     scaled_p, scaled_q = _in_box(P, P, Q), _in_box(Q, P, Q)
-    pieces = max(1, math.ceil(_PIECES_PER_SIDE * _travel(scaled_p)))
+    boxes = sum(_travel_on_grid(scaled_p[:, c]) for c in range(2)) / _GRID
+    pieces = max(1, math.ceil(_PIECES_PER_SIDE * boxes))
     samples = _SAMPLES_PER_PIECE * pieces
     at_p, at_q = _positions(scaled_p, samples), _positions(scaled_q, samples)
     i, j = dtw_path(
@@ -81,12 +82,14 @@ def _on_grid(points: Array) -> Array:
     return np.rint(points * _GRID)
 
 
-def _travel(points: Array) -> float:
-    """Return how far x and y travel, to and fro, without small reversals."""
-    return sum(_travel_of(x) for x in _on_grid(points).T.tolist()) / _GRID
+def travel(coordinate: Array) -> float:
+    """Return how far a coordinate travels, to and fro, without reversals below a third of it."""
+    low, extent = float(coordinate.min()), float(np.ptp(coordinate))
+    return _travel_on_grid((coordinate - low) / extent) / _GRID * extent if extent > 0 else 0.0
 
 
-def _travel_of(x: list[float]) -> float:
+def _travel_on_grid(coordinate: Array) -> float:
+    x: list[float] = _on_grid(coordinate).tolist()
     least = _LEAST_REVERSAL * _GRID
     total = 0.0
     low = high = turn = x[0]

@@ -1,0 +1,127 @@
+"""What a measure's value means in units of y: how far apart the points are that it compares.
+
+A value of 0.072 says little; "29 MPa in the mean, 3 % of the height, 88 MPa at most" says what a
+plot shows. Every measure but curve_length compares points of P with points of Q.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ._curves import Array
+from .measures import area, area_quads, normalize, pcm_match
+from .measures.registry import MEASURES, Condition
+from .reference.matching import travel
+
+__all__ = ["Deviation", "deviation"]
+
+
+class Deviation(NamedTuple):
+    """How far apart the points are that a measure compares, in units of y.
+
+    Where the measure is computed on scaled curves, a distance is a part of P's box, and that part
+    of its height is given.
+
+    Attributes
+    ----------
+    mean : float
+        area: the area by how far P travels along x. dtw, frechet: the mean distance along the
+        path. pcm: the area by the length of the mapped curve.
+    largest : float
+        area: the largest difference in y of facing vertices. dtw, frechet: the largest distance
+        on the path; for frechet that is the value. pcm: of the mapped vertices.
+    height : float
+        The extent of P in y.
+    """
+
+    mean: float
+    largest: float
+    height: float
+
+    def __str__(self) -> str:
+        return f"mean {self._text(self.mean)}, largest {self._text(self.largest)}"
+
+    def _text(self, value: float) -> str:
+        share = f" ({100 * value / self.height:.2g} %)" if self.height > 0 else ""
+        return f"{value:.3g}{share}"
+
+
+def deviation(measure: str, condition: Condition, P: Array, Q: Array) -> Deviation | None:
+    """Return the deviation that belongs to a measure, or None for one that compares no points.
+
+    Parameters
+    ----------
+    measure : str
+        One of the registry.
+    condition : Condition
+        How it is computed.
+    P, Q : ndarray
+        The curves, not scaled.
+
+    Returns
+    -------
+    Deviation or None
+
+    Notes
+    -----
+    Time and memory of a path for dtw and frechet, else of the measure.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from curvewise.compare import PRESETS
+    >>> from curvewise.deviations import deviation
+    >>> P = np.array([(0.0, 0.0), (1.0, 200.0), (2.0, 400.0)])
+    >>> print(deviation("area", PRESETS["scaled"]["area"], P, P + (0.0, 20.0)))
+    mean 20 (5 %), largest 20 (5 %)
+    """
+    if (distances := _DISTANCES.get(measure)) is None:
+        return None
+    height = float(np.ptp(P[:, -1] if P.ndim == 2 else P))
+    is_scaled = condition.scaled or MEASURES[measure].scales_itself
+    compared = normalize(P, Q) if is_scaled else [P, Q]
+    mean, largest = distances(measure, condition.options, *compared)
+    unit = height if is_scaled and height > 0 else 1.0
+    return Deviation(mean * unit, largest * unit, height)
+
+
+def _along_path(
+    measure: str, options: Mapping[str, Any], P: Array, Q: Array
+) -> tuple[float, float]:
+    warping = MEASURES[measure].warping
+    assert warping is not None
+    of_path = {key: value for key, value in options.items() if key not in ("normalize", "cutoff")}
+    i, j = warping.path(P, Q, **of_path).path.T
+    between = (P[i] - Q[j]).reshape(len(i), -1)
+    distances = np.linalg.norm(between, axis=1)
+    return float(distances.mean()), float(distances.max())
+
+
+def _between_facing(
+    measure: str, options: Mapping[str, Any], P: Array, Q: Array
+) -> tuple[float, float]:
+    plain = {key: value for key, value in options.items() if key != "squared"}
+    quads, _ = area_quads(P, Q, **plain)
+    facing = np.abs(quads[:, [0, 1], 1] - quads[:, [3, 2], 1])
+    length = travel(P[:, 0])
+    return area(P, Q, **plain) / length if length > 0 else np.inf, float(facing.max())
+
+
+def _of_mapped(
+    measure: str, options: Mapping[str, Any], P: Array, Q: Array
+) -> tuple[float, float]:
+    match = pcm_match(P, Q, **options)
+    mapped = P if match.mapped == "P" else Q
+    length = float(np.linalg.norm(np.diff(mapped, axis=0), axis=1).sum())
+    return match.value / length, float(np.linalg.norm(mapped - match.points, axis=1).max())
+
+
+_DISTANCES: Mapping[str, Callable[..., tuple[float, float]]] = {
+    "area": _between_facing,
+    "pcm": _of_mapped,
+    "frechet": _along_path,
+    "dtw": _along_path,
+}
