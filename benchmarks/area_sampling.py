@@ -6,12 +6,15 @@ cent of what moving up alone gives. Ideally a thinned loop gives 0, or what its 
 really enclose ("true": each vertex matched with the one it is); and a loop that is moved up gives
 100, whatever else was done to it. Curves are scaled by the loop's box. Then the time of a call.
 
-Reads the golden data; writes area_sampling.json and area_sampling.png. About 10 minutes.
+Reads the golden data; writes area_sampling.json and, of the loops, area_sampling.png. The loops take
+about 10 minutes, the times, which want a quiet machine, half a minute; a part is put beside the one
+that is there.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import statistics
 import time
@@ -41,28 +44,27 @@ def main() -> None:
     """Measure, print, write."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--output", type=Path, default=ROOT / "benchmarks" / "results")
-    parser.add_argument("--loops", nargs="*", help="names of loops; all if not given")
+    parser.add_argument("--part", nargs="+", choices=("loops", "times"), default=["loops", "times"])
     options = parser.parse_args()
+    options.output.mkdir(parents=True, exist_ok=True)
+    file = options.output / "area_sampling.json"
+    content = json.loads(file.read_text()) if file.exists() else {}
+    for part in options.part:
+        machine = timing.machine(("numpy", "similaritymeasures"))
+        results = measure_loops() if part == "loops" else times()
+        content[part] = {"machine": machine, "results": results}
+    timing.write_json(file, content)
+    if "loops" in options.part:
+        draw(content["loops"]["results"], file.with_suffix(".png"))
+
+
+def measure_loops() -> dict[str, dict[str, dict[str, tuple[float, float]]]]:
+    """Return the values of every way, by loop, and print them."""
     results = {}
     for name, loop in loops().items():
-        if options.loops and name not in options.loops:
-            continue
         results[name] = measure(loop)
         print_table(f"{name}, {len(loop)} points", results[name])
-    seconds = times()
-    ways = list(seconds["1000, 900"])
-    timing.print_table(
-        "median time of a call",
-        ("points", *ways),
-        [
-            (size, *(timing.duration(row[way]) if way in row else "" for way in ways))
-            for size, row in seconds.items()
-        ],
-    )
-    options.output.mkdir(parents=True, exist_ok=True)
-    content = {"machine": timing.machine(("numpy", "similaritymeasures")), "loops": results, "seconds": seconds}
-    timing.write_json(options.output / "area_sampling.json", content)
-    draw(results, options.output / "area_sampling.png")
+    return results
 
 
 def loops() -> dict[str, Array]:
@@ -174,7 +176,7 @@ def true_area(loop: Array, variant: Variant) -> float:
 
 
 def times() -> dict[str, dict[str, float]]:
-    """Return the seconds of a call, by numbers of points and way."""
+    """Return the seconds of a call, by numbers of points and way, and print them."""
     calls: dict[str, Matching] = {
         key: MATCHINGS[key] for key in ("distance, rearrange", "arc_length, split", "matched")
     }
@@ -197,6 +199,11 @@ def times() -> dict[str, dict[str, float]]:
                 call(P, Q)
                 samples.append(time.perf_counter() - begin)
             row[name] = statistics.median(samples)
+    rows = [
+        (size, *(timing.duration(row[way]) if way in row else "" for way in calls))
+        for size, row in seconds.items()
+    ]
+    timing.print_table("median time of a call", ("points", *calls), rows)
     return seconds
 
 

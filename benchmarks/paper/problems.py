@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import functools
 import json
+import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -41,7 +42,11 @@ COLOURS = {
     "curve_length": "#CC79A7",
 }
 
-LOAD_UNLOAD_TRUTH = {"b1": 1.0, "b2": -1.0, "b3": 1.0, "b4": 1.0}
+LOAD_UNLOAD_TRUTH = {"b0": 1.0, "b1": -1.0, "b2": 1.0, "b3": 1.0}
+LOADING = np.linspace(0.0, 1.0, 100)
+# The true unloading branch is 0 at its end; the text rounds this x to 0.62.
+UNLOADING = np.linspace(1.0, math.log((1.0 + math.e) / 2.0), 50)
+LOAD_UNLOAD_X = np.concatenate((LOADING, UNLOADING))
 LOOPS = range(1, 6)
 
 
@@ -90,37 +95,32 @@ def load_unload_bounds() -> Bounds:
 
 
 def load_unload(parameters: Mapping[str, float]) -> Array:
-    r"""Return a load–unload cycle: 100 points up to x = 1, and 50 back until y = 0.
+    r"""Return the paper's Eq. 2: 100 points up to x = 1, and 50 back to x = ln((1 + e)/2).
 
     .. math::
 
-        y = b_1 e^{b_3 x} + b_2, \qquad
-        y = y(1) - (b_1 + b_4) (e^{b_3} - e^{b_3 x})
+        f = e^{b_0 x} + b_1 \text{ (loading)}, \qquad
+        f = 2 e^{b_2 x} - 2 e^{b_3} + e - 1 \text{ (unloading)}
 
-    This is the paper's data to the last bit of its file for (1, −1, 1, 1), and has the sampling
-    of it. Which of its coefficients Eq. 2 calls parameters is read from Table 1's optimum and
-    signs, not from the paper. The x where unloading ends depends on the parameters: no
-    simulation has the x of the test. It ends at x = 0 at the latest.
+    The 2, e and 1 are constants. The branches share no parameter, and at x = 1, which occurs
+    twice, they meet for some parameters only, the truth among them: elsewhere the curve jumps.
+    Every simulation has the x of the data, so the sum of squares applies as it is.
     """
-    b1, b2, b3, b4 = (parameters[name] for name in LOAD_UNLOAD_TRUTH)
-    if b3 * (b1 + b4) == 0.0:
-        raise ValueError(f"b3 is {b3} and b1 + b4 is {b1 + b4}: y does not change in unloading")
-    loading = np.linspace(0, 1, 100)
-    loaded = b1 * np.exp(b3 * loading) + b2
-    # e^{b3 x} at y = 0 as a share of e^{b3}; a peak below 0 has nothing to unload.
-    share = 1.0 - max(loaded[-1], 0.0) / ((b1 + b4) * np.exp(b3))
-    end = max(0.0, 1.0 + np.log(share) / b3) if share > 0.0 else 0.0
-    unloading = np.linspace(1, end, 50)
-    unloaded = loaded[-1] - (b1 + b4) * (np.exp(b3) - np.exp(b3 * unloading))
-    return np.column_stack(
-        (np.concatenate((loading, unloading)), np.concatenate((loaded, unloaded)))
-    )
+    b0, b1, b2, b3 = (parameters[name] for name in LOAD_UNLOAD_TRUTH)
+    loading = np.exp(b0 * LOADING) + b1
+    unloading = 2.0 * np.exp(b2 * UNLOADING) - 2.0 * math.exp(b3) + math.e - 1.0
+    return np.column_stack((LOAD_UNLOAD_X, np.concatenate((loading, unloading))))
 
 
 def load_unload_data(*, noise: bool) -> Array:
     """Return the paper's data of the load–unload problem."""
     points: Array = np.loadtxt(data_dir() / f"load_unload_{'noise' if noise else 'true'}.txt")
     return points
+
+
+def load_unload_noisy(deviation: float, draw: int) -> Array:
+    """Return the true cycle with normal noise of our own in f."""
+    return with_noise([load_unload(LOAD_UNLOAD_TRUTH)], deviation, draw)[0]
 
 
 def hardening_bounds() -> Bounds:
@@ -145,7 +145,7 @@ def paper_parameters(measure: str, *, noise: bool = False) -> dict[str, float]:
 
 
 def with_noise(loops: Sequence[Array], deviation: float, seed: int) -> list[Array]:
-    """Return loops with normal noise of a standard deviation [MPa] added to the stress."""
+    """Return curves with normal noise of a standard deviation added to their y alone."""
     random = np.random.Generator(np.random.PCG64(seed))
     return [
         np.column_stack((loop[:, 0], loop[:, 1] + random.normal(0.0, deviation, len(loop))))

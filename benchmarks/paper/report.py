@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import argparse
 import io
-import tempfile
 import time
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 HERE = Path(__file__).resolve().parent
@@ -41,11 +41,11 @@ class Run:
         self.quick: bool = self.options.quick
         self.output: Path = self.options.output or (SCRATCH / "quick" if self.quick else HERE)
         self.output.mkdir(parents=True, exist_ok=True)
-        # Histories are large, and resume long runs: not beside results.md, and not of quick ones.
-        self._scratch = tempfile.TemporaryDirectory() if self.quick else None
-        self.histories = Path(self._scratch.name) if self._scratch else SCRATCH / "histories"
-        self.histories.mkdir(parents=True, exist_ok=True)
         self._start = time.perf_counter()
+
+    def store(self, name: str) -> Path:
+        """Return the file where the results of a study are stored, from which all is drawn."""
+        return self.output / "optima" / f"{name}.json"
 
     def section(self, name: str, text: str) -> None:
         """Print a section and put it into results.md, in the place of the one of that name."""
@@ -66,7 +66,9 @@ class Run:
         pixels = io.BytesIO()
         figure.savefig(pixels, dpi=90, facecolor="white")
         image = Image.open(pixels).convert("RGB")
-        image.quantize(256, dither=Image.Dither.NONE).save(file, optimize=True)
+        # The default method gives rare colours away, those of lines that others cover.
+        few = image.quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+        few.save(file, optimize=True)
         print(f"written: {file}", flush=True)
 
 
@@ -74,3 +76,9 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Return a Markdown table, its first column to the left, the others to the right."""
     rule = ["---", *["---:"] * (len(header) - 1)]
     return "\n".join(f"| {' | '.join(cells)} |" for cells in (header, rule, *rows))
+
+
+def legend_below(figure: Figure, panel: Axes) -> None:
+    """Put one legend below all panels, with the labels of one of them."""
+    handles, labels = panel.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels), frameon=False)

@@ -1,39 +1,43 @@
 """Table 6 made quantitative: what noise and outliers do to each measure, and how smooth it is.
 
 How far the optimum moves, on the load–unload cycle, whose truth is known: many fits to data with
-noise or outliers of its own each, the error of a fit being the area between the fitted and the
-true cycle, as a share of the area under the true one's loading branch. How smooth the landscape
+noise or outliers of its own each, the error of a fit being the mean difference in f from the true
+cycle, as a share of its height. How smooth the landscape
 is, on the five hardening loops, without and with noise: the objective along straight lines
 through the paper's optimum, in random directions; the number of its minima, its variation over
 what one descent and one ascent would have, and its largest step between neighbours. PCM and curve
 length are measured with and without a noise filter before them, area with both treatments of
-crossings.
+crossings, the sum of squares beside them where it applies.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 import numpy as np
-from load_unload import curve_error
+from cycle import SQUARES, Condition, curve_error
+from landscape import smoothness
+from noise_filter import filtered
+from partial import first_branch
 from problems import (
     COLOURS,
+    LOAD_UNLOAD_TRUTH,
     Array,
     HardeningModel,
     hardening_bounds,
     load_unload,
-    load_unload_bounds,
     load_unload_data,
+    load_unload_noisy,
     paper_parameters,
     test_loops,
     with_noise,
 )
 from report import Run, table
-from scipy.signal import find_peaks, savgol_filter
-from studies import Effort, Found, Task, identify_all
+from studies import Effort, Found, Task, evolution, identify_all
 
 from curvewise.calibration import Objective
 
@@ -53,6 +57,12 @@ class Variant:
         """Return the test as it is fitted; `window` is the filter's, in points."""
         return filtered(test, window) if self.filtered else test
 
+    def condition(self) -> Condition:
+        """Return what is minimised on the load–unload cycle."""
+        if self.measure == "sum_of_squares":
+            return SQUARES
+        return Condition(self.measure, self.measure, options=self.options)
+
 
 VARIANTS = {
     "Area": Variant("area"),
@@ -64,39 +74,33 @@ VARIANTS = {
     "Curve length": Variant("curve_length"),
     "Curve length, filtered": Variant("curve_length", filtered=True),
 }
+WORDS = {
+    "Area": ("no", "good", "good", "smooth"),
+    "PCM": ("yes", "poor", "poor", "non-smooth"),
+    "Fréchet": ("no", "fair", "poor", "non-smooth"),
+    "DTW": ("see [42]", "good", "good", "less smooth"),
+    "Curve length": ("no", "fair", "good", "smooth"),
+}
+# The sum of squares needs the simulation's x to be the test's: of the load–unload cycle alone.
+SHIFTED = {"Sum of squares": Variant("sum_of_squares"), **VARIANTS}
+# PCM's optimum lies beside plateaus: a small population misses it.
+MEMBERS = {"pcm": 25}
+QUICK: Effort = {"de": evolution(4, 12), "nelder-mead": {"restarts": 0, "maxfev": 100}}
 
 
-def filtered(test: Array, window: int) -> Array:
-    """Return a curve with a Savitzky–Golay filter over y, branch by branch.
-
-    A filter across a turning point would round it off.
-    """
-    direction = np.sign(np.diff(test[:, 0]))
-    moving = np.flatnonzero(direction)
-    turns = moving[1:][np.diff(direction[moving]) != 0]
-    branches = np.split(test[:, 1], turns)
-    y = [savgol_filter(branch, window, 2, mode="interp") for branch in branches]
-    return np.column_stack((test[:, 0], np.concatenate(y)))
-
-
-def noisy(deviation: float, random: np.random.Generator) -> Array:
-    """Return the cycle with normal noise in y."""
-    data = load_unload_data(noise=False)
-    data[:, 1] += random.normal(0.0, deviation, len(data))
-    return data
-
-
-def outlying(count: int, random: np.random.Generator) -> Array:
-    """Return the cycle with some points moved up or down."""
+def outlying(count: int, number: int) -> Array:
+    """Return the cycle with some points moved up or down, the same in every run."""
+    random = np.random.Generator(np.random.PCG64([count, number]))
     data = load_unload_data(noise=False)
     which = random.choice(len(data), count, replace=False)
     data[which, 1] += OUTLIER * random.choice((-1.0, 1.0), count)
     return data
 
 
-CASES: dict[str, Callable[[np.random.Generator], Array]] = {
-    "noise 0.01": partial(noisy, 0.01),
-    "noise 0.05": partial(noisy, 0.05),
+CASES: dict[str, Callable[[int], Array]] = {
+    "noise 0.01": partial(load_unload_noisy, 0.01),
+    "noise 0.05": partial(load_unload_noisy, 0.05),
+    "noise 0.2236": partial(load_unload_noisy, math.sqrt(0.05)),
     "1 outlier": partial(outlying, 1),
     "5 outliers": partial(outlying, 5),
 }
@@ -104,10 +108,11 @@ CASES: dict[str, Callable[[np.random.Generator], Array]] = {
 
 def main() -> None:
     """Fit, scan, print, draw, write."""
-    run = Run(__doc__, workers=1, samples=10, lines=12)
+    run = Run(__doc__, workers=1, samples=5, lines=12)
     samples = 1 if run.quick else run.options.samples
     lines = 3 if run.quick else run.options.lines
-    run.section("table6_shift", shift_table(shifts(run, samples)))
+    found = shifts(run, samples)
+    run.section("table6_shift", shift_table(found))
     tests = {"no noise": test_loops(), "noise 35 MPa": with_noise(test_loops(), 35.0, seed=0)}
     simulations = simulated_lines(lines, 51 if run.quick else 501)
     scans = {
@@ -116,48 +121,72 @@ def main() -> None:
         for case, loops in tests.items()
     }
     run.section("table6_smoothness", smoothness_table(scans, list(tests)))
+    run.section("table6", word_table(found, scans, list(tests)))
     draw(run, scans, list(tests))
 
 
-def sample(case: str, number: int) -> Array:
-    """Return one set of data of a case, the same in every run."""
-    return CASES[case](np.random.Generator(np.random.PCG64([list(CASES).index(case), number])))
-
-
 def shifts(run: Run, samples: int) -> dict[tuple[str, str], list[Found]]:
-    """Return the fits of every variant to all data of every case."""
-    quick = Effort("de", popsize=8, generations=25, restarts=1, evaluations=400)
-    effort = quick if run.quick else Effort("de", popsize=20, generations=150)
-    tasks = {
-        (name, case, number): Task(
-            f"table6_{name}_{case}_{number}".replace(" ", "_").replace(",", ""),
-            load_unload,
-            [variant.prepared(sample(case, number), 21)],
-            load_unload_bounds(),
-            variant.measure,
-            seed=number,
-            effort=effort,
-            options=variant.options,
-        )
-        for name, variant in VARIANTS.items()
-        for case in CASES
-        for number in range(samples)
-    }
-    found = identify_all(list(tasks.values()), run.histories, run.options.workers)
+    """Return the fits of every variant to all data of every case.
+
+    A search that ends above the value of the true parameters has not found the optimum, and is
+    begun again with another seed, three times at most.
+    """
+    keys = [(name, case, number) for name in SHIFTED for case in CASES for number in range(samples)]
+    found: dict[tuple[str, str, int], Found] = {}
+    for attempt in range(4):
+        missed = [key for key in keys if key not in found or is_missed(key, found[key])]
+        tasks = {key: task(run, *key, attempt) for key in missed}
+        again = identify_all(list(tasks.values()), run.store("table6"), run.options.workers)
+        for key, one in tasks.items():
+            fits = [found[key]] if key in found else []
+            found[key] = min([*fits, again[one.name]], key=lambda fit: fit.value)
     return {
-        (name, case): [found[tasks[name, case, k].name] for k in range(samples)]
-        for name in VARIANTS
+        (name, case): [found[name, case, k] for k in range(samples)]
+        for name in SHIFTED
         for case in CASES
     }
+
+
+def task(run: Run, name: str, case: str, number: int, attempt: int) -> Task:
+    """Return one identification of the load–unload cycle."""
+    variant = SHIFTED[name]
+    again = f", attempt {attempt}" if attempt else ""
+    return variant.condition().task(
+        f"{name}: {case}, {number}{again}",
+        variant.prepared(CASES[case](number), 21),
+        QUICK if run.quick else effort(variant.measure),
+        seed=number + 100 * attempt,
+    )
+
+
+def is_missed(key: tuple[str, str, int], fit: Found) -> bool:
+    """Return whether the true parameters are better, by 0.1 % at least, than what was found."""
+    name, case, number = key
+    variant = SHIFTED[name]
+    condition = variant.condition()
+    objective = Objective(
+        variant.prepared(CASES[case](number), 21),
+        condition.measure,
+        preset=condition.preset,
+        min_coverage=0.0,
+        **condition.options,
+    )
+    return objective(load_unload(LOAD_UNLOAD_TRUTH)) < 0.999 * fit.value
+
+
+def effort(measure: str) -> Effort:
+    """Return the search for the optimum of a measure on the load–unload cycle."""
+    members = MEMBERS.get(measure, 8)
+    return {"de": evolution(members, 150, tol=1e-6), "nelder-mead": {"restarts": 3}}
 
 
 def shift_table(fits: Mapping[tuple[str, str], list[Found]]) -> str:
     """Return the median error of the fitted cycle, and the worst."""
     rows = []
-    for name in VARIANTS:
+    for name in SHIFTED:
         cells = []
         for case in CASES:
-            errors = [100 * curve_error(fit) for fit in fits[name, case]]
+            errors = [100 * curve_error(fit.parameters) for fit in fits[name, case]]
             cells.append(f"{np.median(errors):.2f} ({max(errors):.2f})")
         rows.append([name, *cells])
     return table(["error in %, median (worst)", *CASES], rows)
@@ -193,20 +222,6 @@ def scan(
     return [np.array([objective(loops) for loops in line]) for line in simulations]
 
 
-def smoothness(values: Array) -> tuple[int, float, float]:
-    """Return the number of minima, the relative variation and the largest step of a scan.
-
-    A minimum counts if both its sides rise by 0.1 % of the range; the variation is 1 for one
-    descent and one ascent; the step is a share of the range.
-    """
-    extent = np.ptp(values)
-    padded = np.concatenate(([np.inf], values, [np.inf]))  # a minimum may be at an end
-    minima, _ = find_peaks(-np.minimum(padded, values.max() + extent), prominence=1e-3 * extent)
-    ends = values[0] + values[-1] - 2 * values.min()
-    steps = np.abs(np.diff(values))
-    return len(minima), float(steps.sum() / ends), float(steps.max() / extent)
-
-
 def smoothness_table(scans: Mapping[tuple[str, str], list[Array]], cases: list[str]) -> str:
     """Return means over the lines of minima and variation, and the largest step of all."""
     rows = []
@@ -224,6 +239,41 @@ def smoothness_table(scans: Mapping[tuple[str, str], list[Array]], cases: list[s
     return table(
         ["landscape", *(f"{column}, {case}" for case in cases for column in columns)], rows
     )
+
+
+def word_table(
+    found: Mapping[tuple[str, str], list[Found]],
+    scans: Mapping[tuple[str, str], list[Array]],
+    cases: list[str],
+) -> str:
+    """Return the words of the paper's Table 6, each beside the number that it is about."""
+    rows = []
+    for name, words in WORDS.items():
+        variant = VARIANTS[name]
+        options = {"preset": "paper", "min_coverage": 0.0, **variant.options}
+        loop = test_loops()[4]
+        branch = Objective(loop, variant.measure, **options)(first_branch(loop))
+        errors = {
+            case: np.median([100 * curve_error(fit.parameters) for fit in found[name, case]])
+            for case in ("noise 0.05", "noise 0.2236", "1 outlier", "5 outliers")
+        }
+        minima = [np.mean([smoothness(v)[0] for v in scans[name, case]]) for case in cases]
+        numbers = (
+            f"{branch:.3g}",
+            f"{errors['noise 0.05']:.1f}, {errors['noise 0.2236']:.1f} %",
+            f"{errors['1 outlier']:.1f}, {errors['5 outliers']:.1f} %",
+            f"{minima[0]:.1f}, {minima[1]:.1f}",
+        )
+        cells = [f"*{word}*: {value}" for word, value in zip(words, numbers, strict=True)]
+        rows.append([name, *cells])
+    header = [
+        "*Table 6*: ours",
+        "partial matching: loop 5 against its first branch",
+        "noise: error at σ = 0.05, 0.2236",
+        "outliers: error with 1, 5",
+        "shape: minima on a line, no noise, 35 MPa",
+    ]
+    return table(header, rows)
 
 
 def draw(run: Run, scans: Mapping[tuple[str, str], list[Array]], cases: list[str]) -> None:

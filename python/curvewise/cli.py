@@ -9,6 +9,7 @@ by them, so that the others start fast and run without it.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import io
 import json
 import math
@@ -154,7 +155,9 @@ def _parser() -> argparse.ArgumentParser:
         "--spacing", choices=get_args(Spacing), help="of area; in place of the preset's"
     )
     command.add_argument(
-        "--crossing", choices=get_args(Crossing), help="of area; in place of the preset's"
+        "--crossing",
+        choices=get_args(Crossing),
+        help="of area, without effect on spacing matched; in place of the preset's",
     )
     command.add_argument(
         "--window",
@@ -188,13 +191,12 @@ def _parser() -> argparse.ArgumentParser:
 
 def _window(text: str) -> Window:
     """Read a whole number, or a fraction between 0 and 1."""
-    try:
+    with contextlib.suppress(ValueError):
         return int(text)
-    except ValueError:
-        fraction = float(text)
-    if not 0 < fraction < 1:
-        raise argparse.ArgumentTypeError(f"{text} is no whole number, and not between 0 and 1")
-    return fraction
+    with contextlib.suppress(ValueError):
+        if 0 < (fraction := float(text)) < 1:
+            return fraction
+    raise argparse.ArgumentTypeError(f"{text} is no whole number, and not between 0 and 1")
 
 
 def _compare(arguments: argparse.Namespace) -> int:
@@ -209,8 +211,9 @@ def _compare(arguments: argparse.Namespace) -> int:
         "dtw": {"window": arguments.window},
     }
     options = {
-        measure: {name: value for name, value in values.items() if value is not None}
+        measure: chosen
         for measure, values in given.items()
+        if (chosen := {name: value for name, value in values.items() if value is not None})
     }
     try:
         comparison = compare(
@@ -267,10 +270,10 @@ def _print_table(comparison: Comparison, names: list[str], columns: list[str]) -
 
 
 def _to_json(comparison: Comparison, files: list[str], columns: list[list[str]]) -> str:
-    values = {
-        # JSON has no infinity: a value beyond the range of a double is null.
-        name: value if math.isfinite(value) else None
-        for name, value in comparison.to_dict().items()
+    values = {name: _json_number(value) for name, value in comparison.values.items()}
+    deviations = {
+        name: {key: _json_number(value) for key, value in found._asdict().items()}
+        for name, found in comparison.deviations.items()
     }
     n = [len(comparison.P), len(comparison.Q)]
     return json.dumps(
@@ -280,9 +283,15 @@ def _to_json(comparison: Comparison, files: list[str], columns: list[list[str]])
             "preset": comparison.preset,
             "n": n,
             "values": values,
+            "deviations": deviations,
         },
         indent=2,
     )
+
+
+def _json_number(value: float) -> float | None:
+    """JSON has no infinity: a value beyond the range of a double is null."""
+    return value if math.isfinite(value) else None
 
 
 def _residuals(comparison: Comparison) -> list[float]:

@@ -56,7 +56,7 @@ class Comparison:
         """How far apart the points are that each measure compares, in units of y.
 
         Of the measures that compare points: not of curve_length. Computed when asked for: dtw and
-        frechet need their paths.
+        frechet need their paths. See :class:`curvewise.deviations.Deviation`.
         """
         found = {
             name: deviation(name, condition, self.P, self.Q)
@@ -116,9 +116,10 @@ def compare(
     Raises
     ------
     ValueError
-        An unknown preset or measure, and whatever a measure refuses.
+        An unknown preset or measure, options of a measure that is not computed, and whatever a
+        measure refuses.
     TypeError
-        A curve does not hold real numbers.
+        A curve does not hold real numbers; an option that the measure does not have.
 
     Notes
     -----
@@ -133,6 +134,9 @@ def compare(
     frechet       1
     dtw           3
     curve_length  2.40113
+    >>> P, Q = curvewise.datasets.hysteresis_pair()
+    >>> print(curvewise.compare(P, Q, measures=["area"]).deviations["area"])
+    mean 0, largest 0
     """
     P, Q = (curve.copy() for curve in as_curves(P, Q))
     if not isinstance(preset, str) or preset not in PRESETS:
@@ -145,6 +149,9 @@ def compare(
     for name in (*names, *given):
         if not isinstance(name, str) or name not in MEASURES:
             raise ValueError(f"unknown measure {name!r}; choose from {', '.join(MEASURES)}")
+    for name in given:
+        if name not in names:
+            raise ValueError(f"options are given for {name!r}, which is not among the measures")
     conditions = {name: _changed(PRESETS[preset][name], given.get(name, {})) for name in names}
     values = {name: _value(MEASURES[name], conditions[name], P, Q) for name in names}
     return Comparison(P, Q, preset, values, conditions)

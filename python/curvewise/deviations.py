@@ -6,12 +6,14 @@ plot shows. Every measure but curve_length compares points of P with points of Q
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ._curves import Array
+from ._options import Crossing
 from .measures import area, area_quads, normalize, pcm_match
 from .measures.registry import MEASURES, Condition
 from .reference.matching import travel
@@ -34,7 +36,7 @@ class Deviation(NamedTuple):
         area: the largest difference in y of facing vertices. dtw, frechet: the largest distance
         on the path; for frechet that is the value. pcm: of the mapped vertices.
     height : float
-        The extent of P in y.
+        The extent of P in y, its last coordinate.
     """
 
     mean: float
@@ -45,11 +47,14 @@ class Deviation(NamedTuple):
         return f"mean {self._text(self.mean)}, largest {self._text(self.largest)}"
 
     def _text(self, value: float) -> str:
-        share = f" ({100 * value / self.height:.2g} %)" if self.height > 0 else ""
+        in_range = 0 < self.height < math.inf and value < math.inf
+        share = f" ({100 * (value / self.height):.2g} %)" if in_range else ""
         return f"{value:.3g}{share}"
 
 
-def deviation(measure: str, condition: Condition, P: Array, Q: Array) -> Deviation | None:
+def deviation(
+    measure: str, condition: Condition, P: Array, Q: Array, *, part: str = "experiment"
+) -> Deviation | None:
     """Return the deviation that belongs to a measure, or None for one that compares no points.
 
     Parameters
@@ -60,10 +65,17 @@ def deviation(measure: str, condition: Condition, P: Array, Q: Array) -> Deviati
         How it is computed.
     P, Q : ndarray
         The curves, not scaled.
+    part : {"experiment", "simulation"}
+        "simulation": the path of dtw is that of Q to a part of P, as in an objective.
 
     Returns
     -------
     Deviation or None
+
+    Raises
+    ------
+    ValueError
+        As the measure.
 
     Notes
     -----
@@ -80,10 +92,13 @@ def deviation(measure: str, condition: Condition, P: Array, Q: Array) -> Deviati
     """
     if (distances := _DISTANCES.get(measure)) is None:
         return None
-    height = float(np.ptp(P[:, -1] if P.ndim == 2 else P))
     is_scaled = condition.scaled or MEASURES[measure].scales_itself
     compared = normalize(P, Q) if is_scaled else [P, Q]
-    mean, largest = distances(measure, condition.options, *compared)
+    if part == "simulation":
+        compared.reverse()
+    with np.errstate(over="ignore", invalid="ignore"):  # beyond the range of a double: inf
+        height = float(np.ptp(P[:, -1] if P.ndim == 2 else P))
+        mean, largest = distances(measure, condition.options, *compared)
     unit = height if is_scaled and height > 0 else 1.0
     return Deviation(mean * unit, largest * unit, height)
 
@@ -104,15 +119,15 @@ def _between_facing(
     measure: str, options: Mapping[str, Any], P: Array, Q: Array
 ) -> tuple[float, float]:
     plain = {key: value for key, value in options.items() if key != "squared"}
-    quads, _ = area_quads(P, Q, **plain)
+    # A quadrilateral that was rearranged has lost the order in which vertices face each other.
+    in_order: dict[str, Crossing] = {"crossing": "split"}
+    quads, _ = area_quads(P, Q, **{**plain, **in_order})
     facing = np.abs(quads[:, [0, 1], 1] - quads[:, [3, 2], 1])
     length = travel(P[:, 0])
-    return area(P, Q, **plain) / length if length > 0 else np.inf, float(facing.max())
+    return area(P, Q, **plain) / length if length > 0 else math.inf, float(facing.max())
 
 
-def _of_mapped(
-    measure: str, options: Mapping[str, Any], P: Array, Q: Array
-) -> tuple[float, float]:
+def _of_mapped(measure: str, options: Mapping[str, Any], P: Array, Q: Array) -> tuple[float, float]:
     match = pcm_match(P, Q, **options)
     mapped = P if match.mapped == "P" else Q
     length = float(np.linalg.norm(np.diff(mapped, axis=0), axis=1).sum())

@@ -80,7 +80,7 @@ def pytest_report_header(config: pytest.Config) -> list[str]:
             "tests, and programs that use it"
         )
         lines.append(
-            "curvewise: about 3 minutes on two cores; without the builds (-m 'not embed') 1.5"
+            "curvewise: about 4 minutes on two cores; without the builds (-m 'not embed') 2"
         )
     if not DATA.is_dir():
         lines.append(f"curvewise: no golden data in {DATA} (CURVEWISE_DATA): its tests are skipped")

@@ -57,8 +57,8 @@ void for_each(const CurveList& first, const CurveList& second, Check check) {
         for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
             const double value = curve(i, c);
             if (std::isfinite(value)) continue;
-            const std::string place =
-                std::to_string(i) + (curve.is_flat() ? "" : ", " + std::to_string(c));
+            std::string place = std::to_string(i);
+            if (!curve.is_flat()) place.append(", ").append(std::to_string(c));
             const char* what = std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
             refuse(name + "[" + place + "] is " + what, "curves must be finite");
         }
@@ -83,8 +83,8 @@ double largest_magnitude(const CurveView& curve, const std::string& name) {
 
 }  // namespace
 
-CheckedCurve::CheckedCurve(const CurveView& checked, std::string its_name)
-    : curve(checked), name(std::move(its_name)), largest(largest_magnitude(curve, name)) {}
+CheckedCurve::CheckedCurve(const CurveView& curve, std::string name)
+    : curve(curve), name(std::move(name)), largest(largest_magnitude(this->curve, this->name)) {}
 
 void check_shapes(const Requirements& needs, const CurveList& first, const CurveList& second) {
     const CurveList& with_first = first.size() > 0 ? first : second;

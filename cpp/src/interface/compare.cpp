@@ -41,7 +41,9 @@ Condition condition(Preset preset, AreaOptions options) {
     if (preset == Preset::paper) options.spacing = Spacing::x;
     if (preset == Preset::scaled) {
         options.spacing = Spacing::matched;
-        options.crossing = Crossing::split;  // for whoever chooses another spacing
+        // For whoever chooses another spacing: "rearrange" jumps where curves cross, which an
+        // identification takes for minima.
+        options.crossing = Crossing::split;
     }
     return {options, preset == Preset::scaled};
 }

@@ -24,7 +24,13 @@ void check_options(const BatchOptions& options) {
 }  // namespace
 
 bool is_symmetric(const Measure& measure) noexcept {
-    return std::visit([](const auto& options) { return options.is_symmetric(); }, measure);
+    // Not std::visit, which may throw as far as a compiler can see.
+    bool result = false;
+    for_each_measure([&](const auto& defaults) {
+        using Options = std::decay_t<decltype(defaults)>;
+        if (const auto* options = std::get_if<Options>(&measure)) result = options->is_symmetric();
+    });
+    return result;
 }
 
 double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q, Control* control) {

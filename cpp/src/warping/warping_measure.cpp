@@ -96,7 +96,7 @@ WarpingOptions checked(const DtwOptions& options) {
             "normalize needs step_pattern='symmetric2', whose paths all have the weight n + m");
     }
     return {
-        options.measure,
+        DtwOptions::measure,
         is_symmetric1 ? kernels::Recurrence::dtw_symmetric1 : kernels::Recurrence::dtw_symmetric2,
         options.ground,
         detail::resolve_workers(options.workers),
@@ -112,9 +112,12 @@ WarpingOptions checked(const DtwOptions& options) {
 WarpingOptions checked(const FrechetOptions& options) {
     detail::check_ground_distance(options.ground);
     detail::check_cutoff(options.cutoff);
-    return {options.measure, kernels::Recurrence::frechet,
-            options.ground,  detail::resolve_workers(options.workers),
-            options.prune,   options.cutoff};
+    return {FrechetOptions::measure,
+            kernels::Recurrence::frechet,
+            options.ground,
+            detail::resolve_workers(options.workers),
+            options.prune,
+            options.cutoff};
 }
 
 // Two packed curves, and the table between them.

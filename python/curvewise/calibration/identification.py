@@ -17,11 +17,12 @@ import numpy as np
 from .._curves import Array
 from .._options import Preset
 from ..deviations import Deviation, deviation
-from ..measures.registry import PRESETS, default_measures
+from ..measures.registry import Condition, default_measures
 from ._extra import required
 from .curve_list import as_points, curve_list
 from .evaluations import Evaluations, Finish, Progress, SearchEndedError
 from .history import Evaluation, History, as_records
+from .loop_measure import Measure, Part
 from .methods import METHODS, search
 from .model_pool import Model, ModelPool
 from .objective import LEAST_SQUARES, Objective
@@ -62,8 +63,11 @@ class Identification:
         Whether the method met its tolerances.
     message : str
         How the search ended.
-    method, seed, bounds, measure, preset
+    method, seed, bounds, measure, preset, part
         As asked for.
+    condition : Condition or None
+        Whether the measure is computed on scaled curves, and its options, the preset's included;
+        None for "sum_of_squares" and for a function.
     """
 
     parameters: dict[str, float]
@@ -81,17 +85,26 @@ class Identification:
     measure: str
     preset: Preset
 
+    part: Part
+    condition: Condition | None = field(repr=False)
+
     @property
     def deviations(self) -> tuple[Deviation | None, ...]:
         """How far each simulation is from its experiment, in units of y, as the measure sees it.
 
-        With the preset's options. None where the measure compares no points.
+        Computed when asked for. None for curve_length, sum_of_squares and functions, and where a
+        simulation has failed. See :class:`curvewise.deviations.Deviation`.
         """
-        if self.measure not in PRESETS[self.preset]:
+        if self.condition is None or len(self.simulations) < len(self.experiments):
             return (None,) * len(self.experiments)
-        condition = PRESETS[self.preset][self.measure]
         pairs = zip(self.experiments, self.simulations, strict=True)
-        return tuple(deviation(self.measure, condition, *pair) for pair in pairs)
+        return tuple(self._deviation(self.condition, *pair) for pair in pairs)
+
+    def _deviation(self, condition: Condition, P: Array, Q: Array) -> Deviation | None:
+        try:
+            return deviation(self.measure, condition, P, Q, part=self.part)
+        except ValueError:  # the measure refuses the simulation, which the objective calls failed
+            return None
 
     @property
     def evaluations(self) -> int:
@@ -115,9 +128,10 @@ class Identification:
         for name, value in self.measures.items():
             note = "  minimised" if name == self.measure else ""
             lines.append(f"{name:<{width}}  {value:>12.6g}{note}")
+        deviations = [f"curve {k}: {d}" for k, d in enumerate(self.deviations) if d is not None]
+        if deviations:
+            lines += ["", f"deviation of {self.measure}, in units of y", *deviations]
         failed = f", {len(self.failures)} failed" if self.failures else ""
-        for number, found in enumerate(self.deviations):
-            lines += [f"curve {number}: {self.measure}, {found}"] if found else []
         lines += [
             "",
             f"{self.method}, seed {self.seed}: {self.evaluations} evaluations{failed}",
@@ -142,7 +156,7 @@ def identify(
     experiments: Any,
     bounds: Mapping[str, tuple[float, float]],
     *,
-    measure: str = "area",
+    measure: Measure = "area",
     preset: Preset = "scaled",
     method: str = "sdrm+de",
     seed: int = 0,
@@ -155,6 +169,7 @@ def identify(
     weights: Sequence[float] | None = None,
     failure_value: float | None = None,
     min_coverage: float = 0.5,
+    part: Part = "experiment",
     method_options: Mapping[str, Any] | None = None,
     **options: Any,
 ) -> Identification:
@@ -169,7 +184,7 @@ def identify(
         The measured curve, or curves.
     bounds : mapping of str to (low, high)
         The parameters and where to search.
-    measure, preset, weights, failure_value, min_coverage, **options
+    measure, preset, weights, failure_value, min_coverage, part, **options
         The objective: see :class:`Objective`.
     method : {"sdrm+de", "de", "sdrm", "nelder-mead", "least_squares"}
         "de": differential evolution, global. "sdrm": successive linear response surfaces with
@@ -192,7 +207,7 @@ def identify(
     history : path-like, optional
         A CSV file to which every evaluation is appended at once. If it exists, the search is
         resumed: it runs again with the evaluations that the file holds looked up instead of
-        computed, and goes on from there.
+        computed, and goes on from there. Of a callable measure it knows the name alone.
     start : mapping of str to float, optional
         Where the search starts: the middle of the bounds if not given; for "de" one member of
         the first population.
@@ -200,9 +215,11 @@ def identify(
         End the search after so many parameter sets.
     method_options : mapping, optional
         Passed on. "de": those of `scipy.optimize.differential_evolution` (popsize, tol, atol,
-        maxiter, ...). "sdrm": gamma_osc, gamma_pan, eta, initial_range, tol, maxiter.
+        maxiter, ...), and stall: (improvement, generations), with which the search ends once the
+        best value has improved by less than that fraction over so many generations, as
+        (0.001, 100) in the paper. "sdrm": gamma_osc, gamma_pan, eta, initial_range, tol, maxiter.
         "nelder-mead": size (of the simplex, 0.1), restarts (10), and scipy's options (xatol,
-        fatol, ...). "least_squares": those of `scipy.optimize.least_squares`. "sdrm+de": a
+            fatol, ...). "least_squares": those of `scipy.optimize.least_squares`. "sdrm+de": a
         mapping for each, ``{"sdrm": {...}, "de": {...}}``.
 
     Returns
@@ -259,6 +276,7 @@ def identify(
         weights=weights,
         failure_value=failure_value,
         min_coverage=min_coverage,
+        part=part,
         **options,
     )
     required("scipy.optimize")
@@ -322,10 +340,12 @@ def _result(
         bounds=space.bounds,
         measure=objective.measure,
         preset=objective.preset,
+        part=objective.part,
+        condition=objective.condition,
     )
 
 
-def _check_method(method: str, measure: str, method_options: dict[str, Any]) -> None:
+def _check_method(method: str, measure: Measure, method_options: dict[str, Any]) -> None:
     if method not in METHODS:
         raise ValueError(f"unknown method {method!r}; choose from {', '.join(METHODS)}")
     if method == "least_squares" and measure not in LEAST_SQUARES:
@@ -346,10 +366,13 @@ def _settings(objective: Objective) -> dict[str, Any]:
     digest = hashlib.sha256()
     for curve in objective.experiments:
         digest.update(repr(curve.shape).encode() + curve.tobytes())
+    options = dict(objective.options)
+    if objective.part != "experiment":  # histories from before this option have none
+        options["part"] = objective.part
     return {
         "measure": objective.measure,
         "preset": objective.preset,
-        "options": objective.options,
+        "options": options,
         "weights": objective.weights.tolist(),
         "failure_value": objective.failure_value.tolist(),
         "min_coverage": objective.min_coverage,
@@ -371,6 +394,7 @@ def _measures(objective: Objective, simulations: Any, value: float) -> dict[str,
                 preset=objective.preset,
                 weights=objective.weights.tolist(),
                 min_coverage=objective.min_coverage,
+                part=objective.part if name == "pcm" else "experiment",
             )
         except ValueError:  # e.g. curve_length, raw, of a loop centred on zero
             values[name] = np.nan

@@ -52,6 +52,7 @@ def line_plot(
     measures: Sequence[str] | None = None,
     preset: Preset = "scaled",
     weights: Sequence[float] | None = None,
+    min_coverage: float = 0.5,
     workers: int = 1,
     progress: bool = True,
 ) -> LinePlot:
@@ -70,7 +71,7 @@ def line_plot(
         How many points of the line, with its ends.
     measures : sequence of str, optional
         For experiments: by default all five in the plane, frechet and dtw otherwise.
-    preset, weights
+    preset, weights, min_coverage
         For experiments: as for :class:`Objective`.
     workers : int, default 1
         Processes in which the model runs at the same time; -1 for one per core.
@@ -116,7 +117,8 @@ def line_plot(
     if isinstance(objectives, Mapping):
         named = dict(objectives)
     else:
-        named = _objectives(objectives, measures, preset, weights)
+        shared = {"preset": preset, "weights": weights, "min_coverage": min_coverage}
+        named = _objectives(objectives, measures, shared)
     t = np.linspace(0.0, 1.0, points)
     line = [{key: (1.0 - s) * a[key] + s * b[key] for key in a} for s in t.tolist()]
     values = _values(named, model, line, workers, progress)
@@ -131,15 +133,12 @@ def line_plot(
 
 
 def _objectives(
-    experiments: Any,
-    measures: Sequence[str] | None,
-    preset: Preset,
-    weights: Sequence[float] | None,
+    experiments: Any, measures: Sequence[str] | None, shared: dict[str, Any]
 ) -> dict[str, Objective]:
     if measures is None:
-        first = Objective(experiments, "frechet", preset=preset).experiments[0]
+        first = Objective(experiments, "frechet", **shared).experiments[0]
         measures = default_measures(first)
-    return {name: Objective(experiments, name, preset=preset, weights=weights) for name in measures}
+    return {name: Objective(experiments, name, **shared) for name in measures}
 
 
 def _values(

@@ -41,16 +41,28 @@ def search(
 
 
 def _differential_evolution(
-    evaluations: Evaluations, start: Array | None, seed: int, **options: Any
+    evaluations: Evaluations,
+    start: Array | None,
+    seed: int,
+    *,
+    stall: tuple[float, int] | None = None,
+    **options: Any,
 ) -> Finish:
     """Global search by scipy's differential evolution, a generation at a time.
 
     The result is not polished, since scipy's polish takes gradients. The tolerance `atol` on the
     spread of the population ends the search where it would only go on halving a value that is 0 to
     all purposes. A population on one level of a landscape of steps has no spread, which ends the
-    search too.
+    search too. `stall` is the paper's rule (its section 3.3): (0.001, 100) ends the search once the
+    best value has improved by less than 0.1 % over 100 generations.
     """
     function = required("scipy.optimize").differential_evolution
+    stalled = None
+    if stall is not None:
+        if "callback" in options:
+            raise ValueError("give either stall or callback to 'de': stall is a callback itself")
+        stalled = _Stall(evaluations, stall)
+        options["callback"] = stalled
     # scipy 1.15 renamed `seed`; a Generator means the same under both names.
     seed_name = "rng" if "rng" in inspect.signature(function).parameters else "seed"
     settings = {
@@ -77,7 +89,39 @@ def _differential_evolution(
         if wrong:  # with the model; scipy takes it for a mistake in calling scipy
             raise wrong[0] from None
         raise
+    if stalled is not None and stalled.ended:
+        return Finish(True, stalled.message)
     return Finish(bool(result.success), str(result.message))
+
+
+class _Stall:
+    """Ends differential evolution where the best value hardly improves any more.
+
+    scipy calls it after every generation.
+    """
+
+    def __init__(self, evaluations: Evaluations, stall: tuple[float, int]) -> None:
+        if np.shape(stall) != (2,) or not (0.0 <= stall[0] < 1.0 and stall[1] >= 1):
+            raise ValueError(
+                f"stall is {stall!r}; give (improvement, generations), for example (0.001, 100)"
+            )
+        self._evaluations = evaluations
+        self._improvement, self._generations = float(stall[0]), int(stall[1])
+        self._best: list[float] = []
+        self.ended = False
+
+    def __call__(self, xk: Array, convergence: float) -> bool:
+        """Return whether the search ends after this generation."""
+        self._best.append(self._evaluations.best.value)
+        if len(self._best) > self._generations:
+            before = self._best[-1 - self._generations]
+            self.ended = before - self._best[-1] <= self._improvement * abs(before)
+        return self.ended
+
+    @property
+    def message(self) -> str:
+        """How the search ended."""
+        return f"improved by less than {self._improvement:.3g} over {self._generations} generations"
 
 
 def _nelder_mead(

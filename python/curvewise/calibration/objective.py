@@ -10,8 +10,7 @@ parameters will cure. Cost: that of the measure, for every loop.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,13 +18,13 @@ import numpy as np
 from .._curves import Array
 from .._docstrings import filled, listed
 from .._options import Preset
-from ..measures import normalize, pcm_match, registry
-from ..measures.registry import PRESETS, Condition
-from ..pairwise import Prepared
+from ..measures import normalize, registry
+from ..measures.registry import PRESETS
 from ..reference.scaling import box
 from ..results import PcmMatch
-from .common_x import check_common_x, differences, squared_differences
+from .common_x import check_common_x
 from .curve_list import as_points, curve_list
+from .loop_measure import Measure, Part, check_part, condition_of, functions, measure_name
 
 __all__ = ["LEAST_SQUARES", "MEASURES", "Objective", "Score"]
 
@@ -67,12 +66,15 @@ class Objective:
     experiments : array_like, shape (n, d), or sequence of such
         One measured curve or several. A list whose items are points or numbers is one curve;
         several series are arrays of shape (n, 1).
-    measure : {measures}
+    measure : {measures} or callable
+        A measure by its name, or a function of the experiment, the simulation and the options
+        that returns a float; where it raises ValueError the simulation has failed.
         "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
         the experiment's x: for data with a common x, which must not turn back.
     preset : {"scaled", "paper", "raw"}
         As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
-        that loops, and x and y, count alike; sum_of_squares is raw in the other two.
+        that loops, and x and y, count alike; sum_of_squares and functions are given the curves
+        as they are in the other two.
     weights : sequence of float, optional
         A factor for every loop, not negative; 1 if not given.
     failure_value : float, optional
@@ -83,6 +85,11 @@ class Objective:
         For "pcm": a simulation shorter than this fraction of its experiment's length (both
         scaled) counts as failed, since partial curve mapping scores a piece of the curve well.
         An experiment that is a piece of its simulation is what it is made for, and passes.
+    part : {"experiment", "simulation"}
+        Which curve may be a piece of the other, with "pcm" and with "dtw" that has an open end.
+        "experiment": a test that starts late or stops early, against the whole simulation.
+        "simulation": a model of the first branch alone, against the whole loop; dtw is then that
+        of the simulation to the experiment, and "pcm" has no `min_coverage`.
     **options
         Options of the measure, which override the preset's.
 
@@ -90,6 +97,11 @@ class Objective:
     ----------
     experiments : tuple of ndarray
         As given, in float64 and of shape (n, d).
+    measure : str
+        The measure's name; of a callable its ``__name__``, or its type's.
+    condition : Condition or None
+        Whether it is computed on scaled curves, and its options, the preset's included; None for
+        "sum_of_squares" and for a function.
     weights, failure_value, scales : ndarray, shape (loops,)
         The factors; the terms of failed loops; the values, by measure, of simulations that are
         wrong by the loop's height.
@@ -99,8 +111,8 @@ class Objective:
     Raises
     ------
     ValueError
-        An unknown measure, preset or option; an experiment that the measure refuses; a wrong
-        number of weights.
+        An unknown measure, preset, part or option; an experiment that the measure refuses; a
+        wrong number of weights; a part for a measure of whole curves.
     TypeError
         An experiment does not hold real numbers; an option that the measure does not have.
 
@@ -122,31 +134,37 @@ class Objective:
     def __init__(
         self,
         experiments: Any,
-        measure: str = "area",
+        measure: Measure = "area",
         *,
         preset: Preset = "scaled",
         weights: Sequence[float] | None = None,
         failure_value: float | None = None,
         min_coverage: float = 0.5,
+        part: Part = "experiment",
         **options: Any,
     ) -> None:
-        if measure not in MEASURES:
+        if not callable(measure) and measure not in MEASURES:
             raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(MEASURES)}")
         if preset not in PRESETS:
             raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
         if not 0.0 <= min_coverage <= 1.0:
             raise ValueError(f"min_coverage is {min_coverage}; it must be from 0 to 1")
-        self.measure = measure
+        self.measure = measure_name(measure)
+        self._has_residuals = measure in LEAST_SQUARES
         self.preset = preset
         self.options = dict(options)
         self.min_coverage = min_coverage
+        self.part = part
         self.failures = 0
-        condition = _condition(preset, measure)
+        condition = condition_of(preset, measure)
         options = {**condition.options, **options}
+        has_condition = not callable(measure) and measure in PRESETS[preset]
+        self.condition = condition._replace(options=options) if has_condition else None
+        check_part(part, measure, options)
         curves = curve_list(experiments)
         names = ["P"] if len(curves) == 1 else [f"experiments[{i}]" for i in range(len(curves))]
         self._loops = [
-            _Loop(curve, name, measure, condition.scaled, options, min_coverage)
+            _Loop(curve, name, measure, condition.scaled, options, part, min_coverage)
             for curve, name in zip(curves, names, strict=True)
         ]
         self.experiments = tuple(loop.experiment for loop in self._loops)
@@ -212,7 +230,7 @@ class Objective:
         ValueError
             The measure is not "curve_length" or "sum_of_squares"; as for `score`.
         """
-        if self.measure not in LEAST_SQUARES:
+        if not self._has_residuals:
             raise ValueError(
                 f"measure {self.measure!r} is not a sum of squares; "
                 f"least squares needs {' or '.join(map(repr, LEAST_SQUARES))}"
@@ -257,20 +275,21 @@ class _Loop:
         self,
         experiment: Any,
         name: str,
-        measure: str,
+        measure: Measure,
         scaled: bool,
         options: dict[str, Any],
+        part: Part,
         min_coverage: float,
     ) -> None:
         self.experiment = as_points(experiment, name).copy()
-        self._min_coverage = min_coverage
+        self._min_coverage = 0.0 if part == "simulation" else min_coverage
         try:
             (P,) = normalize(self.experiment)  # refuses what is empty or not finite
             self._box = box(self.experiment) if scaled else None
             self._P = P if scaled else self.experiment
             if measure == "sum_of_squares":
                 check_common_x(self._P)
-            self._value, self._residuals = _functions(measure, self._P, options)
+            self._value, self._residuals = functions(measure, self._P, options, part)
             # Fails here, not at the first simulation, for an experiment or option it refuses.
             value = self._value(_moved_up(self._P))
             self.scale = value.value if isinstance(value, PcmMatch) else value
@@ -332,27 +351,6 @@ class _Loop:
                 f"min_coverage is {self._min_coverage:g}"
             )
         return match.value
-
-
-def _functions(
-    measure: str, P: Array, options: dict[str, Any]
-) -> tuple[Callable[[Array], float | PcmMatch], Callable[[Array], Array] | None]:
-    """Return the measure, and the residuals where it has them, as functions of Q alone."""
-    if measure == "sum_of_squares":
-        if options:
-            raise TypeError(f"sum_of_squares has no options, but {', '.join(options)} given")
-        return partial(squared_differences, P), partial(differences, P)
-    if measure == "pcm":  # for its coverage
-        return partial(pcm_match, P, **options), None
-    info = registry.MEASURES[measure]
-    residuals = None if info.residuals is None else partial(info.residuals, P, **options)
-    return Prepared(P, info.name, **options), residuals
-
-
-def _condition(preset: Preset, measure: str) -> Condition:
-    if measure == "sum_of_squares":
-        return Condition(preset == "scaled", {})
-    return PRESETS[preset][measure]
 
 
 def _moved_up(curve: Array) -> Array:

@@ -246,3 +246,36 @@ def test_a_missing_package_is_named(monkeypatch, missing):
     monkeypatch.setitem(sys.modules, missing, None)
     with pytest.raises(ImportError, match=rf'needs {missing}: pip install "curvewise\[calib'):
         identify(line, EXPERIMENT, BOUNDS)
+
+
+def mean_difference(P, Q):
+    return np.abs(P - Q).mean()
+
+
+def test_a_measure_of_ones_own(tmp_path):
+    keywords = {"measure": mean_difference, "progress": False, "history": tmp_path / "own.csv"}
+    found = identify(line, EXPERIMENT, BOUNDS, method="de", **keywords)
+    assert found.measure == "mean_difference"
+    assert found.measures["mean_difference"] == found.value
+    assert "mean_difference" in found.summary()
+    assert identify(line, EXPERIMENT, BOUNDS, method="de", **keywords).value == found.value
+    with pytest.raises(ValueError, match="is not a sum of squares"):
+        identify(line, EXPERIMENT, BOUNDS, method="least_squares", measure=mean_difference)
+
+
+@pytest.mark.parametrize("options", [{"measure": "pcm"}, {"measure": "dtw", "open_end": True}])
+def test_a_model_of_a_piece_of_the_experiment(options, tmp_path):
+    """The test goes up and down a parabola, the model simulates its first third alone."""
+    experiment = np.column_stack((X, 4.0 * X * (1.0 - X)))
+
+    def first_third(parameters):
+        return np.column_stack((X[:9], parameters["a"] * X[:9] + parameters["b"] * X[:9] ** 2))
+
+    keywords = {"method": "de", "progress": False, "part": "simulation"} | options
+    found = identify(first_third, experiment, BOUNDS, **keywords, history=tmp_path / "part.csv")
+    assert found.parameters["a"] == pytest.approx(4.0, abs=1e-3)
+    assert found.parameters["b"] == pytest.approx(-4.0, abs=4e-3)
+    assert found.measures["pcm"] < 1e-3
+    keywords["part"] = "experiment"
+    with pytest.raises(ValueError, match=r"its options is .*'part': 'simulation'"):
+        identify(first_third, experiment, BOUNDS, **keywords, history=tmp_path / "part.csv")

@@ -176,3 +176,37 @@ def test_method_options_reach_the_methods():
     staged = {"sdrm": {"maxiter": 2}, "de": {"maxiter": 1, "popsize": 4}}
     found = quiet_identify(model, model(TRUE), BOUNDS, method_options=staged)
     assert found.evaluations <= 2 * 5 + 2 * 12
+
+
+def test_stall_ends_de_where_it_hardly_improves():
+    """The paper's rule, and not a generation earlier: read off the history."""
+    experiment = model(TRUE)
+    experiment[:, 1] += np.random.default_rng(0).normal(0.0, 20.0, len(experiment))
+    generations, members = 12, 5 * len(TRUE)
+    options = {"popsize": 5, "maxiter": 500, "tol": 0.0, "stall": (0.001, generations)}
+    found = quiet_identify(model, experiment, BOUNDS, method="de", method_options=options)
+    assert found.converged
+    assert found.message == "improved by less than 0.001 over 12 generations"
+    assert found.evaluations < 500 * members
+    best = np.minimum.accumulate(found.history.value)[::-members][::-1]  # after each generation
+    improved = 1.0 - best[generations:] / best[:-generations]
+    assert improved[-1] <= 0.001
+    assert (improved[1:-1] > 0.001).all()
+
+
+def test_stall_of_the_second_stage():
+    options = {"sdrm": {"maxiter": 2}, "de": {"popsize": 5, "tol": 0.0, "stall": (0.5, 3)}}
+    found = quiet_identify(model, model(TRUE), BOUNDS, method_options=options)
+    assert found.message == "improved by less than 0.5 over 3 generations"
+
+
+@pytest.mark.parametrize("stall", [0.001, (0.001,), (1.0, 100), (-0.1, 100), (0.001, 0)])
+def test_a_stall_that_is_none_is_refused(stall):
+    with pytest.raises(ValueError, match=r"stall is .*give \(improvement, generations\)"):
+        quiet_identify(model, model(TRUE), BOUNDS, method="de", method_options={"stall": stall})
+
+
+def test_stall_takes_the_place_of_a_callback():
+    options = {"stall": (0.001, 100), "callback": print}
+    with pytest.raises(ValueError, match="either stall or callback"):
+        quiet_identify(model, model(TRUE), BOUNDS, method="de", method_options=options)

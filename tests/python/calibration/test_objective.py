@@ -246,6 +246,69 @@ def test_objective_can_be_pickled(measure):
     assert pickle.loads(pickle.dumps(objective))(SIMULATION) == objective(SIMULATION)
 
 
+OPEN = {"open_begin": True, "open_end": True}
+
+
+@pytest.mark.parametrize("options", [{"open_end": True}, {"open_begin": True}, OPEN])
+def test_part_says_which_curve_dtw_matches_to_a_piece_of_the_other(options):
+    P, Q = EXPERIMENT, SIMULATION[:90]
+    scaled = curvewise.normalize(P, Q)
+    of_experiment = Objective(P, "dtw", **options)
+    of_simulation = Objective(P, "dtw", part="simulation", **options)
+    assert of_experiment(Q) == curvewise.dtw(*scaled, **options)
+    assert of_simulation(Q) == curvewise.dtw(*scaled[::-1], **options)
+    assert of_simulation.part == "simulation"
+
+
+def test_a_piece_of_the_experiment_is_perfect():
+    """Figure 15 of the paper: the whole loop is the test, its first branch is the simulation."""
+    branch = EXPERIMENT[:60]
+    assert Objective(EXPERIMENT, "dtw", part="simulation", open_end=True)(branch) == 0.0
+    objective = Objective(EXPERIMENT, "pcm", part="simulation")
+    assert objective(branch) == 0.0
+    assert objective.failures == 0  # though it has less than min_coverage of the length
+    assert Objective(EXPERIMENT, "pcm").score(branch).failures
+
+
+@pytest.mark.parametrize(
+    ("measure", "options"), [("area", {}), ("dtw", {}), ("curve_length", {}), (np.hypot, {})]
+)
+def test_part_of_a_measure_of_whole_curves_is_refused(measure, options):
+    with pytest.raises(ValueError, match="compares whole curves; part='simulation' needs"):
+        Objective(EXPERIMENT, measure, part="simulation", **options)
+
+
+def largest_difference(P, Q, *, coordinate=1):
+    """A measure of the user's own, which refuses curves of other lengths with ValueError."""
+    return np.abs(P[:, coordinate] - Q[:, coordinate]).max()
+
+
+def test_a_measure_of_ones_own():
+    P = np.array([(0.0, 0.0), (1.0, 2.0), (2.0, 0.0)])
+    Q = np.add(P, [0.5, -1.0])
+    assert Objective(P, largest_difference, preset="raw")(Q) == 1.0
+    assert Objective(P, largest_difference, preset="paper")(Q) == 1.0
+    assert Objective(P, largest_difference)(Q) == 0.5  # of the box's height
+    objective = Objective([P, P], largest_difference, weights=[1.0, 2.0], coordinate=0)
+    assert objective([Q, Q]) == 0.25 + 2 * 0.25
+    assert objective.measure == "largest_difference"
+    assert pickle.loads(pickle.dumps(objective))([Q, Q]) == 0.75
+    assert objective.score([Q[:2], Q]).failures[0].startswith("loop 0: operands could not")
+
+
+def test_a_function_of_the_measures_has_its_bits():
+    by_name = Objective(EXPERIMENT, "dtw", step_pattern="symmetric2")
+    by_function = Objective(EXPERIMENT, curvewise.dtw, step_pattern="symmetric2")
+    assert by_function(SIMULATION) == by_name(SIMULATION)
+    assert by_function.failure_value == by_name.failure_value
+
+
+def test_a_measure_of_ones_own_has_no_residuals():
+    objective = Objective(BRANCH, curvewise.mse, preset="raw")
+    with pytest.raises(ValueError, match="measure 'mse' is not a sum of squares"):
+        objective.residuals(BRANCH)
+
+
 def test_series():
     objective = Objective(EXPERIMENT[:, 1], "dtw", preset="raw")
     assert objective(SIMULATION[:, 1]) == curvewise.dtw(EXPERIMENT[:, 1], SIMULATION[:, 1])

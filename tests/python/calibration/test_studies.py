@@ -142,6 +142,19 @@ def test_line_plot_leaves_out_what_failed():
     assert np.nanmax(data.dtw_scaled) == 1.0
 
 
+def test_line_plot_of_simulations_that_are_short_for_pcm():
+    """The curves cover a fifth of the experiments: without the guard that is no failure."""
+
+    def short(parameters):
+        return [curve[: len(curve) // 5] for curve in loops(parameters)]
+
+    keywords = {"points": 3, "measures": ["pcm"], "progress": False}
+    data, _ = line_plot(loops(TRUE), short, A, B, **keywords)
+    assert np.isnan(data.pcm).all()
+    data, _ = line_plot(loops(TRUE), short, A, B, min_coverage=0.0, **keywords)
+    assert data.pcm[0] == Objective(loops(TRUE), "pcm", min_coverage=0.0)(short(A))
+
+
 def test_line_plot_refuses_what_is_no_line():
     with pytest.raises(ValueError, match="give the same"):
         line_plot(loops(TRUE), loops, A, {"a": 1.0}, progress=False)

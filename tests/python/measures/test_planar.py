@@ -352,6 +352,15 @@ def test_golden_dtw_and_frechet(golden: dict[str, dict[str, Any]]) -> None:
 ROWS = ("area", "pcm", "frechet", "dtw", "curve_length")
 
 
+def test_scaled_curves_are_compared_with_split_crossings() -> None:
+    """Crossing lines in P's box, 1 wide and 2 high: half of what they enclose before scaling."""
+    P, Q = [(0, 1), (1, -1)], [(0, -1), (1, 1)]
+    area = ["area"]
+    assert curvewise.compare(P, Q, measures=area)["area"] == 0.5
+    assert curvewise.compare(P, Q, measures=area, preset="raw")["area"] == 2.0
+    assert curvewise.compare(P, Q, measures=area, preset="paper")["area"] == 2.0
+
+
 @pytest.mark.parametrize("row", ROWS)
 def test_table_4_of_the_paper(data_dir: Path, row: str) -> None:
     """The model at the optimum of one measure, under all of them, summed over five loops."""

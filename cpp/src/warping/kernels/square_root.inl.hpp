@@ -1,6 +1,6 @@
 // A correctly rounded square root that does not wait for the divider, where the level has fused
-// multiply-add and 14-bit reciprocal square roots: Goldschmidt's iteration and one correction. The
-// one file of intrinsics. Included by the kernel of each level, inside its anonymous namespace.
+// multiply-add and 14-bit reciprocal square roots: Goldschmidt's iteration and one correction.
+// Included by the kernel of each level, inside its anonymous namespace.
 //
 // With y = rsqrt14(x), s = x y and h = y / 2, two steps r = 1/2 - s h, s += s r, h += h r leave s
 // within two ulps of sqrt(x) and h within 2^-51 of 1 / (2 sqrt(x)), relatively. Then
