@@ -167,10 +167,13 @@ def line_cases(
 
 
 def objective(measure: Matching, problem: Problem, tests: list[Array]) -> Callable[[Array], float]:
-    """Return the sum of a measure over the tests."""
+    """Return the sum of a measure over the tests; infinity where the model has no curves."""
 
     def value(parameters: Array) -> float:
-        pairs = zip(tests, problem.model(parameters), strict=True)
+        curves = problem.model(parameters)
+        if not all(np.isfinite(curve).all() for curve in curves):
+            return np.inf
+        pairs = zip(tests, curves, strict=True)
         return sum(measure(*curvewise.normalize(test, curve)) for test, curve in pairs)
 
     return value

@@ -1,4 +1,4 @@
-"""Ways to match two curves before the area between them is taken: those that `area` has, and others.
+"""Ways to match two curves before the area between them is taken: those of `area`, and others.
 
 Each takes P and Q, both scaled by P's box, and returns an area. `area_sampling.py` and
 `area_landscapes.py` judge them. The others are prototypes in numpy; curvewise itself has the one
@@ -7,6 +7,7 @@ that was chosen.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TypeAlias
@@ -89,7 +90,7 @@ def one_way(curve: Array, least: float = 0.1) -> Array:
             high, rises = i, True
     turns = sorted({*turns, len(x) - 1})
     total, lengths = 0.0, np.zeros(len(x))
-    for a, b in zip(turns[:-1], turns[1:], strict=True):
+    for a, b in itertools.pairwise(turns):
         forward = np.sign(x[b] - x[a]) * (x[a : b + 1] - x[a])
         lengths[a : b + 1] = total + np.maximum.accumulate(np.maximum(forward, 0.0))
         total = lengths[b]
@@ -161,7 +162,7 @@ def by_leash(P: Array, Q: Array) -> float:
 
 
 def by_shorter_leash(P: Array, Q: Array) -> float:
-    """Integrate the leash of the DTW path along the curve that is shorter, taken as the smoother."""
+    """Integrate the leash of the DTW path along the shorter curve, taken as the smoother."""
     path = curvewise.dtw_path(P, Q).path
     A, B = P[path[:, 0]], Q[path[:, 1]]
     shorter = A if arc_lengths(P)[-1] < arc_lengths(Q)[-1] else B

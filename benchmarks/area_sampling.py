@@ -6,14 +6,15 @@ cent of what moving up alone gives. Ideally a thinned loop gives 0, or what its 
 really enclose ("true": each vertex matched with the one it is); and a loop that is moved up gives
 100, whatever else was done to it. Curves are scaled by the loop's box. Then the time of a call.
 
-Reads the golden data; writes area_sampling.json and, of the loops, area_sampling.png. The loops take
-about 10 minutes, the times, which want a quiet machine, half a minute; a part is put beside the one
-that is there.
+Reads the golden data; writes area_sampling.json and, of the loops, area_sampling.png. Loops take a
+few minutes, the times, which want a quiet machine, half a minute; a part is put beside the one that
+is there.
 """
 
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import os
 import statistics
@@ -107,7 +108,7 @@ def variants(loop: Array) -> dict[str, Variant]:
     spikes[struck, 1] += rng.choice([-0.3, 0.3], struck.sum())
     few = loop.copy()
     few[rng.choice(n, 3, replace=False), 1] += 0.3
-    found = {
+    return {
         "every 2nd": kept(index % 2 == 0),
         "every 10th": kept(index % 10 == 0),
         "30 %": kept(rng.random(n) < 0.3),
@@ -122,7 +123,6 @@ def variants(loop: Array) -> dict[str, Variant]:
         "outliers 1 %": Variant(spikes),
         "3 outliers": Variant(few),
     }
-    return found
 
 
 def turning_points(x: Array, least: float = 0.05) -> list[int]:
@@ -143,7 +143,7 @@ def solver_increments(lengths: Array, turns: list[int]) -> Array:
     per_branch = max(3, 60 // (len(turns) - 1))
     wanted = [
         lengths[a] + (lengths[b] - lengths[a]) * np.linspace(0, 1, per_branch + 1) ** 1.5
-        for a, b in zip(turns[:-1], turns[1:], strict=True)
+        for a, b in itertools.pairwise(turns)
     ]
     vertices = np.searchsorted(lengths, np.concatenate(wanted)).clip(0, len(lengths) - 1)
     return np.unique(np.concatenate((vertices, turns)))

@@ -16,7 +16,6 @@ from ._curves import Array
 from ._options import Crossing
 from .measures import area, area_quads, normalize, pcm_match
 from .measures.registry import MEASURES, Condition
-from .reference.matching import travel
 
 __all__ = ["Deviation", "deviation"]
 
@@ -110,14 +109,16 @@ def _along_path(
     assert warping is not None
     of_path = {key: value for key, value in options.items() if key not in ("normalize", "cutoff")}
     i, j = warping.path(P, Q, **of_path).path.T
-    between = (P[i] - Q[j]).reshape(len(i), -1)
-    distances = np.linalg.norm(between, axis=1)
+    between = np.abs(P[i] - Q[j]).reshape(len(i), -1)
+    distances = np.hypot.reduce(between, axis=1)  # whose squares do not overflow
     return float(distances.mean()), float(distances.max())
 
 
 def _between_facing(
     measure: str, options: Mapping[str, Any], P: Array, Q: Array
 ) -> tuple[float, float]:
+    from .reference.matching import travel  # not before: importing curvewise shall be quick
+
     plain = {key: value for key, value in options.items() if key != "squared"}
     # A quadrilateral that was rearranged has lost the order in which vertices face each other.
     in_order: dict[str, Crossing] = {"crossing": "split"}

@@ -12,7 +12,7 @@ O(n m).
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, SupportsIndex, get_args
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 import numpy.typing as npt

@@ -113,7 +113,8 @@ def _positions(points: Array, samples: int) -> Array:
     lengths = arc_lengths(points)
     if lengths[-1] == 0:
         return np.linspace(0.0, samples, len(points))
-    return lengths / lengths[-1] * samples
+    positions: Array = lengths / lengths[-1] * samples
+    return positions
 
 
 def _sampled(points: Array, positions: Array, samples: int) -> Array:

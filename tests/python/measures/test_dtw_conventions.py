@@ -42,7 +42,7 @@ def test_normalized_equals_dtw_python(data_dir: Path) -> None:
     with np.load(data_dir / "golden" / "cases.npz") as curves:
         for name, case in expected.items():
             P, Q = curves[f"{name}/P"], curves[f"{name}/Q"]
-            if (distance := case.get("dtw_symmetric2")) is None:
+            if (distance := case["dtw_symmetric2_euclidean"]) is None:
                 continue
             assert curvewise.dtw(P, Q, **PER_STEP) == pytest.approx(
                 distance / (len(P) + len(Q)), rel=1e-12
@@ -54,7 +54,7 @@ def test_normalized_equals_dtw_python(data_dir: Path) -> None:
 def test_it_does_not_grow_with_the_number_of_points() -> None:
     t = np.linspace(0.0, 6.0, 2000)
     P = np.column_stack((t, np.sin(t)))
-    Q = P + (0.0, 0.1)
+    Q = P + np.array((0.0, 0.1))
     assert curvewise.dtw(P, Q, **PER_STEP) == pytest.approx(
         curvewise.dtw(P[::4], Q[::4], **PER_STEP), rel=0.02
     )
@@ -76,7 +76,7 @@ def test_normalized_in_batches_and_with_a_cutoff() -> None:
 
 def test_paths_of_symmetric1_have_no_common_length() -> None:
     for dtw in (curvewise.dtw, reference.dtw):
-        with pytest.raises(ValueError, match="^normalize needs step_pattern='symmetric2'"):
+        with pytest.raises(ValueError, match=r"^normalize needs step_pattern='symmetric2'"):
             dtw([1, 2], [1, 3], normalize=True)
 
 
@@ -87,7 +87,7 @@ def test_a_fraction_is_one_of_the_longer_curve(fraction: float) -> None:
         radius = int(fraction * max(len(P), len(Q)))
         if radius == 0 and len(P) != len(Q) and min(len(P), len(Q)) > 1:
             for dtw in (curvewise.dtw, reference.dtw):
-                with pytest.raises(ValueError, match="^window=0 admits no path between"):
+                with pytest.raises(ValueError, match=r"^window=0 admits no path between"):
                     dtw(P, Q, window=fraction)
             continue
         found = curvewise.dtw(P, Q, window=fraction)

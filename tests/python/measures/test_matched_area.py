@@ -25,6 +25,8 @@ POWERS_OF_TWO = st.integers(-40, 40).map(lambda k: 2.0**k)
 POINTS = st.lists(st.tuples(EIGHTHS, EIGHTHS) | st.tuples(st.just(1.0), st.just(-2.0)), min_size=2)
 CURVES = POINTS.map(np.array)
 
+RAISED = np.array((0.0, 0.05))
+
 # Smooth loops, sampled densely: what is left out when they are thinned is next to nothing.
 TENSION_COMPRESSION = (
     "dp780_tct_3pct",
@@ -58,9 +60,8 @@ def test_it_does_not_depend_on_place_and_units(
     extent = float(np.prod(np.ptp(np.vstack((P, Q)), axis=0)))
     # Areas of a piece may cancel: its error is that of the areas that do.
     tolerance = {"rel": 1e-12, "abs": 1e-12 * extent}
-    assert matched(P + (eighths, -eighths), Q + (eighths, -eighths)) == pytest.approx(
-        area, **tolerance
-    )
+    away = np.array((eighths, -eighths))
+    assert matched(P + away, Q + away) == pytest.approx(area, **tolerance)
     # A direction in which neither curve has an extent has no units to be measured in.
     if extent > 0:
         units = (width, height)
@@ -94,7 +95,7 @@ def test_areas_of_a_piece_cancel() -> None:
     line = np.array([(0.0, 0.0), (1.0, 0.0)])
     assert curvewise.area(line, zigzag, spacing="arc_length", crossing="split") > 4e-3
     assert matched(line, zigzag) < 2e-4
-    assert matched(line, zigzag + (0, 0.05)) == pytest.approx(0.05, rel=1e-2)
+    assert matched(line, zigzag + RAISED) == pytest.approx(0.05, rel=1e-2)
 
 
 def test_where_curves_cross_each_side_counts() -> None:
@@ -105,7 +106,7 @@ def test_a_simulation_that_ends_early_is_not_like_its_test() -> None:
     turns = np.array([(0.0, 0.0), (0.5, 1.0), (1.0, 1.1), (0.5, 0.0), (0.0, -0.1), (0.5, 0.9)])
     at = np.linspace(0, 5, 200)
     test = np.column_stack([np.interp(at, np.arange(6), turns[:, c]) for c in (0, 1)])
-    raised = matched(test, test + (0, 0.06))  # by 5 % of its height
+    raised = matched(test, test + 1.2 * RAISED)  # by 5 % of its height
     assert matched(test, test[:80]) > 2 * raised
     assert matched(test, test[:2]) > 2 * raised
 
@@ -132,7 +133,7 @@ def inserted(rng: np.random.Generator, curve: Array, count: int) -> Array:
 def test_a_long_protocol_has_more_pieces() -> None:
     t = np.linspace(0.0, 200 * np.pi, 10_001)
     cycles = np.column_stack((np.sin(t), np.sin(t - 0.5)))
-    raised = matched(cycles, cycles + (0, 0.1))
+    raised = matched(cycles, cycles + 2 * RAISED)
     assert raised == pytest.approx(0.1 * np.abs(np.diff(cycles[:, 0])).sum(), rel=0.02)
     assert matched(cycles, cycles[::2]) < 0.02 * raised
 
@@ -142,9 +143,6 @@ def loop(request: pytest.FixtureRequest, data_dir: Path) -> Array:
     """Return a measured loop, scaled by its box."""
     points = np.loadtxt(data_dir / "loops" / f"{request.param}.csv", delimiter=",")
     return curvewise.normalize(points)[0]
-
-
-RAISED = (0.0, 0.05)
 
 
 def thinnings(loop: Array) -> dict[str, Array]:

@@ -73,6 +73,8 @@ def test_compare_prints_files_points_and_values(run, files):
     expected = curvewise.compare(read_curve("A.csv"), read_curve("B.csv"))
     assert str(expected) in out
     assert list(numbers(out)) == MEASURES
+    for name, found in expected.deviations.items():
+        assert f"\n{name:<12}  {found}\n" in out
 
 
 @pytest.mark.parametrize("preset", ["scaled", "paper", "raw"])
@@ -86,6 +88,7 @@ def test_compare_json_is_one_object(run, files, preset):
         "preset": preset,
         "n": [40, 30],
         "values": expected.to_dict(),
+        "deviations": {name: found._asdict() for name, found in expected.deviations.items()},
     }
 
 
@@ -94,6 +97,10 @@ def test_a_value_beyond_the_range_of_a_double_is_null_in_json(run, files):
         np.savetxt(name, np.full((3, 1), offset), delimiter=",")
     _, out, _ = run("compare", *files, "--json", "--preset", "raw")
     assert json.loads(out)["values"] == {"frechet": 1.5e308, "dtw": None}
+    assert json.loads(out)["deviations"]["frechet"]["largest"] == 1.5e308
+    status, out, _ = run("compare", *files, "--preset", "raw")
+    assert status == 0
+    assert "dtw      inf\n" in out
 
 
 def test_options_of_area_and_dtw_replace_those_of_the_preset(run, files):
@@ -108,9 +115,14 @@ def test_options_of_area_and_dtw_replace_those_of_the_preset(run, files):
         _, out, _ = run("compare", *files, *given, "--window", window)
         expected = curvewise.dtw(P, Q, window=float(window) if "." in window else int(window))
         assert json.loads(out)["values"]["dtw"] == expected
-    status, _, error = run("compare", *files, *given, "--window", "1.5")
-    assert status == 2
-    assert "1.5 is no whole number, and not between 0 and 1" in error
+    for window in ("1.5", "wide"):
+        status, _, error = run("compare", *files, *given, "--window", window)
+        assert status == USAGE
+        assert f"{window} is no whole number, and not between 0 and 1" in error
+    assert run("compare", *files, "--spacing", "even")[0] == USAGE
+    assert_failed(run("compare", *files, "--window", "-1"), "window is -1; give a whole number")
+    of_area = ("--measures", "area", "--window", "5")
+    assert_failed(run("compare", *files, *of_area), "options are given for 'dtw'")
 
 
 def test_measures_are_those_asked_for(run, files):

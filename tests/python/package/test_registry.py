@@ -238,7 +238,7 @@ def c_defaults(measure: str) -> dict[str, str]:
     assert struct, measure
     assert values, measure
     members = re.findall(r"(\w+);", struct[1])
-    constants = [bare(value) for value in values[1].split(",")]
+    constants = [bare(value) for value in values[1].replace("\\\n", "").split(",")]
     return dict(zip(members, constants, strict=True))
 
 
