@@ -136,7 +136,7 @@ def compare(
     curve_length  2.40113
     >>> P, Q = curvewise.datasets.hysteresis_pair()
     >>> print(curvewise.compare(P, Q, measures=["area"]).deviations["area"])
-    mean 0, largest 0
+    mean 54.09 (4 %), largest 99.3 (7.3 %)
     """
     P, Q = (curve.copy() for curve in as_curves(P, Q))
     if not isinstance(preset, str) or preset not in PRESETS:

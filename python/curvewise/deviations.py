@@ -29,11 +29,12 @@ class Deviation(NamedTuple):
     Attributes
     ----------
     mean : float
-        area: the area by how far P travels along x. dtw, frechet: the mean distance along the
-        path. pcm: the area by the length of the mapped curve.
+        area: the area by how far P travels along x, a mean difference in y; infinite where P does
+        not travel along x. dtw, frechet: the mean distance along the path. pcm: the area by the
+        length of the mapped curve.
     largest : float
-        area: the largest difference in y of facing vertices. dtw, frechet: the largest distance
-        on the path; for frechet that is the value. pcm: of the mapped vertices.
+        The largest distance; area: of facing vertices. dtw, frechet: on the path; for frechet
+        that is the value. pcm: of the mapped vertices.
     height : float
         The extent of P in y, its last coordinate.
     """
@@ -46,9 +47,10 @@ class Deviation(NamedTuple):
         return f"mean {self._text(self.mean)}, largest {self._text(self.largest)}"
 
     def _text(self, value: float) -> str:
-        in_range = 0 < self.height < math.inf and value < math.inf
-        share = f" ({100 * (value / self.height):.2g} %)" if in_range else ""
-        return f"{value:.3g}{share}"
+        if not (0 < self.height < math.inf and value < math.inf):
+            return f"{value:.4g}"
+        share = 100 * (value / self.height)
+        return f"{value:.4g} ({share:.2g} %)" if share < 99.5 else f"{value:.4g} ({share:.0f} %)"
 
 
 def deviation(
@@ -123,9 +125,9 @@ def _between_facing(
     # A quadrilateral that was rearranged has lost the order in which vertices face each other.
     in_order: dict[str, Crossing] = {"crossing": "split"}
     quads, _ = area_quads(P, Q, **{**plain, **in_order})
-    facing = np.abs(quads[:, [0, 1], 1] - quads[:, [3, 2], 1])
+    leashes = np.hypot(*(quads[:, [0, 1]] - quads[:, [3, 2]]).reshape(-1, 2).T)
     length = travel(P[:, 0])
-    return area(P, Q, **plain) / length if length > 0 else math.inf, float(facing.max())
+    return area(P, Q, **plain) / length if length > 0 else math.inf, float(leashes.max())
 
 
 def _of_mapped(measure: str, options: Mapping[str, Any], P: Array, Q: Array) -> tuple[float, float]:

@@ -3,8 +3,9 @@
 // quadrilateral i is (A[i], A[i+1], B[i+1], B[i]); the measure is the sum of their areas.
 // Symmetric to rounding, except with Spacing::arc_length and Spacing::matched. Time
 // O(n + m + |n - m| log m), with Spacing::matched O(n + m + (50 T)^2), where P travels T widths and
-// heights of its box; memory O(n + m). Throws std::invalid_argument for a curve that is not finite, has fewer than 2 points
-// or other than 2 coordinates; std::bad_alloc; Stopped. Safe from any number of threads.
+// heights of its box; memory O(n + m). Throws std::invalid_argument for a curve that is not finite,
+// has fewer than 2 points or other than 2 coordinates; std::bad_alloc; Stopped. Safe from any
+// number of threads.
 //
 //   curvewise::AreaOptions options;
 //   options.spacing = curvewise::Spacing::x;   // raw stress and strain
@@ -26,8 +27,8 @@ namespace curvewise {
 // normalize(): with `distance` stress, being the larger number, decides alone (174 where the
 // paper's Table 4 says 45.1).
 enum class Spacing {
-    distance,   // sqrt(dx^2 + dy^2): the paper's text
-    x,          // |dx|: what the paper's Table 4 was computed with (within 1.4 %)
+    distance,    // sqrt(dx^2 + dy^2): the paper's text
+    x,           // |dx|: what the paper's Table 4 was computed with (within 1.4 %)
     arc_length,  // a vertex wherever the other curve has one, by relative arc length, after
                  // scaling by P's box: independent of how either curve was sampled
     matched      // not Algorithm 1: by a warping path, areas with their signs in pieces of a tenth

@@ -104,8 +104,7 @@ class AreaMeasure : public detail::LinearMeasure {
             for_each_piece(P, Q, range, call.poller,
                            [&](const auto&, auto, auto, double area) { add(std::abs(area)); });
         } else {
-            for_each_quad(P, Q, range, call.poller,
-                          [&](const Measured& quad) { add(quad.area); });
+            for_each_quad(P, Q, range, call.poller, [&](const Measured& quad) { add(quad.area); });
         }
         return range.restore(sum, options_.squared ? 4 : 2);
     }

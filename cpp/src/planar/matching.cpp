@@ -155,8 +155,8 @@ std::vector<double> places_of_vertices(const Side& curve, const std::vector<doub
     for (const double position : curve.positions) {
         if (position == std::floor(position)) continue;
         while (samples[step + 1] < position) ++step;
-        places.push_back(route.places[step] +
-                         (position - samples[step]) * (route.places[step + 1] - route.places[step]));
+        places.push_back(route.places[step] + (position - samples[step]) *
+                                                  (route.places[step + 1] - route.places[step]));
     }
     return places;
 }
@@ -177,8 +177,8 @@ Polyline points_at(const std::vector<double>& places, const Side& curve,
     std::size_t step = 0;
     for (const double place : places) {
         while (step + 2 < route.places.size() && route.places[step + 1] <= place) ++step;
-        const double slope = (samples[step + 1] - samples[step]) /
-                             (route.places[step + 1] - route.places[step]);
+        const double slope =
+            (samples[step + 1] - samples[step]) / (route.places[step + 1] - route.places[step]);
         at.move_to(samples[step] + slope * (place - route.places[step]));
         points.push_back(at.point_on(curve.points));
     }

@@ -71,8 +71,8 @@ void check_window(const DtwOptions& options) {
         throw std::invalid_argument("window and window_fraction are both given; give one of them");
     }
     if (options.window) detail::check_whole_number("window", *options.window, window_range);
-    if (options.window_fraction && !(*options.window_fraction > 0.0 &&
-                                     *options.window_fraction < 1.0)) {
+    if (options.window_fraction &&
+        !(*options.window_fraction > 0.0 && *options.window_fraction < 1.0)) {
         throw std::invalid_argument("window is " + std::to_string(*options.window_fraction) + "; " +
                                     window_range.advice);
     }
@@ -112,12 +112,9 @@ WarpingOptions checked(const DtwOptions& options) {
 WarpingOptions checked(const FrechetOptions& options) {
     detail::check_ground_distance(options.ground);
     detail::check_cutoff(options.cutoff);
-    return {FrechetOptions::measure,
-            kernels::Recurrence::frechet,
-            options.ground,
-            detail::resolve_workers(options.workers),
-            options.prune,
-            options.cutoff};
+    return {FrechetOptions::measure, kernels::Recurrence::frechet,
+            options.ground,          detail::resolve_workers(options.workers),
+            options.prune,           options.cutoff};
 }
 
 // Two packed curves, and the table between them.
@@ -339,9 +336,10 @@ class WarpingMeasure {
         // A little more, so that the rounding of the quotient gives nothing up.
         const double more = divisor == 1.0 ? 1.0 : divisor * (1.0 + 1e-15);
         const double cutoff = std::min(call.cutoff, options_.cutoff) * more;
-        const double value = with_problem(P, Q, call, [&](WarpingProblem& problem) {
-            return problem.distance(cutoff);
-        }) / divisor;
+        const double value =
+            with_problem(P, Q, call,
+                         [&](WarpingProblem& problem) { return problem.distance(cutoff); }) /
+            divisor;
         return value > options_.cutoff ? infinity : value;
     }
 

@@ -73,8 +73,9 @@ class Objective:
         the experiment's x: for data with a common x, which must not turn back.
     preset : {"scaled", "paper", "raw"}
         As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
-        that loops, and x and y, count alike; sum_of_squares and functions are given the curves
-        as they are in the other two.
+        that loops, and x and y, count alike, and takes area with ``spacing="matched"``, which
+        hardly depends on the simulation's increments; "paper" has Algorithm 1. sum_of_squares and
+        functions are given the curves as they are in the other two.
     weights : sequence of float, optional
         A factor for every loop, not negative; 1 if not given.
     failure_value : float, optional

@@ -1,7 +1,5 @@
 // Curves matched by a warping path: every vertex has its place, pieces follow each other, and a
 // stop is heard. The values are tested against the reference, from Python.
-#include "planar/matching.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +7,7 @@
 
 #include "check.hpp"
 #include "curves.hpp"
+#include "planar/matching.hpp"
 
 namespace {
 

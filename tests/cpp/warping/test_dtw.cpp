@@ -194,7 +194,8 @@ void windows() {
 }
 
 void fractions_and_distances_per_step() {
-    const Curve P{{0.0}, {4.0}, {1.0}, {5.0}, {2.0}, {0.0}, {3.0}}, Q{{1.0}, {3.0}, {1.0}, {4.0}, {0.0}};
+    const Curve P{{0.0}, {4.0}, {1.0}, {5.0}, {2.0}, {0.0}, {3.0}},
+        Q{{1.0}, {3.0}, {1.0}, {4.0}, {0.0}};
     CHECK_EQUAL(dtw(P, Q, with_fraction(0.3)), dtw(P, Q, with_window(2)));  // of 7 points
     CHECK_EQUAL(dtw(Q, P, with_fraction(0.3)), dtw(Q, P, with_window(2)));
     CHECK_EQUAL(dtw(P, P, with_fraction(0.01)), 0.0);

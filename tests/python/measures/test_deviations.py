@@ -38,8 +38,9 @@ def test_of_a_curve_that_was_moved_up_it_is_by_how_much(preset: Any) -> None:
 
 
 def test_it_is_printed_in_per_cent_of_the_height() -> None:
-    assert str(Deviation(29.0, 88.04, 1000.0)) == "mean 29 (2.9 %), largest 88 (8.8 %)"
+    assert str(Deviation(29.0, 88.04, 1000.0)) == "mean 29 (2.9 %), largest 88.04 (8.8 %)"
     assert str(Deviation(0.5, 1.0, 0.0)) == "mean 0.5, largest 1"
+    assert str(Deviation(1052.3, 1980.0, 1798.0)) == "mean 1052 (59 %), largest 1980 (110 %)"
     assert str(Deviation(np.inf, 2.0, 4.0)) == "mean inf, largest 2 (50 %)"
 
 
@@ -77,7 +78,7 @@ def test_area_faces_vertices_where_quadrilaterals_are_rearranged() -> None:
 
 
 def test_area_of_curves_without_an_extent_in_x_has_no_mean() -> None:
-    assert of("area", [(0, 0), (0, 1)], [(1, 0), (1, 1)]) == (np.inf, 0.0, 1.0)
+    assert of("area", [(0, 0), (0, 1)], [(1, 0), (1, 1)]) == (np.inf, 1.0, 1.0)
 
 
 def test_pcm_by_the_length_of_the_curve_that_is_mapped() -> None:
