@@ -90,7 +90,7 @@ std::size_t count_pieces(const Polyline& scaled) {
 std::vector<double> positions_of(const Polyline& scaled, std::size_t samples) {
     std::vector<double> positions = arc_lengths(scaled);
     const double length = positions.back();
-    const double last = static_cast<double>(samples);
+    const auto last = static_cast<double>(samples);
     for (std::size_t i = 0; i < positions.size(); ++i) {
         positions[i] = length > 0.0 ? positions[i] / length * last
                                     : last * static_cast<double>(i) /
