@@ -23,9 +23,12 @@ from .measures import (
     dtw_path,
     dtw_table,
     frechet,
+    frechet_continuous,
+    frechet_continuous_path,
     frechet_info,
     frechet_path,
     frechet_table,
+    frechet_within,
     mae,
     mse,
     normalize,
@@ -34,7 +37,7 @@ from .measures import (
     sum_of_squares,
 )
 from .pairwise import Prepared, available_measures, cdist, pdist
-from .results import Alignment, AreaQuads, PcmMatch, WarpingInfo
+from .results import Alignment, AreaQuads, Matching, PcmMatch, WarpingInfo
 
 if TYPE_CHECKING:
     from . import calibration as calibration
@@ -47,6 +50,7 @@ __all__ = [
     "Alignment",
     "AreaQuads",
     "Comparison",
+    "Matching",
     "PcmMatch",
     "Prepared",
     "WarpingInfo",
@@ -65,9 +69,12 @@ __all__ = [
     "dtw_path",
     "dtw_table",
     "frechet",
+    "frechet_continuous",
+    "frechet_continuous_path",
     "frechet_info",
     "frechet_path",
     "frechet_table",
+    "frechet_within",
     "get_include",
     "mae",
     "mse",

@@ -81,7 +81,12 @@ class Comparison:
         return plot_comparison(self)
 
 
-@filled(any_dimension=" and ".join(name for name, info in MEASURES.items() if not info.planar))
+@filled(
+    in_plane=", ".join(name for name, info in MEASURES.items() if info.by_default),
+    any_dimension=" and ".join(
+        name for name, info in MEASURES.items() if info.by_default and not info.planar
+    ),
+)
 def compare(
     P: CurveLike,
     Q: CurveLike,
@@ -104,7 +109,7 @@ def compare(
         scale="mean"). "raw": every default on the curves as they are.
     measures : sequence of str, optional
         Of {measures}.
-        If not given: all of them in the plane, {any_dimension} in other dimensions.
+        If not given: {in_plane} in the plane, {any_dimension} in other dimensions.
     options : mapping of str to mapping, optional
         Options of measures, in the place of the preset's: {"dtw": {"window": 0.1}}.
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from ._curves import Array
 from ._options import Crossing
-from .measures import area, area_quads, normalize, pcm_match
+from .measures import area, area_quads, frechet_continuous_path, normalize, pcm_match
 from .measures.registry import MEASURES, Condition
 
 __all__ = ["Deviation", "deviation"]
@@ -30,11 +30,12 @@ class Deviation(NamedTuple):
     ----------
     mean : float
         area: the area by how far P travels along x, a mean difference in y; infinite where P does
-        not travel along x. dtw, frechet: the mean distance along the path. pcm: the area by the
-        length of the mapped curve.
+        not travel along x. dtw, frechet: the mean distance along the path. frechet_continuous: the
+        mean leash, by the lengths that both ends walk. pcm: the area by the length of the mapped
+        curve.
     largest : float
-        The largest distance; area: of facing vertices. dtw, frechet: on the path; for frechet
-        that is the value. pcm: of the mapped vertices.
+        The largest distance; area: of facing vertices. dtw, frechet: on the path; for both Fréchet
+        distances that is the value. pcm: of the mapped vertices.
     height : float
         The extent of P in y, its last coordinate.
     """
@@ -80,7 +81,7 @@ def deviation(
 
     Notes
     -----
-    Time and memory of a path for dtw and frechet, else of the measure.
+    Time and memory of a path for dtw and the Fréchet distances, else of the measure.
 
     Examples
     --------
@@ -116,6 +117,25 @@ def _along_path(
     return float(distances.mean()), float(distances.max())
 
 
+def _along_matching(
+    measure: str, options: Mapping[str, Any], P: Array, Q: Array
+) -> tuple[float, float]:
+    match = frechet_continuous_path(P, Q)  # whose options, workers and bounds, do not change it
+    ends = [_points_at(curve, at) for curve, at in zip((P, Q), match.parameters.T, strict=True)]
+    leashes = np.hypot.reduce(np.abs(ends[0] - ends[1]), axis=1)
+    walked = sum(np.hypot.reduce(np.abs(np.diff(end, axis=0)), axis=1) for end in ends)
+    if not np.any(walked):
+        return match.distance, match.distance
+    return float(np.average((leashes[:-1] + leashes[1:]) / 2, weights=walked)), match.distance
+
+
+def _points_at(curve: Array, parameters: Array) -> Array:
+    """Return the points of a curve at vertex indices plus fractions."""
+    index = np.arange(len(curve))
+    columns = curve.reshape(len(curve), -1).T
+    return np.column_stack([np.interp(parameters, index, column) for column in columns])
+
+
 def _between_facing(
     measure: str, options: Mapping[str, Any], P: Array, Q: Array
 ) -> tuple[float, float]:
@@ -141,5 +161,6 @@ _DISTANCES: Mapping[str, Callable[..., tuple[float, float]]] = {
     "area": _between_facing,
     "pcm": _of_mapped,
     "frechet": _along_path,
+    "frechet_continuous": _along_matching,
     "dtw": _along_path,
 }

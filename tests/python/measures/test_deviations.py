@@ -32,6 +32,11 @@ def test_of_a_curve_that_was_moved_up_it_is_by_how_much(preset: Any) -> None:
     P = np.array([(0.0, 0.0), (0.01, 300.0), (0.02, 400.0), (0.0, -200.0)])
     raised = P + np.array((0.0, 3.0))
     assert of("frechet", P, raised, preset) == pytest.approx((3.0, 3.0, 600.0), rel=1e-12)
+    line, above = (
+        P[:2],
+        raised[:2],
+    )  # parallel: the leash could be shorter, were it not for the ends
+    assert of("frechet_continuous", line, above, preset)[1:] == pytest.approx((3.0, 300.0))
     # "matched" cuts the corner at the turn.
     tolerance = 0.02 if preset == "scaled" else 1e-12
     assert of("area", P, raised, preset) == pytest.approx((3.0, 3.0, 600.0), rel=tolerance)
@@ -58,6 +63,18 @@ def test_along_a_path(measure: str, preset: Any) -> None:
         assert found.largest == pytest.approx(value * unit, rel=1e-12)
     assert 0.0 < found.mean <= found.largest
     assert found.height == HEIGHT
+
+
+def test_mean_leash_of_a_continuous_matching() -> None:
+    # The leash of a walk from one end to the other is 1 at the first end and 3 at the last.
+    found = of("frechet_continuous", [(0, 0), (8, 0)], [(0, 1), (8, 3)])
+    assert found.largest == 3.0
+    assert 1.5 < found.mean < 3.0
+    assert of("frechet_continuous", [(1, 2)], [(4, 6)]) == (5.0, 5.0, 0.0)
+    scaled = of("frechet_continuous", LOOP, SIMULATION, "scaled")
+    value = curvewise.frechet_continuous(*curvewise.normalize(LOOP, SIMULATION))
+    assert scaled.largest == pytest.approx(value * HEIGHT, rel=1e-12)
+    assert 0.0 < scaled.mean < scaled.largest
 
 
 @pytest.mark.parametrize("preset", ["scaled", "paper"])
