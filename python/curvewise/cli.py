@@ -149,7 +149,7 @@ def _parser() -> argparse.ArgumentParser:
         "--measures",
         nargs="+",
         choices=MEASURES,
-        help="by default all five; frechet and dtw if there are not two columns",
+        help="by default the five of the paper; frechet and dtw if there are not two columns",
     )
     command.add_argument(
         "--spacing", choices=get_args(Spacing), help="of area; in place of the preset's"

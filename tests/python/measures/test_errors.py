@@ -189,7 +189,8 @@ def option_cases(function: str) -> Iterator[tuple[str, Case]]:
     if function == "compare":
         yield from unknown("preset", "scaled, paper, raw", "raw")
         for name in ("foo", None, ["dtw"]):
-            message = f"unknown measure {name!r}; choose from area, pcm, frechet, dtw, curve_length"
+            choices = "area, pcm, frechet, dtw, curve_length, frechet_continuous"
+            message = f"unknown measure {name!r}; choose from {choices}"
             yield f"measure-{name}", Case(good(), good(4), {"measures": ["dtw", name]}, message)
 
 
