@@ -19,7 +19,7 @@ from curvewise import reference
 
 Array = npt.NDArray[np.float64]
 
-PROFILE = settings(derandomize=True, deadline=None, max_examples=150)
+PROFILE = settings(derandomize=True, deadline=None, max_examples=80)
 EIGHTHS = st.integers(-512, 512).map(lambda k: k / 8)
 POWERS_OF_TWO = st.integers(-40, 40).map(lambda k: 2.0**k)
 POINTS = st.lists(st.tuples(EIGHTHS, EIGHTHS) | st.tuples(st.just(1.0), st.just(-2.0)), min_size=2)
