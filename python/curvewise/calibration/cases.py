@@ -158,6 +158,7 @@ class CaseObjective(Objective):
         self.preset: Preset = "scaled"
         self.options: dict[str, Any] = {}
         self.min_coverage, self.part = 0.0, "experiment"
+        self.condition = None  # there is one for each case
         self.failures = 0
         self._loops = [_loop(case) for case in cases]
         self._has_residuals = all(case.measure in LEAST_SQUARES for case in cases)
