@@ -245,7 +245,7 @@ class Identification:
         ... )
         >>> errors = found.uncertainty().standard_errors
         >>> {name: round(error, 3) for name, error in errors.items()}
-        {'slope': 0.047, 'intercept': 0.027}
+        {'slope': 0.041, 'intercept': 0.024}
         """
         runs = self.uncertainty_runs
         optimum = optimum_surfaces(self.study, self._unit, self.simulations, self.kept)
