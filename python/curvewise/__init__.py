@@ -33,6 +33,7 @@ from .measures import (
     pcm_match,
     sum_of_squares,
 )
+from .nearest import Index
 from .pairwise import Prepared, available_measures, cdist, pdist
 from .results import Alignment, AreaQuads, PcmMatch, WarpingInfo
 
@@ -47,6 +48,7 @@ __all__ = [
     "Alignment",
     "AreaQuads",
     "Comparison",
+    "Index",
     "PcmMatch",
     "Prepared",
     "WarpingInfo",

@@ -1,0 +1,152 @@
+// The index of many curves: arrays in, arrays out.
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bind_topics.hpp"
+#include "curve_list.hpp"
+#include "curvewise/nearest.hpp"
+#include "interruptible.hpp"
+#include "options.hpp"
+
+namespace curvewise::bindings {
+namespace {
+
+using Numbers = py::array_t<double>;
+using Places = py::array_t<std::int64_t>;
+
+template <class T>
+py::array_t<T> as_array(const std::vector<T>& values) {
+    return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::tuple counts_of(const SearchRecord& record) {
+    return py::make_tuple(record.pairs, record.refined, record.computed);
+}
+
+class BoundIndex {
+   public:
+    BoundIndex(const py::list& curves, const py::object& name, const py::dict& options)
+        : measure_(read_measure(name, options)), index_(make(curves)) {}
+
+    void add(const py::list& curves) {
+        const Curves added(curves);
+        unlocked(added.size() * added.longest() * added.dim(), [&] { index_.add(added.views); });
+    }
+    std::size_t size() const {
+        const py::gil_scoped_release unlocked;  // a call that adds curves holds what this waits for
+        return index_.size();
+    }
+    py::list curves() const {
+        py::list arrays;
+        for (const CurveView& curve : index_.curves()) {
+            Numbers array = curve.is_flat() ? Numbers(curve.size())
+                                            : Numbers({curve.size(), curve.dim()});
+            double* to = array.mutable_data();
+            for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+                for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) *to++ = curve(i, c);
+            }
+            arrays.append(std::move(array));
+        }
+        return arrays;
+    }
+
+    // X is a list, or None for the curves of the index.
+    py::tuple kneighbors(const py::object& X, std::ptrdiff_t count, const py::object& workers,
+                         const py::object& progress) const {
+        SearchRecord record;
+        const SearchOptions options = search_options(workers, true, record);
+        const std::optional<Curves> queries = read(X);
+        const auto rows = static_cast<py::ssize_t>(queries ? queries->views.size() : size());
+        const auto columns = std::max<std::ptrdiff_t>(count, 0);
+        Numbers distances({rows, columns});
+        Places indices({rows, columns});
+        double* const to_distances = distances.mutable_data();
+        std::int64_t* const to_indices = indices.mutable_data();
+        interruptible(work(queries), progress, [&](Control* control) {
+            if (queries) {
+                index_.kneighbors(queries->views, count, to_distances, to_indices, options,
+                                  control);
+            } else {
+                index_.kneighbors(count, to_distances, to_indices, options, control);
+            }
+        });
+        return py::make_tuple(distances, indices, counts_of(record));
+    }
+
+    // The neighbours of all queries, one query's behind the other's, and where each query's begin.
+    py::tuple radius_neighbors(const py::object& X, double radius, bool sort_results,
+                               const py::object& workers, const py::object& progress) const {
+        SearchRecord record;
+        const SearchOptions options = search_options(workers, sort_results, record);
+        const std::optional<Curves> queries = read(X);
+        const auto found = interruptible(work(queries), progress, [&](Control* control) {
+            return queries ? index_.radius_neighbors(queries->views, radius, options, control)
+                           : index_.radius_neighbors(radius, options, control);
+        });
+        std::vector<std::int64_t> begins{0}, indices;
+        std::vector<double> distances;
+        for (const std::vector<Neighbor>& neighbors : found) {
+            for (const Neighbor& neighbor : neighbors) {
+                indices.push_back(neighbor.index);
+                distances.push_back(neighbor.distance);
+            }
+            begins.push_back(static_cast<std::int64_t>(indices.size()));
+        }
+        return py::make_tuple(as_array(distances), as_array(indices), as_array(begins),
+                              counts_of(record));
+    }
+
+   private:
+    Index make(const py::list& list) const {
+        const Curves curves(list);
+        return unlocked(curves.size() * curves.longest() * curves.dim(),
+                        [&] { return Index(curves.views, measure_); });
+    }
+
+    static std::optional<Curves> read(const py::object& X) {
+        if (X.is_none()) return std::nullopt;
+        return Curves(X.cast<py::list>());
+    }
+
+    static SearchOptions search_options(const py::object& workers, bool sort_results,
+                                        SearchRecord& record) {
+        return {whole_number("workers", workers, workers_range), sort_results, &record};
+    }
+
+    // Not below the elementary steps ahead, as far as the first curve of the index tells.
+    double work(const std::optional<Curves>& queries) const {
+        const py::gil_scoped_release unlocked;
+        const std::vector<CurveView> curves = index_.curves();
+        if (curves.empty()) return 0.0;
+        const auto m = static_cast<double>(curves.front().size());
+        const auto count = static_cast<double>(curves.size());
+        const auto dim = static_cast<double>(curves.front().dim());
+        return std::visit(
+            [&](const auto& options) {
+                const double rows = queries ? queries->size() : count;
+                return rows * count * options.work(queries ? queries->longest() : m, m, dim);
+            },
+            measure_);
+    }
+
+    Measure measure_;
+    Index index_;
+};
+
+}  // namespace
+
+void bind_nearest(py::module_& module) {
+    py::class_<BoundIndex>(module, "Index")
+        .def(py::init<const py::list&, const py::object&, const py::dict&>())
+        .def("add", &BoundIndex::add)
+        .def("size", &BoundIndex::size)
+        .def("curves", &BoundIndex::curves)
+        .def("kneighbors", &BoundIndex::kneighbors)
+        .def("radius_neighbors", &BoundIndex::radius_neighbors);
+}
+
+}  // namespace curvewise::bindings
