@@ -1,4 +1,6 @@
-// The index of many curves: arrays in, arrays out.
+// The index of many curves, runs of a long curve, and the mean: arrays in, arrays out.
+#include <pybind11/stl.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -8,7 +10,9 @@
 
 #include "bind_topics.hpp"
 #include "curve_list.hpp"
+#include "curvewise/dtw_mean.hpp"
 #include "curvewise/nearest.hpp"
+#include "curvewise/subsequence.hpp"
 #include "interruptible.hpp"
 #include "options.hpp"
 
@@ -137,6 +141,44 @@ class BoundIndex {
     Index index_;
 };
 
+// A list of (distance, start, stop).
+template <class Options>
+py::list found_subsequences(const CurveArray& P, const CurveArray& Q, std::ptrdiff_t count,
+                            const py::dict& given) {
+    const auto options = read_options<Options>(given);
+    const CurveView p = view(P), q = view(Q);
+    const double work = options.work(static_cast<double>(p.size()), static_cast<double>(q.size()),
+                                     static_cast<double>(p.dim()));
+    const std::vector<Subsequence> found =
+        interruptible(work, py::none(), [&](Control* control) {
+            return subsequences(p, q, count, options, control);
+        });
+    py::list list;
+    for (const Subsequence& one : found) {
+        list.append(py::make_tuple(one.distance, one.start, one.stop));
+    }
+    return list;
+}
+
+py::tuple found_mean(const py::list& list, const std::vector<double>& weights,
+                     const CurveArray& initial, const py::object& window, const py::object& rounds,
+                     double tolerance, const py::object& workers, const py::object& progress) {
+    DtwMeanOptions options;
+    if (!window.is_none()) options.window = whole_number("window", window, window_range);
+    options.iterations = whole_number("iterations", rounds, {0, "give a whole number >= 0"});
+    options.tolerance = tolerance;
+    options.workers = whole_number("workers", workers, workers_range);
+    const Curves curves(list);
+    const CurveView start = view(initial);
+    const double work = curves.size() * curves.longest() * static_cast<double>(start.size());
+    const DtwMean mean = interruptible(work, progress, [&](Control* control) {
+        return dtw_mean(curves.views, weights, start, options, control);
+    });
+    Numbers points = start.is_flat() ? Numbers(start.size()) : Numbers({start.size(), start.dim()});
+    std::copy(mean.points.begin(), mean.points.end(), points.mutable_data());
+    return py::make_tuple(points, as_array(mean.costs), mean.converged);
+}
+
 }  // namespace
 
 void bind_nearest(py::module_& module) {
@@ -147,6 +189,9 @@ void bind_nearest(py::module_& module) {
         .def("curves", &BoundIndex::curves)
         .def("kneighbors", &BoundIndex::kneighbors)
         .def("radius_neighbors", &BoundIndex::radius_neighbors);
+    module.def("dtw_subsequences", found_subsequences<DtwOptions>);
+    module.def("frechet_subsequences", found_subsequences<FrechetOptions>);
+    module.def("dtw_mean", found_mean);
 }
 
 }  // namespace curvewise::bindings

@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from . import _core, datasets
+from .averages import dtw_mean, medoid
 from .compare import Comparison, compare
 from .embedding import get_include
 from .measures import (
@@ -35,7 +36,8 @@ from .measures import (
 )
 from .nearest import Index
 from .pairwise import Prepared, available_measures, cdist, pdist
-from .results import Alignment, AreaQuads, PcmMatch, WarpingInfo
+from .results import Alignment, AreaQuads, DtwMean, PcmMatch, Subsequence, WarpingInfo
+from .subsequence import subsequence
 
 if TYPE_CHECKING:
     from . import calibration as calibration
@@ -48,9 +50,11 @@ __all__ = [
     "Alignment",
     "AreaQuads",
     "Comparison",
+    "DtwMean",
     "Index",
     "PcmMatch",
     "Prepared",
+    "Subsequence",
     "WarpingInfo",
     "__version__",
     "area",
@@ -64,6 +68,7 @@ __all__ = [
     "datasets",
     "dtw",
     "dtw_info",
+    "dtw_mean",
     "dtw_path",
     "dtw_table",
     "frechet",
@@ -72,12 +77,14 @@ __all__ = [
     "frechet_table",
     "get_include",
     "mae",
+    "medoid",
     "mse",
     "normalize",
     "pcm",
     "pcm_match",
     "pdist",
     "reference",
+    "subsequence",
     "sum_of_squares",
 ]
 

@@ -102,3 +102,21 @@ class Index:
         progress: _Report | None,
         /,
     ) -> tuple[_Array, _Path, _Path, tuple[int, int, int]]: ...
+
+def dtw_subsequences(
+    P: _Array, Q: _Array, count: int, options: _Options, /
+) -> list[tuple[float, int, int]]: ...
+def frechet_subsequences(
+    P: _Array, Q: _Array, count: int, options: _Options, /
+) -> list[tuple[float, int, int]]: ...
+def dtw_mean(
+    curves: list[_Array],
+    weights: list[float],
+    initial: _Array,
+    window: SupportsIndex | None,
+    iterations: SupportsIndex,
+    tolerance: float,
+    workers: SupportsIndex,
+    progress: _Report | None,
+    /,
+) -> tuple[_Array, _Array, bool]: ...

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include "warping/dispatch.hpp"
 #include "warping/ground_distance.hpp"
@@ -9,18 +10,22 @@
 namespace curvewise::detail {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 // With fewer cells, the table is swept as fast as the points are compared with boxes.
 constexpr std::ptrdiff_t fewest_cells = 1 << 10;
 
 // With more, the pruning of a single pair, which searches for its bounds, is the faster way.
 constexpr std::ptrdiff_t most_narrowed_cells = 3 << 18;
 
-std::ptrdiff_t boxes_at(int level) noexcept { return level == 1 ? 8 : 48; }
+// Of a level of the bounds.
+constexpr std::ptrdiff_t most_boxes[PairBounds::levels] = {1, 8, 32, 48};
+constexpr int point_level = 3;
 
 // The finest level of a tree with at most so many boxes.
-std::ptrdiff_t tree_level(const BoxTree& tree, std::ptrdiff_t most_boxes) noexcept {
+std::ptrdiff_t tree_level(const BoxTree& tree, std::ptrdiff_t most) noexcept {
     std::ptrdiff_t level = 0;
-    while (tree.boxes(level) > most_boxes) ++level;
+    while (tree.boxes(level) > most) ++level;
     return level;
 }
 
@@ -49,6 +54,26 @@ double sum_of(const double* terms, std::ptrdiff_t count) noexcept {
     }
     for (; k < count; ++k) sums[0] += terms[k];
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+// Of runs of `points` points of a curve of `size`, a term for every point, except for the first.
+double sum_but_one(const double* terms, std::ptrdiff_t runs, std::ptrdiff_t points,
+                   std::ptrdiff_t size) noexcept {
+    if (runs == 1) return terms[0] * static_cast<double>(size - 1);
+    const std::ptrdiff_t in_last = size - (runs - 1) * points;
+    return terms[0] * static_cast<double>(points - 1) +
+           sum_of(terms + 1, runs - 2) * static_cast<double>(points) +
+           terms[runs - 1] * static_cast<double>(in_last);
+}
+
+// As smallest_distance(), before the norm's finish, which is monotone.
+template <class Norm>
+double unfinished_distance(const double* a, const double* b, std::ptrdiff_t dim) noexcept {
+    double sum = 0.0;
+    for (std::ptrdiff_t c = 0; c < dim; ++c) {
+        sum = Norm::add(sum, std::max(std::max(a[c] - b[dim + c], b[c] - a[dim + c]), 0.0));
+    }
+    return sum;
 }
 
 }  // namespace
@@ -114,59 +139,105 @@ void PairBounds::quick(double* bounds) const {
     });
 }
 
-void PairBounds::least(const PackedCurve& points, PointOrder order, const BoxTree& boxes,
-                       std::ptrdiff_t most_boxes, AlignedBuffer& out) {
-    const std::ptrdiff_t level = tree_level(boxes, most_boxes);
-    const std::ptrdiff_t count = points.size();
-    out.reserve(AlignedBuffer::rounded(count + kernels::padding));
-    kernels::PointsAndBoxes sides{points.data(),       points.stride(), count,
-                                  points.dim(),        boxes.box(level, 0),
-                                  boxes.boxes(level),  nullptr,         nullptr,
-                                  out.data()};
-    const Band band(count, boxes.size(), options_.window);
-    if (band.is_limited()) {
-        first_box_.resize(static_cast<std::size_t>(count));
-        last_box_.resize(static_cast<std::size_t>(count));
-        for (std::ptrdiff_t i = 0; i < count; ++i) {
-            const ColumnRange range = band.columns(i);
-            const std::ptrdiff_t points_per_box = BoxTree::leaf_points << level;
-            const auto place =
-                static_cast<std::size_t>(order == PointOrder::forward ? i : count - 1 - i);
-            first_box_[place] = range.first / points_per_box;
-            last_box_[place] = range.last / points_per_box;
-        }
-        sides.first_box = first_box_.data();
-        sides.last_box = last_box_.data();
+void BandedBoxes::assign(std::ptrdiff_t count, PointOrder order, const BoxTree& boxes,
+                         std::ptrdiff_t level, std::optional<std::ptrdiff_t> window) {
+    if (count == count_ && boxes.size() == size_) return;
+    count_ = count;
+    size_ = boxes.size();
+    const Band band(count, size_, window);
+    is_limited_ = band.is_limited();
+    if (!is_limited_) return;
+    const std::ptrdiff_t points_per_box = BoxTree::leaf_points << level;
+    first_.resize(static_cast<std::size_t>(count));
+    last_.resize(static_cast<std::size_t>(count));
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+        const ColumnRange range = band.columns(i);
+        const auto place =
+            static_cast<std::size_t>(order == PointOrder::forward ? i : count - 1 - i);
+        first_[place] = range.first / points_per_box;
+        last_[place] = range.last / points_per_box;
     }
-    kernel_(sides);
 }
 
-void PairBounds::compute_terms(std::ptrdiff_t j, const PackedCurve& q, int level) {
-    if (terms_of_ == j && terms_level_ == level) return;
-    least(P_, PointOrder::forward, kept_.tree(j), boxes_at(level), row_terms_);
-    if (!is_open()) least(q, PointOrder::reversed, tree_, boxes_at(level), column_terms_);
-    terms_of_ = j;
-    terms_level_ = level;
+double PairBounds::combined(double rows, double columns, double first_row,
+                            double first_column) const {
+    // symmetric2 pays for rows and columns, except for the first cell: once.
+    return options_.recurrence == kernels::Recurrence::dtw_symmetric2
+               ? rows + columns + std::max(first_row, first_column)
+               : std::max(rows + first_row, columns + first_column);
 }
 
-double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
+template <class Norm>
+double PairBounds::run_bound(const BoxTree& Q, std::ptrdiff_t most_runs) {
+    const std::ptrdiff_t level = tree_level(tree_, most_runs), q_level = tree_level(Q, most_runs);
+    const std::ptrdiff_t rows = tree_.boxes(level), columns = Q.boxes(q_level);
+    const std::ptrdiff_t row_points = BoxTree::leaf_points << level;
+    const std::ptrdiff_t column_points = BoxTree::leaf_points << q_level;
+    const Band band(tree_.size(), Q.size(), options_.window);
+    run_terms_.assign(static_cast<std::size_t>(rows + columns), infinity);
+    double* const row_terms = run_terms_.data();
+    double* const column_terms = row_terms + rows;
+    for (std::ptrdiff_t a = 0; a < rows; ++a) {
+        std::ptrdiff_t first = 0, last = columns - 1;
+        if (band.is_limited()) {
+            const std::ptrdiff_t end = std::min((a + 1) * row_points, tree_.size());
+            first = band.columns(a * row_points).first / column_points;
+            last = band.columns(end - 1).last / column_points;
+        }
+        double least = infinity;
+        for (std::ptrdiff_t b = first; b <= last; ++b) {
+            const double sum = unfinished_distance<Norm>(tree_.box(level, a), Q.box(q_level, b),
+                                                         tree_.dim());
+            least = std::min(least, sum);
+            column_terms[b] = std::min(column_terms[b], sum);
+        }
+        row_terms[a] = least;
+    }
+    for (double& term : run_terms_) term = Norm::finish(term);
+    if (is_frechet()) return *std::max_element(run_terms_.begin(), run_terms_.end());
+    const double rest_of_rows = sum_but_one(row_terms, rows, row_points, tree_.size());
+    if (is_open()) return combined(rest_of_rows, 0.0, row_terms[0], 0.0);
+    const double rest_of_columns = sum_but_one(column_terms, columns, column_points, Q.size());
+    return combined(rest_of_rows, rest_of_columns, row_terms[0], column_terms[0]);
+}
+
+double PairBounds::point_bound(std::ptrdiff_t j, const PackedCurve& q) {
+    compute_terms(j, q);
     const std::ptrdiff_t n = P_.size(), m = q.size();
-    if (!is_bounded(j) || n * m < fewest_cells) return 0.0;
-    compute_terms(j, q, level);
     const double* const rows = row_terms_.data();
     const double* const columns = column_terms_.data();
     if (is_frechet()) {
         return std::max(*std::max_element(rows, rows + n),
                         *std::max_element(columns, columns + m));
     }
-    const double slack = 1.0 - static_cast<double>(n + m + 2) * 0x1p-52;
-    if (is_open()) return sum_of(rows, n) * slack;
-    if (options_.recurrence == kernels::Recurrence::dtw_symmetric1) {
-        return std::max(sum_of(rows, n), sum_of(columns, m)) * slack;
-    }
-    // symmetric2 pays for rows and columns, except for the first cell: once.
-    const double rest = sum_of(rows + 1, n - 1) + sum_of(columns, m - 1);
-    return (rest + std::max(rows[0], columns[m - 1])) * slack;
+    const double rest_of_rows = sum_of(rows + 1, n - 1);
+    if (is_open()) return combined(rest_of_rows, 0.0, rows[0], 0.0);
+    return combined(rest_of_rows, sum_of(columns, m - 1), rows[0], columns[m - 1]);
+}
+
+double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
+    const std::ptrdiff_t n = P_.size(), m = q.size();
+    if (!is_bounded(j) || n * m < fewest_cells) return 0.0;
+    const double bound = level == point_level ? point_bound(j, q) : with_norm(metric_, [&](auto norm) {
+        return run_bound<decltype(norm)>(kept_.tree(j), most_boxes[level]);
+    });
+    // The table adds up as many terms in another order.
+    return is_frechet() ? bound : bound * (1.0 - static_cast<double>(n + m + 2) * 0x1p-52);
+}
+
+void PairBounds::compute_terms(std::ptrdiff_t j, const PackedCurve& q) {
+    if (terms_of_ == j) return;
+    const auto least = [&](const PackedCurve& points, PointOrder order, const BoxTree& boxes,
+                           BandedBoxes& banded, AlignedBuffer& out) {
+        const std::ptrdiff_t level = tree_level(boxes, most_boxes[point_level]);
+        banded.assign(points.size(), order, boxes, level, options_.window);
+        out.reserve(AlignedBuffer::rounded(points.size() + kernels::padding));
+        kernel_({points.data(), points.stride(), points.size(), points.dim(), boxes.box(level, 0),
+                 boxes.boxes(level), banded.first(), banded.last(), out.data()});
+    };
+    least(P_, PointOrder::forward, kept_.tree(j), boxes_of_rows_, row_terms_);
+    if (!is_open()) least(q, PointOrder::reversed, tree_, boxes_of_columns_, column_terms_);
+    terms_of_ = j;
 }
 
 std::optional<CostToGo> PairBounds::cost_to_go(std::ptrdiff_t j, const PackedCurve& q,
@@ -178,9 +249,11 @@ std::optional<CostToGo> PairBounds::cost_to_go(std::ptrdiff_t j, const PackedCur
     }
     sums_.assign(n, m, options_.recurrence == kernels::Recurrence::dtw_symmetric2);
     if (!is_frechet()) {
-        compute_terms(j, q, levels - 1);
+        compute_terms(j, q);
         std::copy_n(row_terms_.data(), n, sums_.rows());
-        if (!is_open()) std::reverse_copy(column_terms_.data(), column_terms_.data() + m, sums_.columns());
+        if (!is_open()) {
+            std::reverse_copy(column_terms_.data(), column_terms_.data() + m, sums_.columns());
+        }
         sums_.add_up();
     }
     return sums_.cost_to_go(most);

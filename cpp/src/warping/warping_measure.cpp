@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <stdexcept>
-#include <string>
 
 #include "curves/range_scale.hpp"
 #include "curvewise/dtw.hpp"
@@ -47,10 +45,7 @@ class WarpingMeasure {
     explicit WarpingMeasure(const Options& options) : options_(detail::checked_options(options)) {}
     detail::Requirements requirements() const noexcept { return {options_.measure, 1, false}; }
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const {
-        if (options_.window && *options_.window == 0 && n != m && n > 1 && m > 1) {
-            throw std::invalid_argument("window=0 admits no path between " + std::to_string(n) +
-                                        " and " + std::to_string(m) + " points; use at least 1");
-        }
+        detail::check_sizes(options_, n, m);
     }
     static void check_p(const PreparedP& /*P*/) noexcept {}
     std::ptrdiff_t workers() const noexcept { return options_.workers; }
@@ -130,6 +125,7 @@ Alignment path(const WarpingMeasure& measure, const CurveView& P, const CurveVie
                Control* control) {
     return detail::with_pair(
         measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
+            call.poller.begin(2 * P.size() * Q.size());
             return measure.with_problem(
                 p, q, call, [](const WarpingProblem& problem) { return problem.alignment(); });
         });

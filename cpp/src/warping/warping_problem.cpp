@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "curves/checks.hpp"
@@ -57,6 +58,13 @@ WarpingOptions checked_options(const FrechetOptions& options) {
             false,
             options.prune,
             options.cutoff};
+}
+
+void check_sizes(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m) {
+    if (options.window && *options.window == 0 && n != m && n > 1 && m > 1) {
+        throw std::invalid_argument("window=0 admits no path between " + std::to_string(n) +
+                                    " and " + std::to_string(m) + " points; use at least 1");
+    }
 }
 
 WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& curves, const RangeScale& range,
@@ -128,7 +136,6 @@ WarpingInfo WarpingProblem::info() {
 }
 
 Alignment WarpingProblem::alignment() const {
-    sweep_.poller.begin(2 * sweep_.curves.rows() * sweep_.curves.columns());
     std::optional<Path> path = pruned_path();
     if (!path) path = find_path(sweep_, open_end_);
     return {restore(path->value), std::move(path->pairs)};

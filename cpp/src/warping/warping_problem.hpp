@@ -39,6 +39,8 @@ struct WarpingOptions {
 
 WarpingOptions checked_options(const DtwOptions& options);
 WarpingOptions checked_options(const FrechetOptions& options);
+// Throws where the window admits no path.
+void check_sizes(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m);
 
 class WarpingProblem {
    public:
@@ -58,6 +60,7 @@ class WarpingProblem {
 
     // The distance, and how it was found.
     WarpingInfo info();
+    // Counts twice the cells of the table as done.
     Alignment alignment() const;
     void write_table(double* out) const;
 
