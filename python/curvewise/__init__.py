@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from . import dask as dask
     from . import plotting as plotting
     from . import reference as reference
+    from . import sklearn as sklearn
 
 __all__ = [
     "Alignment",
@@ -88,7 +89,7 @@ __all__ = [
     "sum_of_squares",
 ]
 
-_LAZY = ("calibration", "compat", "dask", "plotting", "reference")
+_LAZY = ("calibration", "compat", "dask", "plotting", "reference", "sklearn")
 
 # Hidden from type checkers, which would otherwise accept every misspelt attribute.
 if not TYPE_CHECKING:
@@ -101,8 +102,8 @@ if not TYPE_CHECKING:
 
 
 def __dir__() -> list[str]:
-    # help() imports all of these, and the import of curvewise.dask fails where dask is missing.
-    return sorted({*globals(), *_LAZY} - {"dask"})
+    # help() imports all of these, and the import of some fails where their packages are missing.
+    return sorted({*globals(), *_LAZY} - {"dask", "sklearn"})
 
 
 def build_info() -> _core.BuildInfo:

@@ -109,9 +109,7 @@ def dtw_mean(
     return DtwMean(mean, costs, converged)
 
 
-def _start_of(
-    curves: list[Array], window: SupportsIndex | None, workers: SupportsIndex
-) -> int:
+def _start_of(curves: list[Array], window: SupportsIndex | None, workers: SupportsIndex) -> int:
     return medoid(curves, "dtw", metric="sqeuclidean", window=window, workers=workers)
 
 

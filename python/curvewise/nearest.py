@@ -7,7 +7,9 @@ and conventions of ``sklearn.neighbors.NearestNeighbors``. The work is done by t
 from __future__ import annotations
 
 import operator
-from typing import TYPE_CHECKING, Any, Literal, SupportsFloat, SupportsIndex, overload
+from importlib import import_module
+from itertools import pairwise
+from typing import Any, Literal, SupportsFloat, SupportsIndex, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -19,9 +21,6 @@ from ._extras import extra
 from ._options import Default, MeasureName
 from ._progress import Report, reporting
 from .pairwise import Curves, _check_names
-
-if TYPE_CHECKING:
-    from scipy.sparse import csr_matrix
 
 __all__ = ["Index"]
 
@@ -266,7 +265,7 @@ class Index:
         mode: GraphMode = "connectivity",
         workers: SupportsIndex = Default.workers,
         progress: bool | Report = False,
-    ) -> csr_matrix:
+    ) -> Any:
         """Return the neighbours of :meth:`kneighbors` as a sparse matrix.
 
         Parameters
@@ -312,7 +311,7 @@ class Index:
         mode: GraphMode = "connectivity",
         workers: SupportsIndex = Default.workers,
         progress: bool | Report = False,
-    ) -> csr_matrix:
+    ) -> Any:
         """Return the neighbours of :meth:`radius_neighbors` as a sparse matrix.
 
         Parameters
@@ -359,7 +358,7 @@ class Index:
 
     def _graph(self, mode: GraphMode, distances: Array, indices: Places, begins: Places) -> Any:
         with extra("compat", "a graph of neighbours needs scipy"):
-            from scipy.sparse import csr_matrix
+            csr_matrix = import_module("scipy.sparse").csr_matrix
         values = distances if mode == "distance" else np.ones(len(indices))
         return csr_matrix((values, indices, begins), shape=(len(begins) - 1, len(self)))
 
@@ -382,6 +381,6 @@ def _check_mode(mode: str) -> None:
 
 def _divided(values: npt.NDArray[Any], begins: Places) -> npt.NDArray[np.object_]:
     parts = np.empty(len(begins) - 1, dtype=object)
-    for i, (begin, end) in enumerate(zip(begins[:-1], begins[1:], strict=True)):
+    for i, (begin, end) in enumerate(pairwise(begins)):
         parts[i] = values[begin:end]
     return parts

@@ -78,11 +78,11 @@ def subsequence(
     Examples
     --------
     >>> import curvewise
-    >>> record = [0, 0, 1, 2, 1, 0, 0, 1, 3, 1, 0]
+    >>> record = [0, 0, 1, 2, 1, 0, 0, 1, 2.5, 1, 0]
     >>> for found in curvewise.subsequence([1, 2, 1], record, k=2):
     ...     print(found.distance, found.start, found.stop)
     0.0 2 4
-    1.0 7 9
+    0.5 7 9
     """
     P, Q = as_curves(P, Q)
     count = _whole_number("k", k)
@@ -110,6 +110,6 @@ def _with_path(
         alignment = dtw_path(P, run, metric=metric, p=p)
     else:
         alignment = frechet_path(P, run, metric=metric, p=p)
-    return Subsequence(
-        answer.distance, answer.start, answer.stop, alignment.path + [0, answer.start]
-    )
+    path = alignment.path.copy()
+    path[:, 1] += answer.start
+    return Subsequence(answer.distance, answer.start, answer.stop, path)

@@ -80,7 +80,7 @@ def subsequence(
     while pieces and len(answers) < k:
         best = min(pieces, key=lambda piece: (piece[0], piece[2]))
         value, start, stop, begin, end = best
-        root = np.sqrt(value) if squared else value
+        root = np.array(np.sqrt(value) if squared else value)
         distance = float(times_power_of_two(root, exponent * degree(metric)))
         if value == np.inf or distance > cutoff:
             break
