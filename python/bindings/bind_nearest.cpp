@@ -47,8 +47,8 @@ class BoundIndex {
     py::list curves() const {
         py::list arrays;
         for (const CurveView& curve : index_.curves()) {
-            Numbers array = curve.is_flat() ? Numbers(curve.size())
-                                            : Numbers({curve.size(), curve.dim()});
+            Numbers array =
+                curve.is_flat() ? Numbers(curve.size()) : Numbers({curve.size(), curve.dim()});
             double* to = array.mutable_data();
             for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
                 for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) *to++ = curve(i, c);
@@ -149,10 +149,9 @@ py::list found_subsequences(const CurveArray& P, const CurveArray& Q, std::ptrdi
     const CurveView p = view(P), q = view(Q);
     const double work = options.work(static_cast<double>(p.size()), static_cast<double>(q.size()),
                                      static_cast<double>(p.dim()));
-    const std::vector<Subsequence> found =
-        interruptible(work, py::none(), [&](Control* control) {
-            return subsequences(p, q, count, options, control);
-        });
+    const std::vector<Subsequence> found = interruptible(work, py::none(), [&](Control* control) {
+        return subsequences(p, q, count, options, control);
+    });
     py::list list;
     for (const Subsequence& one : found) {
         list.append(py::make_tuple(one.distance, one.start, one.stop));

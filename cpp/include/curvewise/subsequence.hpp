@@ -6,9 +6,9 @@
 //   }
 //
 // The first answer is the best of all runs of consecutive points of Q, what dtw with open_begin and
-// open_end finds. Each later one is the best run of what is left of Q: of the pieces between, before
-// and behind the earlier answers, each of them searched as if it were all of Q. Answers do not
-// overlap, and their distances never fall. Of equal distances the run that ends first is the
+// open_end finds. Each later one is the best run of what is left of Q: of the pieces between,
+// before and behind the earlier answers, each of them searched as if it were all of Q. Answers do
+// not overlap, and their distances never fall. Of equal distances the run that ends first is the
 // better.
 //
 // Exact. One sweep of the table, O(n m), that carries along with every value where in Q its path

@@ -1,6 +1,6 @@
 // The mean of curves under dtw (see curvewise/dtw_mean.hpp). Threads find the paths of some curves,
-// which are then added to the mean in the order of the curves, so that the number of threads changes
-// no bit.
+// which are then added to the mean in the order of the curves, so that the number of threads
+// changes no bit.
 #include "curvewise/dtw_mean.hpp"
 
 #include <algorithm>
@@ -67,8 +67,7 @@ class Averaging {
     double evaluate(Poller& poller) {
         sums_.assign(mean_.size(), 0.0);
         shares_.assign(static_cast<std::size_t>(n_), 0.0);
-        const std::size_t together =
-            paths_per_worker * static_cast<std::size_t>(options_.workers);
+        const std::size_t together = paths_per_worker * static_cast<std::size_t>(options_.workers);
         double cost = 0.0;
         for (std::size_t first = 0; first < curves_.size(); first += together) {
             const std::size_t count = std::min(together, curves_.size() - first);
@@ -121,8 +120,8 @@ class Averaging {
         const PackedCurve q(curve.curve, range, PointOrder::reversed);
         const std::int64_t steps = n_ * curve.curve.size();
         poller.set_counting(false);
-        Alignment found = detail::WarpingProblem(options_, {p, q}, range, {0.0, 1, poller, memory})
-                              .alignment();
+        Alignment found =
+            detail::WarpingProblem(options_, {p, q}, range, {0.0, 1, poller, memory}).alignment();
         poller.set_counting(true);
         if (poller.count_steps(steps)) throw Stopped();
         return found;

@@ -229,13 +229,12 @@ class Index::State {
     }
 
     void check_count(std::ptrdiff_t count, bool leaves_itself_out) const {
-        const auto most =
-            static_cast<std::ptrdiff_t>(curves_.size()) - (leaves_itself_out ? 1 : 0);
+        const auto most = static_cast<std::ptrdiff_t>(curves_.size()) - (leaves_itself_out ? 1 : 0);
         if (count >= 1 && count <= most) return;
-        throw std::invalid_argument("n_neighbors is " + std::to_string(count) +
-                                    "; give a whole number from 1 to " + std::to_string(most) +
-                                    (leaves_itself_out ? ", the other curves of the index"
-                                                       : ", the curves of the index"));
+        throw std::invalid_argument(
+            "n_neighbors is " + std::to_string(count) + "; give a whole number from 1 to " +
+            std::to_string(most) +
+            (leaves_itself_out ? ", the other curves of the index" : ", the curves of the index"));
     }
 
     std::unique_ptr<const detail::BatchMeasure> measure_;

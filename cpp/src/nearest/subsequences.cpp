@@ -1,10 +1,10 @@
 // The best runs of one curve for another (see curvewise/subsequence.hpp).
 //
 // The table is swept with its paths' origins. In its last row two paths never cross, since one that
-// meets another goes on with it: the origins rise with the ends. So an answer from `start` to `stop`
-// concerns the ends from start to stop, which go, and those behind whose paths began no later than
-// stop: some columns, which are swept again as a piece of their own. All others stay the best of
-// their piece, to the bit: a minimum that is attained in a smaller set is its minimum too.
+// meets another goes on with it: the origins rise with the ends. So an answer from `start` to
+// `stop` concerns the ends from start to stop, which go, and those behind whose paths began no
+// later than stop: some columns, which are swept again as a piece of their own. All others stay the
+// best of their piece, to the bit: a minimum that is attained in a smaller set is its minimum too.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -75,9 +75,7 @@ class TargetsOf final : public Targets {
     std::ptrdiff_t size() const noexcept override {
         return static_cast<std::ptrdiff_t>(curves_.size());
     }
-    void check(const CheckedCurve& P) const override {
-        measure_.check_p(typename M::PreparedP(P));
-    }
+    void check(const CheckedCurve& P) const override { measure_.check_p(typename M::PreparedP(P)); }
     std::int64_t steps(std::ptrdiff_t n) const noexcept override {
         return M::steps(n, size(), points_);
     }

@@ -186,8 +186,8 @@ double PairBounds::run_bound(const BoxTree& Q, std::ptrdiff_t most_runs) {
         }
         double least = infinity;
         for (std::ptrdiff_t b = first; b <= last; ++b) {
-            const double sum = unfinished_distance<Norm>(tree_.box(level, a), Q.box(q_level, b),
-                                                         tree_.dim());
+            const double sum =
+                unfinished_distance<Norm>(tree_.box(level, a), Q.box(q_level, b), tree_.dim());
             least = std::min(least, sum);
             column_terms[b] = std::min(column_terms[b], sum);
         }
@@ -207,8 +207,7 @@ double PairBounds::point_bound(std::ptrdiff_t j, const PackedCurve& q) {
     const double* const rows = row_terms_.data();
     const double* const columns = column_terms_.data();
     if (is_frechet()) {
-        return std::max(*std::max_element(rows, rows + n),
-                        *std::max_element(columns, columns + m));
+        return std::max(*std::max_element(rows, rows + n), *std::max_element(columns, columns + m));
     }
     const double rest_of_rows = sum_of(rows + 1, n - 1);
     if (is_open()) return combined(rest_of_rows, 0.0, rows[0], 0.0);
@@ -218,9 +217,10 @@ double PairBounds::point_bound(std::ptrdiff_t j, const PackedCurve& q) {
 double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
     const std::ptrdiff_t n = P_.size(), m = q.size();
     if (!is_bounded(j) || n * m < fewest_cells) return 0.0;
-    const double bound = level == point_level ? point_bound(j, q) : with_norm(metric_, [&](auto norm) {
-        return run_bound<decltype(norm)>(kept_.tree(j), most_boxes[level]);
-    });
+    const double bound =
+        level == point_level ? point_bound(j, q) : with_norm(metric_, [&](auto norm) {
+            return run_bound<decltype(norm)>(kept_.tree(j), most_boxes[level]);
+        });
     // The table adds up as many terms in another order.
     return is_frechet() ? bound : bound * (1.0 - static_cast<double>(n + m + 2) * 0x1p-52);
 }

@@ -43,7 +43,9 @@ class KeptBounds {
     void take(KeptBounds& others);
 
     std::ptrdiff_t size() const noexcept { return static_cast<std::ptrdiff_t>(trees_.size()); }
-    double largest(std::ptrdiff_t j) const noexcept { return largest_[static_cast<std::size_t>(j)]; }
+    double largest(std::ptrdiff_t j) const noexcept {
+        return largest_[static_cast<std::size_t>(j)];
+    }
     // The first point, the last, the lowest coordinates, the highest.
     const double* summary(std::ptrdiff_t j) const noexcept {
         return summaries_.data() + j * 4 * dim_;

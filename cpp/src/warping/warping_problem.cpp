@@ -67,8 +67,8 @@ void check_sizes(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t
     }
 }
 
-WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& curves, const RangeScale& range,
-               const Call<SweepMemory>& call)
+WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& curves,
+                               const RangeScale& range, const Call<SweepMemory>& call)
     : range_(range),
       degree_(degree(options.ground.metric)),
       open_end_(options.open_end),
@@ -129,8 +129,8 @@ WarpingInfo WarpingProblem::info() {
     }
     info.value = restore(*value);
     info.share =
-        static_cast<double>(info.cells_swept) / (static_cast<double>(sweep_.curves.rows()) *
-                                                 static_cast<double>(sweep_.curves.columns()));
+        static_cast<double>(info.cells_swept) /
+        (static_cast<double>(sweep_.curves.rows()) * static_cast<double>(sweep_.curves.columns()));
     info.phases.push_back({"all", seconds_since(start)});
     return info;
 }

@@ -9,7 +9,6 @@
 namespace curvewise::kernels {
 namespace {
 #include "block.inl.hpp"
-
 #include "boxes.inl.hpp"
 }  // namespace
 
