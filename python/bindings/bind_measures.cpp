@@ -55,6 +55,15 @@ py::tuple as_tuple(const WarpingInfo& info) {
                           py::make_tuple(info.lower, info.upper), seconds);
 }
 
+py::tuple as_tuple(const Matching& matching) {
+    const auto count = static_cast<py::ssize_t>(matching.parameters.size());
+    return py::make_tuple(
+        matching.distance,
+        py::array_t<double>({count, py::ssize_t{2}}, matching.parameters.front().data()));
+}
+
+py::tuple as_tuple(const Interval& interval) { return py::make_tuple(interval.low, interval.high); }
+
 constexpr auto to_tuple = [](const auto& found) { return as_tuple(found); };
 
 py::array_t<double> allocate_table(const CurveArray& P, const CurveArray& Q) {
@@ -100,6 +109,18 @@ void bind_measures(py::module_& module) {
     bind<DtwOptions>(module, "dtw_path", dtw_path, to_tuple);
     bind<FrechetOptions>(module, "frechet_info", frechet_info, to_tuple);
     bind<DtwOptions>(module, "dtw_info", dtw_info, to_tuple);
+    bind<FrechetContinuousOptions>(module, "frechet_continuous_bounds", frechet_continuous_bounds,
+                                   to_tuple);
+    bind<FrechetContinuousOptions>(module, "frechet_continuous_path", frechet_continuous_path,
+                                   to_tuple);
+    module.def("frechet_within", [](const CurveArray& P, const CurveArray& Q, double distance,
+                                    bool continuous) {
+        const auto decide = [=](const CurveView& p, const CurveView& q,
+                                const FrechetContinuousOptions& /*options*/, Control* control) {
+            return frechet_within(p, q, distance, continuous, control);
+        };
+        return computed(P, Q, FrechetContinuousOptions{}, decide);
+    });
     bind_array<FrechetOptions>(module, "frechet_table", allocate_table, frechet_table);
     bind_array<DtwOptions>(module, "dtw_table", allocate_table, dtw_table);
     const auto allocate_residuals = [](const CurveArray& P, const CurveArray& /*Q*/) {

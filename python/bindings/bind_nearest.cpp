@@ -62,7 +62,7 @@ class BoundIndex {
     py::tuple kneighbors(const py::object& X, std::ptrdiff_t count, const py::object& workers,
                          const py::object& progress) const {
         SearchRecord record;
-        const SearchOptions options = search_options(workers, true, record);
+        const SearchOptions options = search_options(workers, true, true, record);
         const std::optional<Curves> queries = read(X);
         const auto rows = static_cast<py::ssize_t>(queries ? queries->views.size() : size());
         const auto columns = std::max<std::ptrdiff_t>(count, 0);
@@ -83,9 +83,10 @@ class BoundIndex {
 
     // The neighbours of all queries, one query's behind the other's, and where each query's begin.
     py::tuple radius_neighbors(const py::object& X, double radius, bool sort_results,
-                               const py::object& workers, const py::object& progress) const {
+                               bool with_distances, const py::object& workers,
+                               const py::object& progress) const {
         SearchRecord record;
-        const SearchOptions options = search_options(workers, sort_results, record);
+        const SearchOptions options = search_options(workers, sort_results, with_distances, record);
         const std::optional<Curves> queries = read(X);
         const auto found = interruptible(work(queries), progress, [&](Control* control) {
             return queries ? index_.radius_neighbors(queries->views, radius, options, control)
@@ -117,8 +118,9 @@ class BoundIndex {
     }
 
     static SearchOptions search_options(const py::object& workers, bool sort_results,
-                                        SearchRecord& record) {
-        return {whole_number("workers", workers, workers_range), sort_results, &record};
+                                        bool with_distances, SearchRecord& record) {
+        return {whole_number("workers", workers, workers_range), sort_results, with_distances,
+                &record};
     }
 
     // Not below the elementary steps ahead, as far as the first curve of the index tells.

@@ -24,9 +24,12 @@ from .measures import (
     dtw_path,
     dtw_table,
     frechet,
+    frechet_continuous,
+    frechet_continuous_path,
     frechet_info,
     frechet_path,
     frechet_table,
+    frechet_within,
     mae,
     mse,
     normalize,
@@ -36,7 +39,15 @@ from .measures import (
 )
 from .nearest import Index
 from .pairwise import Prepared, available_measures, cdist, pdist
-from .results import Alignment, AreaQuads, DtwMean, PcmMatch, Subsequence, WarpingInfo
+from .results import (
+    Alignment,
+    AreaQuads,
+    DtwMean,
+    Matching,
+    PcmMatch,
+    Subsequence,
+    WarpingInfo,
+)
 from .subsequence import subsequence
 
 if TYPE_CHECKING:
@@ -53,6 +64,7 @@ __all__ = [
     "Comparison",
     "DtwMean",
     "Index",
+    "Matching",
     "PcmMatch",
     "Prepared",
     "Subsequence",
@@ -73,9 +85,12 @@ __all__ = [
     "dtw_path",
     "dtw_table",
     "frechet",
+    "frechet_continuous",
+    "frechet_continuous_path",
     "frechet_info",
     "frechet_path",
     "frechet_table",
+    "frechet_within",
     "get_include",
     "mae",
     "medoid",

@@ -24,7 +24,9 @@ __all__ = [
     "WarpingName",
 ]
 
-MeasureName: TypeAlias = Literal["area", "pcm", "frechet", "dtw", "curve_length"]
+MeasureName: TypeAlias = Literal[
+    "area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous"
+]
 WarpingName: TypeAlias = Literal["dtw", "frechet"]
 Preset: TypeAlias = Literal["scaled", "paper", "raw"]
 

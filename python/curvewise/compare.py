@@ -64,7 +64,12 @@ class Comparison:
         return plot_comparison(self)
 
 
-@filled(any_dimension=" and ".join(name for name, info in MEASURES.items() if not info.planar))
+@filled(
+    in_plane=", ".join(name for name, info in MEASURES.items() if info.by_default),
+    any_dimension=" and ".join(
+        name for name, info in MEASURES.items() if info.by_default and not info.planar
+    ),
+)
 def compare(
     P: CurveLike,
     Q: CurveLike,
@@ -86,7 +91,7 @@ def compare(
         scale="mean"). "raw": every default on the curves as they are.
     measures : sequence of str, optional
         Of {measures}.
-        If not given: all of them in the plane, {any_dimension} in other dimensions.
+        If not given: {in_plane} in the plane, {any_dimension} in other dimensions.
 
     Returns
     -------

@@ -55,15 +55,15 @@ class Index:
 
     Notes
     -----
-    dtw and frechet have lower bounds: the distances of their ends, how far their boxes reach beyond
-    each other, and the sum, or the maximum, of the distances of each curve's points to boxes around
-    runs of the other. Curves are looked at in the order of their bounds, and only those whose bound
-    is not above the k-th best distance so far are computed, as far as the cutoff lets them go
-    (Seidl & Kriegel, "Optimal multi-step k-nearest neighbor search", 1998; with a window the bound
-    is that of Keogh & Ratanamahatana, 2005, with several boxes for one). What this saves depends on
-    the curves: nearly everything where they form groups, nothing where all are equally far apart.
-    The other measures, and dtw and frechet with "minkowski", compute every pair. Memory: two
-    copies of the points, and half a copy more for dtw and frechet.
+    dtw, frechet and frechet_continuous have lower bounds: the distances of the curves' ends, how
+    far their boxes reach beyond each other, and the sum, or the maximum, of the distances of each
+    curve's points to boxes around runs of the other. Curves are looked at in the order of their
+    bounds, and only those whose bound is not above the k-th best distance so far are computed, as
+    far as the cutoff lets them go (Seidl & Kriegel, "Optimal multi-step k-nearest neighbor search",
+    1998; with a window the bound is that of Keogh & Ratanamahatana, 2005, with several boxes for
+    one). What this saves depends on the curves: nearly everything where they form groups, nothing
+    where all are equally far apart. The other measures, and dtw and frechet with "minkowski",
+    compute every pair. Memory: two copies of the points, and half a copy more for those with bounds.
 
     Examples
     --------
@@ -250,9 +250,12 @@ class Index:
         Notes
         -----
         As for :meth:`kneighbors`. Curves are known to be outside by their bounds, or as soon as
-        the computation of their distance shows it.
+        the computation of their distance shows it. Without distances, and without sorting by them,
+        frechet_continuous only decides whether a curve is within, which is several times faster.
         """
-        distances, indices, begins = self._within(X, radius, sort_results, workers, progress)
+        distances, indices, begins = self._within(
+            X, radius, sort_results, return_distance, workers, progress
+        )
         found = _divided(indices, begins)
         return (_divided(distances, begins), found) if return_distance else found
 
@@ -336,13 +339,14 @@ class Index:
         As for :meth:`kneighbors`.
         """
         _check_mode(mode)
-        return self._graph(mode, *self._within(X, radius, True, workers, progress))
+        return self._graph(mode, *self._within(X, radius, True, True, workers, progress))
 
     def _within(
         self,
         X: Curves | None,
         radius: SupportsFloat,
         sort_results: bool,
+        with_distances: bool,
         workers: SupportsIndex,
         progress: bool | Report,
     ) -> tuple[Array, Places, Places]:
@@ -352,7 +356,7 @@ class Index:
             raise ValueError(f"radius is {radius!r}; give a number >= 0")
         with reporting(progress) as report:
             found = self._index.radius_neighbors(
-                queries, limit, bool(sort_results), workers, report
+                queries, limit, bool(sort_results), bool(with_distances), workers, report
             )
         return found[:3]
 

@@ -45,7 +45,8 @@ struct Comparison {
         const char* measure;
         double value;
     };
-    // Of all measures, in the order of the list (measure.hpp); and, of five, by name.
+    // Of all measures except the continuous Fréchet distance, in the order of the list
+    // (measure.hpp), and by name.
     std::vector<Value> values;
     std::optional<double> area;
     std::optional<double> pcm;

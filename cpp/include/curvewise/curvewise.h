@@ -1,4 +1,4 @@
-/* curvewise for C (C99), and through cpp/fortran/curvewise.f90 for Fortran: the five measures, the
+/* curvewise for C (C99), and through cpp/fortran/curvewise.f90 for Fortran: the measures, the
  * scaling that goes with them, and all pairs of many curves. What a measure means, costs and
  * refuses is written in the C++ header of its name (area.hpp, pcm.hpp, frechet.hpp, dtw.hpp,
  * curve_length.hpp, pairwise.hpp); the numbers are the same to the last bit.
@@ -112,6 +112,12 @@ typedef struct curvewise_curve_length_options {
 #define CURVEWISE_CURVE_LENGTH_DEFAULTS \
     { CURVEWISE_MEAN }
 
+typedef struct curvewise_frechet_continuous_options {
+    ptrdiff_t workers; /* threads, -1 for one per core; one pair is searched by one thread */
+} curvewise_frechet_continuous_options;
+#define CURVEWISE_FRECHET_CONTINUOUS_DEFAULTS \
+    { 1 }
+
 /* The measures: one number, in *value. */
 CURVEWISE_EXPORT int curvewise_area(const curvewise_curve* P, const curvewise_curve* Q,
                                     const curvewise_area_options* options, double* value,
@@ -128,6 +134,9 @@ CURVEWISE_EXPORT int curvewise_dtw(const curvewise_curve* P, const curvewise_cur
 CURVEWISE_EXPORT int curvewise_curve_length(const curvewise_curve* P, const curvewise_curve* Q,
                                             const curvewise_curve_length_options* options,
                                             double* value, curvewise_error* error);
+CURVEWISE_EXPORT int curvewise_frechet_continuous(
+    const curvewise_curve* P, const curvewise_curve* Q,
+    const curvewise_frechet_continuous_options* options, double* value, curvewise_error* error);
 
 /* Writes C minus P's minimum, divided by P's extent, to out[i * dim + c] (pointwise.hpp). */
 CURVEWISE_EXPORT int curvewise_normalize(const curvewise_curve* P, const curvewise_curve* C,
@@ -140,7 +149,8 @@ enum curvewise_measure {
     CURVEWISE_PCM,
     CURVEWISE_FRECHET,
     CURVEWISE_DTW,
-    CURVEWISE_CURVE_LENGTH
+    CURVEWISE_CURVE_LENGTH,
+    CURVEWISE_FRECHET_CONTINUOUS
 };
 
 typedef struct curvewise_batch_options {
@@ -157,7 +167,7 @@ CURVEWISE_EXPORT int curvewise_cdist(const curvewise_curve* XA, ptrdiff_t na,
                                      double* out, curvewise_error* error);
 
 /* Writes the measure of X[i] and X[j], i < j, row by row: k (k - 1) / 2 values, (0, 1), (0, 2), ...
- * For symmetric measures: area, frechet, and dtw without open ends. */
+ * For symmetric measures: area, both Frechet distances, and dtw without open ends. */
 CURVEWISE_EXPORT int curvewise_pdist(const curvewise_curve* X, ptrdiff_t k, int measure,
                                      const void* options, const curvewise_batch_options* batch,
                                      double* out, curvewise_error* error);

@@ -7,7 +7,7 @@
 //   index.kneighbors(tests, 5, distances.data(), places.data(), {-1});  // on all cores
 //
 // The answers are those of cdist and a stable sort, to the bit, for any number of threads: of equal
-// distances the earlier curve is the nearer. dtw and frechet have lower bounds (pair_bounds.hpp),
+// distances the earlier curve is the nearer. dtw, frechet and frechet_continuous have lower bounds,
 // cheap beside a distance: candidates are looked at in the order of their bounds, each bound is
 // raised before a distance is computed, and one that is above the k-th best distance so far ends
 // its pair (the optimal multi-step search of Seidl & Kriegel 1998). What is computed then ends
@@ -47,9 +47,11 @@ struct SearchOptions {
     // Threads for this call, -1 for one per core, each with a query of its own at a time. (The
     // `workers` of the measure are not used.)
     std::ptrdiff_t workers = 1;
-    // The most neighbours of radius_neighbors() need not be in order: by distance, then index, or
-    // by index alone.
+    // Whether the neighbours within a radius come by distance, then index, or by index alone.
     bool sort_results = true;
+    // Whether the distances of the neighbours within a radius are wanted. If not, and if they are
+    // not to be sorted by them, they are nan where a measure decides faster that they are within.
+    bool with_distances = true;
     SearchRecord* record = nullptr;
 };
 

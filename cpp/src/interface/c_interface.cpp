@@ -72,8 +72,9 @@ static_assert(is_measure<CURVEWISE_PCM, curvewise::PcmOptions>);
 static_assert(is_measure<CURVEWISE_FRECHET, curvewise::FrechetOptions>);
 static_assert(is_measure<CURVEWISE_DTW, curvewise::DtwOptions>);
 static_assert(is_measure<CURVEWISE_CURVE_LENGTH, curvewise::CurveLengthOptions>);
+static_assert(is_measure<CURVEWISE_FRECHET_CONTINUOUS, curvewise::FrechetContinuousOptions>);
 constexpr int measures = std::variant_size_v<curvewise::Measure>;
-static_assert(CURVEWISE_CURVE_LENGTH + 1 == measures);
+static_assert(CURVEWISE_FRECHET_CONTINUOUS + 1 == measures);
 
 [[noreturn]] void refuse_choice(const char* option, int given, int count) {
     throw std::invalid_argument("unknown " + std::string(option) + " " + std::to_string(given) +
@@ -127,6 +128,10 @@ curvewise::CurveLengthOptions translate(const curvewise_curve_length_options& gi
     return {choice<LengthScale>("scale", given.scale)};
 }
 
+curvewise::FrechetContinuousOptions translate(const curvewise_frechet_continuous_options& given) {
+    return {given.workers};
+}
+
 // Options given as a null pointer are the defaults.
 template <class Given>
 curvewise::Measure measure_or_default(const void* given) {
@@ -146,6 +151,8 @@ curvewise::Measure measure_of(int measure, const void* options) {
             return measure_or_default<curvewise_dtw_options>(options);
         case CURVEWISE_CURVE_LENGTH:
             return measure_or_default<curvewise_curve_length_options>(options);
+        case CURVEWISE_FRECHET_CONTINUOUS:
+            return measure_or_default<curvewise_frechet_continuous_options>(options);
         default:
             refuse_choice("measure", measure, measures);
     }
@@ -239,6 +246,12 @@ int curvewise_curve_length(const curvewise_curve* P, const curvewise_curve* Q,
                            const curvewise_curve_length_options* options, double* value,
                            curvewise_error* error) {
     return measured(CURVEWISE_CURVE_LENGTH, P, Q, options, value, error);
+}
+
+int curvewise_frechet_continuous(const curvewise_curve* P, const curvewise_curve* Q,
+                                 const curvewise_frechet_continuous_options* options, double* value,
+                                 curvewise_error* error) {
+    return measured(CURVEWISE_FRECHET_CONTINUOUS, P, Q, options, value, error);
 }
 
 int curvewise_normalize(const curvewise_curve* P, const curvewise_curve* C, double* out,

@@ -174,7 +174,9 @@ class Index::State {
         ask(X, options, control,
             [&](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
                 std::ptrdiff_t left_out) {
-                results[i] = search.within(query, all_steps, radius, left_out);
+                results[i] =
+                    search.within(query, all_steps, radius,
+                                  options.with_distances || options.sort_results, left_out);
                 if (options.sort_results) {
                     std::sort(results[i].begin(), results[i].end(), detail::is_nearer);
                 }

@@ -98,7 +98,8 @@ void NeighborSearch::look_at(TargetQuery& query, Candidate candidate) {
 }
 
 std::vector<Neighbor> NeighborSearch::within(TargetQuery& query, std::int64_t all_steps,
-                                             double radius, std::ptrdiff_t left_out) {
+                                             double radius, bool with_distances,
+                                             std::ptrdiff_t left_out) {
     const OwnCount own_count(poller_);
     counted_ = 0;
     std::vector<Neighbor> found;
@@ -115,8 +116,9 @@ std::vector<Neighbor> NeighborSearch::within(TargetQuery& query, std::int64_t al
             candidate.bound = refined(query, candidate);
         }
         if (candidate.bound <= radius) {
-            const double distance = value(query, j, radius);
-            if (distance <= radius) found.push_back({j, distance});
+            const std::optional<double> distance =
+                distance_within(query, j, radius, with_distances);
+            if (distance) found.push_back({j, *distance});
         }
         finish_pair(query, j);
     }
@@ -134,6 +136,19 @@ double NeighborSearch::value(TargetQuery& query, std::ptrdiff_t target, double c
     const double distance = query.value(target, {cutoff, 1, poller_, *memory_});
     poll(poller_, query.steps(target));
     return distance;
+}
+
+std::optional<double> NeighborSearch::distance_within(TargetQuery& query, std::ptrdiff_t target,
+                                                      double radius, bool is_wanted) {
+    if (is_wanted) {
+        const double distance = value(query, target, radius);
+        return distance <= radius ? std::optional<double>(distance) : std::nullopt;
+    }
+    ++record_.computed;
+    const bool is_within = query.is_within(target, {radius, 1, poller_, *memory_});
+    poll(poller_, query.steps(target));
+    return is_within ? std::optional<double>(std::numeric_limits<double>::quiet_NaN())
+                     : std::nullopt;
 }
 
 void NeighborSearch::keep_if_near(const Neighbor& found) {

@@ -9,6 +9,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "curvewise/nearest.hpp"
@@ -28,9 +30,9 @@ class NeighborSearch {
     // The `count` nearest, in order. `left_out`: a target that is not looked at, or -1.
     std::vector<Neighbor> nearest(TargetQuery& query, std::int64_t all_steps, std::ptrdiff_t count,
                                   std::ptrdiff_t left_out);
-    // All within `radius`, by index.
+    // All within `radius`, by index; the distances are nan where they are not wanted.
     std::vector<Neighbor> within(TargetQuery& query, std::int64_t all_steps, double radius,
-                                 std::ptrdiff_t left_out);
+                                 bool with_distances, std::ptrdiff_t left_out);
 
     const SearchRecord& record() const noexcept { return record_; }
 
@@ -43,6 +45,9 @@ class NeighborSearch {
 
     static bool comes_later(const Candidate& a, const Candidate& b) noexcept;
     void look_at(TargetQuery& query, Candidate candidate);
+    // The distance, or nan where it is not wanted, of a target that is within the radius.
+    std::optional<double> distance_within(TargetQuery& query, std::ptrdiff_t target, double radius,
+                                          bool is_wanted);
     double value(TargetQuery& query, std::ptrdiff_t target, double cutoff);
     double refined(TargetQuery& query, const Candidate& candidate);
     void keep_if_near(const Neighbor& found);

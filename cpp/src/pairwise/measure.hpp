@@ -27,6 +27,7 @@
 //     quick(out)                         the first bound of every Q
 //     refined(j, prepared_q, level)      a later one
 //     value(j, prepared_q, call)         the value, as the measure gives it
+//     is_within(j, prepared_q, call)     whether that is at most the call's cutoff
 //
 // and, for what else its functions return (a path, a table), members of its own that take the same
 // three arguments.

@@ -29,6 +29,8 @@ class TargetQuery {
     // That of a level above 0.
     virtual double refined(std::ptrdiff_t j, int level) = 0;
     virtual double value(std::ptrdiff_t j, const PairCall& call) = 0;
+    // Whether the value is at most the call's cutoff.
+    virtual bool is_within(std::ptrdiff_t j, const PairCall& call) = 0;
     // The nominal steps of the pair with target j.
     virtual std::int64_t steps(std::ptrdiff_t j) const noexcept = 0;
 };

@@ -34,6 +34,10 @@ class NoBounds {
                      const Call<typename M::Memory>& call) const {
             return measure_(P_, Q, call);
         }
+        bool is_within(std::ptrdiff_t j, const typename M::PreparedQ& Q,
+                       const Call<typename M::Memory>& call) const {
+            return value(j, Q, call) <= call.cutoff;
+        }
 
        private:
         const M& measure_;
@@ -104,14 +108,20 @@ class TargetsOf final : public Targets {
             return bounds_.refined(j, target(j), level);
         }
         double value(std::ptrdiff_t j, const PairCall& call) override {
-            typename M::Memory& memory = static_cast<OwnMemory&>(call.memory).content;
-            return bounds_.value(j, target(j), {call.cutoff, call.workers, call.poller, memory});
+            return bounds_.value(j, target(j), own(call));
+        }
+        bool is_within(std::ptrdiff_t j, const PairCall& call) override {
+            return bounds_.is_within(j, target(j), own(call));
         }
         std::int64_t steps(std::ptrdiff_t j) const noexcept override {
             return M::steps(P_.checked.curve.size(), 1, target(j).checked.curve.size());
         }
 
        private:
+        static Call<typename M::Memory> own(const PairCall& call) noexcept {
+            typename M::Memory& memory = static_cast<OwnMemory&>(call.memory).content;
+            return {call.cutoff, call.workers, call.poller, memory};
+        }
         const typename M::PreparedQ& target(std::ptrdiff_t j) const noexcept {
             return targets_.curves_[static_cast<std::size_t>(j)];
         }

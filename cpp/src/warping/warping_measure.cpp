@@ -110,6 +110,9 @@ class WarpingMeasure::Bounds {
                                   : problem.distance(call.cutoff);
             });
         }
+        bool is_within(std::ptrdiff_t j, const PreparedQ& Q, const detail::Call<Memory>& call) {
+            return value(j, Q, call) <= call.cutoff;
+        }
 
        private:
         const WarpingMeasure& measure_;

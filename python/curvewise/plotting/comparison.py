@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..measures.registry import MEASURES, PRESETS
 from . import drawing
+from .matching import plot_free_space
 from .table import plot_table
 
 if TYPE_CHECKING:
@@ -82,6 +83,9 @@ def _draw_measure(comparison: Comparison, name: str, ax: Axes, dim: int) -> Line
     if not info.scales_itself:
         options["normalized"] = condition.scaled
     curves = comparison.P, comparison.Q
+    if dim > 2 and name == "frechet_continuous":
+        plot_free_space(*curves, ax, **options)
+        return None
     if info.warping and dim > 2:
         image, _ = plot_table(*curves, ax, **options)
         ax.figure.colorbar(image)

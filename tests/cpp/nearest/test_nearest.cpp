@@ -43,7 +43,11 @@ std::vector<Measure> measures() {
     chebyshev.ground.metric = Metric::chebyshev;
     std::vector<Measure> all{symmetric2, window, open, squares, chebyshev};
     for_each_measure([&](const auto& defaults) { all.push_back(defaults); });
-    std::get<CurveLengthOptions>(all.back()).scale = LengthScale::range;
+    for (Measure& measure : all) {
+        if (auto* options = std::get_if<CurveLengthOptions>(&measure)) {
+            options->scale = LengthScale::range;
+        }
+    }
     return all;
 }
 

@@ -1,6 +1,6 @@
-// The bounds of a search: none is above the value as it is computed, to the bit, they rise from
-// level to level only as far as that, and a sweep that leaves out what they show to be dead gives
-// the value, or one that is above the cutoff.
+// The bounds of a search, of the discrete measures and of the continuous one: none is above the
+// value as it is computed, to the bit, they rise from level to level only as far as that, and a
+// sweep that leaves out what they show to be dead gives the value, or one that is above the cutoff.
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -57,6 +57,8 @@ void bounds_hold(const Options& options, std::ptrdiff_t dim, Random& random) {
             }
             for (const double cutoff : {value, infinity, 2.0 * value, value / 2, 0.0}) {
                 const double found = query->value(target, {cutoff, 1, poller, *memory});
+                CHECK_EQUAL(query->is_within(target, {cutoff, 1, poller, *memory}),
+                            value <= cutoff);
                 if (value <= cutoff) {
                     CHECK_EQUAL(found, value);
                 } else {
@@ -64,6 +66,13 @@ void bounds_hold(const Options& options, std::ptrdiff_t dim, Random& random) {
                 }
             }
         }
+    }
+}
+
+void bounds_of_leashes_hold() {
+    Random random(12);
+    for (const std::ptrdiff_t dim : {1, 2, 3, 5}) {
+        bounds_hold(FrechetContinuousOptions{}, dim, random);
     }
 }
 
@@ -100,4 +109,7 @@ void bounds_of_every_metric_hold() {
 
 }  // namespace
 
-int main() { return check::run({{"bounds of every metric hold", bounds_of_every_metric_hold}}); }
+int main() {
+    return check::run({{"bounds of leashes hold", bounds_of_leashes_hold},
+                       {"bounds of every metric hold", bounds_of_every_metric_hold}});
+}

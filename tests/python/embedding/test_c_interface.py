@@ -22,7 +22,7 @@ pytestmark = MARKS
 
 OK, INVALID_ARGUMENT, NO_MEMORY, FAILED = range(4)
 METRICS = ["euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"]
-MEASURES = ["area", "pcm", "frechet", "dtw", "curve_length"]
+MEASURES = ["area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous"]
 
 
 def structure(name: str, *fields: tuple[str, type]) -> type[Structure]:
@@ -235,7 +235,7 @@ def test_batches_take_the_options_of_their_measure(library) -> None:
         assert status == INVALID_ARGUMENT
         return error.message.decode()
 
-    assert refused(curves(*X), 3, 5) == "unknown measure 5; choose from 0 to 4"
+    assert refused(curves(*X), 3, 6) == "unknown measure 6; choose from 0 to 5"
     assert refused(curves(*X), -1, 3) == "X has -1 curves; give a whole number >= 0"
     assert refused(None, 3, 3) == "X is a null pointer"
     assert refused(curves(*X), 3, 3, None) == "out is a null pointer"
