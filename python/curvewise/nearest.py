@@ -63,8 +63,8 @@ class Index:
     1998; with a window the bound is that of Keogh & Ratanamahatana, 2005, with several boxes for
     one). What this saves depends on the curves: nearly everything where they form groups, nothing
     where all are equally far apart. The other measures, and dtw and frechet with "minkowski",
-    compute every pair. Memory: two copies of the points, and half a copy more for those with
-    bounds.
+    compute every pair. Memory: some three times that of the points; about once for measures
+    without bounds.
 
     Examples
     --------

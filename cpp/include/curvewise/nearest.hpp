@@ -15,7 +15,7 @@
 // the cutoff.
 //
 // Time: for N curves of n points, N cheap bounds a query, and the distances that are left, O(n^2)
-// each. Memory: two copies of the points and, for dtw and frechet, their boxes, half a copy. All
+// each. Memory: some three times that of the points; about once for measures without bounds. All
 // functions may be called from any number of threads; add() waits for searches that run.
 #pragma once
 
