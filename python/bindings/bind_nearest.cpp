@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -31,6 +32,8 @@ py::tuple counts_of(const SearchRecord& record) {
     return py::make_tuple(record.pairs, record.refined, record.computed);
 }
 
+// Whatever waits for other threads' calls of the same index does so without the interpreter's lock,
+// which these may need for their reports.
 class BoundIndex {
    public:
     BoundIndex(const py::list& curves, const py::object& name, const py::dict& options)
@@ -38,15 +41,17 @@ class BoundIndex {
 
     void add(const py::list& curves) {
         const Curves added(curves);
-        unlocked(added.size() * added.longest() * added.dim(), [&] { index_.add(added.views); });
+        const py::gil_scoped_release unlocked;
+        index_.add(added.views);
+        note_longest(added);
     }
     std::size_t size() const {
-        const py::gil_scoped_release unlocked;  // a call that adds curves holds what this waits for
+        const py::gil_scoped_release unlocked;
         return index_.size();
     }
     py::list curves() const {
         py::list arrays;
-        for (const CurveView& curve : index_.curves()) {
+        for (const CurveView& curve : views()) {
             Numbers array =
                 curve.is_flat() ? Numbers(curve.size()) : Numbers({curve.size(), curve.dim()});
             double* to = array.mutable_data();
@@ -106,10 +111,21 @@ class BoundIndex {
     }
 
    private:
-    Index make(const py::list& list) const {
+    Index make(const py::list& list) {
         const Curves curves(list);
+        note_longest(curves);
         return unlocked(curves.size() * curves.longest() * curves.dim(),
                         [&] { return Index(curves.views, measure_); });
+    }
+
+    std::vector<CurveView> views() const {
+        const py::gil_scoped_release unlocked;
+        return index_.curves();
+    }
+
+    void note_longest(const Curves& curves) noexcept {
+        longest_ = std::max(longest_.load(), curves.longest());
+        dim_ = std::max(dim_.load(), curves.dim());
     }
 
     static std::optional<Curves> read(const py::object& X) {
@@ -123,22 +139,18 @@ class BoundIndex {
                 &record};
     }
 
-    // Not below the elementary steps ahead, as far as the first curve of the index tells.
+    // An upper bound of the elementary steps ahead, and enough to be called without the lock.
     double work(const std::optional<Curves>& queries) const {
-        const py::gil_scoped_release unlocked;
-        const std::vector<CurveView> curves = index_.curves();
-        if (curves.empty()) return 0.0;
-        const auto m = static_cast<double>(curves.front().size());
-        const auto count = static_cast<double>(curves.size());
-        const auto dim = static_cast<double>(curves.front().dim());
-        return std::visit(
-            [&](const auto& options) {
-                const double rows = queries ? queries->size() : count;
-                return rows * count * options.work(queries ? queries->longest() : m, m, dim);
-            },
-            measure_);
+        const auto count = static_cast<double>(size());
+        const double rows = queries ? queries->size() : count;
+        const double n = queries ? queries->longest() : longest_.load();
+        const double pair = std::visit(
+            [&](const auto& options) { return options.work(n, longest_, dim_); }, measure_);
+        return std::max(rows * count * pair, steps_worth_unlocking);
     }
 
+    std::atomic<double> longest_{0.0};  // of all curves
+    std::atomic<double> dim_{0.0};
     Measure measure_;
     Index index_;
 };
