@@ -302,8 +302,11 @@ def test_curves_may_be_added_while_others_search():
     threads = [threading.Thread(target=search) for _ in range(2)]
     for thread in threads:
         thread.start()
-    for curve in curves[10:]:
-        index.add([curve])
+    threads.append(threading.Thread(target=lambda: [index.add([c]) for c in curves[10:]]))
+    threads[-1].start()
+    # A search that reports needs the interpreter's lock, which no waiting thread may hold.
+    while threads[-1].is_alive():
+        index.kneighbors(curves, 10, progress=lambda done, total: None)
     for thread in threads:
         thread.join()
     assert not failures
