@@ -37,7 +37,8 @@ int main() {
     for (std::size_t k = 0; k < 3; ++k) {
         std::printf("%d %.17g\n", static_cast<int>(places[k]), distances[k]);
     }
-    for (const curvewise::Neighbor& near : index.radius_neighbors({test}, 10.0).front()) {
+    const auto within = index.radius_neighbors({test}, 10.0);
+    for (const curvewise::Neighbor& near : within.front()) {
         std::printf("within 10: %d\n", static_cast<int>(near.index));
     }
 
