@@ -23,7 +23,7 @@ module curvewise
         chebyshev = 3, minkowski = 4                        ! metric
     integer(c_int), parameter, public :: symmetric1 = 0, symmetric2 = 1          ! step_pattern
     integer(c_int), parameter, public :: spacing_distance = 0, spacing_x = 1, &
-        spacing_arc_length = 2                                                   ! spacing
+        spacing_arc_length = 2, spacing_matched = 3                              ! spacing
     integer(c_int), parameter, public :: rearrange = 0, split = 1                ! crossing
     integer(c_int), parameter, public :: scale_mean = 0, scale_mean_abs = 1, scale_range = 2
     integer(c_ptrdiff_t), parameter, public :: no_window = -1
@@ -60,6 +60,8 @@ module curvewise
         integer(c_ptrdiff_t) :: workers = 1
         integer(c_int) :: prune = 1
         real(c_double) :: cutoff = huge(1.0_c_double)
+        real(c_double) :: window_fraction = 0   ! not 0: of the longer curve's points, as window
+        integer(c_int) :: normalize = 0         ! not 0: divide by n + m; symmetric2 only
     end type
 
     type, bind(C), public :: curve_length_options

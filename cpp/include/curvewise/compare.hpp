@@ -18,8 +18,8 @@ namespace curvewise {
 
 // The conditions under which each measure is computed.
 enum class Preset {
-    scaled,  // all on curves scaled by P's box (normalize), area with split, curve_length with
-             // mean_abs
+    scaled,  // all on curves scaled by P's box (normalize), area with Spacing::matched,
+             // curve_length with mean_abs
     paper,   // those of Table 4 of Jekel et al. (2018): area raw with Spacing::x; frechet, and dtw
              // with symmetric2, on scaled curves; pcm and curve_length raw
     raw      // every default, on the curves as they are

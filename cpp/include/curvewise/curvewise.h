@@ -61,7 +61,8 @@ enum curvewise_step_pattern { CURVEWISE_SYMMETRIC1, CURVEWISE_SYMMETRIC2 };
 enum curvewise_spacing {
     CURVEWISE_SPACING_DISTANCE,
     CURVEWISE_SPACING_X,
-    CURVEWISE_SPACING_ARC_LENGTH
+    CURVEWISE_SPACING_ARC_LENGTH,
+    CURVEWISE_SPACING_MATCHED
 };
 enum curvewise_crossing { CURVEWISE_REARRANGE, CURVEWISE_SPLIT };
 enum curvewise_length_scale { CURVEWISE_MEAN, CURVEWISE_MEAN_ABS, CURVEWISE_RANGE };
@@ -94,17 +95,22 @@ typedef struct curvewise_frechet_options {
 typedef struct curvewise_dtw_options {
     int metric;
     double p;
-    int step_pattern;  /* curvewise_step_pattern */
-    int open_begin;    /* not 0: P is matched to a part of Q that may begin anywhere */
-    int open_end;      /* not 0: ... that may end anywhere */
-    ptrdiff_t window;  /* Sakoe-Chiba band; CURVEWISE_NO_WINDOW for none */
-    ptrdiff_t workers; /* threads, -1 for one per core */
-    int prune;         /* not 0: leave out what cannot matter of the table */
-    double cutoff;     /* a value above it becomes infinity */
+    int step_pattern;       /* curvewise_step_pattern */
+    int open_begin;         /* not 0: P is matched to a part of Q that may begin anywhere */
+    int open_end;           /* not 0: ... that may end anywhere */
+    ptrdiff_t window;       /* Sakoe-Chiba band; CURVEWISE_NO_WINDOW for none */
+    ptrdiff_t workers;      /* threads, -1 for one per core */
+    int prune;              /* not 0: leave out what cannot matter of the table */
+    double cutoff;          /* a value above it becomes infinity */
+    double window_fraction; /* not 0: in place of window, a fraction of the longer curve's points */
+    int normalize;          /* not 0: divide by n + m; CURVEWISE_SYMMETRIC2 only */
 } curvewise_dtw_options;
 #define CURVEWISE_NO_WINDOW (-1)
-#define CURVEWISE_DTW_DEFAULTS \
-    { CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL }
+#define CURVEWISE_DTW_DEFAULTS                                                                     \
+    {                                                                                              \
+        CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL, \
+            0.0, 0                                                                                 \
+    }
 
 typedef struct curvewise_curve_length_options {
     int scale; /* curvewise_length_scale */

@@ -15,12 +15,14 @@ class BoxSide {
    public:
     BoxSide(const CurveView& curve, std::ptrdiff_t coordinate) noexcept;
 
+    bool has_extent() const noexcept { return has_extent_; }
     double scaled(double x) const noexcept { return (range_.shrink(x) - low_) / extent_; }
 
    private:
     RangeScale range_;
     double low_;
     double extent_ = 1.0;  // 1 where the curve has none: there nothing is scaled
+    bool has_extent_ = false;
 };
 
 // The box of a curve in the plane.

@@ -52,6 +52,7 @@ static_assert(is_same(CURVEWISE_SYMMETRIC2, StepPattern::symmetric2));
 static_assert(is_same(CURVEWISE_SPACING_DISTANCE, Spacing::distance));
 static_assert(is_same(CURVEWISE_SPACING_X, Spacing::x));
 static_assert(is_same(CURVEWISE_SPACING_ARC_LENGTH, Spacing::arc_length));
+static_assert(is_same(CURVEWISE_SPACING_MATCHED, Spacing::matched));
 static_assert(is_same(CURVEWISE_REARRANGE, Crossing::rearrange));
 static_assert(is_same(CURVEWISE_SPLIT, Crossing::split));
 static_assert(is_same(CURVEWISE_MEAN, LengthScale::mean));
@@ -60,7 +61,7 @@ static_assert(is_same(CURVEWISE_RANGE, LengthScale::range));
 // Each enumeration of C ends where that of C++ does.
 static_assert(CURVEWISE_MINKOWSKI + 1 == choice_names(Metric{}).size());
 static_assert(CURVEWISE_SYMMETRIC2 + 1 == choice_names(StepPattern{}).size());
-static_assert(CURVEWISE_SPACING_ARC_LENGTH + 1 == choice_names(Spacing{}).size());
+static_assert(CURVEWISE_SPACING_MATCHED + 1 == choice_names(Spacing{}).size());
 static_assert(CURVEWISE_SPLIT + 1 == choice_names(Crossing{}).size());
 static_assert(CURVEWISE_RANGE + 1 == choice_names(LengthScale{}).size());
 
@@ -116,6 +117,8 @@ curvewise::DtwOptions translate(const curvewise_dtw_options& given) {
     options.ground = ground_distance(given.metric, given.p);
     options.step_pattern = choice<StepPattern>("step_pattern", given.step_pattern);
     if (given.window != CURVEWISE_NO_WINDOW) options.window = given.window;
+    if (given.window_fraction != 0.0) options.window_fraction = given.window_fraction;
+    options.normalize = given.normalize != 0;
     options.open_begin = given.open_begin != 0;
     options.open_end = given.open_end != 0;
     options.workers = given.workers;

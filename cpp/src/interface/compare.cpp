@@ -44,8 +44,12 @@ Condition condition(Preset preset, FrechetContinuousOptions options) {
 
 Condition condition(Preset preset, AreaOptions options) {
     if (preset == Preset::paper) options.spacing = Spacing::x;
-    // "rearrange" jumps where curves cross, which an identification takes for minima.
-    if (preset == Preset::scaled) options.crossing = Crossing::split;
+    if (preset == Preset::scaled) {
+        options.spacing = Spacing::matched;
+        // For whoever chooses another spacing: "rearrange" jumps where curves cross, which an
+        // identification takes for minima.
+        options.crossing = Crossing::split;
+    }
     return {options, preset == Preset::scaled};
 }
 

@@ -128,7 +128,8 @@ double PairBounds::quick_bound(std::ptrdiff_t j) const noexcept {
         beyond = std::max(beyond, std::max(low, high));
         if (!is_open()) beyond = std::max(beyond, std::max(-low, -high));
     }
-    return std::max(ends, Norm::finish(Norm::add(0.0, beyond)));
+    const double bound = std::max(ends, Norm::finish(Norm::add(0.0, beyond)));
+    return bound / options_.divisor(tree_.size(), kept_.tree(j).size());
 }
 
 void PairBounds::quick(double* bounds) const {
@@ -173,7 +174,7 @@ double PairBounds::run_bound(const BoxTree& Q, std::ptrdiff_t most_runs) {
     const std::ptrdiff_t rows = tree_.boxes(level), columns = Q.boxes(q_level);
     const std::ptrdiff_t row_points = BoxTree::leaf_points << level;
     const std::ptrdiff_t column_points = BoxTree::leaf_points << q_level;
-    const Band band(tree_.size(), Q.size(), options_.window);
+    const Band band(tree_.size(), Q.size(), options_.window_for(tree_.size(), Q.size()));
     run_terms_.assign(static_cast<std::size_t>(rows + columns), infinity);
     double* const row_terms = run_terms_.data();
     double* const column_terms = row_terms + rows;
@@ -221,8 +222,9 @@ double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
         level == point_level ? point_bound(j, q) : with_norm(metric_, [&](auto norm) {
             return run_bound<decltype(norm)>(kept_.tree(j), most_boxes[level]);
         });
+    if (is_frechet()) return bound;
     // The table adds up as many terms in another order.
-    return is_frechet() ? bound : bound * (1.0 - static_cast<double>(n + m + 2) * 0x1p-52);
+    return bound * (1.0 - static_cast<double>(n + m + 2) * 0x1p-52) / options_.divisor(n, m);
 }
 
 void PairBounds::compute_terms(std::ptrdiff_t j, const PackedCurve& q) {
@@ -230,7 +232,8 @@ void PairBounds::compute_terms(std::ptrdiff_t j, const PackedCurve& q) {
     const auto least = [&](const PackedCurve& points, PointOrder order, const BoxTree& boxes,
                            BandedBoxes& banded, AlignedBuffer& out) {
         const std::ptrdiff_t level = tree_level(boxes, most_boxes[point_level]);
-        banded.assign(points.size(), order, boxes, level, options_.window);
+        banded.assign(points.size(), order, boxes, level,
+                      options_.window_for(points.size(), boxes.size()));
         out.reserve(AlignedBuffer::rounded(points.size() + kernels::padding));
         kernel_({points.data(), points.stride(), points.size(), points.dim(), boxes.box(level, 0),
                  boxes.boxes(level), banded.first(), banded.last(), out.data()});

@@ -71,10 +71,24 @@ class WarpingMeasure {
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
                       const detail::Call<Memory>& call) const {
-        const double cutoff = std::min(call.cutoff, options_.cutoff);
-        const double value = with_problem(
-            P, Q, call, [&](WarpingProblem& problem) { return problem.distance(cutoff); });
-        return value > options_.cutoff ? infinity : value;
+        return value(P, Q, call, [](WarpingProblem& problem, double cutoff) {
+            return problem.distance(cutoff);
+        });
+    }
+
+    // What compute(problem, cutoff of the undivided distance) returns, divided.
+    template <class Compute>
+    double value(const PreparedP& P, const PreparedQ& Q, const detail::Call<Memory>& call,
+                 Compute compute) const {
+        const double divisor = options_.divisor(P.packed.size(), Q.packed.size());
+        // A little more, so that the rounding of the quotient gives nothing up.
+        const double more = divisor == 1.0 ? 1.0 : divisor * (1.0 + 1e-15);
+        const double cutoff = std::min(call.cutoff, options_.cutoff) * more;
+        const double found =
+            with_problem(P, Q, call,
+                         [&](WarpingProblem& problem) { return compute(problem, cutoff); }) /
+            divisor;
+        return found > options_.cutoff ? infinity : found;
     }
 
     class Bounds;
@@ -103,11 +117,11 @@ class WarpingMeasure::Bounds {
         double value(std::ptrdiff_t j, const PreparedQ& Q, const detail::Call<Memory>& call) {
             const WarpingOptions& options = measure_.options_;
             if (!options.prune || !(call.cutoff < options.cutoff)) return measure_(P_, Q, call);
-            return measure_.with_problem(P_, Q, call, [&](WarpingProblem& problem) {
+            return measure_.value(P_, Q, call, [&](WarpingProblem& problem, double cutoff) {
                 const std::optional<CostToGo> cost_to_go =
-                    bounds_.cost_to_go(j, Q.packed, problem.most_in_table(call.cutoff));
+                    bounds_.cost_to_go(j, Q.packed, problem.most_in_table(cutoff));
                 return cost_to_go ? problem.narrowed_distance(*cost_to_go)
-                                  : problem.distance(call.cutoff);
+                                  : problem.distance(cutoff);
             });
         }
         bool is_within(std::ptrdiff_t j, const PreparedQ& Q, const detail::Call<Memory>& call) {

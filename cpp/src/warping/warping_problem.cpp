@@ -19,49 +19,61 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+void check_window(const DtwOptions& options) {
+    if (options.window && options.window_fraction) {
+        throw std::invalid_argument("window and window_fraction are both given; give one of them");
+    }
+    if (options.window) check_whole_number("window", *options.window, window_range);
+    if (options.window_fraction &&
+        !(*options.window_fraction > 0.0 && *options.window_fraction < 1.0)) {
+        throw std::invalid_argument("window is " + std::to_string(*options.window_fraction) + "; " +
+                                    window_range.advice);
+    }
+}
+
 }  // namespace
 
 WarpingOptions checked_options(const DtwOptions& options) {
     check_ground_distance(options.ground);
     check_cutoff(options.cutoff);
-    if (options.window) check_whole_number("window", *options.window, window_range);
+    check_window(options);
     const bool is_symmetric1 = options.step_pattern == StepPattern::symmetric1;
     if (options.open_begin || options.open_end) {
         if (!is_symmetric1) {
             throw std::invalid_argument("open_begin and open_end need step_pattern='symmetric1'");
         }
-        if (options.window) {
+        if (options.window || options.window_fraction) {
             throw std::invalid_argument("open_begin and open_end cannot be combined with window");
         }
+    }
+    if (options.normalize && is_symmetric1) {
+        throw std::invalid_argument(
+            "normalize needs step_pattern='symmetric2', whose paths all have the weight n + m");
     }
     return {
         DtwOptions::measure,
         is_symmetric1 ? kernels::Recurrence::dtw_symmetric1 : kernels::Recurrence::dtw_symmetric2,
         options.ground,
         resolve_workers(options.workers),
+        options.prune,
+        options.cutoff,
         options.window,
+        options.window_fraction,
         options.open_begin,
         options.open_end,
-        options.prune,
-        options.cutoff};
+        options.normalize};
 }
 
 WarpingOptions checked_options(const FrechetOptions& options) {
     check_ground_distance(options.ground);
     check_cutoff(options.cutoff);
-    return {FrechetOptions::measure,
-            kernels::Recurrence::frechet,
-            options.ground,
-            resolve_workers(options.workers),
-            std::nullopt,
-            false,
-            false,
-            options.prune,
-            options.cutoff};
+    return {FrechetOptions::measure, kernels::Recurrence::frechet,
+            options.ground,          resolve_workers(options.workers),
+            options.prune,           options.cutoff};
 }
 
 void check_sizes(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m) {
-    if (options.window && *options.window == 0 && n != m && n > 1 && m > 1) {
+    if (options.window_for(n, m) == 0 && n != m && n > 1 && m > 1) {
         throw std::invalid_argument("window=0 admits no path between " + std::to_string(n) +
                                     " and " + std::to_string(m) + " points; use at least 1");
     }
@@ -78,7 +90,8 @@ WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& 
              options.recurrence,
              canonical_cost(options.ground, curves),
              options.ground.p,
-             Band(curves.rows(), curves.columns(), options.window),
+             Band(curves.rows(), curves.columns(),
+                  options.window_for(curves.rows(), curves.columns())),
              options.open_begin,
              call.workers,
              call.poller,

@@ -7,6 +7,7 @@
 // the table.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -30,11 +31,22 @@ struct WarpingOptions {
     kernels::Recurrence recurrence;
     GroundDistance ground;
     std::ptrdiff_t workers;
-    std::optional<std::ptrdiff_t> window = std::nullopt;
-    bool open_begin = false;
-    bool open_end = false;
     bool prune = false;
     double cutoff = std::numeric_limits<double>::infinity();
+    std::optional<std::ptrdiff_t> window = std::nullopt;
+    std::optional<double> window_fraction = std::nullopt;
+    bool open_begin = false;
+    bool open_end = false;
+    bool normalize = false;
+
+    std::optional<std::ptrdiff_t> window_for(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
+        if (!window_fraction) return window;
+        return static_cast<std::ptrdiff_t>(*window_fraction * static_cast<double>(std::max(n, m)));
+    }
+    // What a distance is divided by.
+    double divisor(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
+        return normalize ? static_cast<double>(n) + static_cast<double>(m) : 1.0;
+    }
 };
 
 WarpingOptions checked_options(const DtwOptions& options);

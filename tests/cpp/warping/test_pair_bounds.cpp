@@ -97,6 +97,12 @@ void bounds_of_every_metric_hold() {
             options.open_end = false;
             options.step_pattern = StepPattern::symmetric2;
             bounds_hold(options, dim, random);
+            options.normalize = true;
+            bounds_hold(options, dim, random);
+            options.window_fraction = 0.3;
+            bounds_hold(options, dim, random);
+            options.normalize = false;
+            options.window_fraction.reset();
             for (const std::ptrdiff_t window : {1, 7, 40}) {
                 options.window = window;
                 bounds_hold(options, dim, random);

@@ -133,7 +133,7 @@ def test_twenty_thousand_points_are_few_artists_drawn_quickly(picture, ax):
 
 
 @pytest.mark.parametrize("crossing", ["rearrange", "split"])
-@pytest.mark.parametrize("spacing", ["distance", "x", "arc_length"])
+@pytest.mark.parametrize("spacing", ["distance", "x", "arc_length", "matched"])
 def test_polygons_are_the_quadrilaterals(spacing, crossing, ax):
     options = {"spacing": spacing, "crossing": crossing}
     artists = plotting.plot_area(P, Q, ax, **options)
@@ -358,7 +358,12 @@ def test_panels_show_what_the_preset_measured(preset):
     quads = np.array(
         [path.vertices[:4] for path in panel(figure, "Area").collections[0].get_paths()]
     )
-    assert areas(shown(quads)).sum() == pytest.approx(comparison["area"], rel=1e-12)
+    curves = curvewise.normalize(P, Q) if preset == "scaled" else (P, Q)
+    spacing = {"scaled": "matched", "paper": "x", "raw": "distance"}[preset]
+    expected = curvewise.area_quads(*curves, spacing=spacing)
+    # Of "matched" some count against their piece.
+    np.testing.assert_allclose(areas(shown(quads)), np.abs(expected.areas), rtol=1e-9, atol=1e-12)
+    assert expected.areas.sum() == pytest.approx(comparison["area"], rel=1e-12)
 
     shown = np.asarray if preset == "raw" else in_box
     (pair,) = (line for line in panel(figure, "Fréchet").lines if line.get_label()[0] == "F")
