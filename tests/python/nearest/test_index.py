@@ -22,7 +22,7 @@ CASES: list[tuple[str, dict[str, Any]]] = [
     ("dtw", {"metric": "sqeuclidean"}),
     ("dtw", {"window": 4}),
     ("dtw", {"window": 40, "metric": "cityblock", "step_pattern": "symmetric2"}),
-    ("dtw", {"window": 0.2, "step_pattern": "symmetric2", "normalize": True}),
+    ("dtw", {"window": 0.5, "step_pattern": "symmetric2", "normalize": True}),
     ("dtw", {"open_end": True}),
     ("dtw", {"open_begin": True}),
     ("dtw", {"open_begin": True, "open_end": True, "metric": "chebyshev"}),
