@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from . import _core, datasets
+from .averages import dtw_mean, medoid
 from .compare import Comparison, compare
 from .embedding import get_include
 from .measures import (
@@ -36,8 +37,18 @@ from .measures import (
     pcm_match,
     sum_of_squares,
 )
+from .nearest import Index
 from .pairwise import Prepared, available_measures, cdist, pdist
-from .results import Alignment, AreaQuads, Matching, PcmMatch, WarpingInfo
+from .results import (
+    Alignment,
+    AreaQuads,
+    DtwMean,
+    Matching,
+    PcmMatch,
+    Subsequence,
+    WarpingInfo,
+)
+from .subsequence import subsequence
 
 if TYPE_CHECKING:
     from . import calibration as calibration
@@ -45,14 +56,18 @@ if TYPE_CHECKING:
     from . import dask as dask
     from . import plotting as plotting
     from . import reference as reference
+    from . import sklearn as sklearn
 
 __all__ = [
     "Alignment",
     "AreaQuads",
     "Comparison",
+    "DtwMean",
+    "Index",
     "Matching",
     "PcmMatch",
     "Prepared",
+    "Subsequence",
     "WarpingInfo",
     "__version__",
     "area",
@@ -66,6 +81,7 @@ __all__ = [
     "datasets",
     "dtw",
     "dtw_info",
+    "dtw_mean",
     "dtw_path",
     "dtw_table",
     "frechet",
@@ -77,16 +93,18 @@ __all__ = [
     "frechet_within",
     "get_include",
     "mae",
+    "medoid",
     "mse",
     "normalize",
     "pcm",
     "pcm_match",
     "pdist",
     "reference",
+    "subsequence",
     "sum_of_squares",
 ]
 
-_LAZY = ("calibration", "compat", "dask", "plotting", "reference")
+_LAZY = ("calibration", "compat", "dask", "plotting", "reference", "sklearn")
 
 # Hidden from type checkers, which would otherwise accept every misspelt attribute.
 if not TYPE_CHECKING:
@@ -99,8 +117,8 @@ if not TYPE_CHECKING:
 
 
 def __dir__() -> list[str]:
-    # help() imports all of these, and the import of curvewise.dask fails where dask is missing.
-    return sorted({*globals(), *_LAZY} - {"dask"})
+    # help() imports all of these, and the import of some fails where their packages are missing.
+    return sorted({*globals(), *_LAZY} - {"dask", "sklearn"})
 
 
 def build_info() -> _core.BuildInfo:
