@@ -177,7 +177,10 @@ py::tuple found_mean(const py::list& list, const std::vector<double>& weights,
                      const CurveArray& initial, const py::object& window, const py::object& rounds,
                      double tolerance, const py::object& workers, const py::object& progress) {
     DtwMeanOptions options;
-    if (!window.is_none()) options.window = whole_number("window", window, window_range);
+    options.window_fraction = proper_fraction(window);
+    if (!window.is_none() && !options.window_fraction) {
+        options.window = whole_number("window", window, window_range);
+    }
     options.iterations = whole_number("iterations", rounds, {0, "give a whole number >= 0"});
     options.tolerance = tolerance;
     options.workers = whole_number("workers", workers, workers_range);

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _core
 from ._curves import Array, CurveLike, as_curve, as_curve_list
 from ._docstrings import filled
-from ._options import Default, MeasureName
+from ._options import Default, MeasureName, Window
 from ._progress import Report, reporting
 from .pairwise import Curves, _check_names, cdist
 from .results import DtwMean
@@ -35,7 +35,7 @@ def dtw_mean(
     *,
     initial: CurveLike | None = None,
     weights: npt.ArrayLike | None = None,
-    window: SupportsIndex | None = Default.window,
+    window: Window = Default.window,
     iterations: SupportsIndex = 30,
     tolerance: SupportsFloat = 1e-6,
     workers: SupportsIndex = Default.workers,
@@ -55,7 +55,7 @@ def dtw_mean(
         curves, or of 50 of them, evenly spaced in their list.
     weights : array_like, shape (k,), optional
         How much each curve counts, at least 0; not all 0.
-    window : int >= 0, optional
+    window : int >= 0, or float between 0 and 1, optional
         As for :func:`curvewise.dtw`.
     iterations : int >= 0
         How often the mean is moved at most.
@@ -109,7 +109,7 @@ def dtw_mean(
     return DtwMean(mean, costs, converged)
 
 
-def _start_of(curves: list[Array], window: SupportsIndex | None, workers: SupportsIndex) -> int:
+def _start_of(curves: list[Array], window: Window, workers: SupportsIndex) -> int:
     return medoid(curves, "dtw", metric="sqeuclidean", window=window, workers=workers)
 
 

@@ -25,6 +25,7 @@ namespace curvewise {
 struct DtwMeanOptions {
     // As for dtw.
     std::optional<std::ptrdiff_t> window;
+    std::optional<double> window_fraction;
     // The mean is moved so many times at most, at least 0.
     std::ptrdiff_t iterations = 30;
     // Ends where a round lowers the sum by no more than this part of it.

@@ -157,6 +157,7 @@ WarpingOptions checked_options(const DtwMeanOptions& options) {
     DtwOptions measure;
     measure.ground.metric = Metric::sqeuclidean;
     measure.window = options.window;
+    measure.window_fraction = options.window_fraction;
     measure.workers = options.workers;
     return detail::checked_options(measure);
 }

@@ -10,13 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from importlib import import_module
-from typing import Any, SupportsIndex
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from .._curves import Array, CurveLike, as_curve
-from .._options import Default, MeasureName, Metric, Order, WarpingName
+from .._options import Default, MeasureName, Metric, Order, WarpingName, Window
 from ..results import DtwMean, Subsequence
 from .checks import check_pair
 from .dtw import dtw_path
@@ -97,7 +97,7 @@ def dtw_mean(
     initial: CurveLike,
     *,
     weights: Sequence[float] | None = None,
-    window: SupportsIndex | None = Default.window,
+    window: Window = Default.window,
     iterations: int = 30,
     tolerance: float = 1e-6,
 ) -> DtwMean:

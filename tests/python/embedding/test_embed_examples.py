@@ -246,6 +246,9 @@ def test_the_shared_library_shows_its_interface_alone(prefix) -> None:
     expected -= {"curvewise::shape", "curvewise::Prepared"}
     expected |= {"curvewise::CurveView::shape", "curvewise::Prepared::Prepared"}
     expected |= {"curvewise::Prepared::operator"}
+    of_index = {"Index", "add", "size", "curves", "kneighbors", "radius_neighbors"}
+    expected -= {f"curvewise::{name}" for name in of_index}
+    expected |= {f"curvewise::Index::{name}" for name in of_index | {"~Index", "operator="}}
     expected |= {
         f"{what} for curvewise::Stopped" for what in ("typeinfo", "typeinfo name", "vtable")
     }

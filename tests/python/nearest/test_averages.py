@@ -23,6 +23,7 @@ def waves(count: int, dim: int = 2) -> list[np.ndarray]:
     [
         {},
         {"window": 12},
+        {"window": 0.4},
         {"weights": [1, 0, 2.5, 0.5, 3]},
         {"iterations": 2, "tolerance": 0.0},
         {"iterations": 0},
