@@ -5,10 +5,13 @@
 
 namespace curvewise::detail {
 
-std::vector<double> arc_lengths(const Polyline& curve) {
-    std::vector<double> lengths(curve.size(), 0.0);
+std::vector<double> arc_lengths(const Polyline& curve, Poller& poller) {
+    std::vector<double> lengths;
+    lengths.reserve(curve.size());
+    lengths.push_back(0.0);
     for (std::size_t i = 1; i < curve.size(); ++i) {
-        lengths[i] = lengths[i - 1] + norm(curve[i] - curve[i - 1]);
+        poller.poll_in_loop(i);
+        lengths.push_back(lengths.back() + norm(curve[i] - curve[i - 1]));
     }
     return lengths;
 }

@@ -11,8 +11,9 @@
 
 namespace curvewise::detail {
 
-// The arc length at every vertex: 0 first, the curve's length last.
-std::vector<double> arc_lengths(const Polyline& curve);
+// The arc length at every vertex: 0 first, the curve's length last. Throws Stopped where the poller
+// says so.
+std::vector<double> arc_lengths(const Polyline& curve, Poller& poller);
 
 // Throws std::invalid_argument where `length` is 0.
 void check_length(double length, const std::string& name, const char* measure);
@@ -20,8 +21,8 @@ void check_length(double length, const std::string& name, const char* measure);
 // A polyline with the arc length at every vertex.
 class ArcCurve {
    public:
-    explicit ArcCurve(Polyline points)
-        : points_(std::move(points)), arc_lengths_(detail::arc_lengths(points_)) {}
+    ArcCurve(Polyline points, Poller& poller)
+        : points_(std::move(points)), arc_lengths_(detail::arc_lengths(points_, poller)) {}
 
     const Polyline& points() const noexcept { return points_; }
     const std::vector<double>& arc_lengths() const noexcept { return arc_lengths_; }

@@ -28,6 +28,7 @@ class AreaAtOffset {
           weights_(shorter.points().size(), 0.0) {
         const std::vector<double>& s = shorter.arc_lengths();
         for (std::size_t i = 0; i + 1 < s.size(); ++i) {
+            poller_.poll_in_loop(i);
             const double half = 0.5 * (s[i + 1] - s[i]);
             weights_[i] += half;
             weights_[i + 1] += half;
@@ -116,10 +117,11 @@ class AreaAtOffset {
     };
 
     // Of any magnitude.
-    double careful_value(double offset) const noexcept {
+    double careful_value(double offset) const {
         ArcPosition position = start(offset);
         double sum = 0.0;
         for (std::size_t i = 0; i < weights_.size(); ++i) {
+            poller_.poll_in_loop(i);
             position.move_to(shorter_.arc_lengths()[i] + offset);
             sum += weights_[i] * norm(position.point_on(longer_.points()) - shorter_.points()[i]);
         }
@@ -137,12 +139,12 @@ class AreaAtOffset {
         const std::vector<double>& t = longer_.arc_lengths();
         const std::size_t count = per_segment * t.size();
         signposts_per_length_ = static_cast<double>(count) / longer_.length();
-        signposts_.resize(count + 2);  // rounding may lead one past the last
+        signposts_.reserve(count + 2);  // rounding may lead one past the last
         ArcPosition position(t);
-        for (std::size_t b = 0; b < signposts_.size(); ++b) {
+        for (std::size_t b = 0; b < count + 2; ++b) {
             poller_.poll_in_loop(b);
             position.move_to(static_cast<double>(b) / signposts_per_length_);
-            signposts_[b] = position.segment();
+            signposts_.push_back(position.segment());
         }
     }
 

@@ -266,8 +266,8 @@ class WarpingMeasure {
     // Packed without scaling, which curves within the usual range do not need.
     template <PointOrder order>
     struct Side {
-        explicit Side(const detail::CheckedCurve& curve)
-            : checked(curve), packed(curve.curve, RangeScale(1.0), order) {}
+        Side(const detail::CheckedCurve& curve, Poller& poller)
+            : checked(curve), packed(curve.curve, RangeScale(1.0), order, poller) {}
         detail::CheckedCurve checked;
         PackedCurve packed;
     };
@@ -284,7 +284,7 @@ class WarpingMeasure {
                                         " and " + std::to_string(m) + " points; use at least 1");
         }
     }
-    static void check_p(const PreparedP& /*P*/) noexcept {}
+    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
     std::ptrdiff_t workers() const noexcept { return options_.workers; }
     static std::int64_t steps(std::int64_t n, std::int64_t /*count*/,
                               std::int64_t points) noexcept {
@@ -300,8 +300,8 @@ class WarpingMeasure {
             WarpingProblem problem(options_, {P.packed, Q.packed}, range, call);
             return use(problem);
         }
-        const PackedCurve p(P.checked.curve, range, PointOrder::forward);
-        const PackedCurve q(Q.checked.curve, range, PointOrder::reversed);
+        const PackedCurve p(P.checked.curve, range, PointOrder::forward, call.poller);
+        const PackedCurve q(Q.checked.curve, range, PointOrder::reversed, call.poller);
         WarpingProblem problem(options_, {p, q}, range, call);
         return use(problem);
     }

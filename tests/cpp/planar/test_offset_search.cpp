@@ -8,6 +8,7 @@
 #include "check.hpp"
 #include "curves.hpp"
 #include "planar/offset_search.hpp"
+#include "unpolled.hpp"
 
 namespace {
 
@@ -22,10 +23,11 @@ using curvewise::detail::Point;
 using curvewise::detail::RangeScale;
 using test::Curve;
 using test::Random;
+using test::unpolled;
 
-curvewise::detail::Poller unpolled(nullptr);
-
-ArcCurve arc_curve(const Curve& curve) { return ArcCurve(polyline(curve, RangeScale(1.0))); }
+ArcCurve arc_curve(const Curve& curve) {
+    return ArcCurve(polyline(curve, RangeScale(1.0), unpolled), unpolled);
+}
 
 // The point at arc length u, found anew.
 Point place(const ArcCurve& curve, double u) {

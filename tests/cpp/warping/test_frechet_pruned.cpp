@@ -11,6 +11,7 @@
 
 #include "check.hpp"
 #include "curves.hpp"
+#include "unpolled.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/frechet_corridor.hpp"
 #include "warping/frechet_pruned.hpp"
@@ -38,6 +39,7 @@ using curvewise::detail::SweptColumns;
 using curvewise::kernels::Recurrence;
 using test::Curve;
 using test::Random;
+using test::unpolled;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Metric metrics[] = {Metric::sqeuclidean, Metric::cityblock, Metric::chebyshev};
@@ -166,8 +168,8 @@ Pair any_pair(Random& random) {
 class Comparison {
    public:
     Comparison(const Curve& P, const Curve& Q)
-        : rows_(P, RangeScale(1.0), PointOrder::forward),
-          columns_(Q, RangeScale(1.0), PointOrder::reversed) {}
+        : rows_(P, RangeScale(1.0), PointOrder::forward, unpolled),
+          columns_(Q, RangeScale(1.0), PointOrder::reversed, unpolled) {}
 
     void run() const {
         for (const Level& level : available_levels()) {
