@@ -52,9 +52,7 @@ def warping_calls() -> Calls:
         "dtw, 2 workers": lambda: curvewise.dtw(P, Q, workers=2),
         "dtw, window": lambda: curvewise.dtw(P, Q, window=20_000),
         "dtw, open ends": lambda: curvewise.dtw(P, Q, open_begin=True, open_end=True),
-        "dtw, 1000-D, minkowski": lambda: curvewise.dtw(
-            high, other_high, metric="minkowski", p=3
-        ),
+        "dtw, 1000-D, minkowski": lambda: curvewise.dtw(high, other_high, metric="minkowski", p=3),
         "dtw, 3,000,000 against 160 points, minkowski": lambda: curvewise.dtw(
             long, short, metric="minkowski", p=3
         ),
@@ -102,9 +100,7 @@ def planar_calls() -> Calls:
         "cdist of pcm, 10,000,000 offsets": lambda: curvewise.cdist(
             [huge[:100]], [huge[:50]], "pcm", offsets=10**7
         ),
-        "curve_length, 5,000,000 points": lambda: curvewise.curve_length(
-            huge, huge, scale="range"
-        ),
+        "curve_length, 5,000,000 points": lambda: curvewise.curve_length(huge, huge, scale="range"),
         "curve_length_residuals, 5,000,000 points": lambda: curvewise.curve_length_residuals(
             huge, huge, scale="range"
         ),

@@ -252,7 +252,7 @@ class Prepared:
         return f"Prepared(<P of shape {self._curve.shape}>, {self._measure!r}{options})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _prepare, (self._curve, self._measure, self._options)
+        return _prepare, (self._curve, self._columns, self._measure, self._options)
 
     @overload
     def __call__(self, Q: Array, *, workers: SupportsIndex = Default.workers) -> float: ...
@@ -280,6 +280,8 @@ class Prepared:
             As for the measure, and for :func:`cdist`.
         """
         if self._is_list(Q):
+            for i, curve in enumerate(Q):
+                check_column_names(self._columns, "P", column_names(curve), f"Q[{i}]")
             return self._prepared.values(as_curve_list(Q, "Q"), workers)
         check_column_names(self._columns, "P", column_names(Q), "Q")
         return self._prepared.value(as_curve(Q, "Q"))
@@ -290,8 +292,12 @@ class Prepared:
         return np.ndim(Q) == 3
 
 
-def _prepare(P: Array, measure: MeasureName, options: dict[str, Any]) -> Prepared:
-    return Prepared(P, measure, **options)
+def _prepare(
+    P: Array, columns: list[Any], measure: MeasureName, options: dict[str, Any]
+) -> Prepared:
+    prepared = Prepared(P, measure, **options)
+    prepared._columns = columns  # of the DataFrame that P once was
+    return prepared
 
 
 def _check_names(measure: Any, options: Mapping[str, Any]) -> str:

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from .._curves import Array, CurveLike, as_curve
+from .._curves import Array, CurveLike, as_curve, check_column_names, column_names
 from .checks import check_pair
 
 __all__ = ["box", "box_scaled", "normalize", "range_exponent", "times_power_of_two"]
@@ -24,6 +24,8 @@ _SMALL = 2.0**-500
 def normalize(P: CurveLike, *others: CurveLike) -> list[Array]:
     """Section 2.1 of the paper. Time and memory O(n d) a curve."""
     names = ["P", "Q"] if len(others) == 1 else ["P", *(f"others[{i}]" for i in range(len(others)))]
+    for curve, name in zip(others, names[1:], strict=True):
+        check_column_names(column_names(P), "P", column_names(curve), name)
     given = [as_curve(curve, name) for curve, name in zip((P, *others), names, strict=True)]
     scaled = []
     for curve, name in zip(given, names, strict=True):
