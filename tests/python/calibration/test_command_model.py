@@ -301,7 +301,9 @@ def test_what_a_solver_leaves_running_is_ended(tmp_path: Path) -> None:
 
 
 @contextlib.contextmanager
-def interrupted(folder: Path, solver: str, call: str) -> Iterator[subprocess.Popen[bytes]]:
+def interrupted(
+    folder: Path, solver: str, call: str, handler: str = "default_int_handler"
+) -> Iterator[subprocess.Popen[bytes]]:
     """Run a call that uses `model` in a process of its own, which says when it is interrupted."""
     (folder / "solver.py").write_text(solver)
     scratch = folder / "scratch"
@@ -314,7 +316,7 @@ def interrupted(folder: Path, solver: str, call: str) -> Iterator[subprocess.Pop
         f"    print, parameters=['E'], timeout=600, scratch={str(scratch)!r})\n"
         "if __name__ == '__main__':\n"
         # What a shell starts in the background ignores SIGINT, and so do its children.
-        "    signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        f"    signal.signal(signal.SIGINT, signal.{handler})\n"
         f"    try:\n        {call}\n"
         "    except KeyboardInterrupt:\n        print('interrupted')\n"
     )
@@ -408,18 +410,31 @@ def test_an_identification_goes_on_after_failures(tmp_path: Path) -> None:
     assert len(list((tmp_path / "scratch").iterdir())) == len(found.failures)
 
 
+SEARCH = "identify(model, [(0.0, 0.0), (1.0, 5.0)], {'E': (0.0, 10.0)}, workers=2, progress=False)"
+
+
 @posix
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
 def test_no_solver_outlives_an_identification(tmp_path: Path, how: signal.Signals) -> None:
     pipe = Pipe(tmp_path)
-    search = (
-        "identify(model, [(0.0, 0.0), (1.0, 5.0)], {'E': (0.0, 10.0)}, workers=2, progress=False)"
-    )
-    with interrupted(tmp_path, parent_and_child(pipe), search) as process:
+    with interrupted(tmp_path, parent_and_child(pipe), SEARCH) as process:
         wait_until(lambda: pipe.started() == 4)
         process.send_signal(how)
         output, _ = process.communicate(timeout=60)
     assert output == (b"interrupted\n" if how == signal.SIGINT else b"")
+    assert pipe.all_gone(processes=4)
+    wait_until(lambda: not list((tmp_path / "scratch").iterdir()))
+
+
+@posix
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
+def test_nor_one_that_was_started_in_the_background(tmp_path: Path, how: signal.Signals) -> None:
+    """There, SIGINT is ignored."""
+    pipe = Pipe(tmp_path)
+    with interrupted(tmp_path, parent_and_child(pipe), SEARCH, "SIG_IGN") as process:
+        wait_until(lambda: pipe.started() == 4)
+        process.send_signal(how)
+        process.communicate(timeout=60)
     assert pipe.all_gone(processes=4)
     wait_until(lambda: not list((tmp_path / "scratch").iterdir()))
 

@@ -1,4 +1,4 @@
-"""DataFrames whose columns are named, or ordered, otherwise are refused wherever two curves meet."""
+"""DataFrames with other columns, or in another order, are refused wherever two curves meet."""
 
 from __future__ import annotations
 
