@@ -145,7 +145,7 @@ class CurveLengthMeasure : public detail::LinearMeasure {
     struct Side {
         Side(const detail::CheckedCurve& curve, Poller& poller)
             : checked(curve), arc_lengths(relative_arc_lengths(curve.curve, poller)) {
-            detail::check_length(arc_lengths.back(), curve.name, "curve_length");
+            detail::check_length(curve.curve, curve.name, CurveLengthOptions::measure, poller);
         }
         detail::CheckedCurve checked;
         std::vector<double> arc_lengths;  // after dividing by its largest |x| and |y|

@@ -42,7 +42,7 @@ class AreaAtOffset {
             weights_[i + 1] += half;
         }
         const std::vector<double>& t = longer.arc_lengths();
-        segments_.reserve(t.size());
+        segments_.reserve(t.size() + 1);
         for (std::size_t k = 0; k + 1 < t.size(); ++k) {
             poller_.poll_in_loop(k);
             const double length = t[k + 1] - t[k];
@@ -51,7 +51,10 @@ class AreaAtOffset {
                 length > 0.0 ? Point{edge.x / length, edge.y / length} : Point{};
             segments_.push_back({t[k], longer.points()[k], direction});
         }
-        segments_.push_back({std::numeric_limits<double>::infinity(), {}, {}});  // ends every walk
+        // The end itself, which a long last segment would miss by its rounding; and the end of
+        // every walk.
+        segments_.push_back({longer.length(), longer.points().back(), {}});
+        segments_.push_back({std::numeric_limits<double>::infinity(), {}, {}});
         fill_signposts();
     }
 

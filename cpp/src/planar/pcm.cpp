@@ -36,9 +36,9 @@ struct Roles {
 
 // A curve scaled by a box.
 ArcCurve scaled(const CheckedCurve& checked, const detail::Box& box, detail::Poller& poller) {
-    ArcCurve curve(detail::box_scaled(checked.curve, box, poller), poller);
-    detail::check_length(curve.length(), checked.name, "pcm");
-    return curve;
+    detail::check_length(checked.curve, checked.name, PcmOptions::measure, poller);
+    return {detail::box_scaled(checked.curve, box, poller),
+            detail::box_scaled_arc_lengths(checked.curve, box, poller)};
 }
 
 // A curve too long for a double is infinitely far from everything.

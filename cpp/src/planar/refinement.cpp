@@ -90,8 +90,8 @@ Polyline refined(const Polyline& curve, std::size_t size, Spacing spacing, Polle
 // A curve walked by relative arc length.
 class RelativeWalk {
    public:
-    RelativeWalk(const Polyline& curve, const Polyline& scaled, Poller& poller)
-        : curve_(curve), u_(arc_lengths(scaled, poller)) {
+    RelativeWalk(const Polyline& curve, std::vector<double> arc_lengths)
+        : curve_(curve), u_(std::move(arc_lengths)) {
         const double length = u_.back();
         const bool measurable = length > 0.0 && std::isfinite(length);
         for (double& u : u_) u = measurable ? u / length : 0.0;
@@ -114,10 +114,10 @@ class RelativeWalk {
     std::size_t vertex_ = 0;
 };
 
-FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q, const Polyline& scaled_p,
-                                const Polyline& scaled_q, Poller& poller) {
-    RelativeWalk along_p(P, scaled_p, poller);
-    RelativeWalk along_q(Q, scaled_q, poller);
+FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q, std::vector<double> lengths_p,
+                                std::vector<double> lengths_q, Poller& poller) {
+    RelativeWalk along_p(P, std::move(lengths_p));
+    RelativeWalk along_q(Q, std::move(lengths_q));
     FacingCurves result{{P.front()}, {Q.front()}};
     result.A.reserve(P.size() + Q.size());
     result.B.reserve(P.size() + Q.size());
@@ -138,8 +138,8 @@ FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& rang
     Polyline B = polyline(Q, range, poller);
     if (spacing == Spacing::arc_length) {
         const Box box(P);
-        return face_by_arc_length(A, B, box_scaled(P, box, poller), box_scaled(Q, box, poller),
-                                  poller);
+        return face_by_arc_length(A, B, box_scaled_arc_lengths(P, box, poller),
+                                  box_scaled_arc_lengths(Q, box, poller), poller);
     }
     if (A.size() < B.size()) std::swap(A, B);
     if (A.size() > B.size()) B = refined(B, A.size(), spacing, poller);

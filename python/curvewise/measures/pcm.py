@@ -52,8 +52,8 @@ def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> fl
     "continuous" needs about 10³ evaluations of O(n + m) for curves that bend, and more where the
     area has many equal minima: some 20 n for zigzags along one line (4 s for 2201 and 4401
     points). After 2^20 of them the tolerance is doubled with every 2^14 more, so that there are
-    2.1 million at most for a curve of up to 10⁶ boxes in length. Memory O(n + m). The error of the grid is at most
-    S (T - S) / (2 (offsets - 1)) for lengths S <= T.
+    2.1 million at most for a curve of up to 10⁶ boxes in length. Memory O(n + m). The error of
+    the grid is at most S (T - S) / (2 (offsets - 1)) for lengths S <= T.
 
     Examples
     --------

@@ -63,8 +63,7 @@ def _quadrilaterals(
     check_choice("crossing", crossing, get_args(Crossing))
     P, Q = check_pair(P, Q, "area", least_points=2, planar=True)
     exponent = range_exponent(P, Q)
-    P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
-    A, B = facing_curves(P, Q, spacing)
+    A, B = facing_curves(P, Q, spacing, exponent)
     quads = np.stack([A[:-1], A[1:], B[1:], B[:-1]], axis=1)
     with np.errstate(over="ignore", under="ignore"):
         quads, areas = _measured(quads, crossing)

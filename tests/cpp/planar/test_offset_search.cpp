@@ -29,7 +29,8 @@ using test::Random;
 using test::unpolled;
 
 ArcCurve arc_curve(const Curve& curve) {
-    return ArcCurve(polyline(curve, RangeScale(1.0), unpolled), unpolled);
+    const curvewise::detail::Polyline points = polyline(curve, RangeScale(1.0), unpolled);
+    return ArcCurve(points, arc_lengths(points, unpolled));
 }
 
 // The point at arc length u, found anew.

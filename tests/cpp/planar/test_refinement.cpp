@@ -113,7 +113,7 @@ void no_length() {
 // After scaling by P's box.
 std::vector<double> relative_lengths(const Curve& curve, const Curve& P) {
     std::vector<double> lengths =
-        arc_lengths(box_scaled(curve, curvewise::detail::Box(P), unpolled), unpolled);
+        box_scaled_arc_lengths(curve, curvewise::detail::Box(P), unpolled);
     const double length = lengths.back();
     for (double& u : lengths) u /= length;
     return lengths;
