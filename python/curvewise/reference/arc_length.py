@@ -43,7 +43,7 @@ def norms(vectors: Array) -> Array:
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         squares = dx * dx + dy * dy
         in_range = (squares > 2.0**-900) & (squares < 2.0**1000)
-        return np.where(in_range, np.sqrt(squares), np.hypot(dx, dy))
+        return np.asarray(np.where(in_range, np.sqrt(squares), np.hypot(dx, dy)))
 
 
 def locate(lengths: Array, position: Array) -> tuple[npt.NDArray[np.intp], Array]:
@@ -71,4 +71,4 @@ def interpolate(curve: Array, segment: npt.NDArray[np.intp], fraction: Array) ->
     start, end = curve[segment], curve[segment + 1]
     # The end itself, not start + (end - start): beside a large start a small end is lost.
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-        return np.where(fraction == 1.0, end, start + fraction * (end - start))
+        return np.asarray(np.where(fraction == 1.0, end, start + fraction * (end - start)))
