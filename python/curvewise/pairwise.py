@@ -125,6 +125,7 @@ def cdist(
     columns = None if XB is None else as_curve_list(XB, "XB", like=XA)
     shape = (len(rows), len(rows if columns is None else columns))
     out = _checked_out(out, shape, "cdist")
+    rows, columns = _apart(rows, out), None if columns is None else _apart(columns, out)
     limit = _checked_cutoff(cutoff)
     if callable(measure):
         others = rows if columns is None else columns
@@ -187,6 +188,7 @@ def pdist(
     """
     curves = as_curve_list(X, "X")
     out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
+    curves = _apart(curves, out)
     limit = _checked_cutoff(cutoff)
     if callable(measure):
         points = (len(curves) - 1) * _points(curves)
@@ -332,6 +334,11 @@ def _checked_out(out: Array | None, shape: tuple[int, ...], name: str) -> Array:
     if not (out.flags.c_contiguous and out.flags.aligned and out.flags.writeable):
         raise ValueError(f"out must be C-contiguous, aligned and writeable; {name} fills it")
     return out
+
+
+def _apart(curves: list[Array], out: Array) -> list[Array]:
+    """Return the curves, copied where writing to `out` might change them."""
+    return [curve.copy() if np.may_share_memory(curve, out) else curve for curve in curves]
 
 
 def _checked_cutoff(cutoff: SupportsFloat | None) -> float:
