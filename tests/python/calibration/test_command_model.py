@@ -9,6 +9,8 @@ from __future__ import annotations
 import contextlib
 import os
 import pickle
+import random
+import re
 import shutil
 import signal
 import subprocess
@@ -23,6 +25,7 @@ import numpy as np
 import pytest
 
 from curvewise.calibration import CommandModel, SolverError, identify
+from curvewise.calibration.command_model import _placeholders
 
 SOLVER = "open('curve.txt', 'w').write('0 0\\n1 <<E>>\\n')\n"
 
@@ -196,6 +199,19 @@ def test_values_that_do_not_fit_are_refused(
         filled(tmp_path, text, value)
 
 
+def test_placeholders_are_what_stands_between_two_brackets_of_a_line() -> None:
+    rng = random.Random(4)
+    for _ in range(3000):
+        text = "".join(rng.choices("<>\nE", [6, 6, 1, 2], k=rng.randrange(40)))
+        expected = [match.span() for match in re.finditer("<<(.*?)>>", text)]
+        assert list(_placeholders(text)) == expected, text
+
+
+def test_open_brackets_take_linear_time(tmp_path: Path) -> None:
+    text = "<<" * 300_000  # read again for each of them, they would take an hour
+    assert filled(tmp_path, f"<<E>>\n{text}", 1.5) == f"1.5\n{text}"
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -266,6 +282,15 @@ def test_an_exit_code_keeps_the_log(tmp_path: Path) -> None:
     assert set(log.read_text().splitlines()) == {"negative volume 1.5", "stop"}
     assert (log.parent / "solver.py").exists()
     assert pickle.loads(pickle.dumps(caught.value)).args == caught.value.args
+
+
+def test_a_program_that_prints_without_end_is_stopped(tmp_path: Path) -> None:
+    script = "# <<E>>\nimport sys\nwhile True: sys.stdout.write('x' * 2**20)\n"
+    model = python_model(tmp_path, script, timeout=600)
+    with pytest.raises(SolverError, match="printed more than 64 MiB and was stopped") as caught:
+        model({"E": 1.0})
+    log = Path(str(caught.value).rpartition("the first of it: ")[2])
+    assert log.read_bytes() == b"x" * 2**20
 
 
 @posix
