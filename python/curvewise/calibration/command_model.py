@@ -99,9 +99,10 @@ class CommandModel:
     -----
     A call raises `SolverError` when the program cannot be started, ends with another exit code
     than 0 or by a signal, takes longer than `timeout`, prints more than 64 MiB, or when `read`
-    fails or returns something other than curves of finite numbers. The folder is then kept, with all the program has printed
-    in ``command.log``, which the error names. When a call ends, in whichever way (Ctrl-C
-    included), so do all processes of the run's group (on Windows: the program itself).
+    fails or returns something other than curves of finite numbers. The folder is then kept, with
+    all the program has printed in ``command.log``, which the error names. When a call ends, in
+    whichever way (Ctrl-C included), so do all processes of the run's group (on Windows: the
+    program itself).
 
     Parameters may also be text, which is inserted as it is, e.g. a table of a hardening curve
     that a function has made of two numbers before it calls the model.
