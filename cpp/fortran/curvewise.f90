@@ -16,18 +16,19 @@ module curvewise
         c_loc, c_null_char, c_null_ptr, c_ptr, c_ptrdiff_t, c_size_t
     implicit none
     private
-    public :: area, cdist, curve_length, curvewise_version, dtw, frechet, normalize, pcm, pdist
+    public :: area, cdist, curve_length, curvewise_version, dtw, frechet, frechet_continuous, &
+        normalize, pcm, pdist
 
     integer(c_int), parameter, public :: euclidean = 0, sqeuclidean = 1, cityblock = 2, &
         chebyshev = 3, minkowski = 4                        ! metric
     integer(c_int), parameter, public :: symmetric1 = 0, symmetric2 = 1          ! step_pattern
     integer(c_int), parameter, public :: spacing_distance = 0, spacing_x = 1, &
-        spacing_arc_length = 2                                                   ! spacing
+        spacing_arc_length = 2, spacing_matched = 3                              ! spacing
     integer(c_int), parameter, public :: rearrange = 0, split = 1                ! crossing
     integer(c_int), parameter, public :: scale_mean = 0, scale_mean_abs = 1, scale_range = 2
     integer(c_ptrdiff_t), parameter, public :: no_window = -1
     integer(c_int), parameter, public :: measure_area = 0, measure_pcm = 1, measure_frechet = 2, &
-        measure_dtw = 3, measure_curve_length = 4                                ! measure
+        measure_dtw = 3, measure_curve_length = 4, measure_frechet_continuous = 5  ! measure
     integer(c_int), parameter, public :: invalid_argument = 1, no_memory = 2, failed = 3  ! stat
 
     type, bind(C), public :: area_options
@@ -59,10 +60,16 @@ module curvewise
         integer(c_ptrdiff_t) :: workers = 1
         integer(c_int) :: prune = 1
         real(c_double) :: cutoff = huge(1.0_c_double)
+        real(c_double) :: window_fraction = 0   ! not 0: of the longer curve's points, as window
+        integer(c_int) :: normalize = 0         ! not 0: divide by n + m; symmetric2 only
     end type
 
     type, bind(C), public :: curve_length_options
         integer(c_int) :: scale = scale_mean
+    end type
+
+    type, bind(C), public :: frechet_continuous_options
+        integer(c_ptrdiff_t) :: workers = 1     ! threads, -1 for one per core
     end type
 
     type, bind(C), public :: batch_options
@@ -125,6 +132,15 @@ module curvewise
             import
             type(curve_view), intent(in) :: P, Q
             type(curve_length_options), intent(in), optional :: options
+            real(c_double), intent(out) :: value
+            type(error_message), intent(out) :: error
+        end function
+
+        integer(c_int) function c_frechet_continuous(P, Q, options, value, error) &
+            bind(C, name="curvewise_frechet_continuous")
+            import
+            type(curve_view), intent(in) :: P, Q
+            type(frechet_continuous_options), intent(in), optional :: options
             real(c_double), intent(out) :: value
             type(error_message), intent(out) :: error
         end function
@@ -215,6 +231,17 @@ contains
         type(error_message) :: error
         value = 0
         call conclude(c_curve_length(view(P), view(Q), options, value, error), error, stat, errmsg)
+    end function
+
+    real(c_double) function frechet_continuous(P, Q, options, stat, errmsg) result(value)
+        real(c_double), intent(in) :: P(:, :), Q(:, :)
+        type(frechet_continuous_options), intent(in), optional :: options
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        type(error_message) :: error
+        value = 0
+        call conclude(c_frechet_continuous(view(P), view(Q), options, value, error), error, &
+            stat, errmsg)
     end function
 
     ! C minus P's minimum, divided by P's extent (where that is not 0), in `scaled`.

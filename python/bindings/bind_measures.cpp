@@ -71,6 +71,14 @@ py::tuple as_tuple(WarpingInfo&& info) {
                           py::make_tuple(info.lower, info.upper), seconds);
 }
 
+py::tuple as_tuple(Matching&& matching) {
+    const auto count = static_cast<py::ssize_t>(matching.parameters.size());
+    return py::make_tuple(matching.distance, owning_array<double>(std::move(matching.parameters),
+                                                                  {count, py::ssize_t{2}}));
+}
+
+py::tuple as_tuple(Interval&& interval) { return py::make_tuple(interval.low, interval.high); }
+
 constexpr auto to_tuple = [](auto&& found) {
     return as_tuple(std::forward<decltype(found)>(found));
 };
@@ -118,6 +126,18 @@ void bind_measures(py::module_& module) {
     bind<DtwOptions>(module, "dtw_path", dtw_path, to_tuple);
     bind<FrechetOptions>(module, "frechet_info", frechet_info, to_tuple);
     bind<DtwOptions>(module, "dtw_info", dtw_info, to_tuple);
+    bind<FrechetContinuousOptions>(module, "frechet_continuous_bounds", frechet_continuous_bounds,
+                                   to_tuple);
+    bind<FrechetContinuousOptions>(module, "frechet_continuous_path", frechet_continuous_path,
+                                   to_tuple);
+    module.def("frechet_within", [](const CurveArray& P, const CurveArray& Q, double distance,
+                                    bool continuous) {
+        const auto decide = [=](const CurveView& p, const CurveView& q,
+                                const FrechetContinuousOptions& /*options*/, Control* control) {
+            return frechet_within(p, q, distance, continuous, control);
+        };
+        return computed(P, Q, FrechetContinuousOptions{}, decide);
+    });
     bind_array<FrechetOptions>(module, "frechet_table", allocate_table, frechet_table);
     bind_array<DtwOptions>(module, "dtw_table", allocate_table, dtw_table);
     const auto allocate_residuals = [](const CurveArray& P, const CurveArray& /*Q*/) {

@@ -65,6 +65,13 @@ std::ptrdiff_t whole_number(const char* option, const py::object& given,
     throw py::value_error(std::string(option) + " is " + repr(given) + "; " + range.advice);
 }
 
+std::optional<double> proper_fraction(const py::object& given) {
+    if (!PyFloat_Check(given.ptr())) return std::nullopt;
+    const double value = PyFloat_AS_DOUBLE(given.ptr());
+    if (!(value > 0.0 && value < 1.0)) return std::nullopt;
+    return value;
+}
+
 double real_number(const char* option, const py::object& given, const RealNumberRange& range) {
     if (given.is_none()) return std::numeric_limits<double>::infinity();
     const double value = PyFloat_AsDouble(given.ptr());

@@ -27,6 +27,9 @@ bool is_text(const py::object& given, const char* text);
 std::ptrdiff_t whole_number(const char* option, const py::object& given,
                             const WholeNumberRange& range);
 
+// A float between 0 and 1; none for any other object.
+std::optional<double> proper_fraction(const py::object& given);
+
 // A number within the range, or infinity for None.
 double real_number(const char* option, const py::object& given, const RealNumberRange& range);
 
@@ -58,9 +61,11 @@ class OptionReader {
         if (const py::object object = take(name)) value = whole_number(name, object, range);
     }
     void operator()(const char* name, std::optional<std::ptrdiff_t>& value,
-                    const WholeNumberRange& range) {
+                    std::optional<double>& fraction, const WholeNumberRange& range) {
         const py::object object = take(name);
-        if (object && !object.is_none()) value = whole_number(name, object, range);
+        if (!object || object.is_none()) return;
+        fraction = proper_fraction(object);
+        if (!fraction) value = whole_number(name, object, range);
     }
     void operator()(const char* name, std::ptrdiff_t& value, bool& continuous,
                     const WholeNumberRange& range) {
@@ -121,8 +126,10 @@ class OptionWriter {
         options_[name] = value;
     }
     void operator()(const char* name, const std::optional<std::ptrdiff_t>& value,
-                    const WholeNumberRange& /*range*/) {
-        options_[name] = value ? py::object(py::int_(*value)) : py::object(py::none());
+                    const std::optional<double>& fraction, const WholeNumberRange& /*range*/) {
+        options_[name] = value      ? py::object(py::int_(*value))
+                         : fraction ? py::object(py::float_(*fraction))
+                                    : py::object(py::none());
     }
     void operator()(const char* name, std::ptrdiff_t value, bool continuous,
                     const WholeNumberRange& /*range*/) {

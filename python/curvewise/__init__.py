@@ -26,9 +26,12 @@ from .measures import (
     dtw_path,
     dtw_table,
     frechet,
+    frechet_continuous,
+    frechet_continuous_path,
     frechet_info,
     frechet_path,
     frechet_table,
+    frechet_within,
     mae,
     mse,
     normalize,
@@ -37,7 +40,7 @@ from .measures import (
     sum_of_squares,
 )
 from .pairwise import Prepared, available_measures, cdist, pdist
-from .results import Alignment, AreaQuads, PcmMatch, WarpingInfo
+from .results import Alignment, AreaQuads, Matching, PcmMatch, WarpingInfo
 
 if TYPE_CHECKING:
     from . import calibration as calibration
@@ -50,6 +53,7 @@ __all__ = [
     "Alignment",
     "AreaQuads",
     "Comparison",
+    "Matching",
     "PcmMatch",
     "Prepared",
     "WarpingInfo",
@@ -68,9 +72,12 @@ __all__ = [
     "dtw_path",
     "dtw_table",
     "frechet",
+    "frechet_continuous",
+    "frechet_continuous_path",
     "frechet_info",
     "frechet_path",
     "frechet_table",
+    "frechet_within",
     "get_include",
     "mae",
     "mse",

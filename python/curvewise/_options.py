@@ -22,16 +22,20 @@ __all__ = [
     "Spacing",
     "StepPattern",
     "WarpingName",
+    "Window",
 ]
 
-MeasureName: TypeAlias = Literal["area", "pcm", "frechet", "dtw", "curve_length"]
+MeasureName: TypeAlias = Literal[
+    "area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous"
+]
 WarpingName: TypeAlias = Literal["dtw", "frechet"]
 Preset: TypeAlias = Literal["scaled", "paper", "raw"]
 
 Metric: TypeAlias = Literal["euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"]
 Order: TypeAlias = SupportsFloat | None
 StepPattern: TypeAlias = Literal["symmetric1", "symmetric2"]
-Spacing: TypeAlias = Literal["distance", "x", "arc_length"]
+Window: TypeAlias = SupportsIndex | float | None
+Spacing: TypeAlias = Literal["distance", "x", "arc_length", "matched"]
 Crossing: TypeAlias = Literal["rearrange", "split"]
 Offsets: TypeAlias = SupportsIndex | Literal["continuous"]
 LengthScale: TypeAlias = Literal["mean", "mean_abs", "range"]
@@ -43,9 +47,10 @@ class Default:
     metric: Final[Metric] = "euclidean"
     p: Final[Order] = None
     step_pattern: Final[StepPattern] = "symmetric1"
-    window: Final[SupportsIndex | None] = None
+    window: Final[Window] = None
     open_begin: Final[bool] = False
     open_end: Final[bool] = False
+    normalize: Final[bool] = False
     spacing: Final[Spacing] = "distance"
     crossing: Final[Crossing] = "rearrange"
     squared: Final[bool] = False

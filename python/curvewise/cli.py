@@ -9,6 +9,7 @@ by them, so that the others start fast and run without it.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import io
 import json
 import math
@@ -21,9 +22,9 @@ from typing import Any, get_args
 
 from . import __version__, build_info
 from ._extras import extra
-from ._options import Preset
+from ._options import Crossing, Preset, Spacing, Window
 from .compare import PRESETS, Comparison, compare
-from .csv_curves import read_curve
+from .csv_curves import read_named_columns
 from .datasets import hysteresis_pair
 from .embedding import get_cmake_dir, get_include
 from .measures import curve_length_residuals, normalize
@@ -148,7 +149,21 @@ def _parser() -> argparse.ArgumentParser:
         "--measures",
         nargs="+",
         choices=MEASURES,
-        help="by default all five; frechet and dtw if there are not two columns",
+        help="by default the five of the paper; frechet and dtw if there are not two columns",
+    )
+    command.add_argument(
+        "--spacing", choices=get_args(Spacing), help="of area; in place of the preset's"
+    )
+    command.add_argument(
+        "--crossing",
+        choices=get_args(Crossing),
+        help="of area, without effect on spacing matched; in place of the preset's",
+    )
+    command.add_argument(
+        "--window",
+        type=_window,
+        metavar="R",
+        help="of dtw: how many points the path may leave the diagonal, or which fraction of them",
     )
     command.add_argument("--json", action="store_true", help="print one JSON object")
     command.add_argument("--plot", metavar="FILE", help="write a picture, e.g. out.png or out.pdf")
@@ -174,24 +189,46 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _window(text: str) -> Window:
+    """Read a whole number, or a fraction between 0 and 1."""
+    with contextlib.suppress(ValueError):
+        return int(text)
+    with contextlib.suppress(ValueError):
+        if 0 < (fraction := float(text)) < 1:
+            return fraction
+    raise argparse.ArgumentTypeError(f"{text} is no whole number, and not between 0 and 1")
+
+
 def _compare(arguments: argparse.Namespace) -> int:
     if arguments.residuals and not arguments.output:
         arguments.usage_error("--residuals needs --output FILE, where to write them")
     if arguments.plot:
         _require_matplotlib()
     files = [arguments.A, arguments.B]
-    P, Q = (read_curve(file, arguments.columns) for file in files)
+    (P, of_p), (Q, of_q) = (read_named_columns(file, arguments.columns) for file in files)
+    given = {
+        "area": {"spacing": arguments.spacing, "crossing": arguments.crossing},
+        "dtw": {"window": arguments.window},
+    }
+    options = {
+        measure: chosen
+        for measure, values in given.items()
+        if (chosen := {name: value for name, value in values.items() if value is not None})
+    }
     try:
-        comparison = compare(P, Q, preset=arguments.preset, measures=arguments.measures)
+        comparison = compare(
+            P, Q, preset=arguments.preset, measures=arguments.measures, options=options
+        )
     except ValueError as error:
         raise ValueError(f"{error} (P is {files[0]}, Q is {files[1]})") from error
     if arguments.output:
         numbers = _residuals(comparison) if arguments.residuals else comparison.values.values()
         _write_numbers(numbers, arguments.output)
     if arguments.json:
-        print(_to_json(comparison, files))
+        print(_to_json(comparison, files, [of_p, of_q]))
     else:
-        _print_table(comparison, files)
+        columns = [f", columns {', '.join(names)}" for names in (of_p, of_q)]
+        _print_table(comparison, files, columns)
     if arguments.plot:
         _write_picture(comparison, arguments.plot)
         if not arguments.json:
@@ -202,7 +239,8 @@ def _compare(arguments: argparse.Namespace) -> int:
 def _demo(arguments: argparse.Namespace) -> int:
     _require_matplotlib()
     comparison = compare(*hysteresis_pair())
-    _print_table(comparison, ["experiment (made by curvewise)", "simulation (likewise)"])
+    names = ["experiment (made by curvewise)", "simulation (likewise)"]
+    _print_table(comparison, names, ["", ""])
     _write_picture(comparison, arguments.output)
     print(f"\npicture: {arguments.output}")
     return 0
@@ -221,22 +259,39 @@ def _info(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _print_table(comparison: Comparison, names: list[str]) -> None:
-    for letter, name, curve in zip("PQ", names, (comparison.P, comparison.Q), strict=True):
-        print(f"{letter}  {name}, {len(curve)} points")
-    print(f"preset {comparison.preset}\n\n{comparison}")
+def _print_table(comparison: Comparison, names: list[str], columns: list[str]) -> None:
+    curves = comparison.P, comparison.Q
+    for letter, name, curve, of in zip("PQ", names, curves, columns, strict=True):
+        print(f"{letter}  {name}, {len(curve)} points{of}")
+    print(f"preset {comparison.preset}\n\n{comparison}\n\ndeviation, in units of y")
+    width = max(map(len, comparison.values))
+    for name, deviation in comparison.deviations.items():
+        print(f"{name:<{width}}  {deviation}")
 
 
-def _to_json(comparison: Comparison, files: list[str]) -> str:
-    values = {
-        # JSON has no infinity: a value beyond the range of a double is null.
-        name: value if math.isfinite(value) else None
-        for name, value in comparison.to_dict().items()
+def _to_json(comparison: Comparison, files: list[str], columns: list[list[str]]) -> str:
+    values = {name: _json_number(value) for name, value in comparison.values.items()}
+    deviations = {
+        name: {key: _json_number(value) for key, value in found._asdict().items()}
+        for name, found in comparison.deviations.items()
     }
     n = [len(comparison.P), len(comparison.Q)]
     return json.dumps(
-        {"files": files, "preset": comparison.preset, "n": n, "values": values}, indent=2
+        {
+            "files": files,
+            "columns": columns,
+            "preset": comparison.preset,
+            "n": n,
+            "values": values,
+            "deviations": deviations,
+        },
+        indent=2,
     )
+
+
+def _json_number(value: float) -> float | None:
+    """JSON has no infinity: a value beyond the range of a double is null."""
+    return value if math.isfinite(value) else None
 
 
 def _residuals(comparison: Comparison) -> list[float]:

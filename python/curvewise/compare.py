@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 from ._curves import Array, CurveLike, as_curves
 from ._docstrings import filled
 from ._options import Preset
+from .deviations import Deviation, deviation
 from .measures import normalize
 from .measures.registry import MEASURES, PRESETS, Condition, MeasureInfo, default_measures
 
@@ -32,12 +33,15 @@ class Comparison:
         The conditions under which the values were computed.
     values : dict of str to float
         In the order in which :func:`compare` lists the measures, or as asked for.
+    conditions : dict of str to Condition
+        How each value was computed: on curves scaled or not, and with which options.
     """
 
     P: Array
     Q: Array
     preset: Preset
     values: dict[str, float]
+    conditions: dict[str, Condition] = field(repr=False)
 
     def __getitem__(self, measure: str) -> float:
         return self.values[measure]
@@ -46,6 +50,19 @@ class Comparison:
         width = max(map(len, self.values))
         lines = [f"{name:<{width}}  {value:.6g}" for name, value in self.values.items()]
         return "\n".join(lines)
+
+    @property
+    def deviations(self) -> dict[str, Deviation]:
+        """How far apart the points are that each measure compares, in units of y.
+
+        Of the measures that compare points: not of curve_length. Computed when asked for: dtw and
+        frechet need their paths. See :class:`curvewise.deviations.Deviation`.
+        """
+        found = {
+            name: deviation(name, condition, self.P, self.Q)
+            for name, condition in self.conditions.items()
+        }
+        return {name: value for name, value in found.items() if value is not None}
 
     def to_dict(self) -> dict[str, float]:
         """Return the values by name, as a new dict of Python floats."""
@@ -64,13 +81,19 @@ class Comparison:
         return plot_comparison(self)
 
 
-@filled(any_dimension=" and ".join(name for name, info in MEASURES.items() if not info.planar))
+@filled(
+    in_plane=", ".join(name for name, info in MEASURES.items() if info.by_default),
+    any_dimension=" and ".join(
+        name for name, info in MEASURES.items() if info.by_default and not info.planar
+    ),
+)
 def compare(
     P: CurveLike,
     Q: CurveLike,
     *,
     preset: Preset = "scaled",
     measures: Sequence[str] | None = None,
+    options: Mapping[str, Mapping[str, Any]] | None = None,
 ) -> Comparison:
     """Compute several measures of a pair of curves.
 
@@ -79,14 +102,16 @@ def compare(
     P, Q : array_like, shapes (n, d) and (m, d)
         The curves; P is the reference.
     preset : {"scaled", "paper", "raw"}
-        "scaled": everything on curves scaled by P's box, area with crossing="split",
+        "scaled": everything on curves scaled by P's box, area with spacing="matched",
         curve_length with scale="mean_abs".
         "paper": the conditions of the paper's Table 4 (area raw with spacing="x"; frechet, and
         dtw with step_pattern="symmetric2", on scaled curves; curve_length raw with
         scale="mean"). "raw": every default on the curves as they are.
     measures : sequence of str, optional
         Of {measures}.
-        If not given: all of them in the plane, {any_dimension} in other dimensions.
+        If not given: {in_plane} in the plane, {any_dimension} in other dimensions.
+    options : mapping of str to mapping, optional
+        Options of measures, in the place of the preset's: {"dtw": {"window": 0.1}}.
 
     Returns
     -------
@@ -96,9 +121,10 @@ def compare(
     Raises
     ------
     ValueError
-        An unknown preset or measure, and whatever a measure refuses.
+        An unknown preset or measure, options of a measure that is not computed, and whatever a
+        measure refuses.
     TypeError
-        A curve does not hold real numbers.
+        A curve does not hold real numbers; an option that the measure does not have.
 
     Notes
     -----
@@ -113,6 +139,9 @@ def compare(
     frechet       1
     dtw           3
     curve_length  2.40113
+    >>> P, Q = curvewise.datasets.hysteresis_pair()
+    >>> print(curvewise.compare(P, Q, measures=["area"]).deviations["area"])
+    mean 54.09 (4 %), largest 99.3 (7.3 %)
     """
     P, Q = (curve.copy() for curve in as_curves(P, Q))
     if not isinstance(preset, str) or preset not in PRESETS:
@@ -121,12 +150,20 @@ def compare(
         measures = default_measures(P)
     if isinstance(measures, str) or not (names := list(measures)):
         raise ValueError(f"measures is {measures!r}; give a list of names, e.g. ['area', 'dtw']")
-    for name in names:
+    given = {} if options is None else options
+    for name in (*names, *given):
         if not isinstance(name, str) or name not in MEASURES:
             raise ValueError(f"unknown measure {name!r}; choose from {', '.join(MEASURES)}")
-    conditions = PRESETS[preset]
+    for name in given:
+        if name not in names:
+            raise ValueError(f"options are given for {name!r}, which is not among the measures")
+    conditions = {name: _changed(PRESETS[preset][name], given.get(name, {})) for name in names}
     values = {name: _value(MEASURES[name], conditions[name], P, Q) for name in names}
-    return Comparison(P, Q, preset, values)
+    return Comparison(P, Q, preset, values, conditions)
+
+
+def _changed(condition: Condition, options: Mapping[str, Any]) -> Condition:
+    return condition._replace(options={**condition.options, **options})
 
 
 def _value(info: MeasureInfo, condition: Condition, P: Array, Q: Array) -> float:

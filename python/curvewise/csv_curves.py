@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["read_curve"]
+__all__ = ["read_curve", "read_named_columns"]
 
 # Lines of nothing but separators, which spreadsheets append, and comments. Excel's error values
 # are no comments: '#N/A,200' is a bad point.
@@ -88,12 +88,48 @@ def read_curve(
     array([[0.000e+00, 0.000e+00],
            [1.000e-03, 1.995e+02]])
     """
+    return read_named_columns(path, columns)[0]
+
+
+def read_named_columns(
+    path: str | os.PathLike[str], columns: Sequence[str | int] | None = None
+) -> tuple[npt.NDArray[np.float64], list[str]]:
+    r"""Read a curve as :func:`read_curve` does, and say which columns it was read from.
+
+    Parameters
+    ----------
+    path, columns
+        As for :func:`read_curve`.
+
+    Returns
+    -------
+    values : ndarray, shape (n, d)
+        The curve.
+    names : list of str
+        Of each column its name in the header; its number, from 1, where it has none.
+
+    Raises
+    ------
+    ValueError, OSError
+        As for :func:`read_curve`.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from curvewise.csv_curves import read_named_columns
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "loop.csv")
+    ...     _ = path.write_text("time,strain,stress\n0,0,0\n1,0.001,199.5\n")
+    ...     read_named_columns(path, columns=["strain", 3])[1]
+    ['strain', 'stress']
+    """
     table = _find_layout(os.fspath(path), _read_lines(path))
     chosen = _choose_columns(table, columns)
     values = _parse_fast(table, chosen)
     if values is None or not np.isfinite(values).all():
         values = _parse_cell_by_cell(table, chosen)
-    return values
+    return values, [table.name(column) for column in chosen]
 
 
 @dataclass(frozen=True)
@@ -113,6 +149,10 @@ class _Table:
     most: int
     """Cells that a line may have: those of the header or of the first line of numbers. One more,
     further down, may come of a decimal comma."""
+
+    def name(self, column: int) -> str:
+        """Return the name of a column, or its number as a user counts."""
+        return (self.names[column] if column < len(self.names) else "") or str(column + 1)
 
     def place(self, line: int, column: int) -> str:
         """Name a cell, given by indices, as a user counts."""

@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Alignment", "AreaQuads", "PcmMatch", "WarpingInfo"]
+__all__ = ["Alignment", "AreaQuads", "Matching", "PcmMatch", "WarpingInfo"]
 
 
 @dataclass(frozen=True)
@@ -41,6 +41,25 @@ class AreaQuads(NamedTuple):
 
     quads: npt.NDArray[np.float64]
     areas: npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Matching:
+    """A distance with two walks along the curves that attain it.
+
+    Attributes
+    ----------
+    distance : float
+        The longest leash between the walks: the value of the measure or, where the rounding of
+        the parameters stretches it, the least double that is not below what they need.
+    parameters : ndarray, shape (k, 2)
+        Pairs of a parameter of P and one of Q: the index of a vertex plus a fraction of the edge
+        behind it. Neither ever decreases; the first are 0 and the last the indices of the last
+        points. Between two rows both walks stay on one edge each, at steady speeds.
+    """
+
+    distance: float
+    parameters: npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

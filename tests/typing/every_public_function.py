@@ -47,6 +47,13 @@ number = curvewise.dtw(P[:, 0], Q[:, 0], open_begin=True, open_end=True)
 alignment = curvewise.dtw_path(P, Q, window=np.int32(3), workers=2)
 table = curvewise.dtw_table(P, Q, metric="minkowski", p=np.inf)
 
+number = curvewise.frechet_continuous(P, Q, workers=2)
+bounds = curvewise.frechet_continuous(P, Q, bounds=True)
+matching: curvewise.Matching = curvewise.frechet_continuous_path(P, Q)
+parameters: FloatArray = matching.parameters
+number = matching.distance
+is_near: bool = curvewise.frechet_within(P, Q, np.float32(0.5), continuous=False)
+
 number = curvewise.curve_length(P, Q, scale="mean_abs")
 distances: FloatArray = curvewise.cdist([P, Q], [P], "pcm", offsets=50, workers=-1)
 distances = curvewise.cdist([listed], measure=curvewise.mae, progress=print, cutoff=np.float32(3))

@@ -18,8 +18,8 @@ namespace curvewise {
 
 // The conditions under which each measure is computed.
 enum class Preset {
-    scaled,  // all on curves scaled by P's box (normalize), area with split, curve_length with
-             // mean_abs
+    scaled,  // all on curves scaled by P's box (normalize), area with Spacing::matched,
+             // curve_length with mean_abs
     paper,   // those of Table 4 of Jekel et al. (2018): area raw with Spacing::x; frechet, and dtw
              // with symmetric2, on scaled curves; pcm and curve_length raw
     raw      // every default, on the curves as they are
@@ -45,7 +45,8 @@ struct Comparison {
         const char* measure;
         double value;
     };
-    // Of all measures, in the order of the list (measure.hpp); and, of five, by name.
+    // Of all measures except the continuous Fréchet distance, in the order of the list
+    // (measure.hpp), and by name.
     std::vector<Value> values;
     std::optional<double> area;
     std::optional<double> pcm;

@@ -1,4 +1,4 @@
-/* curvewise for C (C99), and through cpp/fortran/curvewise.f90 for Fortran: the five measures, the
+/* curvewise for C (C99), and through cpp/fortran/curvewise.f90 for Fortran: the measures, the
  * scaling that goes with them, and all pairs of many curves. What a measure means, costs and
  * refuses is written in the C++ header of its name (area.hpp, pcm.hpp, frechet.hpp, dtw.hpp,
  * curve_length.hpp, pairwise.hpp); the numbers are the same to the last bit.
@@ -61,7 +61,8 @@ enum curvewise_step_pattern { CURVEWISE_SYMMETRIC1, CURVEWISE_SYMMETRIC2 };
 enum curvewise_spacing {
     CURVEWISE_SPACING_DISTANCE,
     CURVEWISE_SPACING_X,
-    CURVEWISE_SPACING_ARC_LENGTH
+    CURVEWISE_SPACING_ARC_LENGTH,
+    CURVEWISE_SPACING_MATCHED
 };
 enum curvewise_crossing { CURVEWISE_REARRANGE, CURVEWISE_SPLIT };
 enum curvewise_length_scale { CURVEWISE_MEAN, CURVEWISE_MEAN_ABS, CURVEWISE_RANGE };
@@ -94,23 +95,34 @@ typedef struct curvewise_frechet_options {
 typedef struct curvewise_dtw_options {
     int metric;
     double p;
-    int step_pattern;  /* curvewise_step_pattern */
-    int open_begin;    /* not 0: P is matched to a part of Q that may begin anywhere */
-    int open_end;      /* not 0: ... that may end anywhere */
-    ptrdiff_t window;  /* Sakoe-Chiba band; CURVEWISE_NO_WINDOW for none */
-    ptrdiff_t workers; /* threads, -1 for one per core */
-    int prune;         /* not 0: leave out what cannot matter of the table */
-    double cutoff;     /* a value above it becomes infinity */
+    int step_pattern;       /* curvewise_step_pattern */
+    int open_begin;         /* not 0: P is matched to a part of Q that may begin anywhere */
+    int open_end;           /* not 0: ... that may end anywhere */
+    ptrdiff_t window;       /* Sakoe-Chiba band; CURVEWISE_NO_WINDOW for none */
+    ptrdiff_t workers;      /* threads, -1 for one per core */
+    int prune;              /* not 0: leave out what cannot matter of the table */
+    double cutoff;          /* a value above it becomes infinity */
+    double window_fraction; /* not 0: in place of window, a fraction of the longer curve's points */
+    int normalize;          /* not 0: divide by n + m; CURVEWISE_SYMMETRIC2 only */
 } curvewise_dtw_options;
 #define CURVEWISE_NO_WINDOW (-1)
-#define CURVEWISE_DTW_DEFAULTS \
-    { CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL }
+#define CURVEWISE_DTW_DEFAULTS                                                                     \
+    {                                                                                              \
+        CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL, \
+            0.0, 0                                                                                 \
+    }
 
 typedef struct curvewise_curve_length_options {
     int scale; /* curvewise_length_scale */
 } curvewise_curve_length_options;
 #define CURVEWISE_CURVE_LENGTH_DEFAULTS \
     { CURVEWISE_MEAN }
+
+typedef struct curvewise_frechet_continuous_options {
+    ptrdiff_t workers; /* threads, -1 for one per core; one pair is searched by one thread */
+} curvewise_frechet_continuous_options;
+#define CURVEWISE_FRECHET_CONTINUOUS_DEFAULTS \
+    { 1 }
 
 /* The measures: one number, in *value. */
 CURVEWISE_EXPORT int curvewise_area(const curvewise_curve* P, const curvewise_curve* Q,
@@ -128,6 +140,9 @@ CURVEWISE_EXPORT int curvewise_dtw(const curvewise_curve* P, const curvewise_cur
 CURVEWISE_EXPORT int curvewise_curve_length(const curvewise_curve* P, const curvewise_curve* Q,
                                             const curvewise_curve_length_options* options,
                                             double* value, curvewise_error* error);
+CURVEWISE_EXPORT int curvewise_frechet_continuous(
+    const curvewise_curve* P, const curvewise_curve* Q,
+    const curvewise_frechet_continuous_options* options, double* value, curvewise_error* error);
 
 /* Writes C minus P's minimum, divided by P's extent, to out[i * dim + c] (pointwise.hpp). */
 CURVEWISE_EXPORT int curvewise_normalize(const curvewise_curve* P, const curvewise_curve* C,
@@ -140,7 +155,8 @@ enum curvewise_measure {
     CURVEWISE_PCM,
     CURVEWISE_FRECHET,
     CURVEWISE_DTW,
-    CURVEWISE_CURVE_LENGTH
+    CURVEWISE_CURVE_LENGTH,
+    CURVEWISE_FRECHET_CONTINUOUS
 };
 
 typedef struct curvewise_batch_options {
@@ -157,7 +173,7 @@ CURVEWISE_EXPORT int curvewise_cdist(const curvewise_curve* XA, ptrdiff_t na,
                                      double* out, curvewise_error* error);
 
 /* Writes the measure of X[i] and X[j], i < j, row by row: k (k - 1) / 2 values, (0, 1), (0, 2), ...
- * For symmetric measures: area, frechet, and dtw without open ends. */
+ * For symmetric measures: area, both Frechet distances, and dtw without open ends. */
 CURVEWISE_EXPORT int curvewise_pdist(const curvewise_curve* X, ptrdiff_t k, int measure,
                                      const void* options, const curvewise_batch_options* batch,
                                      double* out, curvewise_error* error);

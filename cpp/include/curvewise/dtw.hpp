@@ -44,10 +44,16 @@ struct DtwOptions {
     StepPattern step_pattern = StepPattern::symmetric1;
     // Sakoe-Chiba band: |i (m-1) - j (n-1)| <= window (max(n, m) - 1); none where n or m is 1.
     std::optional<std::ptrdiff_t> window;
+    // In place of `window`, a fraction between 0 and 1 of the points of the longer curve, cut to a
+    // whole number.
+    std::optional<double> window_fraction;
     // Subsequence DTW (Müller 2007): P is matched to a part of Q, which may begin, or end,
     // anywhere. With symmetric1 and without a window only.
     bool open_begin = false;
     bool open_end = false;
+    // Divide the distance by n + m, the sum of the weights of any path, with symmetric2 only.
+    // Paths and tables do not look at it.
+    bool normalize = false;
     // Threads for this call, -1 for one per core. Never changes a result.
     std::ptrdiff_t workers = 1;
     // Whether to leave out what cannot matter of the table. Never changes a result.
@@ -67,9 +73,10 @@ template <class Visit>
 void visit_options(DtwOptions& options, Visit&& visit) {
     visit(options.ground);
     visit("step_pattern", options.step_pattern);
-    visit("window", options.window, window_range);
+    visit("window", options.window, options.window_fraction, window_range);
     visit("open_begin", options.open_begin);
     visit("open_end", options.open_end);
+    visit("normalize", options.normalize);
     visit("workers", options.workers, workers_range);
     visit("prune", options.prune);
     visit("cutoff", options.cutoff, cutoff_range);

@@ -10,13 +10,14 @@
 #include "curvewise/curve_length.hpp"
 #include "curvewise/dtw.hpp"
 #include "curvewise/frechet.hpp"
+#include "curvewise/frechet_continuous.hpp"
 #include "curvewise/pcm.hpp"
 
 namespace curvewise {
 
 // A measure, chosen by the type of its options.
-using Measure =
-    std::variant<AreaOptions, PcmOptions, FrechetOptions, DtwOptions, CurveLengthOptions>;
+using Measure = std::variant<AreaOptions, PcmOptions, FrechetOptions, DtwOptions,
+                             CurveLengthOptions, FrechetContinuousOptions>;
 
 namespace detail {
 template <class Visit, class... Options>

@@ -5,7 +5,8 @@
 //   visit(name, value)                     an enumeration or a bool
 //   visit(ground)                          a GroundDistance: the options "metric" and "p"
 //   visit(name, number, range)             a whole number
-//   visit(name, optional_number, range)    a whole number, or none
+//   visit(name, optional_number, optional_fraction, range)
+//                                          a whole number, a fraction between 0 and 1, or none
 //   visit(name, number, switch, range)     a whole number, or "continuous", which sets the switch
 //   visit(name, real_number, range)        a number; infinity stands for none
 //
@@ -30,7 +31,8 @@ struct RealNumberRange {
 
 inline constexpr WholeNumberRange workers_range{
     -1, "give a whole number >= 1, or -1 for all cores"};  // 0 is refused, too
-inline constexpr WholeNumberRange window_range{0, "give a whole number >= 0, or None"};
+inline constexpr WholeNumberRange window_range{
+    0, "give a whole number >= 0, a fraction between 0 and 1, or None"};
 inline constexpr WholeNumberRange offsets_range{1, "give a whole number >= 1, or 'continuous'"};
 inline constexpr RealNumberRange cutoff_range{0.0, "give a number >= 0, or None"};
 

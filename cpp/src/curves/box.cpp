@@ -12,7 +12,8 @@ BoxSide::BoxSide(const CurveView& curve, std::ptrdiff_t coordinate) noexcept
         low_ = std::min(low_, curve(i, coordinate));
         high = std::max(high, curve(i, coordinate));
     }
-    if (!(high > low_)) return;
+    has_extent_ = high > low_;
+    if (!has_extent_) return;
     range_ = RangeScale(std::max(std::abs(low_), std::abs(high)));
     low_ = range_.shrink(low_);
     extent_ = range_.shrink(high) - low_;

@@ -16,6 +16,7 @@ class BoxSide {
    public:
     BoxSide(const CurveView& curve, std::ptrdiff_t coordinate) noexcept;
 
+    bool has_extent() const noexcept { return has_extent_; }
     double scaled(double x) const noexcept { return (range_.shrink(x) - low_) / extent_; }
     // scaled(b) - scaled(a), without what rounding takes from them far from the box.
     double scaled_difference(double a, double b) const noexcept {
@@ -31,6 +32,7 @@ class BoxSide {
     RangeScale range_;
     double low_;
     double extent_ = 1.0;  // 1 where the curve has none: there nothing is scaled
+    bool has_extent_ = false;
 };
 
 // The box of a curve in the plane.

@@ -60,7 +60,8 @@ void for_each(const CurveList& first, const CurveList& second, Check check) {
             std::string place = std::to_string(i);
             if (!curve.is_flat()) place.append(", ").append(std::to_string(c));
             const char* what = std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
-            refuse(name + "[" + place + "] is " + what, "curves must be finite");
+            refuse(std::string(name).append("[").append(place).append("] is ").append(what),
+                   "curves must be finite");
         }
     }
     throw std::invalid_argument(name + " changed while it was read");

@@ -52,6 +52,7 @@ static_assert(is_same(CURVEWISE_SYMMETRIC2, StepPattern::symmetric2));
 static_assert(is_same(CURVEWISE_SPACING_DISTANCE, Spacing::distance));
 static_assert(is_same(CURVEWISE_SPACING_X, Spacing::x));
 static_assert(is_same(CURVEWISE_SPACING_ARC_LENGTH, Spacing::arc_length));
+static_assert(is_same(CURVEWISE_SPACING_MATCHED, Spacing::matched));
 static_assert(is_same(CURVEWISE_REARRANGE, Crossing::rearrange));
 static_assert(is_same(CURVEWISE_SPLIT, Crossing::split));
 static_assert(is_same(CURVEWISE_MEAN, LengthScale::mean));
@@ -60,7 +61,7 @@ static_assert(is_same(CURVEWISE_RANGE, LengthScale::range));
 // Each enumeration of C ends where that of C++ does.
 static_assert(CURVEWISE_MINKOWSKI + 1 == choice_names(Metric{}).size());
 static_assert(CURVEWISE_SYMMETRIC2 + 1 == choice_names(StepPattern{}).size());
-static_assert(CURVEWISE_SPACING_ARC_LENGTH + 1 == choice_names(Spacing{}).size());
+static_assert(CURVEWISE_SPACING_MATCHED + 1 == choice_names(Spacing{}).size());
 static_assert(CURVEWISE_SPLIT + 1 == choice_names(Crossing{}).size());
 static_assert(CURVEWISE_RANGE + 1 == choice_names(LengthScale{}).size());
 
@@ -72,8 +73,9 @@ static_assert(is_measure<CURVEWISE_PCM, curvewise::PcmOptions>);
 static_assert(is_measure<CURVEWISE_FRECHET, curvewise::FrechetOptions>);
 static_assert(is_measure<CURVEWISE_DTW, curvewise::DtwOptions>);
 static_assert(is_measure<CURVEWISE_CURVE_LENGTH, curvewise::CurveLengthOptions>);
+static_assert(is_measure<CURVEWISE_FRECHET_CONTINUOUS, curvewise::FrechetContinuousOptions>);
 constexpr int measures = std::variant_size_v<curvewise::Measure>;
-static_assert(CURVEWISE_CURVE_LENGTH + 1 == measures);
+static_assert(CURVEWISE_FRECHET_CONTINUOUS + 1 == measures);
 
 [[noreturn]] void refuse_choice(const char* option, int given, int count) {
     throw std::invalid_argument("unknown " + std::string(option) + " " + std::to_string(given) +
@@ -115,6 +117,8 @@ curvewise::DtwOptions translate(const curvewise_dtw_options& given) {
     options.ground = ground_distance(given.metric, given.p);
     options.step_pattern = choice<StepPattern>("step_pattern", given.step_pattern);
     if (given.window != CURVEWISE_NO_WINDOW) options.window = given.window;
+    if (given.window_fraction != 0.0) options.window_fraction = given.window_fraction;
+    options.normalize = given.normalize != 0;
     options.open_begin = given.open_begin != 0;
     options.open_end = given.open_end != 0;
     options.workers = given.workers;
@@ -125,6 +129,10 @@ curvewise::DtwOptions translate(const curvewise_dtw_options& given) {
 
 curvewise::CurveLengthOptions translate(const curvewise_curve_length_options& given) {
     return {choice<LengthScale>("scale", given.scale)};
+}
+
+curvewise::FrechetContinuousOptions translate(const curvewise_frechet_continuous_options& given) {
+    return {given.workers};
 }
 
 // Options given as a null pointer are the defaults.
@@ -146,6 +154,8 @@ curvewise::Measure measure_of(int measure, const void* options) {
             return measure_or_default<curvewise_dtw_options>(options);
         case CURVEWISE_CURVE_LENGTH:
             return measure_or_default<curvewise_curve_length_options>(options);
+        case CURVEWISE_FRECHET_CONTINUOUS:
+            return measure_or_default<curvewise_frechet_continuous_options>(options);
         default:
             refuse_choice("measure", measure, measures);
     }
@@ -239,6 +249,12 @@ int curvewise_curve_length(const curvewise_curve* P, const curvewise_curve* Q,
                            const curvewise_curve_length_options* options, double* value,
                            curvewise_error* error) {
     return measured(CURVEWISE_CURVE_LENGTH, P, Q, options, value, error);
+}
+
+int curvewise_frechet_continuous(const curvewise_curve* P, const curvewise_curve* Q,
+                                 const curvewise_frechet_continuous_options* options, double* value,
+                                 curvewise_error* error) {
+    return measured(CURVEWISE_FRECHET_CONTINUOUS, P, Q, options, value, error);
 }
 
 int curvewise_normalize(const curvewise_curve* P, const curvewise_curve* C, double* out,

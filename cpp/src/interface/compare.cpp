@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 
 #include "curvewise/pointwise.hpp"
 
@@ -37,10 +38,18 @@ Condition condition(Preset preset, FrechetOptions options) {
     return {options, preset != Preset::raw};
 }
 
+Condition condition(Preset preset, FrechetContinuousOptions options) {
+    return {options, preset != Preset::raw};
+}
+
 Condition condition(Preset preset, AreaOptions options) {
     if (preset == Preset::paper) options.spacing = Spacing::x;
-    // "rearrange" jumps where curves cross, which an identification takes for minima.
-    if (preset == Preset::scaled) options.crossing = Crossing::split;
+    if (preset == Preset::scaled) {
+        options.spacing = Spacing::matched;
+        // For whoever chooses another spacing: "rearrange" jumps where curves cross, which an
+        // identification takes for minima.
+        options.crossing = Crossing::split;
+    }
     return {options, preset == Preset::scaled};
 }
 
@@ -53,6 +62,11 @@ Condition condition(Preset preset, CurveLengthOptions options) {
     if (preset == Preset::scaled) options.scale = LengthScale::mean_abs;
     return {options, preset == Preset::scaled};
 }
+
+// A Comparison has the five measures of the paper. The continuous Fréchet distance would say nearly
+// the same as the discrete one.
+template <class Options>
+constexpr bool is_compared = !std::is_same_v<Options, FrechetContinuousOptions>;
 
 // A value that a Comparison has by name, too.
 void keep(Comparison& found, const AreaOptions& /*of*/, double value) { found.area = value; }
@@ -87,6 +101,7 @@ Comparison compare(const CurveView& P, const CurveView& Q, Preset preset, Contro
     for (const Condition& given : conditions(preset)) {
         std::visit(
             [&](const auto& options) {
+                if (!is_compared<std::decay_t<decltype(options)>>) return;
                 if (options.is_planar && P.dim() != 2) return;
                 result.values.push_back({options.measure, value(options, given.scaled)});
                 keep(result, options, result.values.back().value);

@@ -1,6 +1,7 @@
 // Algorithm 1 of Jekel et al. (2018): refinement, then the areas of the quadrilaterals between
 // the curves. Areas are half the cross product of the diagonals, Gauss's formula without its
-// cancellation.
+// cancellation. With Spacing::matched the curves are matched by a warping path instead
+// (matching.hpp), and areas have signs, which cancel within a piece.
 #include "curvewise/area.hpp"
 
 #include <algorithm>
@@ -9,13 +10,13 @@
 #include "curves/polyline.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
+#include "planar/matching.hpp"
 #include "planar/refinement.hpp"
 
 namespace curvewise {
 namespace {
 
 using detail::cross;
-using detail::FacingCurves;
 using detail::Point;
 using detail::RangeScale;
 
@@ -36,7 +37,9 @@ struct Quad {
         return left >= 3 || right >= 3;
     }
 
-    double area() const noexcept { return 0.5 * std::abs(cross(c - a, d - b)); }
+    // Positive if the corners turn left.
+    double signed_area() const noexcept { return 0.5 * cross(c - a, d - b); }
+    double area() const noexcept { return std::abs(signed_area()); }
 
     // For a complex quadrilateral: its first two vertices swapped, or its second and third.
     Quad rearranged() const noexcept {
@@ -78,7 +81,9 @@ Measured measure(const Quad& quad, Crossing crossing) noexcept {
     return {simple, simple.area()};
 }
 
-Quad quad_at(const FacingCurves& curves, std::size_t i) noexcept {
+// Of FacingCurves or of a Matching.
+template <class Curves>
+Quad quad_at(const Curves& curves, std::size_t i) noexcept {
     return {curves.A[i], curves.A[i + 1], curves.B[i + 1], curves.B[i]};
 }
 
@@ -94,9 +99,13 @@ class AreaMeasure : public detail::LinearMeasure {
                       const detail::Call<Memory>& call) const {
         const RangeScale range = range_of(P, Q);
         double sum = 0.0;
-        for_each_quad(P, Q, range, call.poller, [&](const Measured& quad) {
-            sum += options_.squared ? quad.area * quad.area : quad.area;
-        });
+        const auto add = [&](double area) { sum += options_.squared ? area * area : area; };
+        if (options_.spacing == Spacing::matched) {
+            for_each_piece(P, Q, range, call.poller,
+                           [&](const auto&, auto, auto, double area) { add(std::abs(area)); });
+        } else {
+            for_each_quad(P, Q, range, call.poller, [&](const Measured& quad) { add(quad.area); });
+        }
         return range.restore(sum, options_.squared ? 4 : 2);
     }
 
@@ -112,12 +121,24 @@ class AreaMeasure : public detail::LinearMeasure {
         const auto most = static_cast<std::size_t>(P.checked.curve.size() + Q.checked.curve.size());
         result.quads.reserve(most);
         result.areas.reserve(most);
-        for_each_quad(P, Q, range, call.poller, [&](const Measured& measured) {
+        const auto add = [&](const Measured& measured) {
             const Quad& quad = measured.quad;
             result.quads.push_back(
                 {restored(quad.a), restored(quad.b), restored(quad.c), restored(quad.d)});
             result.areas.push_back(range.restore(measured.area, 2));
-        });
+        };
+        if (options_.spacing == Spacing::matched) {
+            for_each_piece(P, Q, range, call.poller,
+                           [&](const auto& curves, auto first, auto end, double area) {
+                               for (std::size_t i = first; i < end; ++i) {
+                                   const Quad quad = quad_at(curves, i);
+                                   const double part = quad.signed_area();
+                                   add({quad, area < 0.0 ? -part : part});
+                               }
+                           });
+        } else {
+            for_each_quad(P, Q, range, call.poller, add);
+        }
         return result;
     }
 
@@ -130,11 +151,31 @@ class AreaMeasure : public detail::LinearMeasure {
     template <class Visit>
     void for_each_quad(const PreparedP& P, const PreparedQ& Q, const RangeScale& range,
                        detail::Poller& poller, Visit visit) const {
-        const FacingCurves curves =
+        const detail::FacingCurves curves =
             detail::face(P.checked.curve, Q.checked.curve, range, options_.spacing, poller);
         for (std::size_t i = 0; i + 1 < curves.A.size(); ++i) {
             poller.poll_in_loop(i);
             visit(measure(quad_at(curves, i), options_.crossing));
+        }
+    }
+
+    // Calls visit(curves, first, end, area) for one piece of a matching after the other: its
+    // quadrilaterals are those from `first` to before `end`, and their areas, with their signs,
+    // make up `area`.
+    template <class Visit>
+    void for_each_piece(const PreparedP& P, const PreparedQ& Q, const RangeScale& range,
+                        detail::Poller& poller, Visit visit) const {
+        const detail::Matching curves =
+            detail::match(P.checked.curve, Q.checked.curve, range, poller);
+        std::size_t first = 0;
+        for (const std::size_t end : curves.ends) {
+            double area = 0.0;
+            for (std::size_t i = first; i < end; ++i) {
+                poller.poll_in_loop(i);
+                area += quad_at(curves, i).signed_area();
+            }
+            visit(curves, first, end, area);
+            first = end;
         }
     }
 

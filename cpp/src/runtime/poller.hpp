@@ -39,6 +39,12 @@ class Poller {
         if (effort_ < effort_between_polls) return control_->stopped();
         return poll();
     }
+    // The same for work that is counted as no step: throws Stopped.
+    void spend(std::int64_t effort) {
+        if (control_ == nullptr) return;
+        effort_ += effort;
+        if (effort_ >= effort_between_polls && poll()) throw Stopped();
+    }
     // Whether steps are counted, as they are at first, or lead to polls only. Returns what was so
     // before.
     bool set_counting(bool is_counting) noexcept {

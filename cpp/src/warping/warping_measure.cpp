@@ -48,50 +48,73 @@ struct WarpingOptions {
     kernels::Recurrence recurrence;
     GroundDistance ground;
     std::ptrdiff_t workers;
-    std::optional<std::ptrdiff_t> window = std::nullopt;
-    bool open_begin = false;
-    bool open_end = false;
     bool prune = false;
     double cutoff = infinity;
+    std::optional<std::ptrdiff_t> window = std::nullopt;
+    std::optional<double> window_fraction = std::nullopt;
+    bool open_begin = false;
+    bool open_end = false;
+    bool normalize = false;
+
+    std::optional<std::ptrdiff_t> window_for(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
+        if (!window_fraction) return window;
+        return static_cast<std::ptrdiff_t>(*window_fraction * static_cast<double>(std::max(n, m)));
+    }
+    // What a distance is divided by.
+    double divisor(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
+        return normalize ? static_cast<double>(n) + static_cast<double>(m) : 1.0;
+    }
 };
+
+void check_window(const DtwOptions& options) {
+    if (options.window && options.window_fraction) {
+        throw std::invalid_argument("window and window_fraction are both given; give one of them");
+    }
+    if (options.window) detail::check_whole_number("window", *options.window, window_range);
+    if (options.window_fraction &&
+        !(*options.window_fraction > 0.0 && *options.window_fraction < 1.0)) {
+        throw std::invalid_argument("window is " + std::to_string(*options.window_fraction) + "; " +
+                                    window_range.advice);
+    }
+}
 
 WarpingOptions checked(const DtwOptions& options) {
     detail::check_ground_distance(options.ground);
     detail::check_cutoff(options.cutoff);
-    if (options.window) detail::check_whole_number("window", *options.window, window_range);
+    check_window(options);
     const bool is_symmetric1 = options.step_pattern == StepPattern::symmetric1;
     if (options.open_begin || options.open_end) {
         if (!is_symmetric1) {
             throw std::invalid_argument("open_begin and open_end need step_pattern='symmetric1'");
         }
-        if (options.window) {
+        if (options.window || options.window_fraction) {
             throw std::invalid_argument("open_begin and open_end cannot be combined with window");
         }
+    }
+    if (options.normalize && is_symmetric1) {
+        throw std::invalid_argument(
+            "normalize needs step_pattern='symmetric2', whose paths all have the weight n + m");
     }
     return {
         DtwOptions::measure,
         is_symmetric1 ? kernels::Recurrence::dtw_symmetric1 : kernels::Recurrence::dtw_symmetric2,
         options.ground,
         detail::resolve_workers(options.workers),
+        options.prune,
+        options.cutoff,
         options.window,
+        options.window_fraction,
         options.open_begin,
         options.open_end,
-        options.prune,
-        options.cutoff};
+        options.normalize};
 }
 
 WarpingOptions checked(const FrechetOptions& options) {
     detail::check_ground_distance(options.ground);
     detail::check_cutoff(options.cutoff);
-    return {FrechetOptions::measure,
-            kernels::Recurrence::frechet,
-            options.ground,
-            detail::resolve_workers(options.workers),
-            std::nullopt,
-            false,
-            false,
-            options.prune,
-            options.cutoff};
+    return {FrechetOptions::measure, kernels::Recurrence::frechet,
+            options.ground,          detail::resolve_workers(options.workers),
+            options.prune,           options.cutoff};
 }
 
 // Two packed curves, and the table between them.
@@ -108,7 +131,8 @@ class WarpingProblem {
                  options.recurrence,
                  detail::canonical_cost(options.ground, curves),
                  options.ground.p,
-                 detail::Band(curves.rows(), curves.columns(), options.window),
+                 detail::Band(curves.rows(), curves.columns(),
+                              options.window_for(curves.rows(), curves.columns())),
                  options.open_begin,
                  call.workers,
                  call.poller,
@@ -279,7 +303,7 @@ class WarpingMeasure {
     explicit WarpingMeasure(const Options& options) : options_(checked(options)) {}
     detail::Requirements requirements() const noexcept { return {options_.measure, 1, false}; }
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const {
-        if (options_.window && *options_.window == 0 && n != m && n > 1 && m > 1) {
+        if (options_.window_for(n, m) == 0 && n != m && n > 1 && m > 1) {
             throw std::invalid_argument("window=0 admits no path between " + std::to_string(n) +
                                         " and " + std::to_string(m) + " points; use at least 1");
         }
@@ -308,9 +332,14 @@ class WarpingMeasure {
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
                       const detail::Call<Memory>& call) const {
-        const double cutoff = std::min(call.cutoff, options_.cutoff);
-        const double value = with_problem(
-            P, Q, call, [&](WarpingProblem& problem) { return problem.distance(cutoff); });
+        const double divisor = options_.divisor(P.packed.size(), Q.packed.size());
+        // A little more, so that the rounding of the quotient gives nothing up.
+        const double more = divisor == 1.0 ? 1.0 : divisor * (1.0 + 1e-15);
+        const double cutoff = std::min(call.cutoff, options_.cutoff) * more;
+        const double value =
+            with_problem(P, Q, call,
+                         [&](WarpingProblem& problem) { return problem.distance(cutoff); }) /
+            divisor;
         return value > options_.cutoff ? infinity : value;
     }
 

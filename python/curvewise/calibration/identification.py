@@ -16,7 +16,8 @@ import numpy as np
 
 from .._curves import Array
 from .._options import Preset
-from ..measures.registry import default_measures
+from ..deviations import Deviation, deviation
+from ..measures.registry import Condition, default_measures
 from ._extra import required
 from .curve_list import as_points, curve_list
 from .evaluations import Evaluations, Finish, Progress, SearchEndedError
@@ -62,8 +63,11 @@ class Identification:
         Whether the method met its tolerances.
     message : str
         How the search ended.
-    method, seed, bounds, measure, preset
+    method, seed, bounds, measure, preset, part
         As asked for.
+    condition : Condition or None
+        Whether the measure is computed on scaled curves, and its options, the preset's included;
+        None for "sum_of_squares" and for a function.
     """
 
     parameters: dict[str, float]
@@ -80,6 +84,27 @@ class Identification:
     bounds: dict[str, tuple[float, float]]
     measure: str
     preset: Preset
+
+    part: Part
+    condition: Condition | None = field(repr=False)
+
+    @property
+    def deviations(self) -> tuple[Deviation | None, ...]:
+        """How far each simulation is from its experiment, in units of y, as the measure sees it.
+
+        Computed when asked for. None for curve_length, sum_of_squares and functions, and where a
+        simulation has failed. See :class:`curvewise.deviations.Deviation`.
+        """
+        if self.condition is None or len(self.simulations) < len(self.experiments):
+            return (None,) * len(self.experiments)
+        pairs = zip(self.experiments, self.simulations, strict=True)
+        return tuple(self._deviation(self.condition, *pair) for pair in pairs)
+
+    def _deviation(self, condition: Condition, P: Array, Q: Array) -> Deviation | None:
+        try:
+            return deviation(self.measure, condition, P, Q, part=self.part)
+        except ValueError:  # the measure refuses the simulation, which the objective calls failed
+            return None
 
     @property
     def evaluations(self) -> int:
@@ -103,6 +128,9 @@ class Identification:
         for name, value in self.measures.items():
             note = "  minimised" if name == self.measure else ""
             lines.append(f"{name:<{width}}  {value:>12.6g}{note}")
+        deviations = [f"curve {k}: {d}" for k, d in enumerate(self.deviations) if d is not None]
+        if deviations:
+            lines += ["", f"deviation of {self.measure}, in units of y", *deviations]
         failed = f", {len(self.failures)} failed" if self.failures else ""
         lines += [
             "",
@@ -312,6 +340,8 @@ def _result(
         bounds=space.bounds,
         measure=objective.measure,
         preset=objective.preset,
+        part=objective.part,
+        condition=objective.condition,
     )
 
 

@@ -73,8 +73,9 @@ class Objective:
         the experiment's x: for data with a common x, which must not turn back.
     preset : {"scaled", "paper", "raw"}
         As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
-        that loops, and x and y, count alike; sum_of_squares and functions are given the curves
-        as they are in the other two.
+        that loops, and x and y, count alike, and takes area with ``spacing="matched"``, which
+        hardly depends on the simulation's increments; "paper" has Algorithm 1. sum_of_squares and
+        functions are given the curves as they are in the other two.
     weights : sequence of float, optional
         A factor for every loop, not negative; 1 if not given.
     failure_value : float, optional
@@ -99,6 +100,9 @@ class Objective:
         As given, in float64 and of shape (n, d).
     measure : str
         The measure's name; of a callable its ``__name__``, or its type's.
+    condition : Condition or None
+        Whether it is computed on scaled curves, and its options, the preset's included; None for
+        "sum_of_squares" and for a function.
     weights, failure_value, scales : ndarray, shape (loops,)
         The factors; the terms of failed loops; the values, by measure, of simulations that are
         wrong by the loop's height.
@@ -155,6 +159,8 @@ class Objective:
         self.failures = 0
         condition = condition_of(preset, measure)
         options = {**condition.options, **options}
+        has_condition = not callable(measure) and measure in PRESETS[preset]
+        self.condition = condition._replace(options=options) if has_condition else None
         check_part(part, measure, options)
         curves = curve_list(experiments)
         names = ["P"] if len(curves) == 1 else [f"experiments[{i}]" for i in range(len(curves))]

@@ -18,6 +18,7 @@ from .area import area, area_quads
 from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_info, dtw_path, dtw_table
 from .frechet import frechet, frechet_info, frechet_path, frechet_table
+from .frechet_continuous import frechet_continuous, frechet_continuous_path, frechet_within
 from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, normalize, sum_of_squares
 
@@ -37,9 +38,12 @@ __all__ = [
     "dtw_path",
     "dtw_table",
     "frechet",
+    "frechet_continuous",
+    "frechet_continuous_path",
     "frechet_info",
     "frechet_path",
     "frechet_table",
+    "frechet_within",
     "mae",
     "mse",
     "normalize",

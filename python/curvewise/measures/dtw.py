@@ -10,7 +10,7 @@ from typing import SupportsFloat, SupportsIndex
 from .. import _core
 from .._curves import Array, CurveLike, as_curves
 from .._docstrings import filled
-from .._options import Default, Metric, Order, StepPattern
+from .._options import Default, Metric, Order, StepPattern, Window
 from ..results import Alignment, WarpingInfo
 
 __all__ = ["dtw", "dtw_info", "dtw_path", "dtw_table"]
@@ -24,9 +24,10 @@ def dtw(
     metric: Metric = Default.metric,
     p: Order = Default.p,
     step_pattern: StepPattern = Default.step_pattern,
-    window: SupportsIndex | None = Default.window,
+    window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
+    normalize: bool = Default.normalize,
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
     cutoff: SupportsFloat | None = Default.cutoff,
@@ -42,12 +43,17 @@ def dtw(
     step_pattern : {"symmetric1", "symmetric2"}
         "symmetric2" counts a diagonal step twice; it is R's default, with which the paper's
         tables were made.
-    window : int >= 0, optional
+    window : int >= 0 or 0 < float < 1, optional
         Sakoe–Chiba band: abs(i (m-1) - j (n-1)) <= window (max(n, m) - 1), that is
-        abs(i - j) <= window where n = m. No limit where n = 1 or m = 1.
+        abs(i - j) <= window where n = m. No limit where n = 1 or m = 1. A fraction is one of
+        max(n, m), cut to a whole number.
     open_begin, open_end : bool
         Subsequence DTW: P is matched to a part of Q, which may begin, or end, anywhere. Not
         normalised by length. With "symmetric1" and without a window only.
+    normalize : bool
+        Divide by n + m, the sum of the step weights of every path: a distance per step, which does
+        not grow with the number of points. With "symmetric2" only, as in R's dtw and dtw-python,
+        because paths of "symmetric1" differ in length.
     {workers}
     {prune}
     {cutoff}
@@ -55,8 +61,8 @@ def dtw(
     Returns
     -------
     float
-        In units of the ground distance; not divided by the length of the path. Symmetric, except
-        with open ends.
+        In units of the ground distance; not divided by the length of the path unless
+        ``normalize``. Symmetric, except with open ends.
 
     Raises
     ------
@@ -72,11 +78,25 @@ def dtw(
     w = 1 for "symmetric1" and 2 for "symmetric2"; open ends: Müller (2007). Exact. Time O(n m),
     or the cells of the band; memory O(n + m).
 
+    What other packages call DTW, in these options:
+
+    =============================================  ===========================================
+    dtw-python, R's dtw: ``distance``              ``step_pattern="symmetric2"``
+    their ``normalizedDistance``                   the same, ``normalize=True``
+    dtaidistance, tslearn: ``distance``, ``dtw``   ``sqrt(dtw(metric="sqeuclidean"))``
+    aeon: ``dtw_distance``                         ``metric="sqeuclidean"``
+    dtaidistance's ``window=w``                    ``window=w - 1``
+    tslearn's ``sakoe_chiba_radius=r``             ``window=r``
+    aeon's ``window=f``, of n = m points           ``window=f``
+    =============================================  ===========================================
+
     Examples
     --------
     >>> import curvewise
     >>> curvewise.dtw([0, 1, 2, 3], [0, 2, 3])
     1.0
+    >>> curvewise.dtw([0, 1, 2, 3], [0, 2, 3], step_pattern="symmetric2", normalize=True)
+    0.14285714285714285
     >>> curvewise.dtw([1, 2], [9, 1, 2, 9], open_begin=True, open_end=True)
     0.0
     """
@@ -91,6 +111,7 @@ def dtw(
             "window": window,
             "open_begin": open_begin,
             "open_end": open_end,
+            "normalize": normalize,
             "workers": workers,
             "prune": prune,
             "cutoff": cutoff,
@@ -105,7 +126,7 @@ def dtw_info(
     metric: Metric = Default.metric,
     p: Order = Default.p,
     step_pattern: StepPattern = Default.step_pattern,
-    window: SupportsIndex | None = Default.window,
+    window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
     workers: SupportsIndex = Default.workers,
@@ -166,7 +187,7 @@ def dtw_path(
     metric: Metric = Default.metric,
     p: Order = Default.p,
     step_pattern: StepPattern = Default.step_pattern,
-    window: SupportsIndex | None = Default.window,
+    window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
     workers: SupportsIndex = Default.workers,
@@ -228,7 +249,7 @@ def dtw_table(
     metric: Metric = Default.metric,
     p: Order = Default.p,
     step_pattern: StepPattern = Default.step_pattern,
-    window: SupportsIndex | None = Default.window,
+    window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
 ) -> Array:

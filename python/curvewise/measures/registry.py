@@ -19,6 +19,7 @@ from .area import area
 from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_path, dtw_table
 from .frechet import frechet, frechet_path, frechet_table
+from .frechet_continuous import frechet_continuous
 from .pcm import pcm
 
 __all__ = [
@@ -69,6 +70,8 @@ class MeasureInfo(NamedTuple):
         The function that returns the vector of which the measure is the norm, where it is one.
     scales_itself : bool
         Whether it always scales both curves by P's box, so that a preset need not.
+    by_default : bool
+        Whether compare computes it where it is not asked for.
     """
 
     name: MeasureName
@@ -80,6 +83,7 @@ class MeasureInfo(NamedTuple):
     warping: Warping | None = None
     residuals: Callable[..., Array] | None = None
     scales_itself: bool = False
+    by_default: bool = True
 
     @property
     def reference(self) -> Callable[..., float]:
@@ -135,6 +139,15 @@ MEASURES: Mapping[str, MeasureInfo] = {
             picture="plot_curve_length",
             residuals=curve_length_residuals,
         ),
+        MeasureInfo(
+            name="frechet_continuous",
+            title="Continuous Fréchet",
+            function=frechet_continuous,
+            planar=False,
+            symmetric=True,
+            picture="plot_matching",
+            by_default=False,
+        ),
     )
 }
 
@@ -147,6 +160,8 @@ PRESETS: dict[str, dict[str, Condition]] = {
 
 
 def default_measures(curve: Array) -> list[str]:
-    """Return the measures that suit a curve: in the plane all, else those of any dimension."""
+    """Return the measures that compare computes: in the plane five, else those of any dimension."""
     in_plane = curve.ndim == 2 and curve.shape[1] == 2
-    return [name for name, info in MEASURES.items() if in_plane or not info.planar]
+    return [
+        name for name, info in MEASURES.items() if info.by_default and (in_plane or not info.planar)
+    ]

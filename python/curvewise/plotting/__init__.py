@@ -16,6 +16,7 @@ from .area import plot_area
 from .comparison import plot_comparison
 from .curve_length import plot_curve_length
 from .drawing import CurveArtists
+from .matching import plot_free_space, plot_matching
 from .pcm import plot_pcm
 from .table import plot_table
 
@@ -25,6 +26,8 @@ __all__ = [
     "plot_area",
     "plot_comparison",
     "plot_curve_length",
+    "plot_free_space",
+    "plot_matching",
     "plot_pcm",
     "plot_table",
 ]

@@ -5,8 +5,9 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from ..measures.registry import MEASURES, PRESETS
+from ..measures.registry import MEASURES
 from . import drawing
+from .matching import plot_free_space
 from .table import plot_table
 
 if TYPE_CHECKING:
@@ -75,13 +76,16 @@ def plot_comparison(comparison: Comparison) -> Figure:
 
 def _draw_measure(comparison: Comparison, name: str, ax: Axes, dim: int) -> Line2D | None:
     """Draw the picture of one measure into a small panel, and return its accent."""
-    info, condition = MEASURES[name], PRESETS[comparison.preset][name]
+    info, condition = MEASURES[name], comparison.conditions[name]
     options: dict[str, Any] = dict(condition.options)
     if info.warping:
         options["measure"] = name
     if not info.scales_itself:
         options["normalized"] = condition.scaled
     curves = comparison.P, comparison.Q
+    if dim > 2 and name == "frechet_continuous":
+        plot_free_space(*curves, ax, **options)
+        return None
     if info.warping and dim > 2:
         image, _ = plot_table(*curves, ax, **options)
         ax.figure.colorbar(image)

@@ -24,6 +24,7 @@ from .area import area, area_quads
 from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_path, dtw_table
 from .frechet import frechet, frechet_path, frechet_table
+from .frechet_continuous import frechet_continuous, frechet_continuous_path, frechet_within
 from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, sum_of_squares
 from .scaling import normalize
@@ -37,8 +38,11 @@ __all__ = [
     "dtw_path",
     "dtw_table",
     "frechet",
+    "frechet_continuous",
+    "frechet_continuous_path",
     "frechet_path",
     "frechet_table",
+    "frechet_within",
     "mae",
     "mse",
     "normalize",

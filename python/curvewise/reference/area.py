@@ -5,11 +5,14 @@ segments lie quadrilaterals, whose areas are added up. Whether a quadrilateral i
 ("complex") is told by the signs of the cross products of its consecutive edges; the area of a
 simple one is half the cross product of its diagonals, which is Gauss's formula without its
 cancellation. Time O(n + (n - m) log m), memory O(n).
+
+With "matched" the curves are matched by a warping path instead (matching.py); areas have signs,
+which cancel within each of the pieces into which the path is cut.
 """
 
 from __future__ import annotations
 
-from typing import get_args
+from typing import NamedTuple, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +21,7 @@ from .._curves import Array, CurveLike, as_curves
 from .._options import Crossing, Default, Spacing
 from ..results import AreaQuads
 from .checks import check_choice, check_pair
+from .matching import Indices, matched_curves
 from .refinement import facing_curves
 from .scaling import range_exponent, times_power_of_two
 
@@ -33,10 +37,14 @@ def area(
     squared: bool = Default.squared,
 ) -> float:
     """Add up the areas of :func:`area_quads`, where cost and source are."""
-    _, areas, exponent = _quadrilaterals(P, Q, spacing, crossing)
+    measured = _measure(P, Q, spacing, crossing)
+    parts = measured.areas
+    if measured.pieces is not None:
+        with np.errstate(under="ignore"):
+            parts = np.add.reduceat(parts, measured.pieces)
     with np.errstate(over="ignore", under="ignore"):
-        total = np.asarray(np.sum(areas * areas if squared else areas))
-    return float(times_power_of_two(total, (4 if squared else 2) * exponent))
+        total = np.asarray(np.sum(parts * parts if squared else parts))
+    return float(times_power_of_two(total, (4 if squared else 2) * measured.exponent))
 
 
 def area_quads(
@@ -48,26 +56,51 @@ def area_quads(
 ) -> AreaQuads:
     """Algorithm 1 of the paper; its Eq. 6 has a misprint: CD = (x4 - x3, y4 - y3).
 
-    Time O(n + (n - m) log m) where n >= m, memory O(n); with "arc_length" O(n + m).
+    Time O(n + (n - m) log m) where n >= m, memory O(n); with "arc_length" O(n + m); with "matched"
+    see matching.py.
     """
-    quads, areas, exponent = _quadrilaterals(P, Q, spacing, crossing)
+    quads, areas, exponent, _ = _measure(P, Q, spacing, crossing)
     return AreaQuads(times_power_of_two(quads, exponent), times_power_of_two(areas, 2 * exponent))
 
 
-def _quadrilaterals(
-    P: CurveLike, Q: CurveLike, spacing: Spacing, crossing: Crossing
-) -> tuple[Array, Array, int]:
-    """Return vertices and areas, in units of 2**exponent and its square, and the exponent."""
+class _Measured(NamedTuple):
+    """Quadrilaterals and their areas, in units of 2**exponent and its square."""
+
+    quads: Array
+    areas: Array
+    exponent: int
+    pieces: Indices | None  # where each begins, of curves that were matched
+
+
+def _measure(P: CurveLike, Q: CurveLike, spacing: Spacing, crossing: Crossing) -> _Measured:
     P, Q = as_curves(P, Q)
     check_choice("spacing", spacing, get_args(Spacing))
     check_choice("crossing", crossing, get_args(Crossing))
     P, Q = check_pair(P, Q, "area", least_points=2, planar=True)
     exponent = range_exponent(P, Q)
-    A, B = facing_curves(P, Q, spacing, exponent)
-    quads = np.stack([A[:-1], A[1:], B[1:], B[:-1]], axis=1)
+    if spacing == "matched":
+        P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
+        return _measure_pieces(P, Q, exponent)
+    quads = _between(*facing_curves(P, Q, spacing, exponent))
     with np.errstate(over="ignore", under="ignore"):
         quads, areas = _measured(quads, crossing)
-    return quads, areas, exponent
+    return _Measured(quads, areas, exponent, None)
+
+
+def _measure_pieces(P: Array, Q: Array, exponent: int) -> _Measured:
+    """Measure curves that were matched: an area is negative if it counts against its piece."""
+    A, B, ends = matched_curves(P, Q)
+    quads = _between(A, B)
+    pieces = np.concatenate([[0], ends[:-1]])
+    with np.errstate(under="ignore"):
+        areas = 0.5 * _twice_signed_area(quads)
+        signs = np.where(np.add.reduceat(areas, pieces) < 0, -1.0, 1.0)
+    areas *= np.repeat(signs, np.diff(pieces, append=len(areas)))
+    return _Measured(quads, areas, exponent, pieces)
+
+
+def _between(A: Array, B: Array) -> Array:
+    return np.stack([A[:-1], A[1:], B[1:], B[:-1]], axis=1)
 
 
 def _measured(quads: Array, crossing: Crossing) -> tuple[Array, Array]:
@@ -78,7 +111,7 @@ def _measured(quads: Array, crossing: Crossing) -> tuple[Array, Array]:
         split_areas[is_complex] = _areas_of_triangles(quads[is_complex])
     is_split = ~np.isnan(split_areas)
     quads = np.where(is_split[:, np.newaxis, np.newaxis], quads, _rearranged(quads))
-    return quads, np.where(is_split, split_areas, _area_of_simple(quads))
+    return quads, np.where(is_split, split_areas, 0.5 * np.abs(_twice_signed_area(quads)))
 
 
 def _cross(a: Array, b: Array) -> Array:
@@ -93,9 +126,10 @@ def _is_simple(quads: Array) -> npt.NDArray[np.bool_]:
     return np.asarray(np.maximum(left, right) >= 3)
 
 
-def _area_of_simple(quads: Array) -> Array:
+def _twice_signed_area(quads: Array) -> Array:
+    """Return the cross product of the diagonals: positive if the corners turn left."""
     A, B, C, D = np.moveaxis(quads, 1, 0)
-    return 0.5 * np.abs(_cross(C - A, D - B))
+    return _cross(C - A, D - B)
 
 
 def _rearranged(quads: Array) -> Array:

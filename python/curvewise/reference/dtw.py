@@ -12,13 +12,13 @@ O(n m).
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, SupportsIndex, get_args
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from .._curves import Array, CurveLike, as_curves
-from .._options import Default, Metric, Order, StepPattern
+from .._options import Default, Metric, Order, StepPattern, Window
 from ..results import Alignment
 from .checks import check_choice, check_pair, whole_number
 from .ground_distance import check_metric, degree, ground_distances
@@ -34,17 +34,23 @@ def dtw(
     metric: Metric = Default.metric,
     p: Order = Default.p,
     step_pattern: StepPattern = Default.step_pattern,
-    window: SupportsIndex | None = Default.window,
+    window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
+    normalize: bool = Default.normalize,
 ) -> float:
     """Time and memory O(n m).
 
     Step patterns: Sakoe & Chiba (1978); open ends: Müller, "Information Retrieval for Music and
     Motion" (2007), chapter 4.
     """
+    if normalize and step_pattern == "symmetric1":
+        raise ValueError(
+            "normalize needs step_pattern='symmetric2', whose paths all have the weight n + m"
+        )
     table = _accumulate(P, Q, metric, p, step_pattern, window, open_begin, open_end)
-    return float(table.restored(table.costs[-1, table.end]))
+    distance = float(table.restored(table.costs[-1, table.end]))
+    return distance / sum(table.costs.shape) if normalize else distance
 
 
 def dtw_path(
@@ -54,7 +60,7 @@ def dtw_path(
     metric: Metric = Default.metric,
     p: Order = Default.p,
     step_pattern: StepPattern = Default.step_pattern,
-    window: SupportsIndex | None = Default.window,
+    window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
 ) -> Alignment:
@@ -71,7 +77,7 @@ def dtw_table(
     metric: Metric = Default.metric,
     p: Order = Default.p,
     step_pattern: StepPattern = Default.step_pattern,
-    window: SupportsIndex | None = Default.window,
+    window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
 ) -> Array:
@@ -101,7 +107,7 @@ def _accumulate(
     metric: Metric,
     p: Order,
     step_pattern: StepPattern,
-    window: SupportsIndex | None,
+    window: Window,
     open_begin: bool,
     open_end: bool,
 ) -> _Table:
@@ -110,6 +116,8 @@ def _accumulate(
     metric, order = check_metric(metric, p)
     radius = _check_steps(step_pattern, window, open_begin, open_end)
     P, Q = check_pair(P, Q, "dtw")
+    if isinstance(radius, float):
+        radius = int(radius * max(len(P), len(Q)))
     if radius == 0 and len(P) != len(Q) and min(len(P), len(Q)) > 1:
         raise ValueError(
             f"window=0 admits no path between {len(P)} and {len(Q)} points; use at least 1"
@@ -126,11 +134,13 @@ def _accumulate(
 
 
 def _check_steps(step_pattern: StepPattern, window: Any, open_begin: bool, open_end: bool) -> Any:
-    """Check the options that shape the path, and return the radius of the window, or None."""
+    """Check the options that shape the path, and return the radius, or a fraction, or None."""
     check_choice("step_pattern", step_pattern, get_args(StepPattern))
     radius = None
     if window is not None:
-        radius = whole_number("window", window, 0, "give a whole number >= 0, or None")
+        is_fraction = isinstance(window, float) and 0 < window < 1
+        advice = "give a whole number >= 0, a fraction between 0 and 1, or None"
+        radius = window if is_fraction else whole_number("window", window, 0, advice)
     if open_begin or open_end:
         if step_pattern != "symmetric1":
             raise ValueError("open_begin and open_end need step_pattern='symmetric1'")

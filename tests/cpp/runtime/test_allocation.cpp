@@ -72,12 +72,13 @@ using namespace curvewise;
 using test::Curve;
 using test::Random;
 
-// Fails each allocation of `call`, which returns a value, in turn. Returns how many there are.
+// Fails each allocation of `call`, which returns a value, in turn: the first 256, then fewer and
+// fewer. Returns how many there are.
 std::int64_t fail_each(const std::string& name, const std::function<double()>& call) {
     const check::Note note(name);
     const double expected = call();
     std::int64_t thrown = 0, done_without = 0;
-    for (std::int64_t k = 0;; ++k) {
+    for (std::int64_t k = 0;; k += 1 + k / 256 * (k / 256)) {
         const std::int64_t before = living;
         until_failure = k;
         bool is_bad_alloc = false;

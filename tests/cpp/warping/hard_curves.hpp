@@ -58,10 +58,9 @@ inline Curve any_curve(std::ptrdiff_t n, std::ptrdiff_t dim, Random& random) {
     }
 }
 
-// Runs of equal points.
-inline Curve with_plateaus(const Curve& curve, Random& random) {
+// Runs of up to `longest` equal points.
+inline Curve with_plateaus(const Curve& curve, std::ptrdiff_t longest, Random& random) {
     Curve result = curve;
-    const std::ptrdiff_t longest = 1 + random.index(80);
     for (std::ptrdiff_t i = 0; i < curve.size();) {
         const std::ptrdiff_t end = std::min(curve.size(), i + 1 + random.index(longest));
         for (std::ptrdiff_t k = i; k < end; ++k) {
@@ -119,9 +118,9 @@ inline Pair any_pair(Random& random) {
     const std::ptrdiff_t n = any_size(random), m = any_size(random);
     const std::ptrdiff_t dim = dimensions[random.index(std::size(dimensions))];
     Curve P = any_curve(n, dim, random);
-    if (random.index(4) == 0) P = with_plateaus(P, random);
+    if (random.index(4) == 0) P = with_plateaus(P, 1 + random.index(80), random);
     Curve Q = random.index(3) == 0 ? any_curve(m, dim, random) : alike(P, m, random);
-    if (random.index(4) == 0) Q = with_plateaus(Q, random);
+    if (random.index(4) == 0) Q = with_plateaus(Q, 1 + random.index(80), random);
     if (random.index(8) == 0) Q(random.index(m), random.index(dim)) += 100.0;
     if (random.index(8) == 0) P(random.index(n), 0) -= 3.0;
     if (random.index(3) == 0) {

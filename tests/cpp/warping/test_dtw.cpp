@@ -38,6 +38,12 @@ DtwOptions with_window(std::ptrdiff_t window) {
     return options;
 }
 
+DtwOptions with_fraction(double fraction) {
+    DtwOptions options;
+    options.window_fraction = fraction;
+    return options;
+}
+
 DtwOptions with_open_ends(bool open_begin, bool open_end) {
     DtwOptions options;
     options.open_begin = open_begin;
@@ -187,6 +193,24 @@ void windows() {
     }
 }
 
+void fractions_and_distances_per_step() {
+    const Curve P{{0.0}, {4.0}, {1.0}, {5.0}, {2.0}, {0.0}, {3.0}},
+        Q{{1.0}, {3.0}, {1.0}, {4.0}, {0.0}};
+    CHECK_EQUAL(dtw(P, Q, with_fraction(0.3)), dtw(P, Q, with_window(2)));  // of 7 points
+    CHECK_EQUAL(dtw(Q, P, with_fraction(0.3)), dtw(Q, P, with_window(2)));
+    CHECK_EQUAL(dtw(P, P, with_fraction(0.01)), 0.0);
+    DtwOptions per_step = symmetric2();
+    per_step.normalize = true;
+    CHECK_EQUAL(dtw(P, Q, per_step), dtw(P, Q, symmetric2()) / 12.0);
+    // Paths and tables are those of the distance that is not divided.
+    CHECK_EQUAL(dtw_path(P, Q, per_step).distance, dtw_path(P, Q, symmetric2()).distance);
+    CHECK_EQUAL(table_of(P, Q, per_step), table_of(P, Q, symmetric2()));
+    per_step.cutoff = dtw(P, Q, per_step);
+    CHECK_EQUAL(dtw(P, Q, per_step), per_step.cutoff);
+    per_step.cutoff = std::nextafter(per_step.cutoff, 0.0);
+    CHECK_EQUAL(dtw(P, Q, per_step), infinity);
+}
+
 void symmetry() {
     Random random(13);
     const Curve P = random.curve(70, 3), Q = random.curve(300, 3);
@@ -236,7 +260,8 @@ void messages_about_options() {
     refuses(with_metric(Metric::minkowski, std::nan("")),
             "p is nan; minkowski needs 1 <= p <= inf");
     CHECK_EQUAL(dtw(P, Q, with_metric(Metric::euclidean, 0.5)), dtw(P, Q));
-    refuses(with_window(-1), "window is -1; give a whole number >= 0, or None");
+    refuses(with_window(-1),
+            "window is -1; give a whole number >= 0, a fraction between 0 and 1, or None");
     refuses(with_window(0), "window=0 admits no path between 3 and 2 points; use at least 1");
     DtwOptions options = with_open_ends(true, false);
     options.window = 3;
@@ -244,6 +269,22 @@ void messages_about_options() {
     options = with_open_ends(false, true);
     options.step_pattern = StepPattern::symmetric2;
     refuses(options, "open_begin and open_end need step_pattern='symmetric1'");
+    for (const double fraction : {0.0, 1.0, -0.5, std::nan("")}) {
+        refuses(with_fraction(fraction),
+                "window is " + std::to_string(fraction) +
+                    "; give a whole number >= 0, a fraction between 0 and 1, or None");
+    }
+    refuses(with_fraction(0.3), "window=0 admits no path between 3 and 2 points; use at least 1");
+    options = with_fraction(0.5);
+    options.window = 1;
+    refuses(options, "window and window_fraction are both given; give one of them");
+    options = with_open_ends(true, false);
+    options.window_fraction = 0.5;
+    refuses(options, "open_begin and open_end cannot be combined with window");
+    options = DtwOptions{};
+    options.normalize = true;
+    refuses(options,
+            "normalize needs step_pattern='symmetric2', whose paths all have the weight n + m");
 }
 
 void messages_about_curves() {
@@ -265,7 +306,7 @@ void messages_about_curves() {
     CHECK_THROWS(dtw(bad, Curve{{std::nan(""), 0.0}}), std::invalid_argument,
                  "P[0, 0] is -inf; curves must be finite");
     CHECK_THROWS(dtw(bad, P, with_window(-2)), std::invalid_argument,
-                 "window is -2; give a whole number >= 0, or None");
+                 "window is -2; give a whole number >= 0, a fraction between 0 and 1, or None");
 }
 
 }  // namespace
@@ -276,6 +317,7 @@ int main() {
                        {"ties in a path", ties_in_a_path},
                        {"open ends", open_ends},
                        {"windows", windows},
+                       {"fractions and distances per step", fractions_and_distances_per_step},
                        {"symmetry", symmetry},
                        {"magnitudes", magnitudes},
                        {"messages about options", messages_about_options},

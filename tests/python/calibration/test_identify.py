@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import sys
 
@@ -53,6 +54,56 @@ def test_what_is_returned():
     assert found.measures["area"] == found.value
     with pytest.raises(AttributeError):
         found.value = 0.0
+
+
+def moved(parameters):
+    return [line(parameters), line(parameters) * (1.0, 2.0)]
+
+
+def test_deviations_are_those_of_the_measure_with_its_options():
+    experiments = [line({"a": 2.0, "b": 1.0}), line({"a": 2.2, "b": 1.0}) * (1.0, 2.0)]
+    options = {"preset": "raw", "step_pattern": "symmetric2", "window": 3}
+    found = identify(moved, experiments, BOUNDS, measure="dtw", **options, **QUICK)
+    expected = [
+        curvewise.compare(
+            *pair, preset="raw", options={"dtw": {"step_pattern": "symmetric2", "window": 3}}
+        ).deviations["dtw"]
+        for pair in zip(found.experiments, found.simulations, strict=True)
+    ]
+    assert list(found.deviations) == expected
+    assert found.deviations[1].height == pytest.approx(4.4)
+    assert f"\ndeviation of dtw, in units of y\ncurve 0: {expected[0]}\ncurve 1: " in str(found)
+
+
+def test_deviations_of_a_part():
+    def beginning(parameters):
+        return line(parameters)[:10]
+
+    options = {"open_end": True, "part": "simulation"}
+    found = identify(beginning, EXPERIMENT, BOUNDS, measure="dtw", **options, **QUICK)
+    P, Q = curvewise.normalize(EXPERIMENT, found.simulations[0])
+    path = curvewise.dtw_path(Q, P, open_end=True)
+    expected = path.distance / len(path.path) * np.ptp(EXPERIMENT[:, 1])
+    assert found.deviations[0].mean == pytest.approx(expected, rel=1e-12)
+
+
+def test_deviations_of_measures_that_compare_no_points():
+    def dtw(P, Q):  # a name that curvewise has, too
+        return curvewise.mae(P, Q)
+
+    for measure in ("curve_length", "sum_of_squares", dtw):
+        found = identify(line, EXPERIMENT, BOUNDS, measure=measure, **QUICK)
+        assert found.deviations == (None,)
+        assert "deviation" not in str(found)
+
+
+def test_deviations_of_simulations_that_failed():
+    found = identify(line, EXPERIMENT, BOUNDS, **QUICK)
+    assert found.deviations[0].mean < found.deviations[0].height
+    for failed in ((), (line({"a": 1.0, "b": np.nan}),), (EXPERIMENT[:1],)):
+        without = dataclasses.replace(found, simulations=failed)
+        assert without.deviations == (None,)
+        assert "deviation" not in str(without)
 
 
 def test_summary_is_a_table():

@@ -21,7 +21,8 @@ FIVE = [name for name in MEASURES if name != "sum_of_squares"]
 @pytest.mark.parametrize("preset", ["scaled", "paper", "raw"])
 @pytest.mark.parametrize("measure", FIVE)
 def test_value_is_that_of_compare(measure, preset):
-    expected = curvewise.compare(EXPERIMENT, SIMULATION, preset=preset)[measure]
+    compared = curvewise.compare(EXPERIMENT, SIMULATION, preset=preset, measures=[measure])
+    expected = compared[measure]
     objective = Objective(EXPERIMENT, measure, preset=preset)
     assert objective(SIMULATION) == expected
     assert objective([SIMULATION]) == expected
@@ -34,7 +35,8 @@ def test_weighted_sum_over_loops(measure):
     objective = Objective(loops, measure, weights=[2.0, 0.5])
     terms = objective.terms([SIMULATION, OTHER])
     expected = [
-        curvewise.compare(P, Q)[measure] for P, Q in zip(loops, [SIMULATION, OTHER], strict=True)
+        curvewise.compare(P, Q, measures=[measure])[measure]
+        for P, Q in zip(loops, [SIMULATION, OTHER], strict=True)
     ]
     assert terms.tolist() == expected
     assert objective([SIMULATION, OTHER]) == 2.0 * terms[0] + 0.5 * terms[1]

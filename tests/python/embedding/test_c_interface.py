@@ -22,7 +22,7 @@ pytestmark = MARKS
 
 OK, INVALID_ARGUMENT, NO_MEMORY, FAILED = range(4)
 METRICS = ["euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"]
-MEASURES = ["area", "pcm", "frechet", "dtw", "curve_length"]
+MEASURES = ["area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous"]
 
 
 def structure(name: str, *fields: tuple[str, type]) -> type[Structure]:
@@ -44,6 +44,8 @@ Dtw = structure(
     *((x, c_int) for x in ("step_pattern", "open_begin", "open_end")),
     *((x, c_ssize_t) for x in ("window", "workers")),
     *PRUNING,
+    ("window_fraction", c_double),
+    ("normalize", c_int),
 )
 CurveLength = structure("CurveLength", ("scale", c_int))
 Batch = structure("Batch", ("workers", c_ssize_t), ("cutoff", c_double))
@@ -114,6 +116,21 @@ def test_table_options(metric, call) -> None:
         assert call("dtw", P, Q, Dtw(code, 3.5, 0, begin, end, -1, -1, 1, math.inf)) == expected
 
 
+def per_step_or_fraction(
+    pattern: int = 1, window: int = -1, fraction: float = 0.0, normalize: int = 0
+) -> Structure:
+    return Dtw(0, 2.0, pattern, 0, 0, window, 1, 1, math.inf, fraction, normalize)
+
+
+def test_distance_per_step_and_window_as_a_fraction(call) -> None:
+    symmetric2 = {"step_pattern": "symmetric2"}
+    expected = curvewise.dtw(P, Q, normalize=True, **symmetric2)
+    assert call("dtw", P, Q, per_step_or_fraction(normalize=1)) == expected
+    expected = curvewise.dtw(P, Q, window=0.2, **symmetric2)
+    assert expected != curvewise.dtw(P, Q, **symmetric2)
+    assert call("dtw", P, Q, per_step_or_fraction(fraction=0.2)) == expected
+
+
 def test_cutoff(call) -> None:
     for name, options in (("frechet", Frechet(0, 2.0, 1, 1)), ("dtw", Dtw(0, 2.0, 0, 0, 0, -1, 1))):
         distance = getattr(curvewise, name)(P, Q)
@@ -124,12 +141,12 @@ def test_cutoff(call) -> None:
 
 
 def test_planar_options(call) -> None:
-    for spacing in ("distance", "x", "arc_length"):
+    for spacing in ("distance", "x", "arc_length", "matched"):
         for crossing in ("rearrange", "split"):
             for squared in (False, True):
                 given = {"spacing": spacing, "crossing": crossing, "squared": squared}
                 codes = (
-                    ["distance", "x", "arc_length"].index(spacing),
+                    ["distance", "x", "arc_length", "matched"].index(spacing),
                     ["rearrange", "split"].index(crossing),
                     int(squared),
                 )
@@ -144,7 +161,7 @@ def test_planar_options(call) -> None:
 @pytest.mark.parametrize(
     ("name", "options", "message"),
     [
-        ("area", Area(3, 0, 0), "unknown spacing 3; choose from 0 to 2"),
+        ("area", Area(4, 0, 0), "unknown spacing 4; choose from 0 to 3"),
         ("area", Area(0, -1, 0), "unknown crossing -1; choose from 0 to 1"),
         ("pcm", Pcm(0, 0), "offsets is 0; give a whole number >= 1, or 'continuous'"),
         ("frechet", Frechet(5, 2.0, 1), "unknown metric 5; choose from 0 to 4"),
@@ -154,6 +171,13 @@ def test_planar_options(call) -> None:
         ("dtw", Dtw(), "workers is 0"),
         ("dtw", Dtw(0, 2.0, 2, 0, 0, -1, 1), "unknown step_pattern 2; choose from 0 to 1"),
         ("dtw", Dtw(0, 2.0, 1, 1, 0, -1, 1), "open_begin and open_end need step_pattern="),
+        ("dtw", per_step_or_fraction(pattern=0, normalize=1), "normalize needs step_pattern="),
+        ("dtw", per_step_or_fraction(fraction=1.5), "window is 1.5"),
+        (
+            "dtw",
+            per_step_or_fraction(window=3, fraction=0.5),
+            "window and window_fraction are both",
+        ),
         ("curve_length", CurveLength(7), "unknown scale 7; choose from 0 to 2"),
     ],
 )
@@ -235,7 +259,7 @@ def test_batches_take_the_options_of_their_measure(library) -> None:
         assert status == INVALID_ARGUMENT
         return error.message.decode()
 
-    assert refused(curves(*X), 3, 5) == "unknown measure 5; choose from 0 to 4"
+    assert refused(curves(*X), 3, 6) == "unknown measure 6; choose from 0 to 5"
     assert refused(curves(*X), -1, 3) == "X has -1 curves; give a whole number >= 0"
     assert refused(None, 3, 3) == "X is a null pointer"
     assert refused(curves(*X), 3, 3, None) == "out is a null pointer"

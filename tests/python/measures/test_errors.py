@@ -180,7 +180,7 @@ def unknown(option: str, choices: str, valid: str) -> Iterator[tuple[str, Case]]
 
 def option_cases(function: str) -> Iterator[tuple[str, Case]]:
     if function.startswith("area"):
-        yield from unknown("spacing", "distance, x, arc_length", "x")
+        yield from unknown("spacing", "distance, x, arc_length, matched", "x")
         yield from unknown("crossing", "rearrange, split", "split")
     if function.startswith("pcm"):
         for offsets in (0, -1, 1.5, 2.0, True, None, "foo", "200", [200]):
@@ -195,7 +195,8 @@ def option_cases(function: str) -> Iterator[tuple[str, Case]]:
     if function == "compare":
         yield from unknown("preset", "scaled, paper, raw", "raw")
         for name in ("foo", None, ["dtw"]):
-            message = f"unknown measure {name!r}; choose from area, pcm, frechet, dtw, curve_length"
+            choices = "area, pcm, frechet, dtw, curve_length, frechet_continuous"
+            message = f"unknown measure {name!r}; choose from {choices}"
             yield f"measure-{name}", Case(good(), good(4), {"measures": ["dtw", name]}, message)
 
 
@@ -212,11 +213,13 @@ def metric_cases() -> Iterator[tuple[str, Case]]:
 
 def warping_cases() -> Iterator[tuple[str, Case]]:
     yield from unknown("step_pattern", "symmetric1, symmetric2", "symmetric1")
-    for window in (-1, 1.5, 2.0, True, "3", [3]):
-        message = f"window is {window!r}; give a whole number >= 0, or None"
+    advice = "give a whole number >= 0, a fraction between 0 and 1, or None"
+    for window in (-1, 1.5, 2.0, 1.0, 0.0, -0.5, True, "3", [3]):
+        message = f"window is {window!r}; {advice}"
         yield f"window={window}", Case(good(), good(5), {"window": window}, message)
     message = "window=0 admits no path between 5 and 4 points; use at least 1"
     yield "window=0", Case(good(), good(4), {"window": 0}, message)
+    yield "window=0.1", Case(good(), good(4), {"window": 0.1}, message)
     for ends in ({"open_begin": True}, {"open_end": True}, {"open_begin": True, "open_end": True}):
         options = {**ends, "step_pattern": "symmetric2"}
         message = "open_begin and open_end need step_pattern='symmetric1'"

@@ -19,6 +19,7 @@ import pytest
 
 import curvewise
 from curvewise import reference
+from curvewise.calibration import Objective
 
 Array = npt.NDArray[np.float64]
 Options = dict[str, Any]
@@ -27,7 +28,7 @@ Pair = tuple[Array, Array]
 AREA_OPTIONS: list[Options] = [
     {"spacing": spacing, "crossing": crossing}
     for spacing, crossing in itertools.product(
-        ("distance", "x", "arc_length"), ("rearrange", "split")
+        ("distance", "x", "arc_length", "matched"), ("rearrange", "split")
     )
 ]
 PCM_OPTIONS: list[Options] = [{}, {"offsets": 1}, {"offsets": 2}, {"offsets": 37}]
@@ -352,13 +353,21 @@ def test_golden_dtw_and_frechet(golden: dict[str, dict[str, Any]]) -> None:
 ROWS = ("area", "pcm", "frechet", "dtw", "curve_length")
 
 
-def test_scaled_curves_are_compared_with_split_crossings() -> None:
+def test_area_of_each_preset() -> None:
     """Crossing lines in P's box, 1 wide and 2 high: half of what they enclose before scaling."""
     P, Q = [(0, 1), (1, -1)], [(0, -1), (1, 1)]
     area = ["area"]
     assert curvewise.compare(P, Q, measures=area)["area"] == 0.5
     assert curvewise.compare(P, Q, measures=area, preset="raw")["area"] == 2.0
     assert curvewise.compare(P, Q, measures=area, preset="paper")["area"] == 2.0
+    P, Q = curvewise.datasets.hysteresis_pair()
+    matched = curvewise.area(*curvewise.normalize(P, Q), spacing="matched")
+    assert curvewise.compare(P, Q, measures=area)["area"] == matched
+    assert Objective(P)(Q) == matched
+    of_table_4 = curvewise.area(P, Q, spacing="x")
+    assert curvewise.compare(P, Q, measures=area, preset="paper")["area"] == of_table_4
+    assert Objective(P, preset="paper")(Q) == of_table_4
+    assert curvewise.compare(P, Q, measures=area, preset="raw")["area"] == curvewise.area(P, Q)
 
 
 @pytest.mark.parametrize("row", ROWS)

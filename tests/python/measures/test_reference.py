@@ -230,7 +230,7 @@ def test_pcm_beyond_the_range_of_a_double_is_inf() -> None:
 # area
 
 
-@pytest.mark.parametrize("spacing", ["distance", "x", "arc_length"])
+@pytest.mark.parametrize("spacing", ["distance", "x", "arc_length", "matched"])
 @pytest.mark.parametrize("crossing", ["rearrange", "split"])
 def test_area_between_parallel_lines_is_the_gap(spacing: Any, crossing: Any) -> None:
     x = np.array([0.0, 0.3, 1.1, 1.9, 2.0, 4.0])

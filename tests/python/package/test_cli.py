@@ -68,10 +68,13 @@ def assert_failed(result, *parts):
 def test_compare_prints_files_points_and_values(run, files):
     status, out, error = run("compare", *files)
     assert (status, error) == (0, "")
-    assert "P  A.csv, 40 points\nQ  B.csv, 30 points\npreset scaled\n" in out
+    assert "P  A.csv, 40 points, columns strain, stress\n" in out
+    assert "Q  B.csv, 30 points, columns 1, 2\npreset scaled\n" in out
     expected = curvewise.compare(read_curve("A.csv"), read_curve("B.csv"))
     assert str(expected) in out
     assert list(numbers(out)) == MEASURES
+    for name, found in expected.deviations.items():
+        assert f"\n{name:<12}  {found}\n" in out
 
 
 @pytest.mark.parametrize("preset", ["scaled", "paper", "raw"])
@@ -81,9 +84,11 @@ def test_compare_json_is_one_object(run, files, preset):
     expected = curvewise.compare(read_curve("A.csv"), read_curve("B.csv"), preset=preset)
     assert json.loads(out) == {
         "files": ["A.csv", "B.csv"],
+        "columns": [["strain", "stress"], ["1", "2"]],
         "preset": preset,
         "n": [40, 30],
         "values": expected.to_dict(),
+        "deviations": {name: found._asdict() for name, found in expected.deviations.items()},
     }
 
 
@@ -92,6 +97,32 @@ def test_a_value_beyond_the_range_of_a_double_is_null_in_json(run, files):
         np.savetxt(name, np.full((3, 1), offset), delimiter=",")
     _, out, _ = run("compare", *files, "--json", "--preset", "raw")
     assert json.loads(out)["values"] == {"frechet": 1.5e308, "dtw": None}
+    assert json.loads(out)["deviations"]["frechet"]["largest"] == 1.5e308
+    status, out, _ = run("compare", *files, "--preset", "raw")
+    assert status == 0
+    assert "dtw      inf\n" in out
+
+
+def test_options_of_area_and_dtw_replace_those_of_the_preset(run, files):
+    P, Q = map(read_curve, files)
+    given = ("--json", "--preset", "raw", "--measures", "area", "dtw")
+    _, out, _ = run("compare", *files, *given, "--spacing", "x", "--crossing", "split")
+    assert json.loads(out)["values"] == {
+        "area": curvewise.area(P, Q, spacing="x", crossing="split"),
+        "dtw": curvewise.dtw(P, Q),
+    }
+    for window in ("12", "0.3"):
+        _, out, _ = run("compare", *files, *given, "--window", window)
+        expected = curvewise.dtw(P, Q, window=float(window) if "." in window else int(window))
+        assert json.loads(out)["values"]["dtw"] == expected
+    for window in ("1.5", "wide"):
+        status, _, error = run("compare", *files, *given, "--window", window)
+        assert status == USAGE
+        assert f"{window} is no whole number, and not between 0 and 1" in error
+    assert run("compare", *files, "--spacing", "even")[0] == USAGE
+    assert_failed(run("compare", *files, "--window", "-1"), "window is -1; give a whole number")
+    of_area = ("--measures", "area", "--window", "5")
+    assert_failed(run("compare", *files, *of_area), "options are given for 'dtw'")
 
 
 def test_measures_are_those_asked_for(run, files):
@@ -112,6 +143,7 @@ def test_columns_are_chosen_in_both_files(run, files):
         file.write("stress;strain;t\n0;0;0\n2;1;1\n0;2;2\n")
     _, out, _ = run("compare", *files, "--json", "--preset", "raw", "--columns", "strain", "stress")
     values = json.loads(out)["values"]
+    assert json.loads(out)["columns"] == [["strain", "stress"]] * 2
     expected = curvewise.compare([(0, 0), (1, 1), (2, 0)], [(0, 0), (1, 2), (2, 0)], preset="raw")
     assert values == expected.to_dict()
     _, out, _ = run("compare", *files, "--json", "--preset", "raw", "--columns", "stress")

@@ -29,6 +29,7 @@ PICTURES = {
     "dtw": plotting.plot_alignment,
     "frechet": lambda *args: plotting.plot_alignment(*args, measure="frechet"),
     "curve_length": plotting.plot_curve_length,
+    "frechet_continuous": plotting.plot_matching,
 }
 EVERY_PICTURE = pytest.mark.parametrize("picture", PICTURES.values(), ids=PICTURES.keys())
 
@@ -132,7 +133,7 @@ def test_twenty_thousand_points_are_few_artists_drawn_quickly(picture, ax):
 
 
 @pytest.mark.parametrize("crossing", ["rearrange", "split"])
-@pytest.mark.parametrize("spacing", ["distance", "x", "arc_length"])
+@pytest.mark.parametrize("spacing", ["distance", "x", "arc_length", "matched"])
 def test_polygons_are_the_quadrilaterals(spacing, crossing, ax):
     options = {"spacing": spacing, "crossing": crossing}
     artists = plotting.plot_area(P, Q, ax, **options)
@@ -357,7 +358,12 @@ def test_panels_show_what_the_preset_measured(preset):
     quads = np.array(
         [path.vertices[:4] for path in panel(figure, "Area").collections[0].get_paths()]
     )
-    assert areas(shown(quads)).sum() == pytest.approx(comparison["area"], rel=1e-12)
+    curves = curvewise.normalize(P, Q) if preset == "scaled" else (P, Q)
+    spacing = {"scaled": "matched", "paper": "x", "raw": "distance"}[preset]
+    expected = curvewise.area_quads(*curves, spacing=spacing)
+    # Of "matched" some count against their piece.
+    np.testing.assert_allclose(areas(shown(quads)), np.abs(expected.areas), rtol=1e-9, atol=1e-12)
+    assert expected.areas.sum() == pytest.approx(comparison["area"], rel=1e-12)
 
     shown = np.asarray if preset == "raw" else in_box
     (pair,) = (line for line in panel(figure, "Fréchet").lines if line.get_label()[0] == "F")
@@ -437,3 +443,42 @@ def test_without_matplotlib_the_error_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
     with pytest.raises(ImportError, match=r'pip install "curvewise\[plot\]"'):
         comparison.plot()
+
+
+def test_a_matching_is_drawn_along_both_curves(ax) -> None:
+    t = np.linspace(0, 6, 30)
+    P, Q = np.column_stack([t, np.sin(t)]), np.column_stack([t[::3], np.sin(t[::3]) + 0.2])
+    artists = plotting.plot_matching(P, Q, ax)
+    links = np.array(artists.between.get_segments())
+    assert links.shape == (80, 2, 2)
+    np.testing.assert_array_equal(links[0], [P[0], Q[0]])
+    np.testing.assert_array_equal(links[-1], [P[-1], Q[-1]])
+    lengths = np.linalg.norm(links[:, 0] - links[:, 1], axis=1)
+    value = curvewise.frechet_continuous(P, Q)
+    assert lengths.max() <= value * (1 + 1e-12)
+    assert np.linalg.norm(np.diff(artists.accent.get_xydata(), axis=0)) == pytest.approx(value)
+    with pytest.raises(ValueError, match=r"plot_matching draws 1 or 2 coordinates"):
+        plotting.plot_matching(np.zeros((3, 3)), np.zeros((3, 3)), ax)
+
+
+def test_free_space_is_where_a_leash_reaches(ax) -> None:
+    P, Q = [(0, 0), (10, 0)], [(0, 0), (7, 0), (3, 0), (10, 0)]
+    image, path = plotting.plot_free_space(P, Q, ax)
+    free = np.asarray(image.get_array())
+    assert image.get_extent() == [0, 3, 0, 1]
+    # Across from the first vertex of Q, 2 of the 10 are in reach.
+    assert free[:, 0].mean() == pytest.approx(0.2, abs=0.01)
+    for y, x in np.clip(path.get_xydata()[:, ::-1], 0, [0.999, 2.999]):
+        assert free[max(0, int(y * 600) - 1) : int(y * 600) + 2, int(x * 200)].any()
+    image, path = plotting.plot_free_space(P, Q, ax, distance=1.9)
+    assert path is None
+    assert np.asarray(image.get_array()).mean() < free.mean()
+
+
+@pytest.mark.parametrize("dim", [1, 2, 3])
+def test_the_continuous_distance_in_a_comparison(dim: int) -> None:
+    P, Q = np.random.default_rng(dim).normal(size=(2, 9, dim))
+    comparison = curvewise.compare(P, Q, measures=["frechet_continuous"])
+    figure = comparison.plot()
+    title = f"Continuous Fréchet: {comparison['frechet_continuous']:.4g}"
+    assert figure.axes[1].get_title() == title

@@ -21,6 +21,7 @@ CASES: list[tuple[str, dict[str, Any]]] = [
     ("frechet", {"metric": "cityblock"}),
     ("area", {}),
     ("area", {"spacing": "arc_length", "crossing": "split", "squared": True}),
+    ("area", {"spacing": "matched"}),
     ("pcm", {}),
     ("pcm", {"offsets": "continuous"}),
     ("curve_length", {"scale": "range"}),
@@ -30,7 +31,7 @@ SYMMETRIC = [
     for measure, options in CASES
     if measure not in ("pcm", "curve_length")
     and "open_end" not in options
-    and options.get("spacing") != "arc_length"
+    and options.get("spacing") not in ("arc_length", "matched")
 ]
 WORKERS = [1, 2, 5, -1]
 

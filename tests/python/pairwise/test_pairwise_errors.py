@@ -88,7 +88,8 @@ BAD: list[tuple[Callable[[], object], type[Exception], str]] = [
         lambda: curvewise.cdist([GOOD], [GOOD], "euclidean"),
         ValueError,
         "'euclidean' is a ground distance, between points; the measure is of curves, one of area, "
-        "curve_length, dtw, frechet, pcm: use measure='dtw', metric='euclidean' for example",
+        "curve_length, dtw, frechet, frechet_continuous, pcm: use measure='dtw', "
+        "metric='euclidean' for example",
     ),
     (
         lambda: curvewise.cdist([GOOD], [GOOD], metric="dtw"),
@@ -99,7 +100,8 @@ BAD: list[tuple[Callable[[], object], type[Exception], str]] = [
     (
         lambda: curvewise.cdist([GOOD], measure="no_such"),
         ValueError,
-        "unknown measure 'no_such'; choose from area, curve_length, dtw, frechet, pcm",
+        "unknown measure 'no_such'; choose from area, curve_length, dtw, frechet, "
+        "frechet_continuous, pcm",
     ),
     (
         lambda: curvewise.cdist([GOOD], measure="frechet", window=3),

@@ -1,0 +1,94 @@
+// Walks from vertex to vertex. Whether a discrete leash is long enough: the walk of reachable.hpp
+// over pairs of vertices alone (Eiter & Mannila 1994), by runs of vertices. Exact. Time O(n log m)
+// for alike curves, O(n m) at worst; memory O(runs of a row). And whether it is seen to be long
+// enough by the greedy walk that always steps to the nearest of the next pairs: O(n + m), the
+// filter of Bringmann, Künnemann & Nusser (2019).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "continuous/free_space.hpp"
+#include "runtime/poller.hpp"
+
+namespace curvewise::detail {
+
+// What keeps a discrete leash keeps a continuous one: both ends of every step are in one cell,
+// whose free space is convex.
+template <int Dim>
+bool greedy_walk_succeeds(const BoxedCurve& p, const BoxedCurve& q, const Radius& radius) {
+    const auto square = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
+        if (i == p.size() || j == q.size()) return std::numeric_limits<double>::infinity();
+        return square_distance<Dim>(p.point<Dim>(i), q.point<Dim>(j), p.dim());
+    };
+    std::ptrdiff_t i = 0, j = 0;
+    double leash = square(0, 0);
+    while (radius.surely_holds(leash)) {
+        if (i == p.size() - 1 && j == q.size() - 1) return true;
+        const double up = square(i + 1, j), right = square(i, j + 1), both = square(i + 1, j + 1);
+        leash = std::min(std::min(up, right), both);
+        i += leash == both || leash == up ? 1 : 0;
+        j += leash == both || leash != up ? 1 : 0;
+    }
+    return false;
+}
+
+template <int Dim>
+class CouplingWalk {
+   public:
+    // Rows are the points that `edges` is seen from, `rows` of them; columns its vertices.
+    CouplingWalk(const EdgeFamily<Dim>& edges, std::ptrdiff_t rows, Poller& poller)
+        : edges_(edges), rows_(rows), last_column_(edges.vertices() - 1), poller_(poller) {}
+
+    bool succeeds(const Radius& radius) const {
+        if (!edges_.vertex_is_free(0, 0, radius)) return false;
+        std::vector<Run> runs, next;
+        runs.push_back({0, last_free(0, 0, radius)});
+        for (std::ptrdiff_t i = 1; i < rows_ && !runs.empty(); ++i) {
+            advance(i, runs, radius, next);
+            std::swap(runs, next);
+        }
+        return !runs.empty() && runs.back().last == last_column_;
+    }
+
+   private:
+    // Columns first to last of a row, all of them reached.
+    struct Run {
+        std::ptrdiff_t first;
+        std::ptrdiff_t last;
+    };
+
+    void advance(std::ptrdiff_t i, const std::vector<Run>& from, const Radius& radius,
+                 std::vector<Run>& to) const {
+        to.clear();
+        std::ptrdiff_t next = 0;  // column that no run of `to` has looked at
+        for (const Run& run : from) {
+            // A step up, or up and to the right.
+            const std::ptrdiff_t last = std::min(run.last + 1, last_column_);
+            std::ptrdiff_t j = std::max(run.first, next);
+            poller_.spend(last - j + 2);
+            while (j <= last) {
+                j = edges_.first_free_vertex(j, last, i, radius);
+                if (j > last) break;
+                to.push_back({j, last_free(i, j, radius)});
+                j = to.back().last + 2;
+                next = j;
+            }
+        }
+    }
+
+    // Of the free columns from j on.
+    std::ptrdiff_t last_free(std::ptrdiff_t i, std::ptrdiff_t j, const Radius& radius) const {
+        return edges_.first_blocked_vertex(j + 1, last_column_, i, radius) - 1;
+    }
+
+    EdgeFamily<Dim> edges_;
+    std::ptrdiff_t rows_;
+    std::ptrdiff_t last_column_;
+    Poller& poller_;
+};
+
+}  // namespace curvewise::detail

@@ -1,0 +1,162 @@
+// The continuous Fréchet distance as a measure: curves boxed once, the search called for their
+// number of coordinates.
+#include "curvewise/frechet_continuous.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "continuous/coupling.hpp"
+#include "continuous/leash_search.hpp"
+#include "pairwise/batch_of.hpp"
+#include "pairwise/evaluate.hpp"
+#include "runtime/workers.hpp"
+
+namespace curvewise {
+namespace {
+
+using detail::BoxedCurve;
+using detail::CheckedCurve;
+using detail::LeashSearch;
+using detail::RangeScale;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// None for curves whose fourth powers stay in range.
+RangeScale plain_scale(double largest) noexcept {
+    const bool is_plain = largest == 0.0 || (largest > 0x1p-100 && largest < 0x1p100);
+    return is_plain ? RangeScale(1.0) : RangeScale::to_unity(largest);
+}
+
+class FrechetContinuousMeasure {
+   public:
+    using Memory = detail::LeashMemory;
+    static constexpr bool is_swept = false;
+    // Not scaled, which curves within the usual range need not be.
+    struct PreparedP {
+        PreparedP(const CheckedCurve& curve, detail::Poller& poller)
+            : checked(curve), boxed(curve.curve, RangeScale(1.0), poller) {}
+        CheckedCurve checked;
+        BoxedCurve boxed;
+    };
+    using PreparedQ = PreparedP;
+    using Call = detail::Call<Memory>;
+
+    explicit FrechetContinuousMeasure(const FrechetContinuousOptions& options)
+        : workers_(detail::resolve_workers(options.workers)) {}
+    static detail::Requirements requirements() noexcept {
+        return {FrechetContinuousOptions::measure, 1, false};
+    }
+    static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
+    static void check_p(const PreparedP& /*P*/, detail::Poller& /*poller*/) noexcept {}
+    std::ptrdiff_t workers() const noexcept { return workers_; }
+    static std::int64_t steps(std::int64_t n, std::int64_t count, std::int64_t points) noexcept {
+        return n * count + points;
+    }
+
+    template <class Use>
+    static auto with_dim(const PreparedP& P, const PreparedQ& Q, const BoxedCurve& p,
+                         const BoxedCurve& q, const RangeScale& range, const Call& call, Use use) {
+        const auto with = [&](auto search) { return use(search); };
+        const CurveView& first = P.checked.curve;
+        const CurveView& second = Q.checked.curve;
+        switch (p.dim()) {
+            case 1:
+                return with(LeashSearch<1>(first, second, p, q, range, call.poller, call.memory));
+            case 2:
+                return with(LeashSearch<2>(first, second, p, q, range, call.poller, call.memory));
+            case 3:
+                return with(LeashSearch<3>(first, second, p, q, range, call.poller, call.memory));
+            default:
+                return with(LeashSearch<0>(first, second, p, q, range, call.poller, call.memory));
+        }
+    }
+
+    // Calls use(search), the longer curve being the first.
+    template <class Use>
+    static auto with_search(const PreparedP& P, const PreparedQ& Q, const Call& call, Use use) {
+        const bool swap = P.boxed.size() < Q.boxed.size();
+        const PreparedP& first = swap ? Q : P;
+        const PreparedP& second = swap ? P : Q;
+        const RangeScale range = plain_scale(std::max(P.checked.largest, Q.checked.largest));
+        if (range.is_identity()) {
+            return with_dim(first, second, first.boxed, second.boxed, range, call, use);
+        }
+        const BoxedCurve p(first.checked.curve, range, call.poller);
+        const BoxedCurve q(second.checked.curve, range, call.poller);
+        return with_dim(first, second, p, q, range, call, use);
+    }
+
+    double operator()(const PreparedP& P, const PreparedQ& Q, const Call& call) const {
+        return with_search(P, Q, call, [&](auto& search) { return search.value(call.cutoff); });
+    }
+
+   private:
+    std::ptrdiff_t workers_;
+};
+
+// Calls use(search) for two checked curves.
+template <class Use>
+auto with_search(const CurveView& P, const CurveView& Q, const FrechetContinuousOptions& options,
+                 Control* control, Use use) {
+    return detail::with_pair(FrechetContinuousMeasure(options), P, Q, control,
+                             [&](const auto& p, const auto& q, const auto& call) {
+                                 return FrechetContinuousMeasure::with_search(p, q, call, use);
+                             });
+}
+
+}  // namespace
+
+double frechet_continuous(const CurveView& P, const CurveView& Q,
+                          const FrechetContinuousOptions& options, Control* control) {
+    return detail::evaluate(FrechetContinuousMeasure(options), P, Q, control);
+}
+
+Interval frechet_continuous_bounds(const CurveView& P, const CurveView& Q,
+                                   const FrechetContinuousOptions& options, Control* control) {
+    return with_search(P, Q, options, control, [](auto& search) {
+        const double high = search.value(infinity);
+        const bool is_exact = high < infinity && !search.is_within(high, detail::FreeSet::open);
+        return Interval{is_exact ? high : detail::next_below(high), high};
+    });
+}
+
+Matching frechet_continuous_path(const CurveView& P, const CurveView& Q,
+                                 const FrechetContinuousOptions& options, Control* control) {
+    const bool swapped = P.size() < Q.size();  // with_search() puts the longer curve first
+    const std::array<double, 2> ends{static_cast<double>(P.size() - 1),
+                                     static_cast<double>(Q.size() - 1)};
+    Matching found = with_search(P, Q, options, control, [](auto& search) {
+        auto [distance, parameters] = search.matching(search.value(infinity));
+        return Matching{distance, std::move(parameters)};
+    });
+    for (std::array<double, 2>& pair : found.parameters) {
+        if (swapped) std::swap(pair[0], pair[1]);
+        // A single point was searched as an edge of no length.
+        for (std::size_t side = 0; side < 2; ++side) pair[side] = std::min(pair[side], ends[side]);
+    }
+    return found;
+}
+
+bool frechet_within(const CurveView& P, const CurveView& Q, double distance, bool continuous,
+                    Control* control) {
+    if (!(distance >= 0.0)) {
+        std::ostringstream message;
+        message << "distance is " << distance << "; give a number >= 0";
+        throw std::invalid_argument(message.str());
+    }
+    return with_search(P, Q, {}, control, [&](auto& search) {
+        return continuous ? search.is_within(distance) : search.is_coupled_within(distance);
+    });
+}
+
+std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(
+    const FrechetContinuousOptions& options) {
+    return std::make_unique<BatchOf<FrechetContinuousMeasure>>(FrechetContinuousMeasure(options));
+}
+
+}  // namespace curvewise

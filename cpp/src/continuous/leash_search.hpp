@@ -1,0 +1,305 @@
+// The continuous Fréchet distance of two curves as a double, and decisions about it, all certified.
+//
+// The decision is a walk through the rows of the free-space diagram (reachable.hpp), exact for any
+// radius. The value is the least double for which it says yes: the real number rounded up. Looking
+// for it by bisection would take some 50 walks; instead,
+//
+//   1. the leash must hold the ends together, and the two vertices that lie furthest from the other
+//      curve (nearest.hpp): the least radius that does is found without a walk, and a walk with it
+//      succeeds for many curves that are alike;
+//   2. a walk that fails dies at the row of a bottleneck. The least radius that passes it is found
+//      by bisection on walks that begin `window` rows before it and end as many behind it. Where a
+//      window eight times as wide would say another radius, or where that only pushes the walk on
+//      into a blind alley, the window grows;
+//   3. the walk goes on with that radius, to its end or to the next bottleneck;
+//   4. the radius r it ends with is sufficient; a whole walk with the double below r, which dies at
+//      the bottleneck, shows that it is necessary. If that walk ends well, the bottleneck was not
+//      where the walks died: again with a window eight times as wide. Once it is as wide as the
+//      diagram this is plain bisection.
+//
+// Steps 2 to 4 are done to 10 bits first, which finds the bottleneck that counts, and then to the
+// last bit. What a walk reached with one radius is reached with every larger one, so that a walk
+// may begin where one with a smaller radius passed. One walk for curves whose witnesses decide,
+// four or five for others that are alike; memory O(n + m).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "continuous/boxed_curve.hpp"
+#include "continuous/coupling.hpp"
+#include "continuous/exact_signs.hpp"
+#include "continuous/free_space.hpp"
+#include "continuous/least_double.hpp"
+#include "continuous/matching.hpp"
+#include "continuous/nearest.hpp"
+#include "continuous/reachable.hpp"
+#include "curves/range_scale.hpp"
+#include "curvewise/curve.hpp"
+#include "runtime/poller.hpp"
+
+namespace curvewise::detail {
+
+// What was reached of some rows, a few of them and not more than so many runs in all.
+class Trail {
+   public:
+    struct Mark {
+        std::ptrdiff_t row;
+        Runs runs;
+    };
+
+    explicit Trail(std::ptrdiff_t most_runs) noexcept : most_runs_(most_runs) {}
+
+    void note(std::ptrdiff_t row, const Runs& runs) {
+        if (row % stride_ != 0) return;
+        marks_.push_back({row, runs});
+        held_ += static_cast<std::ptrdiff_t>(runs.size());
+        if (held_ > most_runs_) thin_out();
+    }
+    void forget_from(std::ptrdiff_t row) {
+        while (!marks_.empty() && marks_.back().row >= row) {
+            held_ -= static_cast<std::ptrdiff_t>(marks_.back().runs.size());
+            marks_.pop_back();
+        }
+    }
+    // The last mark at `row` or before it. Row 0 is always marked.
+    const Mark& before(std::ptrdiff_t row) const noexcept {
+        std::size_t k = marks_.size() - 1;
+        while (k > 0 && marks_[k].row > row) --k;
+        return marks_[k];
+    }
+
+   private:
+    void thin_out() {
+        stride_ *= 2;
+        held_ = 0;
+        std::size_t kept = 0;
+        for (Mark& mark : marks_) {
+            if (mark.row % stride_ != 0) continue;
+            held_ += static_cast<std::ptrdiff_t>(mark.runs.size());
+            std::swap(marks_[kept++], mark);
+        }
+        marks_.resize(kept);
+    }
+
+    std::ptrdiff_t most_runs_;
+    std::ptrdiff_t held_ = 0;
+    std::ptrdiff_t stride_ = 8;
+    std::vector<Mark> marks_;
+};
+
+// What a search keeps from one pair to the next.
+struct LeashMemory {
+    Runs runs, next;
+};
+
+template <int Dim>
+class LeashSearch {
+   public:
+    // The curves, and the same boxed and scaled. The first one gives the rows.
+    LeashSearch(const CurveView& P, const CurveView& Q, const BoxedCurve& p, const BoxedCurve& q,
+                const RangeScale& range, Poller& poller, LeashMemory& memory)
+        : range_(range),
+          poller_(poller),
+          p_(p),
+          q_(q),
+          second_signs_(Q, P),
+          diagram_({p, q, ExactSigns(P, Q)}, {q, p, second_signs_}),
+          last_(p.size() - 1),
+          runs_(memory.runs),
+          next_(memory.next),
+          trail_(p.size() + q.size()) {}
+
+    // Whether the distance is at most, or below, a number.
+    bool is_within(double distance, FreeSet set = FreeSet::closed) {
+        const Radius radius = radius_of(distance, set);
+        if (is_too_short(radius)) return false;
+        if (greedy_walk_succeeds<Dim>(p_, q_, radius)) return true;
+        diagram_.start(radius, runs_);
+        trail_.forget_from(0);
+        trail_.note(0, runs_);
+        trail_radius_ = distance;
+        trail_end_ = walk(0, last_, radius, &trail_);
+        return trail_end_ == last_ && diagram_.is_through(runs_, radius);
+    }
+
+    // The same of the discrete distance, and at most.
+    bool is_coupled_within(double distance) const {
+        return CouplingWalk<Dim>({q_, p_, second_signs_}, last_ + 1, poller_)
+            .succeeds(radius_of(distance));
+    }
+
+    // A matching within a distance that is sufficient, and its longest leash.
+    std::pair<double, MatchedParameters> matching(double distance) {
+        const Radius radius = radius_of(distance);
+        MatchedParameters matched = MatchingTrace<Dim>(diagram_, radius, poller_).parameters();
+        const double longest = LeashMeasure<Dim>(diagram_, radius, poller_).longest(matched);
+        return {longest, std::move(matched)};
+    }
+
+    // The real number rounded up; inf beyond the range of a double, and where it is above
+    // `cutoff`.
+    double value(double cutoff) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        if (cutoff < infinity && !is_within(cutoff)) return infinity;
+        find_witnesses();
+        double low = least_of_witnesses();
+        if (is_within(low)) return low;  // and nothing below it holds the witnesses
+        double high = infinity;
+        std::ptrdiff_t window = 16;
+        for (const std::uint64_t tolerance : {std::uint64_t{1} << 42, std::uint64_t{1}}) {
+            for (;;) {
+                high = climb(low, high, window, tolerance);
+                const double less = below(high, tolerance, low);
+                if (less == low || !is_within(less)) {
+                    low = less;
+                    break;
+                }
+                high = less;
+                window *= 8;
+            }
+        }
+        return high;
+    }
+
+   private:
+    static constexpr double none = -1.0;
+
+    // The number that is `tolerance` doubles below x, not below `low`.
+    static double below(double x, std::uint64_t tolerance, double low) noexcept {
+        return double_of(bits_of(x) - std::min(tolerance, bits_of(x) - bits_of(low)));
+    }
+
+    Radius radius_of(double distance, FreeSet set = FreeSet::closed) const noexcept {
+        return {distance, range_.shrink(distance), p_.dim(), set};
+    }
+
+    // The vertices of either curve that are furthest from the other.
+    void find_witnesses() {
+        const double first = square_distance<Dim>(p_.point<Dim>(0), q_.point<Dim>(0), p_.dim());
+        const double last =
+            square_distance<Dim>(p_.point<Dim>(last_), q_.point<Dim>(q_.size() - 1), p_.dim());
+        Furthest found{std::max(first, last), 0};
+        found = NearestEdges<Dim>(q_, poller_).furthest(p_, found);
+        row_witness_ = found.vertex;
+        found.vertex = 0;
+        found = NearestEdges<Dim>(p_, poller_).furthest(q_, found);
+        column_witness_ = found.vertex;
+        guess_ = range_.restore(std::sqrt(found.square), 1);
+    }
+
+    // Whether the ends, or the witnesses, are too far apart, or the curves reach too far beyond
+    // each other in a coordinate.
+    bool is_too_short(const Radius& radius) const {
+        poller_.spend(p_.size() + q_.size());
+        return !diagram_.corner_is_free(0, 0, radius) ||
+               !diagram_.corner_is_free(last_, diagram_.cells(), radius) ||
+               boxes_surely_miss(radius) ||
+               (row_witness_ > 0 && diagram_.row_is_blocked(row_witness_, radius)) ||
+               (column_witness_ > 0 && diagram_.column_is_blocked(column_witness_, radius));
+    }
+
+    // What reaches furthest in a coordinate must meet something that reaches nearly as far.
+    bool boxes_surely_miss(const Radius& radius) const noexcept {
+        const double* const p = p_.box<Dim>(p_.levels() - 1, 0);
+        const double* const q = q_.box<Dim>(q_.levels() - 1, 0);
+        for (std::ptrdiff_t k = 0; k < 2 * p_.dim(); ++k) {
+            const double delta = p[k] - q[k];
+            if (radius.surely_misses(delta * delta)) return true;
+        }
+        return false;
+    }
+
+    double least_of_witnesses() const {
+        const auto holds = [&](double x) { return !is_too_short(radius_of(x)); };
+        if (holds(0.0)) return 0.0;
+        const double below = guess_ * (1.0 - 0x1p-50);
+        const double infinity = std::numeric_limits<double>::infinity();
+        return least_double(holds(below) ? 0.0 : below, infinity, 2, 1, holds);
+    }
+
+    // From what runs_ reached of row `from` to row `to`. Returns the last row of which anything
+    // was reached.
+    std::ptrdiff_t walk(std::ptrdiff_t from, std::ptrdiff_t to, const Radius& radius,
+                        Trail* trail) {
+        for (std::ptrdiff_t i = from; i < to; ++i) {
+            poller_.spend(8 + 2 * diagram_.advance(i, runs_, radius, next_));
+            if (next_.empty()) return i;
+            std::swap(runs_, next_);
+            if (trail != nullptr) trail->note(i + 1, runs_);
+        }
+        return to;
+    }
+
+    // Rows before and behind a bottleneck, and what was reached of the first of them.
+    struct Stretch {
+        const Trail::Mark& mark;
+        std::ptrdiff_t goal;
+    };
+
+    Stretch around(std::ptrdiff_t row, std::ptrdiff_t window) const noexcept {
+        return {trail_.before(row - window), std::min(row + window, last_)};
+    }
+
+    bool passes(const Stretch& stretch, double distance) {
+        const Radius radius = radius_of(distance);
+        runs_ = stretch.mark.runs;
+        return walk(stretch.mark.row, stretch.goal, radius, nullptr) == stretch.goal &&
+               (stretch.goal < last_ || diagram_.is_through(runs_, radius));
+    }
+
+    // A sufficient radius above `low`, which is not, from one bottleneck to the next. Nearly the
+    // least that passes the last one, within `tolerance` doubles, as far as the window shows; or
+    // `high`, which is sufficient.
+    double climb(double low, double high, std::ptrdiff_t& window, std::uint64_t tolerance) {
+        if (trail_radius_ != low) is_within(low);
+        std::ptrdiff_t dead = trail_end_;
+        for (;;) {
+            const Stretch stretch = around(dead, window);
+            const double found = least_double(low, high, std::uint64_t{1} << 40, tolerance,
+                                              [&](double x) { return passes(stretch, x); });
+            if (found == high) return high;
+            const Stretch wider = around(dead, 8 * window);
+            if (!passes(wider, found) || passes(wider, below(found, tolerance, low))) {
+                window *= 8;
+                continue;
+            }
+            const Radius radius = radius_of(found);
+            runs_ = stretch.mark.runs;
+            trail_.forget_from(stretch.mark.row + 1);
+            trail_radius_ = none;
+            const std::ptrdiff_t reached = walk(stretch.mark.row, last_, radius, &trail_);
+            if (reached == last_ && diagram_.is_through(runs_, radius)) return found;
+            if (reached < stretch.goal + window) {
+                // Pushed on into a blind alley: the way out of it begins earlier.
+                window *= 4;
+                trail_.forget_from(stretch.mark.row + 1);
+            } else {
+                low = found;
+                dead = reached;
+            }
+        }
+    }
+
+    RangeScale range_;
+    Poller& poller_;
+    const BoxedCurve& p_;
+    const BoxedCurve& q_;
+    ExactSigns second_signs_;  // of the edges of the second curve
+    Diagram<Dim> diagram_;
+    std::ptrdiff_t last_;  // row
+    std::ptrdiff_t row_witness_ = 0;
+    std::ptrdiff_t column_witness_ = 0;
+    double guess_ = 0.0;
+    Runs& runs_;
+    Runs& next_;
+    Trail trail_;
+    double trail_radius_ = none;  // of the walk from row 0 that left the trail
+    std::ptrdiff_t trail_end_ = 0;
+};
+
+}  // namespace curvewise::detail

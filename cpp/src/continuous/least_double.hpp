@@ -1,0 +1,50 @@
+// The least double for which a monotone condition holds, by bisection on bit patterns: those of
+// doubles that are not negative have the order of their values, so that 62 steps always do, and 50
+// where the leading bits are known.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace curvewise::detail {
+
+inline std::uint64_t bits_of(double x) noexcept {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+inline double double_of(std::uint64_t bits) noexcept {
+    double x = 0.0;
+    std::memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+// The neighbour below a number above 0.
+inline double next_below(double x) noexcept { return double_of(bits_of(x) - 1); }
+
+// Above `below`, where it does not hold, and at most `most`: a double for which `holds`, while it
+// does not for another at most `tolerance` doubles below; or `most`, without asking there. `stride`
+// doubles up is where to look first.
+template <class Holds>
+double least_double(double below, double most, std::uint64_t stride, std::uint64_t tolerance,
+                    Holds holds) {
+    std::uint64_t low = bits_of(below), high = bits_of(most);
+    for (; stride < (high - low) / 16; stride *= 16) {
+        const std::uint64_t middle = low + stride;
+        if (holds(double_of(middle))) {
+            high = middle;
+            break;
+        }
+        low = middle;
+    }
+    while (high - low > tolerance) {
+        const std::uint64_t middle = low + (high - low) / 2;
+        (holds(double_of(middle)) ? high : low) = middle;
+    }
+    return double_of(high);
+}
+
+}  // namespace curvewise::detail

@@ -1,0 +1,112 @@
+// How far the vertices of one curve lie from the other, the directed Hausdorff distance of a set of
+// points to a curve: no leash is shorter. It is the continuous Fréchet distance itself for many
+// curves that are alike, and the place to begin the search for it. Rounded, so a guess and no
+// bound. Vertices near enough are passed with a look at the edges around the last nearest one;
+// the others search the tree of boxes. About O(n + log m) for alike curves.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+#include "continuous/boxed_curve.hpp"
+#include "runtime/poller.hpp"
+
+namespace curvewise::detail {
+
+// The vertex furthest from the curve.
+struct Furthest {
+    double square = 0.0;  // of its distance, in units of the scaled curves
+    std::ptrdiff_t vertex = 0;
+};
+
+template <int Dim>
+class NearestEdges {
+   public:
+    NearestEdges(const BoxedCurve& curve, Poller& poller) : curve_(curve), poller_(poller) {}
+
+    // Of all vertices of `points`, or `floor` where none is further.
+    Furthest furthest(const BoxedCurve& points, const Furthest& floor) const {
+        Furthest found = floor;
+        std::ptrdiff_t near = 0;
+        // The vertices between those of a coarse round lie hardly further: few are searched for.
+        for (const std::ptrdiff_t step : {std::ptrdiff_t{61}, std::ptrdiff_t{1}}) {
+            near = 0;
+            for (std::ptrdiff_t i = 0; i < points.size(); i += step) {
+                poller_.spend(8);
+                const double* const z = points.point<Dim>(i);
+                double square = descend(z, near);
+                if (square <= found.square) continue;
+                square = search(z, square, near);
+                if (square > found.square) found = {square, i};
+            }
+        }
+        return found;
+    }
+
+   private:
+    // From edge `near` to one whose neighbours are not nearer.
+    double descend(const double* z, std::ptrdiff_t& near) const {
+        double square = square_to_edge(z, near);
+        for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, std::ptrdiff_t{-1}}) {
+            for (;;) {
+                const std::ptrdiff_t edge = near + step;
+                if (edge < 0 || edge >= curve_.size() - 1) break;
+                const double other = square_to_edge(z, edge);
+                if (other >= square) break;
+                square = other;
+                near = edge;
+            }
+        }
+        return square;
+    }
+
+    // The nearest edge of all, where one is nearer than `square`.
+    double search(const double* z, double square, std::ptrdiff_t& near) const {
+        search_box(z, curve_.levels() - 1, 0, square, near);
+        return square;
+    }
+
+    void search_box(const double* z, int level, std::ptrdiff_t b, double& square,
+                    std::ptrdiff_t& near) const {
+        if (square_distance_to_box<Dim>(z, curve_.box<Dim>(level, b), curve_.dim()) >= square)
+            return;
+        poller_.spend(8);
+        if (level == 0) {
+            constexpr std::ptrdiff_t leaf = BoxedCurve::leaf;
+            const std::ptrdiff_t end = std::min((b + 1) * leaf, curve_.size() - 1);
+            for (std::ptrdiff_t edge = b * leaf; edge < end; ++edge) {
+                const double other = square_to_edge(z, edge);
+                if (other >= square) continue;
+                square = other;
+                near = edge;
+            }
+            return;
+        }
+        search_box(z, level - 1, 2 * b, square, near);
+        if (2 * b + 1 < curve_.boxes(level - 1)) search_box(z, level - 1, 2 * b + 1, square, near);
+    }
+
+    double square_to_edge(const double* z, std::ptrdiff_t edge) const noexcept {
+        const double* const x = curve_.point<Dim>(edge);
+        const double* const y = curve_.point<Dim>(edge + 1);
+        double uu = 0.0, uw = 0.0;
+        for (std::ptrdiff_t c = 0; c < curve_.dim(); ++c) {
+            const double u = y[c] - x[c];
+            uu += u * u;
+            uw += u * (z[c] - x[c]);
+        }
+        const double t = uu > 0.0 ? std::min(std::max(uw / uu, 0.0), 1.0) : 0.0;
+        double square = 0.0;
+        for (std::ptrdiff_t c = 0; c < curve_.dim(); ++c) {
+            const double h = (z[c] - x[c]) - t * (y[c] - x[c]);
+            square += h * h;
+        }
+        return square;
+    }
+
+    const BoxedCurve& curve_;
+    Poller& poller_;
+};
+
+}  // namespace curvewise::detail

@@ -1,0 +1,165 @@
+// Which points of a free-space diagram a monotone path from its first corner reaches, one row
+// after the other: row i is vertex i of the first curve against the edges of the second. What is
+// reached of a row is kept as runs of edges, few and far between where curves are alike, so that
+// rows and columns that nothing reaches cost nothing; inside a run, and beside it, boxes of edges
+// are passed in one step. Every answer is exact. Memory O(runs of a row), time O(n log m) for
+// alike curves, O(n m) at worst.
+//
+// Alt & Godau (1995), Lemma 3: what is reached of an edge of a cell is an interval that ends where
+// its free part ends, so only its lower bound is carried. The bound is the greatest of lower
+// bounds of free parts of that edge.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "continuous/free_space.hpp"
+
+namespace curvewise::detail {
+
+// Of a row: edges first to last, each reached from its first vertex on, the first one from `low`
+// on. The vertex behind the last is not free, unless it is the last of the curve.
+struct Run {
+    std::ptrdiff_t first;
+    std::ptrdiff_t last;
+    Bound low;
+};
+using Runs = std::vector<Run>;
+
+template <int Dim>
+class Diagram {
+   public:
+    // Row i against the edges of the second curve, column j against those of the first.
+    Diagram(const EdgeFamily<Dim>& first, const EdgeFamily<Dim>& second)
+        : columns_(first), rows_(second) {}
+
+    std::ptrdiff_t rows() const noexcept { return columns_.vertices(); }
+    // Edges of the second curve: cells beside each other.
+    std::ptrdiff_t cells() const noexcept { return rows_.vertices() - 1; }
+
+    bool corner_is_free(std::ptrdiff_t i, std::ptrdiff_t j, const Radius& radius) const {
+        return rows_.vertex_is_free(j, i, radius);
+    }
+    bool row_is_blocked(std::ptrdiff_t i, const Radius& radius) const {
+        return !corner_is_free(i, 0, radius) &&
+               rows_.first_free_edge(0, cells() - 1, i, radius) == cells();
+    }
+    bool column_is_blocked(std::ptrdiff_t j, const Radius& radius) const {
+        const std::ptrdiff_t edges = rows() - 1;
+        return !corner_is_free(0, j, radius) &&
+               columns_.first_free_edge(0, edges - 1, j, radius) == edges;
+    }
+
+    // What is free of edge j of the second curve in row i, of edge i of the first in column j.
+    FreePart part_of_row(std::ptrdiff_t i, std::ptrdiff_t j, const Radius& radius) const {
+        return rows_.free_part(j, i, corner_is_free(i, j, radius), corner_is_free(i, j + 1, radius),
+                               radius);
+    }
+    FreePart part_of_column(std::ptrdiff_t i, std::ptrdiff_t j, const Radius& radius) const {
+        return columns_.free_part(i, j, corner_is_free(i, j, radius),
+                                  corner_is_free(i + 1, j, radius), radius);
+    }
+    // The edges of the first curve, seen from columns, and of the second, seen from rows.
+    const EdgeFamily<Dim>& first_edges() const noexcept { return columns_; }
+    const EdgeFamily<Dim>& second_edges() const noexcept { return rows_; }
+
+    // What is reached of row 0, whose first corner is free.
+    void start(const Radius& radius, Runs& runs) const {
+        runs.clear();
+        runs.push_back({0, 0, {}});
+        runs[0].last = rows_.first_blocked_vertex(0, cells(), 0, radius) - 1;
+        runs[0].last = std::min(runs[0].last, cells() - 1);
+    }
+
+    // From what is reached of row i to what is reached of row i + 1. Returns the number of cells
+    // between the ends of what was looked at.
+    std::ptrdiff_t advance(std::ptrdiff_t i, const Runs& from, const Radius& radius,
+                           Runs& to) const {
+        to.clear();
+        std::ptrdiff_t cells_passed = 0;
+        std::ptrdiff_t entered = -1;  // of the cells looked at, the last whose left side is reached
+        for (std::size_t r = 0; r < from.size(); ++r) {
+            const Run& run = from[r];
+            const std::ptrdiff_t next = r + 1 < from.size() ? from[r + 1].first : cells() - 1;
+            std::ptrdiff_t first = run.first;
+            if (!(entered == run.first || (run.first == 0 && run.low.is_own_end()))) {
+                enter_from_below(i, run, radius, to);
+                ++first;
+            }
+            entered = last_entered(i, run.last, next, radius);
+            const bool again = r + 1 < from.size() && entered == next;
+            enter_from_left(i, first, again ? entered - 1 : entered, radius, to);
+            cells_passed += entered - run.first + 1;
+        }
+        return cells_passed;
+    }
+
+    // Whether a path that has reached the runs of the last row has reached its end.
+    bool is_through(const Runs& last_row, const Radius& radius) const {
+        return !last_row.empty() && last_row.back().last == cells() - 1 &&
+               corner_is_free(rows() - 1, cells(), radius);
+    }
+
+   private:
+    // The cell above the first edge of a run, whose left side nothing reaches.
+    void enter_from_below(std::ptrdiff_t i, const Run& run, const Radius& radius, Runs& to) const {
+        const std::ptrdiff_t j = run.first;
+        const FreePart top = part_of_row(i + 1, j, radius);
+        if (top.is_empty) return;
+        const FreePart reached = rows_.from(j, run.low, top, radius);
+        if (!reached.is_empty) to.push_back({j, j, reached.low});
+    }
+
+    // The cells from `first` to `last`, whose left sides are reached: all that is free above them
+    // is, too.
+    void enter_from_left(std::ptrdiff_t i, std::ptrdiff_t first, std::ptrdiff_t last,
+                         const Radius& radius, Runs& to) const {
+        if (first > last) return;
+        std::ptrdiff_t j = first;
+        if (corner_is_free(i + 1, j, radius)) {
+            // A run that ends before cell j goes on in it: what is free of the cell before ends
+            // in the corner between them.
+            if (to.empty() || to.back().last != j - 1) to.push_back({j, j, {}});
+            j = extend(i, j, last, radius, to.back());
+        }
+        while (j <= last) {
+            j = rows_.first_free_edge(j, last, i + 1, radius);
+            if (j > last) return;
+            const bool second_is_free = corner_is_free(i + 1, j + 1, radius);
+            to.push_back({j, j, rows_.free_part(j, i + 1, false, second_is_free, radius).low});
+            ++j;
+            if (second_is_free) j = extend(i, j, last, radius, to.back());
+        }
+    }
+
+    // Lets a run of row i + 1 go on from edge j, whose first vertex is free, at most to `last`.
+    // Returns the edge behind it.
+    std::ptrdiff_t extend(std::ptrdiff_t i, std::ptrdiff_t j, std::ptrdiff_t last,
+                          const Radius& radius, Run& run) const {
+        if (j > last) return j;
+        const std::ptrdiff_t blocked = rows_.first_blocked_vertex(j + 1, last + 1, i + 1, radius);
+        run.last = std::min(blocked - 1, last);
+        return run.last + 1;
+    }
+
+    // The last cell, up to `most`, that a path enters from its left, having reached the lower edge
+    // of cell `from`; `from` itself where there is none.
+    std::ptrdiff_t last_entered(std::ptrdiff_t i, std::ptrdiff_t from, std::ptrdiff_t most,
+                                const Radius& radius) const {
+        Bound low;  // of the edge of the first curve
+        for (std::ptrdiff_t j = from + 1; j <= most; ++j) {
+            const FreePart left = part_of_column(i, j, radius);
+            if (left.is_empty) return j - 1;
+            const FreePart reached = columns_.from(i, low, left, radius);
+            if (reached.is_empty) return j - 1;
+            low = reached.low;
+        }
+        return std::max(from, most);
+    }
+
+    EdgeFamily<Dim> columns_;  // the edges of the first curve
+    EdgeFamily<Dim> rows_;     // the edges of the second
+};
+
+}  // namespace curvewise::detail

@@ -1,0 +1,292 @@
+"""The continuous Fréchet distance: the shortest leash for two walks along the curves themselves.
+
+A leash of length r is long enough where a path that goes only up and to the right leads through
+the free space, the pairs of points at most r apart (Alt & Godau, 1995). The diagram has a cell for
+every edge of P and edge of Q, and the free space of a cell is convex: what is reached of a side of
+it is an interval that ends where the free part of that side ends. The value is the least double
+that is long enough, found by bisection on the bit patterns of doubles, whose order is that of
+their values.
+
+Nothing is rounded. All coordinates and r are whole multiples of one power of two, and a position
+on an edge, times the square of its length, is a + s sqrt(c) with whole a and c and s of -1, 0 or
+1; two of these are compared by squaring. Time O(n m) a decision, of which a value takes 63; memory
+O(n m).
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import product
+from typing import Literal, SupportsFloat, TypeAlias, overload
+
+import numpy as np
+
+from .._curves import Array, CurveLike, as_curves
+from ..results import Matching
+from .checks import check_pair
+
+__all__ = ["frechet_continuous", "frechet_continuous_path", "frechet_within"]
+
+_Point: TypeAlias = list[int]
+
+
+@overload
+def frechet_continuous(P: CurveLike, Q: CurveLike, *, bounds: Literal[False] = False) -> float: ...
+
+
+@overload
+def frechet_continuous(
+    P: CurveLike, Q: CurveLike, *, bounds: bool
+) -> float | tuple[float, float]: ...
+
+
+def frechet_continuous(
+    P: CurveLike, Q: CurveLike, *, bounds: bool = False
+) -> float | tuple[float, float]:
+    """63 decisions in whole numbers of any size, O(n m) each; memory O(n m)."""
+    P, Q = check_pair(*as_curves(P, Q), "frechet_continuous")
+    value = _value(P, Q)
+    if not bounds:
+        return value
+    if value == 0 or (math.isfinite(value) and not _is_long_enough(P, Q, value, strictly=True)):
+        return value, value
+    return _double(_bits(value) - 1), value
+
+
+def frechet_continuous_path(P: CurveLike, Q: CurveLike) -> Matching:
+    """From the end back, each cell is left by its lower side where it can have been entered there.
+
+    The walks are others than those of the compiled library. Time and memory as for
+    frechet_continuous.
+    """
+    P, Q = check_pair(*as_curves(P, Q), "frechet_continuous")
+    value = _value(P, Q)
+    parameters = np.array(_trace(_Diagram(*_with_edges(P, Q), value)))
+    parameters = np.minimum(parameters, (len(P) - 1, len(Q) - 1))
+    return Matching(max([value, *_leashes(P, Q, parameters)]), parameters)
+
+
+def frechet_within(
+    P: CurveLike, Q: CurveLike, distance: SupportsFloat, *, continuous: bool = True
+) -> bool:
+    """One decision in whole numbers of any size: time and memory O(n m)."""
+    P, Q = as_curves(P, Q)
+    distance = float(distance)
+    if not distance >= 0:
+        raise ValueError(f"distance is {distance:g}; give a number >= 0")
+    P, Q = check_pair(P, Q, "frechet_continuous")
+    return _is_long_enough(P, Q, distance) if continuous else _is_coupled(P, Q, distance)
+
+
+class _Position:
+    """A point of an edge: its distance from the first vertex, times the length of the edge.
+
+    This is `a` plus the square root of `c`, or minus that of -`c`, where `c` is below 0.
+    """
+
+    def __init__(self, a: int, c: int = 0) -> None:
+        self.a, self.c = a, c
+
+    def __lt__(self, other: _Position) -> bool:
+        return _sign_with_roots(self.a - other.a, self.c, -other.c) < 0
+
+    def __le__(self, other: _Position) -> bool:
+        return not other < self
+
+    def fraction(self, x: _Point, y: _Point) -> float:
+        """Return the position as a fraction of the edge from x to y, rounded."""
+        length = _dot(u := _minus(y, x), u)
+        if length == 0:
+            return 0.0
+        # 64 more bits of the root than of the rest.
+        shift = 2 * max(0, 64 + length.bit_length() - abs(self.c).bit_length() // 2)
+        root = Fraction(math.isqrt(abs(self.c) << shift), 1 << (shift // 2))
+        return float((self.a + (root if self.c > 0 else -root)) / length)
+
+
+_Part: TypeAlias = tuple[_Position, _Position] | None
+"""What is free, or reached, of an edge: from one position to another, or nothing."""
+
+
+class _Diagram:
+    """The free-space diagram of two curves in whole numbers."""
+
+    def __init__(self, P: Array, Q: Array, radius: float, strictly: bool = False) -> None:
+        unit = max(_exponent(x) for x in (*P.flat, *Q.flat, radius))
+        self.P, self.Q = ([[_whole(x, unit) for x in point] for point in C] for C in (P, Q))
+        self.square = _whole(radius, unit) ** 2
+        self.strictly = strictly
+
+    def is_free(self, i: int, j: int) -> bool:
+        """Tell whether the leash holds P[i] and Q[j]."""
+        square = _dot(w := _minus(self.P[i], self.Q[j]), w)
+        return square < self.square or (square == self.square and not self.strictly)
+
+    def free(self, x: _Point, y: _Point, z: _Point, reached: _Position | None = None) -> _Part:
+        """Return what of the edge from `x` to `y` is within reach of `z`, from `reached` on."""
+        u, w = _minus(y, x), _minus(z, x)
+        length, middle = _dot(u, u), _dot(u, w)
+        half = middle**2 - length * (_dot(w, w) - self.square)
+        if length == 0:
+            excess = _dot(w, w) - self.square
+            is_free = excess < 0 or (excess == 0 and not self.strictly)
+            return (_Position(0), _Position(0)) if is_free else None
+        if half < 0:
+            return None
+        low = max(_Position(0), _Position(middle, -half))
+        low = low if reached is None else max(low, reached)
+        high = min(_Position(length), _Position(middle, half))
+        return (low, high) if low < high or (low <= high and not self.strictly) else None
+
+    def reached(self) -> tuple[list[list[_Part]], list[list[_Part]]]:
+        """Return what is reached of the lower side, and of the left side, of every cell.
+
+        There is a row of lower sides, and a column of left sides, more than there are cells.
+        """
+        p, q = self.P, self.Q
+        n, m = len(p) - 1, len(q) - 1  # edges
+        lower: list[list[_Part]] = [[None] * m for _ in range(n + 1)]
+        left: list[list[_Part]] = [[None] * (m + 1) for _ in range(n)]
+        for j in range(m):  # along the sides of the diagram as far as all is free
+            if self.is_free(0, j) and (j == 0 or lower[0][j - 1]):
+                lower[0][j] = self.free(q[j], q[j + 1], p[0])
+        for i in range(n):
+            if self.is_free(i, 0) and (i == 0 or left[i - 1][0]):
+                left[i][0] = self.free(p[i], p[i + 1], q[0])
+        for i, j in product(range(n), range(m)):
+            below, beside = lower[i][j], left[i][j]
+            if below or beside:
+                upper_from = None if beside else below and below[0]
+                right_from = None if below else beside and beside[0]
+                lower[i + 1][j] = self.free(q[j], q[j + 1], p[i + 1], upper_from)
+                left[i][j + 1] = self.free(p[i], p[i + 1], q[j + 1], right_from)
+        return lower, left
+
+
+def _value(P: Array, Q: Array) -> float:
+    low, high = -1, _bits(math.inf)  # too short, and long enough
+    while high - low > 1:
+        middle = (low + high) // 2
+        if _is_long_enough(P, Q, _double(middle)):
+            high = middle
+        else:
+            low = middle
+    return _double(high)
+
+
+def _with_edges(P: Array, Q: Array) -> tuple[Array, Array]:
+    """Return both curves, a single point as an edge of no length."""
+    P, Q = (np.repeat(C, 2, axis=0) if len(C) == 1 else C for C in (P, Q))
+    return P, Q
+
+
+def _is_long_enough(P: Array, Q: Array, radius: float, *, strictly: bool = False) -> bool:
+    """Tell whether a path leads through the free space; `strictly`: through its inside."""
+    if math.isinf(radius):
+        return True
+    diagram = _Diagram(*_with_edges(P, Q), radius, strictly)
+    n, m = len(diagram.P) - 1, len(diagram.Q) - 1
+    if not (diagram.is_free(0, 0) and diagram.is_free(n, m)):
+        return False
+    return diagram.reached()[0][n][m - 1] is not None
+
+
+def _trace(diagram: _Diagram) -> list[tuple[float, float]]:
+    """Return the parameters of a path from corner to corner."""
+    lower, left = diagram.reached()
+    p, q = diagram.P, diagram.Q
+    i, j = len(left) - 1, len(lower[0]) - 1  # the cell that the path leaves
+    x, y = i + 1.0, j + 1.0
+    path = [(x, y)]
+    while i >= 0 and j >= 0:
+        below, beside = lower[i][j], left[i][j]
+        y_from = j + below[0].fraction(q[j], q[j + 1]) if below else math.inf
+        if below and (y_from <= y or beside is None):
+            x, y, i = float(i), min(y, max(y_from, j)), i - 1
+        else:
+            assert beside is not None
+            x_from = i + beside[0].fraction(p[i], p[i + 1])
+            x, y, j = min(x, max(x_from, i)), float(j), j - 1
+        path.append((x, y))
+    # Along a side of the diagram.
+    path += [(0.0, float(k)) for k in range(math.ceil(y) - 1, -1, -1) if x == 0]
+    path += [(float(k), 0.0) for k in range(math.ceil(x) - 1, -1, -1) if x > 0]
+    return path[::-1]
+
+
+def _leashes(P: Array, Q: Array, parameters: Array) -> Iterator[float]:
+    """Yield for each row the least double that is not below its leash."""
+    for x, y in parameters.tolist():
+        square = sum((a - b) ** 2 for a, b in zip(_point(P, x), _point(Q, y), strict=True))
+        low, high = -1, _bits(math.inf)
+        while high - low > 1:
+            middle = (low + high) // 2
+            if Fraction(_double(middle)) ** 2 >= square:
+                high = middle
+            else:
+                low = middle
+        yield _double(high)
+
+
+def _point(C: Array, parameter: float) -> list[Fraction]:
+    i = min(int(parameter), max(len(C) - 2, 0))
+    j = min(i + 1, len(C) - 1)
+    t = Fraction(parameter) - i
+    ends = zip(C[i].tolist(), C[j].tolist(), strict=True)
+    return [Fraction(a) + t * (Fraction(b) - Fraction(a)) for a, b in ends]
+
+
+def _is_coupled(P: Array, Q: Array, radius: float) -> bool:
+    """Tell whether a coupling of the vertices keeps the leash."""
+    if math.isinf(radius):
+        return True
+    diagram = _Diagram(P, Q, radius)
+    reached: list[bool] = []
+    for i in range(len(P)):
+        above, reached = reached, []
+        for j in range(len(Q)):
+            comes = (i == 0 and j == 0) or (i > 0 and (above[j] or (j > 0 and above[j - 1])))
+            reached.append((comes or (j > 0 and reached[-1])) and diagram.is_free(i, j))
+    return reached[-1]
+
+
+def _sign(x: int) -> int:
+    return (x > 0) - (x < 0)
+
+
+def _sign_with_roots(x: int, c: int, e: int = 0) -> int:
+    """Return the sign of x + sqrt(c) + sqrt(e), where the root of -c is minus that of c."""
+    whole, roots = _sign(x), _sign(c + e)
+    if whole * roots >= 0:
+        return whole or roots
+    # The square of the roots' sum is |c| + |e| + 2 sqrt(c e).
+    rest = x * x - abs(c) - abs(e)
+    return whole * (_sign(rest) if c * e == 0 else _sign_with_roots(rest, -4 * c * e))
+
+
+def _minus(x: _Point, y: _Point) -> _Point:
+    return [a - b for a, b in zip(x, y, strict=True)]
+
+
+def _dot(x: _Point, y: _Point) -> int:
+    return sum(a * b for a, b in zip(x, y, strict=True))
+
+
+def _exponent(x: float) -> int:
+    """Return k such that x is a whole multiple of 2**-k, at least 0."""
+    return x.as_integer_ratio()[1].bit_length() - 1
+
+
+def _whole(x: float, exponent: int) -> int:
+    return int(Fraction(x) * 2**exponent)
+
+
+def _bits(x: float) -> int:
+    return int.from_bytes(struct.pack(">d", x), "big")
+
+
+def _double(bits: int) -> float:
+    return float(struct.unpack(">d", bits.to_bytes(8, "big"))[0])

@@ -1,0 +1,310 @@
+// The continuous Fréchet distance against what is known of it: values by hand, the discrete
+// distance of finely divided curves, and everything that leaves the real number as it is, which
+// must leave the bits as they are; decisions; matchings; the range of doubles; messages.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "check.hpp"
+#include "curves.hpp"
+#include "curvewise/frechet.hpp"
+#include "curvewise/frechet_continuous.hpp"
+#include "curvewise/pairwise.hpp"
+
+namespace {
+
+using curvewise::frechet;
+using curvewise::frechet_continuous;
+using curvewise::frechet_continuous_bounds;
+using curvewise::frechet_continuous_path;
+using curvewise::frechet_within;
+using curvewise::Interval;
+using curvewise::Matching;
+using test::Curve;
+using test::Random;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double below(double x) { return std::nextafter(x, 0.0); }
+
+void values_by_hand() {
+    // Those who forget that walks never turn back say 0.
+    const Curve straight{{0.0, 0.0}, {10.0, 0.0}};
+    const Curve back_and_forth{{0.0, 0.0}, {7.0, 0.0}, {3.0, 0.0}, {10.0, 0.0}};
+    CHECK_EQUAL(frechet_continuous(straight, back_and_forth), 2.0);
+    CHECK_EQUAL(frechet_continuous_bounds(straight, back_and_forth).low, 2.0);
+    CHECK_EQUAL(frechet_continuous(straight, Curve{{0.0, 3.0}, {10.0, 4.0}}), 4.0);
+    CHECK_EQUAL(frechet_continuous(straight, Curve{{0.0, 0.0}, {5.0, 2.0}, {10.0, 0.0}}), 2.0);
+    // One point against many, and against one.
+    CHECK_EQUAL(frechet_continuous(Curve{{0.0, 0.0}}, Curve{{3.0, 4.0}, {0.0, 1.0}}), 5.0);
+    CHECK_EQUAL(frechet_continuous(Curve{{1.0}}, Curve{{-2.0}}), 3.0);
+    // sqrt(2) lies between two doubles.
+    const Interval root = frechet_continuous_bounds(Curve{{0.0, 0.0}}, Curve{{1.0, 1.0}});
+    CHECK_EQUAL(root.low, 1.4142135623730949);
+    CHECK_EQUAL(root.high, 1.4142135623730951);
+    // The pair on which another library's discrete distance is wrong.
+    const Curve P{{2.0, 5.0}, {3.0, 3.0}, {4.0, 3.0}, {5.0, 4.0}, {0.0, 0.0}, {3.0, 4.0}};
+    const Curve Q{{0.0, 4.0}, {4.0, 4.0}, {5.0, 1.0}};
+    CHECK(frechet_continuous(P, Q) <= 5.0);
+}
+
+Curve reversed(const Curve& curve) {
+    Curve result = curve;
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
+            result(curve.size() - 1 - i, c) = curve(i, c);
+        }
+    }
+    return result;
+}
+
+Curve rotated_axes(const Curve& curve) {
+    Curve result = curve;
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
+            result(i, c) = curve(i, (c + 1) % curve.dim());
+        }
+    }
+    return result;
+}
+
+// Points added on every edge: exact where coordinates have few bits.
+Curve divided(const Curve& curve, std::ptrdiff_t parts) {
+    std::vector<double> values;
+    for (std::ptrdiff_t i = 0; i + 1 < curve.size(); ++i) {
+        for (std::ptrdiff_t k = 0; k < parts; ++k) {
+            const double t = static_cast<double>(k) / static_cast<double>(parts);
+            for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
+                values.push_back((1.0 - t) * curve(i, c) + t * curve(i + 1, c));
+            }
+        }
+    }
+    for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) values.push_back(curve(curve.size() - 1, c));
+    return {values, curve.dim()};
+}
+
+Curve moved(const Curve& curve, double by) {
+    Curve result = curve;
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) result(i, c) += by;
+    }
+    return result;
+}
+
+double longest_edge(const Curve& curve) {
+    double longest = 0.0;
+    for (std::ptrdiff_t i = 0; i + 1 < curve.size(); ++i) {
+        longest = std::max(longest, frechet(curve.part(i, i + 1), curve.part(i + 1, i + 2)));
+    }
+    return longest;
+}
+
+void check_what_changes_nothing(const Curve& P, const Curve& Q) {
+    const double value = frechet_continuous(P, Q);
+    CHECK_EQUAL(frechet_continuous(Q, P), value);
+    CHECK_EQUAL(frechet_continuous(reversed(P), reversed(Q)), value);
+    CHECK_EQUAL(frechet_continuous(rotated_axes(P), rotated_axes(Q)), value);
+    for (const int exponent : {-900, -40, 3, 900}) {
+        CHECK_EQUAL(
+            frechet_continuous(P.times_power_of_two(exponent), Q.times_power_of_two(exponent)),
+            std::ldexp(value, exponent));
+    }
+}
+
+void check_decisions(const Curve& P, const Curve& Q) {
+    const Interval bounds = frechet_continuous_bounds(P, Q);
+    CHECK_EQUAL(bounds.high, frechet_continuous(P, Q));
+    CHECK(bounds.low == bounds.high || bounds.low == below(bounds.high));
+    CHECK(frechet_within(P, Q, bounds.high));
+    if (bounds.high > 0.0) CHECK(!frechet_within(P, Q, below(bounds.high)));
+    CHECK_EQUAL(frechet_within(P, Q, bounds.low), bounds.low == bounds.high);
+    // The discrete distance is rounded to the nearest double.
+    const double discrete = frechet(P, Q);
+    CHECK(frechet_within(P, Q, std::nextafter(discrete, infinity), false));
+    if (discrete > 0.0) CHECK(!frechet_within(P, Q, below(discrete), false));
+}
+
+void check_bounds_by_the_discrete_distance(const Curve& P, const Curve& Q) {
+    constexpr double rounding = 1.0 + 1e-14;
+    const double value = frechet_continuous(P, Q);
+    for (const std::ptrdiff_t parts : {1, 64}) {
+        const Curve p = divided(P, parts), q = divided(Q, parts);
+        const double discrete = frechet(p, q);
+        CHECK(value <= discrete * rounding);
+        const double least = discrete - std::max(longest_edge(p), longest_edge(q));
+        CHECK(value >= least - 1e-14 * discrete);
+    }
+}
+
+// The leash of a row, rounded.
+double leash(const Curve& P, const Curve& Q, const std::array<double, 2>& row) {
+    const auto at = [](const Curve& curve, double parameter, std::ptrdiff_t c) {
+        const auto i = static_cast<std::ptrdiff_t>(parameter);
+        const double t = parameter - static_cast<double>(i);
+        return t == 0.0 ? curve(i, c) : curve(i, c) + t * (curve(i + 1, c) - curve(i, c));
+    };
+    double square = 0.0;
+    for (std::ptrdiff_t c = 0; c < P.dim(); ++c) {
+        square += std::pow(at(P, row[0], c) - at(Q, row[1], c), 2.0);
+    }
+    return std::sqrt(square);
+}
+
+void check_matching(const Curve& P, const Curve& Q) {
+    const double value = frechet_continuous(P, Q);
+    const Matching found = frechet_continuous_path(P, Q);
+    CHECK(found.distance >= value);
+    CHECK(found.distance <= value * (1.0 + 1e-13) + 1e-14);
+    const std::array<double, 2> first{0.0, 0.0};
+    const std::array<double, 2> last{static_cast<double>(P.size() - 1),
+                                     static_cast<double>(Q.size() - 1)};
+    CHECK(found.parameters.front() == first);
+    CHECK(found.parameters.back() == last);
+    for (std::size_t k = 0; k < found.parameters.size(); ++k) {
+        CHECK(leash(P, Q, found.parameters[k]) <= found.distance * (1.0 + 1e-14) + 1e-14);
+        if (k == 0) continue;
+        for (std::size_t side = 0; side < 2; ++side) {
+            const double from = found.parameters[k - 1][side], to = found.parameters[k][side];
+            CHECK(from <= to);
+            CHECK(to <= std::floor(from) + 1.0);  // on one edge
+        }
+    }
+}
+
+void random_curves() {
+    Random random(15);
+    for (int round = 0; round < 300; ++round) {
+        const std::ptrdiff_t dim = 1 + random.index(5);
+        const std::ptrdiff_t n = 1 + random.index(12), m = 1 + random.index(12);
+        const bool lattice = round % 2 == 0;
+        const Curve P = lattice ? random.lattice_curve(n, dim) : random.curve(n, dim);
+        const Curve Q = lattice ? random.lattice_curve(m, dim) : random.curve(m, dim);
+        const check::Note note(test::described(P, Q));
+        check_what_changes_nothing(P, Q);
+        check_decisions(P, Q);
+        check_bounds_by_the_discrete_distance(P, Q);
+        check_matching(P, Q);
+        if (!lattice) continue;
+        const double value = frechet_continuous(P, Q);
+        CHECK_EQUAL(frechet_continuous(divided(P, 8), divided(Q, 4)), value);
+        CHECK_EQUAL(frechet_continuous(moved(P, 0x1p50), moved(Q, 0x1p50)), value);
+        CHECK_EQUAL(frechet_continuous(divided(P, 4), P), 0.0);
+    }
+}
+
+void longer_curves() {
+    Random random(16);
+    for (const std::ptrdiff_t n : {60, 200, 701}) {
+        const Curve P = random.walk(n);
+        Curve Q = P;
+        for (std::ptrdiff_t i = 0; i < n; ++i) {
+            for (std::ptrdiff_t c = 0; c < 2; ++c) Q(i, c) += random.uniform(-0.3, 0.3);
+        }
+        const Curve unrelated = random.walk(n - 10);
+        const check::Note note(test::described(P, Q));
+        for (const Curve& other : {Q, unrelated}) {
+            check_what_changes_nothing(P, other);
+            check_decisions(P, other);
+            check_matching(P, other);
+        }
+    }
+}
+
+// A search that begins with a window too small ends at the same value.
+void a_blind_alley() {
+    // Q runs along P, turns aside at one place and leads into a long alley that P has, too.
+    std::vector<double> p, q;
+    for (int i = 0; i < 400; ++i) {
+        p.insert(p.end(), {0.01 * i, 0.0});
+        q.insert(q.end(), {0.01 * i, i == 200 ? 0.4 : 0.1});
+    }
+    for (int i = 400; i-- > 0;) {
+        p.insert(p.end(), {0.01 * i, 0.05});
+        q.insert(q.end(), {0.01 * i, 0.12});
+    }
+    const Curve P(p, 2), Q(q, 2);
+    check_what_changes_nothing(P, Q);
+    check_decisions(P, Q);
+    check_matching(P, Q);
+}
+
+void ends_of_the_range() {
+    const Curve P{{0.0, 0.0}, {1.0, 0.0}}, Q{{0.0, 0.5}, {1.0, 0.25}};
+    for (const int exponent : {-1070, -1000, 1000, 1022}) {
+        CHECK_EQUAL(
+            frechet_continuous(P.times_power_of_two(exponent), Q.times_power_of_two(exponent)),
+            std::ldexp(0.5, exponent));
+    }
+    const double tiny = 5e-324, huge = 1e300;
+    CHECK_EQUAL(frechet_continuous(Curve{{0.0}, {tiny}}, Curve{{tiny}, {tiny}}), tiny);
+    CHECK_EQUAL(frechet_continuous(Curve{{0.0}, {tiny}}, Curve{{0.0}, {0.0}, {tiny}}), 0.0);
+    // What is tiny counts beside what is huge.
+    const Curve R{{huge, 0.0}, {-huge, 0.0}}, S{{huge, 1e-300}, {-huge, 1e-300}};
+    CHECK_EQUAL(frechet_continuous(R, S), 1e-300);
+    CHECK_EQUAL(frechet_continuous(Curve{{-1.7e308}}, Curve{{1.7e308}}), infinity);
+    CHECK(!frechet_within(Curve{{-1.7e308}}, Curve{{1.7e308}}, 1.7e308));
+    CHECK(frechet_within(Curve{{-1.7e308}}, Curve{{1.7e308}}, infinity));
+    const std::vector<double> equal(2000, 0.75);
+    CHECK_EQUAL(frechet_continuous(Curve(equal, 2), Curve({0.75, 0.0}, 2)), 0.75);
+    CHECK_EQUAL(frechet_continuous(Curve(equal, 2), Curve(equal, 2)), 0.0);
+}
+
+void batches() {
+    Random random(17);
+    std::vector<Curve> curves;
+    for (int k = 0; k < 7; ++k) curves.push_back(random.curve(5 + 3 * k, 2));
+    const std::vector<curvewise::CurveView> views(curves.begin(), curves.end());
+    for (const double cutoff : {infinity, 1.2}) {
+        std::vector<double> out(49);
+        curvewise::cdist(views, curvewise::FrechetContinuousOptions{}, out.data(), {2, cutoff});
+        for (std::size_t i = 0; i < 7; ++i) {
+            for (std::size_t j = 0; j < 7; ++j) {
+                const double value = i == j ? 0.0 : frechet_continuous(views[i], views[j]);
+                CHECK_EQUAL(out[7 * i + j], value <= cutoff ? value : infinity);
+            }
+        }
+    }
+    const curvewise::Prepared prepared(views[0], curvewise::FrechetContinuousOptions{});
+    CHECK_EQUAL(prepared(views[3]), frechet_continuous(views[0], views[3]));
+}
+
+void stopping() {
+    Random random(18);
+    const Curve P = random.curve(3000, 2), Q = random.curve(3000, 2);
+    curvewise::Control control([](std::int64_t, std::int64_t) { return false; },
+                               std::chrono::milliseconds(1));
+    CHECK_THROWS(frechet_continuous(P, Q, {}, &control), curvewise::Stopped,
+                 "stopped before the work was done");
+}
+
+void messages() {
+    const Curve P{{0.0, 0.0}, {1.0, 0.0}};
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS(frechet_continuous(P, Curve{{0.0, nan}}), std::invalid_argument,
+                 "Q[0, 1] is nan; curves must be finite");
+    CHECK_THROWS(frechet_continuous(P, Curve{{0.0}}), std::invalid_argument,
+                 "P has shape (2, 2) and Q has shape (1, 1); both need the same number of "
+                 "coordinates");
+    CHECK_THROWS(frechet_continuous(P, P, {0}), std::invalid_argument,
+                 "workers is 0; give a whole number >= 1, or -1 for all cores");
+    CHECK_THROWS(frechet_within(P, P, -1.0), std::invalid_argument,
+                 "distance is -1; give a number >= 0");
+    CHECK_THROWS(frechet_within(P, P, nan), std::invalid_argument,
+                 "distance is nan; give a number >= 0");
+}
+
+}  // namespace
+
+int main() {
+    return check::run({{"values by hand", values_by_hand},
+                       {"random curves", random_curves},
+                       {"longer curves", longer_curves},
+                       {"a blind alley", a_blind_alley},
+                       {"ends of the range", ends_of_the_range},
+                       {"batches", batches},
+                       {"stopping", stopping},
+                       {"messages", messages}});
+}
