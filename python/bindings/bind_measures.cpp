@@ -1,5 +1,9 @@
 // The measures of one pair: values, paths, tables, quadrilaterals, matches and residuals. Each
 // takes two arrays and a dict of options.
+#include <memory>
+#include <utility>
+#include <vector>
+
 #include "bind_topics.hpp"
 #include "interruptible.hpp"
 #include "numpy_view.hpp"
@@ -14,7 +18,9 @@ auto computed(const CurveArray& P, const CurveArray& Q, const Options& options, 
     const CurveView p = view(P), q = view(Q);
     const double work = options.work(static_cast<double>(p.size()), static_cast<double>(q.size()),
                                      static_cast<double>(p.dim()));
-    return interruptible(work, py::none(),
+    // The curves are read before the work that the measure knows of.
+    const double entries = static_cast<double>(P.size()) + static_cast<double>(Q.size());
+    return interruptible(entries + work, py::none(),
                          [&](Control* control) { return compute(p, q, options, control); });
 }
 
@@ -27,44 +33,55 @@ void bind(py::module_& module, const char* name, Compute compute, Shape shape) {
                });
 }
 
-py::tuple as_tuple(const Alignment& alignment) {
-    const auto length = static_cast<py::ssize_t>(alignment.path.size());
-    return py::make_tuple(
-        alignment.distance,
-        py::array_t<std::int64_t>({length, py::ssize_t{2}}, alignment.path.front().data()));
+// An array that has taken over what a vector held: copying millions of rows would take long, and
+// twice the memory.
+template <class Item, class T>
+py::array_t<Item> owning_array(std::vector<T>&& rows, std::vector<py::ssize_t> shape) {
+    auto owner = std::make_unique<std::vector<T>>(std::move(rows));
+    const auto* const data = reinterpret_cast<const Item*>(owner->data());
+    const py::capsule capsule(owner.get(),
+                              [](void* held) { delete static_cast<std::vector<T>*>(held); });
+    owner.release();
+    return py::array_t<Item>(std::move(shape), data, capsule);
 }
 
-py::tuple as_tuple(const AreaQuads& found) {
+py::tuple as_tuple(Alignment&& alignment) {
+    const auto length = static_cast<py::ssize_t>(alignment.path.size());
+    return py::make_tuple(alignment.distance, owning_array<std::int64_t>(std::move(alignment.path),
+                                                                         {length, py::ssize_t{2}}));
+}
+
+py::tuple as_tuple(AreaQuads&& found) {
     const auto count = static_cast<py::ssize_t>(found.areas.size());
     return py::make_tuple(
-        py::array_t<double>({count, py::ssize_t{4}, py::ssize_t{2}}, found.quads[0][0].data()),
-        py::array_t<double>(count, found.areas.data()));
+        owning_array<double>(std::move(found.quads), {count, py::ssize_t{4}, py::ssize_t{2}}),
+        owning_array<double>(std::move(found.areas), {count}));
 }
 
-py::tuple as_tuple(const PcmMatch& match) {
+py::tuple as_tuple(PcmMatch&& match) {
     const auto count = static_cast<py::ssize_t>(match.points.size());
-    return py::make_tuple(
-        match.value, match.offset, match.coverage, match.maps_p ? "P" : "Q",
-        py::array_t<double>({count, py::ssize_t{2}}, match.points.front().data()));
+    return py::make_tuple(match.value, match.offset, match.coverage, match.maps_p ? "P" : "Q",
+                          owning_array<double>(std::move(match.points), {count, py::ssize_t{2}}));
 }
 
-py::tuple as_tuple(const WarpingInfo& info) {
+py::tuple as_tuple(WarpingInfo&& info) {
     py::dict seconds;
     for (const WarpingInfo::Phase& phase : info.phases) seconds[phase.name] = phase.seconds;
     return py::make_tuple(info.value, info.pruned, info.cells_swept, info.share,
                           py::make_tuple(info.lower, info.upper), seconds);
 }
 
-py::tuple as_tuple(const Matching& matching) {
+py::tuple as_tuple(Matching&& matching) {
     const auto count = static_cast<py::ssize_t>(matching.parameters.size());
-    return py::make_tuple(
-        matching.distance,
-        py::array_t<double>({count, py::ssize_t{2}}, matching.parameters.front().data()));
+    return py::make_tuple(matching.distance, owning_array<double>(std::move(matching.parameters),
+                                                                  {count, py::ssize_t{2}}));
 }
 
-py::tuple as_tuple(const Interval& interval) { return py::make_tuple(interval.low, interval.high); }
+py::tuple as_tuple(Interval&& interval) { return py::make_tuple(interval.low, interval.high); }
 
-constexpr auto to_tuple = [](const auto& found) { return as_tuple(found); };
+constexpr auto to_tuple = [](auto&& found) {
+    return as_tuple(std::forward<decltype(found)>(found));
+};
 
 py::array_t<double> allocate_table(const CurveArray& P, const CurveArray& Q) {
     try {

@@ -22,8 +22,7 @@ BatchOptions batch_options(const py::object& workers, double cutoff) {
 double work(const Measure& measure, const Curves& a, const Curves& b) {
     return std::visit(
         [&](const auto& options) {
-            const double points = (a.size() * a.longest() + b.size() * b.longest()) * a.dim();
-            return 100.0 + points +
+            return 100.0 + a.entries() + b.entries() +
                    a.size() * b.size() * options.work(a.longest(), b.longest(), a.dim());
         },
         measure);
@@ -50,8 +49,14 @@ void check_batch_of(const py::list& XA, const py::object& XB, const py::object& 
                     const py::dict& options) {
     const Measure chosen = read_measure(name, options);
     const Curves a(XA);
-    if (XB.is_none()) return check_batch(a.views, chosen);
-    check_batch(a.views, Curves(XB.cast<py::list>()).views, chosen);
+    if (XB.is_none()) {
+        interruptible(a.entries(), py::none(),
+                      [&](Control* control) { check_batch(a.views, chosen, control); });
+        return;
+    }
+    const Curves b(XB.cast<py::list>());
+    interruptible(a.entries() + b.entries(), py::none(),
+                  [&](Control* control) { check_batch(a.views, b.views, chosen, control); });
 }
 
 void pdist_into(const py::list& X, const py::object& name, const py::dict& options, Out out,
@@ -89,7 +94,10 @@ class PreparedCurve {
    private:
     Prepared prepare(const CurveArray& P) const {
         const CurveView p = view(P);
-        return unlocked(static_cast<double>(P.size()), [&] { return Prepared(p, measure_); });
+        // Read, copied, and measured.
+        const double steps = 4.0 * static_cast<double>(P.size());
+        return interruptible(steps, py::none(),
+                             [&](Control* control) { return Prepared(p, measure_, control); });
     }
 
     double work(double count, double m, double dim) const {

@@ -5,12 +5,19 @@
 #include "numpy_view.hpp"
 
 namespace curvewise::bindings {
+namespace {
+
+double entries(const CurveArray& curve) noexcept { return static_cast<double>(curve.size()); }
+
+}  // namespace
 
 void bind_pointwise(py::module_& module) {
-    const auto bind = [&](const char* name, double (*measure)(const CurveView&, const CurveView&)) {
+    using Measure = double (*)(const CurveView&, const CurveView&, Control*);
+    const auto bind = [&](const char* name, Measure measure) {
         module.def(name, [measure](const CurveArray& P, const CurveArray& Q) {
             const CurveView a = view(P), b = view(Q);
-            return unlocked(static_cast<double>(P.size()), [&] { return measure(a, b); });
+            return interruptible(entries(P) + entries(Q), py::none(),
+                                 [&](Control* control) { return measure(a, b, control); });
         });
     };
     bind("sum_of_squares", sum_of_squares);
@@ -18,7 +25,10 @@ void bind_pointwise(py::module_& module) {
     bind("mae", mae);
     module.def("normalize", [](const CurveArray& P, const CurveArray& C, const char* name) {
         py::array_t<double> out(std::vector<py::ssize_t>(C.shape(), C.shape() + C.ndim()));
-        normalize(view(P), view(C), out.mutable_data(), name);
+        const CurveView p = view(P), c = view(C);
+        double* const data = out.mutable_data();
+        interruptible(entries(P) + entries(C), py::none(),
+                      [&](Control* control) { normalize(p, c, data, name, control); });
         return out;
     });
 }

@@ -30,6 +30,8 @@ struct Curves {
         return views.empty() ? 0.0 : static_cast<double>(views.front().dim());
     }
     double size() const noexcept { return static_cast<double>(views.size()); }
+    // What is read to check them, no less than a few for each of them.
+    double entries() const noexcept { return size() * (10.0 + longest() * dim()); }
 
     std::vector<CurveArray> arrays;
     std::vector<CurveView> views;

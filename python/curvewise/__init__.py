@@ -10,6 +10,9 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from . import _environment as _environment  # looks before the compiled module is loaded
+
+# isort: split
 from . import _core, datasets
 from .averages import dtw_mean, medoid
 from .compare import Comparison, compare

@@ -120,7 +120,7 @@ def dtw_mean(
     curves: list[_Array],
     weights: list[float],
     initial: _Array,
-    window: SupportsIndex | None,
+    window: SupportsIndex | float | None,
     iterations: SupportsIndex,
     tolerance: float,
     workers: SupportsIndex,

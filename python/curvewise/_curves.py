@@ -28,6 +28,7 @@ CurveLike: TypeAlias = npt.ArrayLike
 """Anything ``numpy.asarray`` turns into a real array of shape (n, d) or (n,)."""
 
 _FLOAT64 = np.dtype(np.float64)
+_MAY_HOLD_MASKED = (np.ma.MaskedArray, list, tuple)
 
 
 def as_curve(curve: Any, name: str) -> Array:
@@ -44,8 +45,9 @@ def as_curve(curve: Any, name: str) -> Array:
     """
     if type(curve) is np.ndarray and curve.dtype is _FLOAT64 and 1 <= curve.ndim <= 2:
         return _aligned(curve)
-    if np.ma.isMaskedArray(curve) and np.ma.is_masked(curve):
-        raise TypeError(f"{name} is a masked array with masked entries; drop or fill them first")
+    if _has_masked(curve):
+        what = "is a masked array" if isinstance(curve, np.ma.MaskedArray) else "is a list"
+        raise TypeError(f"{name} {what} with masked entries; drop or fill them first")
     try:
         array = np.asarray(curve)
     except ValueError as error:
@@ -63,6 +65,18 @@ def as_curve(curve: Any, name: str) -> Array:
     # astype, not asarray: float64 of the other byte order must be converted too.
     with np.errstate(over="ignore"):  # a longdouble beyond float64 becomes inf: reported as such
         return _aligned(array.astype(_FLOAT64, copy=False))
+
+
+def _has_masked(curve: Any, depth: int = 2) -> bool:
+    """Say whether entries are masked: of an array, or of the rows of a list.
+
+    Out of a list, numpy takes masked rows as if they were not.
+    """
+    if isinstance(curve, np.ma.MaskedArray):
+        return bool(np.ma.is_masked(curve))
+    if depth == 0 or not isinstance(curve, list | tuple):
+        return False
+    return any(isinstance(row, _MAY_HOLD_MASKED) and _has_masked(row, depth - 1) for row in curve)
 
 
 def _aligned(array: Array) -> Array:

@@ -71,8 +71,8 @@ def read_curve(
     Raises
     ------
     ValueError
-        A cell is missing, not a number, nan or inf (with file, line and column); there is no
-        such column (lists those there are); no line holds a number; not a text file.
+        A cell is missing, surplus, not a number, nan or inf (with file, line and column); there
+        is no such column (lists those there are); no line holds a number; not a text file.
     OSError
         The file cannot be read.
 
@@ -146,6 +146,9 @@ class _Table:
     """Column names, blank or missing where the header has none."""
     width: int
     """Number of columns."""
+    most: int
+    """Cells that a line may have: those of the header or of the first line of numbers. One more,
+    further down, may come of a decimal comma."""
 
     def name(self, column: int) -> str:
         """Return the name of a column, or its number as a user counts."""
@@ -197,10 +200,11 @@ def _find_layout(file: str, lines: list[str]) -> _Table:
     width = max(len(row) for row in rows[headers:])
     if separator is _BLANKS and len(names) != width:
         names = []  # "true strain  true stress": nobody can say which word belongs where
+    most = max(len(rows[headers]), len(names))
     width = max(width, len(names))
     if width == 1:
         separator = ","  # no blank, tab or semicolon is expected, and none is then accepted
-    return _Table(file, lines, sample[headers], separator, names, width)
+    return _Table(file, lines, sample[headers], separator, names, width, most)
 
 
 def _score(line: str, separator: str | None) -> float:
@@ -227,6 +231,14 @@ def _cells(line: str, separator: str | None) -> list[str]:
     except csv.Error:  # an open quotation mark: it stays, and makes its cell no number
         row = line.split(separator)
     return [cell.strip() for cell in row]
+
+
+def _count_cells(line: str, separator: str | None) -> int:
+    """Return how many cells a line has, without empty ones at its end."""
+    cells = _cells(line, separator)
+    while cells and not cells[-1]:
+        cells.pop()
+    return len(cells)
 
 
 def _to_number(cell: str, separator: str | None) -> float | None:
@@ -280,12 +292,23 @@ def _parse_fast(table: _Table, chosen: list[int]) -> npt.NDArray[np.float64] | N
         if any("." in line for line in lines):
             return None  # both decimal signs, or a date or text beside the numbers
         lines = [line.replace(",", ".") for line in lines]
+    # Without usecols numpy insists that all lines have as many cells as the first.
+    values = _loaded(lines, table.separator, None)
+    if values is not None:
+        return values[:, chosen] if values.shape[1] == table.width else None
+    if table.width == 1 or any(_count_cells(line, table.separator) > table.most for line in lines):
+        return None
+    return _loaded(lines, table.separator, chosen)
+
+
+def _loaded(
+    lines: list[str], separator: str | None, columns: list[int] | None
+) -> npt.NDArray[np.float64] | None:
     try:
         return np.loadtxt(
             lines,
-            delimiter=table.separator,
-            # Without usecols numpy insists that all lines have as many cells as the first.
-            usecols=chosen if table.width > 1 else None,
+            delimiter=separator,
+            usecols=columns,
             comments=None,
             encoding=None,  # text as it is; numpy 1 would take it for bytes
             ndmin=2,
@@ -307,6 +330,12 @@ def _parse_cell_by_cell(table: _Table, chosen: list[int]) -> npt.NDArray[np.floa
                 f"{table.file}, line {line + 1} has {len(cells)} columns; the first lines have 1"
             )
         points.append([_finite_number(table, line, column, cells) for column in chosen])
+        count = _count_cells(table.lines[line], table.separator)
+        if count > table.most:
+            raise ValueError(
+                f"{table.file}, line {line + 1} has {count} cells, and {table.most} are expected "
+                "by the lines above; is a comma in it a decimal sign?"
+            )
         if table.separator != ",":
             _check_decimal_sign(table, line, [cells[column] for column in chosen], decimal_signs)
     return np.array(points)

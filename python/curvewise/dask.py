@@ -22,6 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, pairwise
+from ._abandoned import watch
 from ._curves import Array, as_curve_list
 from ._extras import extra
 from ._options import MeasureName
@@ -84,7 +85,7 @@ def cdist(
     those of its blocks. A cluster warns of a graph above 10 MB
     (``distributed.admin.large-graph-warning-threshold``); here that is the curves themselves, which
     are sent once. The bar of ``dask.diagnostics.ProgressBar`` or the cluster's dashboard shows the
-    progress. A block is not interrupted; cancelling waits for those that have begun.
+    progress. Ctrl-C, and cancelling a task, end the blocks that have begun, within 0.2 s.
 
     Examples
     --------
@@ -302,7 +303,8 @@ def _block(
 ) -> Array:
     """Compute a block; without columns one of the diagonal, each of its pairs once."""
     others = None if columns is None else columns.curves
-    return pairwise.cdist(rows.curves, others, measure, cutoff=cutoff, **options)
+    progress = watch() or False
+    return pairwise.cdist(rows.curves, others, measure, cutoff=cutoff, progress=progress, **options)
 
 
 def _block_size(

@@ -125,6 +125,7 @@ def cdist(
     columns = None if XB is None else as_curve_list(XB, "XB", like=XA)
     shape = (len(rows), len(rows if columns is None else columns))
     out = _checked_out(out, shape, "cdist")
+    rows, columns = _apart(rows, out), None if columns is None else _apart(columns, out)
     limit = _checked_cutoff(cutoff)
     if callable(measure):
         others = rows if columns is None else columns
@@ -187,6 +188,7 @@ def pdist(
     """
     curves = as_curve_list(X, "X")
     out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
+    curves = _apart(curves, out)
     limit = _checked_cutoff(cutoff)
     if callable(measure):
         points = (len(curves) - 1) * _points(curves)
@@ -252,7 +254,7 @@ class Prepared:
         return f"Prepared(<P of shape {self._curve.shape}>, {self._measure!r}{options})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _prepare, (self._curve, self._measure, self._options)
+        return _prepare, (self._curve, self._columns, self._measure, self._options)
 
     @overload
     def __call__(self, Q: Array, *, workers: SupportsIndex = Default.workers) -> float: ...
@@ -280,6 +282,8 @@ class Prepared:
             As for the measure, and for :func:`cdist`.
         """
         if self._is_list(Q):
+            for i, curve in enumerate(Q):
+                check_column_names(self._columns, "P", column_names(curve), f"Q[{i}]")
             return self._prepared.values(as_curve_list(Q, "Q"), workers)
         check_column_names(self._columns, "P", column_names(Q), "Q")
         return self._prepared.value(as_curve(Q, "Q"))
@@ -290,8 +294,12 @@ class Prepared:
         return np.ndim(Q) == 3
 
 
-def _prepare(P: Array, measure: MeasureName, options: dict[str, Any]) -> Prepared:
-    return Prepared(P, measure, **options)
+def _prepare(
+    P: Array, columns: list[Any], measure: MeasureName, options: dict[str, Any]
+) -> Prepared:
+    prepared = Prepared(P, measure, **options)
+    prepared._columns = columns  # of the DataFrame that P once was
+    return prepared
 
 
 def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
@@ -326,6 +334,11 @@ def _checked_out(out: Array | None, shape: tuple[int, ...], name: str) -> Array:
     if not (out.flags.c_contiguous and out.flags.aligned and out.flags.writeable):
         raise ValueError(f"out must be C-contiguous, aligned and writeable; {name} fills it")
     return out
+
+
+def _apart(curves: list[Array], out: Array) -> list[Array]:
+    """Return the curves, copied where writing to `out` might change them."""
+    return [curve.copy() if np.may_share_memory(curve, out) else curve for curve in curves]
 
 
 def _checked_cutoff(cutoff: SupportsFloat | None) -> float:

@@ -50,8 +50,10 @@ CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& X, const Measure& meas
 // Throws what cdist of these lists would throw before its work, for whoever cuts a batch into
 // parts: a part cannot say which curve of the whole list is at fault.
 CURVEWISE_EXPORT void check_batch(const std::vector<CurveView>& XA,
-                                  const std::vector<CurveView>& XB, const Measure& measure);
-CURVEWISE_EXPORT void check_batch(const std::vector<CurveView>& X, const Measure& measure);
+                                  const std::vector<CurveView>& XB, const Measure& measure,
+                                  Control* control = nullptr);
+CURVEWISE_EXPORT void check_batch(const std::vector<CurveView>& X, const Measure& measure,
+                                  Control* control = nullptr);
 
 // Writes the measure of X[i] and X[j] for i < j, row by row, k (k-1) / 2 values: the pair (i, j)
 // goes to out[i k - i (i+1) / 2 + j - i - 1]. For symmetric measures only. Throws as cdist does.
@@ -62,7 +64,8 @@ CURVEWISE_EXPORT void pdist(const std::vector<CurveView>& X, const Measure& meas
 // to copy; may be called from any number of threads.
 class Prepared {
    public:
-    CURVEWISE_EXPORT Prepared(const CurveView& P, const Measure& measure);
+    CURVEWISE_EXPORT Prepared(const CurveView& P, const Measure& measure,
+                              Control* control = nullptr);
 
     // The measure of P and Q. Throws as the measure does.
     CURVEWISE_EXPORT double operator()(const CurveView& Q, Control* control = nullptr) const;

@@ -2,21 +2,26 @@
 
 namespace curvewise::detail {
 
-BoxedCurve::BoxedCurve(const CurveView& curve, const RangeScale& range)
+BoxedCurve::BoxedCurve(const CurveView& curve, const RangeScale& range, Poller& poller)
     : n_(std::max(curve.size(), std::ptrdiff_t{2})), dim_(curve.dim()) {
     points_.reserve(static_cast<std::size_t>(n_ * dim_));
-    for (std::ptrdiff_t i = 0; i < n_; ++i) {
-        const std::ptrdiff_t from = std::min(i, curve.size() - 1);
-        for (std::ptrdiff_t c = 0; c < dim_; ++c) points_.push_back(range.shrink(curve(from, c)));
-    }
-    add_leaves();
-    while (boxes(levels() - 1) > 1) add_level();
+    poller.in_runs(n_, dim_, [&](std::ptrdiff_t run_first, std::ptrdiff_t run_end) {
+        for (std::ptrdiff_t i = run_first; i < run_end; ++i) {
+            const std::ptrdiff_t from = std::min(i, curve.size() - 1);
+            for (std::ptrdiff_t c = 0; c < dim_; ++c) {
+                points_.push_back(range.shrink(curve(from, c)));
+            }
+        }
+    });
+    add_leaves(poller);
+    while (boxes(levels() - 1) > 1) add_level(poller);
 }
 
-void BoxedCurve::add_leaves() {
+void BoxedCurve::add_leaves(Poller& poller) {
     Boxes boxes;
     boxes.reserve(static_cast<std::size_t>(2 * dim_ * ((n_ - 1 + leaf - 1) / leaf)));
     for (std::ptrdiff_t first = 0; first < n_ - 1; first += leaf) {
+        poller.poll_in_loop(static_cast<std::size_t>(first / leaf));
         double* const low = add_box(boxes, point<0>(first));
         for (std::ptrdiff_t i = first + 1; i <= std::min(first + leaf, n_ - 1); ++i) {
             grow(low, point<0>(i), point<0>(i));
@@ -25,11 +30,12 @@ void BoxedCurve::add_leaves() {
     levels_.push_back(std::move(boxes));
 }
 
-void BoxedCurve::add_level() {
+void BoxedCurve::add_level(Poller& poller) {
     const int below = levels() - 1;
     Boxes boxes;
     boxes.reserve(static_cast<std::size_t>(2 * dim_ * ((this->boxes(below) + 1) / 2)));
     for (std::ptrdiff_t b = 0; b < this->boxes(below); b += 2) {
+        poller.poll_in_loop(static_cast<std::size_t>(b / 2));
         double* const low = add_box(boxes, box<0>(below, b));
         for (std::ptrdiff_t child = b; child < std::min(b + 2, this->boxes(below)); ++child) {
             grow(low, box<0>(below, child), box<0>(below, child) + dim_);

@@ -13,6 +13,7 @@
 
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
+#include "runtime/poller.hpp"
 
 namespace curvewise::detail {
 
@@ -21,7 +22,7 @@ class BoxedCurve {
     // Edges in a box of level 0; a box of any other level holds two of the level below.
     static constexpr std::ptrdiff_t leaf = 8;
 
-    BoxedCurve(const CurveView& curve, const RangeScale& range);
+    BoxedCurve(const CurveView& curve, const RangeScale& range, Poller& poller);
 
     // Points, at least two.
     std::ptrdiff_t size() const noexcept { return n_; }
@@ -45,8 +46,8 @@ class BoxedCurve {
    private:
     using Boxes = std::vector<double>;
 
-    void add_leaves();
-    void add_level();
+    void add_leaves(Poller& poller);
+    void add_level(Poller& poller);
     // Adds a box around a point.
     double* add_box(Boxes& boxes, const double* x) const;
     // Grows the box whose least corner is at `low` to hold another.

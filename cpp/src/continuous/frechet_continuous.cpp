@@ -40,8 +40,8 @@ class FrechetContinuousMeasure {
     static constexpr bool is_swept = false;
     // Not scaled, which curves within the usual range need not be.
     struct PreparedP {
-        explicit PreparedP(const CheckedCurve& curve)
-            : checked(curve), boxed(curve.curve, RangeScale(1.0)) {}
+        PreparedP(const CheckedCurve& curve, detail::Poller& poller)
+            : checked(curve), boxed(curve.curve, RangeScale(1.0), poller) {}
         CheckedCurve checked;
         BoxedCurve boxed;
     };
@@ -54,7 +54,7 @@ class FrechetContinuousMeasure {
         return {FrechetContinuousOptions::measure, 1, false};
     }
     static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
-    static void check_p(const PreparedP& /*P*/) noexcept {}
+    static void check_p(const PreparedP& /*P*/, detail::Poller& /*poller*/) noexcept {}
     std::ptrdiff_t workers() const noexcept { return workers_; }
     static std::int64_t steps(std::int64_t n, std::int64_t count, std::int64_t points) noexcept {
         return n * count + points;
@@ -88,7 +88,8 @@ class FrechetContinuousMeasure {
         if (range.is_identity()) {
             return with_dim(first, second, first.boxed, second.boxed, range, call, use);
         }
-        const BoxedCurve p(first.checked.curve, range), q(second.checked.curve, range);
+        const BoxedCurve p(first.checked.curve, range, call.poller);
+        const BoxedCurve q(second.checked.curve, range, call.poller);
         return with_dim(first, second, p, q, range, call, use);
     }
 

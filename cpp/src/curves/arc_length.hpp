@@ -11,17 +11,23 @@
 
 namespace curvewise::detail {
 
-// The arc length at every vertex: 0 first, the curve's length last.
-std::vector<double> arc_lengths(const Polyline& curve);
+// The arc length at every vertex: 0 first, the curve's length last. Throws Stopped where the poller
+// says so.
+std::vector<double> arc_lengths(const Polyline& curve, Poller& poller);
 
-// Throws std::invalid_argument where `length` is 0.
-void check_length(double length, const std::string& name, const char* measure);
+// Those of a curve scaled by a box, by the differences of its own coordinates: where it lies far
+// from the box, scaled coordinates have lost the bits in which they differ.
+std::vector<double> box_scaled_arc_lengths(const CurveView& curve, const Box& box, Poller& poller);
+
+// Throws std::invalid_argument for a curve whose points are all equal.
+void check_length(const CurveView& curve, const std::string& name, const char* measure,
+                  Poller& poller);
 
 // A polyline with the arc length at every vertex.
 class ArcCurve {
    public:
-    explicit ArcCurve(Polyline points)
-        : points_(std::move(points)), arc_lengths_(detail::arc_lengths(points_)) {}
+    ArcCurve(Polyline points, std::vector<double> arc_lengths)
+        : points_(std::move(points)), arc_lengths_(std::move(arc_lengths)) {}
 
     const Polyline& points() const noexcept { return points_; }
     const std::vector<double>& arc_lengths() const noexcept { return arc_lengths_; }

@@ -3,6 +3,7 @@
 // small.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "curves/range_scale.hpp"
@@ -17,6 +18,15 @@ class BoxSide {
 
     bool has_extent() const noexcept { return has_extent_; }
     double scaled(double x) const noexcept { return (range_.shrink(x) - low_) / extent_; }
+    // scaled(b) - scaled(a), without what rounding takes from them far from the box.
+    double scaled_difference(double a, double b) const noexcept {
+        const double difference = b - a;
+        // First the difference, then the range, in which both may be infinite; the other way round
+        // where the difference is.
+        return (std::isfinite(difference) ? range_.shrink(difference)
+                                          : range_.shrink(b) - range_.shrink(a)) /
+               extent_;
+    }
 
    private:
     RangeScale range_;

@@ -68,24 +68,28 @@ void for_each(const CurveList& first, const CurveList& second, Check check) {
 }
 
 // The largest |entry|; throws for the first one, in row-major order, that is not finite.
-double largest_magnitude(const CurveView& curve, const std::string& name) {
+double largest_magnitude(const CurveView& curve, const std::string& name, Poller& poller) {
     double largest = 0.0;
     double poison = 0.0;  // stays 0 while every entry is finite: inf - inf and nan - nan are nan
-    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
-            const double value = curve(i, c);
-            poison += value - value;
-            largest = std::max(largest, std::abs(value));
+    poller.in_runs(curve.size(), curve.dim(), [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = first; i < end; ++i) {
+            for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
+                const double value = curve(i, c);
+                poison += value - value;
+                largest = std::max(largest, std::abs(value));
+            }
         }
-    }
-    if (poison != 0.0) refuse_not_finite(curve, name);
+        if (poison != 0.0) refuse_not_finite(curve, name);
+    });
     return largest;
 }
 
 }  // namespace
 
-CheckedCurve::CheckedCurve(const CurveView& curve, std::string name)
-    : curve(curve), name(std::move(name)), largest(largest_magnitude(this->curve, this->name)) {}
+CheckedCurve::CheckedCurve(const CurveView& curve, std::string name, Poller& poller)
+    : curve(curve),
+      name(std::move(name)),
+      largest(largest_magnitude(this->curve, this->name, poller)) {}
 
 void check_shapes(const Requirements& needs, const CurveList& first, const CurveList& second) {
     const CurveList& with_first = first.size() > 0 ? first : second;

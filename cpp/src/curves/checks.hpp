@@ -11,6 +11,7 @@
 
 #include "curvewise/curve.hpp"
 #include "curvewise/options.hpp"
+#include "runtime/poller.hpp"
 
 namespace curvewise::detail {
 
@@ -44,7 +45,7 @@ class CurveList {
 
 // A curve found finite, with the largest |coordinate|. Refers to the caller's points.
 struct CheckedCurve {
-    CheckedCurve(const CurveView& curve, std::string name);
+    CheckedCurve(const CurveView& curve, std::string name, Poller& poller);
 
     CurveView curve;
     std::string name;

@@ -2,22 +2,31 @@
 
 namespace curvewise::detail {
 
-Polyline polyline(const CurveView& curve, const RangeScale& range) {
-    Polyline points(static_cast<std::size_t>(curve.size()));
-    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-        points[static_cast<std::size_t>(i)] = {range.shrink(curve(i, 0)),
-                                               range.shrink(curve(i, 1))};
-    }
+namespace {
+
+// The points of a curve, by point(i).
+template <class MakePoint>
+Polyline points_of(const CurveView& curve, Poller& poller, MakePoint point) {
+    Polyline points;
+    points.reserve(static_cast<std::size_t>(curve.size()));
+    poller.in_runs(curve.size(), 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = first; i < end; ++i) points.push_back(point(i));
+    });
     return points;
 }
 
-Polyline box_scaled(const CurveView& curve, const Box& box) {
-    Polyline points(static_cast<std::size_t>(curve.size()));
-    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-        points[static_cast<std::size_t>(i)] = {box.x.scaled(curve(i, 0)),
-                                               box.y.scaled(curve(i, 1))};
-    }
-    return points;
+}  // namespace
+
+Polyline polyline(const CurveView& curve, const RangeScale& range, Poller& poller) {
+    return points_of(curve, poller, [&](std::ptrdiff_t i) -> Point {
+        return {range.shrink(curve(i, 0)), range.shrink(curve(i, 1))};
+    });
+}
+
+Polyline box_scaled(const CurveView& curve, const Box& box, Poller& poller) {
+    return points_of(curve, poller, [&](std::ptrdiff_t i) -> Point {
+        return {box.x.scaled(curve(i, 0)), box.y.scaled(curve(i, 1))};
+    });
 }
 
 }  // namespace curvewise::detail

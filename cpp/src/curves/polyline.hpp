@@ -8,6 +8,7 @@
 #include "curves/box.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
+#include "runtime/poller.hpp"
 
 namespace curvewise::detail {
 
@@ -34,8 +35,9 @@ inline Point interpolate(const Point& a, const Point& b, double h) noexcept {
 
 using Polyline = std::vector<Point>;
 
-Polyline polyline(const CurveView& curve, const RangeScale& range);
+// All throw Stopped where the poller says so.
+Polyline polyline(const CurveView& curve, const RangeScale& range, Poller& poller);
 
-Polyline box_scaled(const CurveView& curve, const Box& box);
+Polyline box_scaled(const CurveView& curve, const Box& box, Poller& poller);
 
 }  // namespace curvewise::detail

@@ -14,11 +14,11 @@ namespace {
 // A curve in P's box.
 class Scaled {
    public:
-    Scaled(const CurveView& P, const CurveView& curve, const char* name)
+    Scaled(const CurveView& P, const CurveView& curve, const char* name, Control* control)
         : n_(curve.size()),
           dim_(curve.dim()),
           values_(static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, n_ * dim_))) {
-        normalize(P, curve, values_.data(), name);
+        normalize(P, curve, values_.data(), name, control);
     }
     CurveView view() const noexcept { return {values_.data(), n_, dim_}; }
 
@@ -90,8 +90,8 @@ std::vector<Condition> conditions(Preset preset) {
 Comparison compare(const CurveView& P, const CurveView& Q, Preset preset, Control* control) {
     std::optional<Scaled> p, q;
     if (preset != Preset::raw) {
-        p.emplace(P, P, "P");
-        q.emplace(P, Q, "Q");
+        p.emplace(P, P, "P", control);
+        q.emplace(P, Q, "Q", control);
     }
     const auto value = [&](const auto& options, bool scaled) {
         return scaled ? evaluate(options, p->view(), q->view(), control)

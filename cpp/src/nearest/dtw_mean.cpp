@@ -96,7 +96,7 @@ class Averaging {
         std::atomic<std::size_t> next{0};
         std::mutex mutex;
         std::exception_ptr failure;
-        const CheckedCurve mean(CurveView(mean_.data(), n_, dim_), "the mean");
+        const CheckedCurve mean(CurveView(mean_.data(), n_, dim_), "the mean", poller);
         run_workers(std::min(options_.workers, static_cast<std::ptrdiff_t>(count)), poller,
                     [&](std::ptrdiff_t /*w*/, Poller& own) {
                         try {
@@ -116,8 +116,8 @@ class Averaging {
     Alignment path(const CheckedCurve& mean, const CheckedCurve& curve, Poller& poller,
                    detail::SweepMemory& memory) const {
         const RangeScale range(std::max(mean.largest, curve.largest));
-        const PackedCurve p(mean.curve, range, PointOrder::forward);
-        const PackedCurve q(curve.curve, range, PointOrder::reversed);
+        const PackedCurve p(mean.curve, range, PointOrder::forward, poller);
+        const PackedCurve q(curve.curve, range, PointOrder::reversed, poller);
         const std::int64_t steps = n_ * curve.curve.size();
         poller.set_counting(false);
         Alignment found =
@@ -171,15 +171,15 @@ DtwMean dtw_mean(const std::vector<CurveView>& curves, const std::vector<double>
     const detail::CurveList list(curves, "curves");
     check_shapes({measure.measure, 1, false}, {initial, "initial"}, list);
     check_weights(weights, curves.size());
-    const CheckedCurve checked_initial(initial, "initial");
+    Poller poller(control);
+    const CheckedCurve checked_initial(initial, "initial", poller);
     std::vector<CheckedCurve> checked;
     std::int64_t steps = 0;
     for (std::size_t i = 0; i < curves.size(); ++i) {
-        checked.emplace_back(curves[i], list.name_of(i));
+        checked.emplace_back(curves[i], list.name_of(i), poller);
         detail::check_sizes(measure, initial.size(), curves[i].size());
         steps += initial.size() * curves[i].size();
     }
-    Poller poller(control);
     poller.begin((options.iterations + 1) * steps);
     Averaging averaging(checked, weights, initial, measure);
     DtwMean result;

@@ -62,8 +62,7 @@ class QueryRun {
     QueryRun(const Targets& targets, const Queries& queries, const Answer& answer)
         : targets_(targets), queries_(queries), answer_(answer) {}
 
-    SearchRecord run(std::ptrdiff_t workers, Control* control) {
-        Poller poller(control);
+    SearchRecord run(std::ptrdiff_t workers, Poller& poller) {
         std::int64_t total = 0;
         for (const CheckedCurve& P : queries_.curves) total += targets_.steps(P.curve.size());
         poller.begin(total);
@@ -81,7 +80,7 @@ class QueryRun {
             NeighborSearch search(targets_, poller);
             for (std::size_t i = next_++; i < queries_.curves.size() && !has_failed_; i = next_++) {
                 const CheckedCurve& P = queries_.curves[i];
-                const std::unique_ptr<TargetQuery> query = targets_.query(P);
+                const std::unique_ptr<TargetQuery> query = targets_.query(P, poller);
                 answer_(search, *query, i, targets_.steps(P.curve.size()),
                         queries_.are_targets ? static_cast<std::ptrdiff_t>(i) : -1);
             }
@@ -126,9 +125,11 @@ class Index::State {
         std::vector<OwnedCurve> owned;
         owned.reserve(curves.size());
         const std::unique_ptr<Targets> added = measure_->make_targets();
+        Poller poller(nullptr);
         for (std::size_t i = 0; i < curves.size(); ++i) {
             owned.emplace_back(curves[i]);
-            added->add(CheckedCurve(owned.back().view(), CurveList(curves, "curves").name_of(i)));
+            const std::string name = CurveList(curves, "curves").name_of(i);
+            added->add(CheckedCurve(owned.back().view(), name, poller), poller);
         }
         for (const OwnedCurve& curve : owned) sizes_.insert(curve.view().size());
         curves_.insert(curves_.end(), std::make_move_iterator(owned.begin()),
@@ -188,31 +189,33 @@ class Index::State {
     void ask(const std::vector<CurveView>* X, const SearchOptions& options, Control* control,
              const Answer& answer) const {
         const std::ptrdiff_t workers = detail::resolve_workers(options.workers);
-        const Queries queries = checked(X);
-        const SearchRecord record = QueryRun(*targets_, queries, answer).run(workers, control);
+        Poller poller(control);
+        const Queries queries = checked(X, poller);
+        const SearchRecord record = QueryRun(*targets_, queries, answer).run(workers, poller);
         if (options.record == nullptr) return;
         options.record->pairs += record.pairs;
         options.record->refined += record.refined;
         options.record->computed += record.computed;
     }
 
-    Queries checked(const std::vector<CurveView>* X) const {
+    Queries checked(const std::vector<CurveView>* X, Poller& poller) const {
         Queries queries{{}, X == nullptr};
         if (X == nullptr) {
             for (std::size_t i = 0; i < curves_.size(); ++i) {
-                queries.curves.emplace_back(curves_[i].view(), "curves[" + std::to_string(i) + "]");
+                queries.curves.emplace_back(curves_[i].view(), "curves[" + std::to_string(i) + "]",
+                                            poller);
             }
         } else {
             const CurveList list(*X, "X");
             check_like_first(list);
             for (std::size_t i = 0; i < X->size(); ++i) {
-                queries.curves.emplace_back(list[i], list.name_of(i));
+                queries.curves.emplace_back(list[i], list.name_of(i), poller);
             }
         }
         std::set<std::ptrdiff_t> sizes;
         for (const CheckedCurve& P : queries.curves) {
             sizes.insert(P.curve.size());
-            targets_->check(P);
+            targets_->check(P, poller);
         }
         for (const std::ptrdiff_t n : sizes) {
             for (const std::ptrdiff_t m : sizes_) measure_->check_sizes(n, m);

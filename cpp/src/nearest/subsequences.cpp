@@ -159,13 +159,13 @@ std::vector<Subsequence> find_subsequences(const CurveView& P, const CurveView& 
                                            Control* control) {
     detail::check_whole_number("k", count, count_range);
     detail::check_shapes({options.measure, 1, false}, {P, "P"}, {Q, "Q"});
-    const detail::CheckedCurve checked_p(P, "P"), checked_q(Q, "Q");
     Poller poller(control);
+    const detail::CheckedCurve checked_p(P, "P", poller), checked_q(Q, "Q", poller);
     poller.begin(P.size() * Q.size());
     const detail::RangeScale range(std::max(checked_p.largest, checked_q.largest));
-    const PackedCurve p(P, range, PointOrder::forward);
+    const PackedCurve p(P, range, PointOrder::forward, poller);
     poller.poll_in_loop(0);
-    const PackedCurve q(Q, range, PointOrder::reversed);
+    const PackedCurve q(Q, range, PointOrder::reversed, poller);
     std::vector<Subsequence> found = SubsequenceSearch(options, {p, q}, range, poller).find(count);
     poller.finish();
     return found;

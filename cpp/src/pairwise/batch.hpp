@@ -41,12 +41,15 @@ class BatchMeasure {
 
     virtual Requirements requirements() const noexcept = 0;
     virtual void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const = 0;
-    virtual std::unique_ptr<const Rows> prepare_rows(const std::vector<CheckedCurve>& P) const = 0;
+    virtual PairTiles::Steps steps() const noexcept = 0;
+    virtual std::unique_ptr<const Rows> prepare_rows(const std::vector<CheckedCurve>& P,
+                                                     Poller& poller) const = 0;
     // The pairs of the rows, which must outlive them, with the curves that take Q's place.
     virtual std::unique_ptr<const PairValues> pairs(const Rows& rows,
-                                                    const std::vector<CheckedCurve>& Q) const = 0;
+                                                    const std::vector<CheckedCurve>& Q,
+                                                    Poller& poller) const = 0;
     // Throws where a row serves no Q.
-    virtual void check_rows(const Rows& rows) const = 0;
+    virtual void check_rows(const Rows& rows, Poller& poller) const = 0;
     // None yet. They must not outlive this.
     virtual std::unique_ptr<Targets> make_targets() const = 0;
 };
@@ -59,8 +62,9 @@ struct BatchOutput {
 };
 
 // Throws what the functions below would throw before their work.
-void check_batch(const BatchMeasure& measure, const CurveList& XA, const CurveList& XB);
-void check_batch(const BatchMeasure& measure, const CurveList& X);
+void check_batch(const BatchMeasure& measure, const CurveList& XA, const CurveList& XB,
+                 Control* control);
+void check_batch(const BatchMeasure& measure, const CurveList& X, Control* control);
 
 // Every curve of one list with every curve of the other; of one list, as pairs of `set`.
 void compute_batch(const BatchMeasure& measure, const CurveList& XA, const CurveList& XB,
@@ -71,11 +75,14 @@ void compute_batch(const BatchMeasure& measure, const CurveList& X, PairSet set,
 // A curve and a measure, prepared. Owns a copy of P.
 class PreparedCurve {
    public:
-    PreparedCurve(std::unique_ptr<const BatchMeasure> measure, const CurveView& P);
+    PreparedCurve(std::unique_ptr<const BatchMeasure> measure, const CurveView& P,
+                  Control* control);
     double value(const CurveView& Q, Control* control) const;
     void values(const CurveList& Qs, const BatchOutput& output) const;
 
    private:
+    PreparedCurve(std::unique_ptr<const BatchMeasure> measure, const CurveView& P, Poller&& poller);
+
     std::unique_ptr<const BatchMeasure> measure_;
     std::vector<double> points_;
     CurveView P_;

@@ -20,8 +20,7 @@ class BatchOf final : public BatchMeasure {
 
     double value(const Rows& rows, const CheckedCurve& Q, Poller& poller) const override {
         const PreparedP& p = sides(rows).front();
-        poller.begin(M::steps(p.checked.curve.size(), 1, Q.curve.size()));
-        const PreparedQ q(Q);
+        const PreparedQ q(Q, poller);
         Memory memory;
         return measure_(p, q, {std::numeric_limits<double>::infinity(), 1, poller, memory});
     }
@@ -32,21 +31,24 @@ class BatchOf final : public BatchMeasure {
         measure_.check_sizes(n, m);
     }
 
-    std::unique_ptr<const Rows> prepare_rows(const std::vector<CheckedCurve>& P) const override {
-        return std::make_unique<PreparedRows>(P);
+    PairTiles::Steps steps() const noexcept override { return M::steps; }
+
+    std::unique_ptr<const Rows> prepare_rows(const std::vector<CheckedCurve>& P,
+                                             Poller& poller) const override {
+        return std::make_unique<PreparedRows>(P, poller);
     }
 
-    void check_rows(const Rows& rows) const override {
-        for (const PreparedP& row : sides(rows)) measure_.check_p(row);
+    void check_rows(const Rows& rows, Poller& poller) const override {
+        for (const PreparedP& row : sides(rows)) measure_.check_p(row, poller);
     }
 
     std::unique_ptr<Targets> make_targets() const override {
         return std::make_unique<TargetsOf<M>>(measure_);
     }
 
-    std::unique_ptr<const PairValues> pairs(const Rows& rows,
-                                            const std::vector<CheckedCurve>& Q) const override {
-        return std::make_unique<Pairs>(measure_, sides(rows), Q);
+    std::unique_ptr<const PairValues> pairs(const Rows& rows, const std::vector<CheckedCurve>& Q,
+                                            Poller& poller) const override {
+        return std::make_unique<Pairs>(measure_, sides(rows), Q, poller);
     }
 
    private:
@@ -55,16 +57,19 @@ class BatchOf final : public BatchMeasure {
     using Memory = typename M::Memory;
 
     template <class Side>
-    static std::vector<Side> prepare_all(const std::vector<CheckedCurve>& curves) {
+    static std::vector<Side> prepare_all(const std::vector<CheckedCurve>& curves, Poller& poller) {
         std::vector<Side> result;
         result.reserve(curves.size());
-        for (const CheckedCurve& curve : curves) result.emplace_back(curve);
+        for (const CheckedCurve& curve : curves) {
+            poller.poll_in_loop(result.size());
+            result.emplace_back(curve, poller);
+        }
         return result;
     }
 
     struct PreparedRows final : Rows {
-        explicit PreparedRows(const std::vector<CheckedCurve>& P)
-            : sides(prepare_all<PreparedP>(P)) {}
+        PreparedRows(const std::vector<CheckedCurve>& P, Poller& poller)
+            : sides(prepare_all<PreparedP>(P, poller)) {}
         std::vector<PreparedP> sides;
     };
 
@@ -75,8 +80,8 @@ class BatchOf final : public BatchMeasure {
     class Pairs final : public PairValues {
        public:
         Pairs(const M& measure, const std::vector<PreparedP>& rows,
-              const std::vector<CheckedCurve>& Q)
-            : measure_(measure), rows_(rows), columns_(prepare_all<PreparedQ>(Q)) {}
+              const std::vector<CheckedCurve>& Q, Poller& poller)
+            : measure_(measure), rows_(rows), columns_(prepare_all<PreparedQ>(Q, poller)) {}
 
         bool is_swept() const noexcept override { return M::is_swept; }
         PairTiles::Steps steps() const noexcept override { return M::steps; }

@@ -13,14 +13,12 @@ template <class M, class Use>
 auto with_pair(const M& measure, const CurveView& P, const CurveView& Q, Control* control,
                Use use) {
     check_shapes(measure.requirements(), {P, "P"}, {Q, "Q"});
-    const CheckedCurve checked_p(P, "P"), checked_q(Q, "Q");
-    measure.check_sizes(P.size(), Q.size());
     Poller poller(control);
     poller.begin(M::steps(P.size(), 1, Q.size()));
-    const typename M::PreparedP p(checked_p);
-    poller.poll_in_loop(0);
-    const typename M::PreparedQ q(checked_q);
-    poller.poll_in_loop(0);
+    const CheckedCurve checked_p(P, "P", poller), checked_q(Q, "Q", poller);
+    measure.check_sizes(P.size(), Q.size());
+    const typename M::PreparedP p(checked_p, poller);
+    const typename M::PreparedQ q(checked_q, poller);
     typename M::Memory memory;
     const Call<typename M::Memory> call{std::numeric_limits<double>::infinity(), measure.workers(),
                                         poller, memory};

@@ -6,12 +6,13 @@
 //   explicit M(const MOptions&)          throws std::invalid_argument for options out of range
 //   M::Memory                            what one thread keeps from one pair to the next
 //   M::PreparedP, M::PreparedQ           all that depends on one curve alone; made from a
-//                                        CheckedCurve, which they keep as `checked`
+//                                        CheckedCurve, which they keep as `checked`, and a Poller,
+//                                        which ends that too
 //   M::is_swept                          whether several threads may work on one pair, and the
 //                                        poller hears of the pair's steps while they do
 //   requirements()                       of every curve
 //   check_sizes(n, m)                    throws where no pair of n and m points has a value
-//   check_p(prepared_p)                  throws where P serves no Q, as the value would: for
+//   check_p(prepared_p, poller)          throws where P serves no Q, as the value would: for
 //                                        batches, which refuse before any work
 //   workers()                            the threads for a single pair
 //   M::steps(n, count, points)           the nominal steps of a curve of n points against `count`
@@ -59,7 +60,7 @@ class LinearMeasure {
 
     static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
     template <class PreparedP>
-    void check_p(const PreparedP& /*P*/) const noexcept {}
+    void check_p(const PreparedP& /*P*/, Poller& /*poller*/) const noexcept {}
     static std::ptrdiff_t workers() noexcept { return 1; }
     static std::int64_t steps(std::int64_t n, std::int64_t count, std::int64_t points) noexcept {
         return n * count + points;
@@ -68,7 +69,7 @@ class LinearMeasure {
 
 // A side of a measure that prepares nothing.
 struct UnpreparedCurve {
-    explicit UnpreparedCurve(CheckedCurve curve) : checked(std::move(curve)) {}
+    UnpreparedCurve(CheckedCurve curve, Poller& /*poller*/) : checked(std::move(curve)) {}
     CheckedCurve checked;
 };
 

@@ -114,11 +114,8 @@ class PairRun {
 }  // namespace
 
 void run_pairs(const PairValues& pairs, const PairTiles& tiles, const PairDestination& destination,
-               const BatchOptions& options, Control* control) {
-    Poller poller(control);
-    poller.begin(tiles.total());
+               const BatchOptions& options, Poller& poller) {
     PairRun(pairs, tiles, destination, options).run(poller);
-    poller.finish();
 }
 
 }  // namespace curvewise::detail

@@ -72,7 +72,8 @@ class PairValues {
     virtual double value(std::ptrdiff_t i, std::ptrdiff_t j, const PairCall& call) const = 0;
 };
 
+// Throws Stopped where the poller, which has begun, says so.
 void run_pairs(const PairValues& pairs, const PairTiles& tiles, const PairDestination& destination,
-               const BatchOptions& options, Control* control);
+               const BatchOptions& options, Poller& poller);
 
 }  // namespace curvewise::detail

@@ -45,12 +45,12 @@ double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q, 
 }
 
 void check_batch(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
-                 const Measure& measure) {
-    check_batch(*batch_of(measure), {XA, "XA"}, {XB, "XB"});
+                 const Measure& measure, Control* control) {
+    check_batch(*batch_of(measure), {XA, "XA"}, {XB, "XB"}, control);
 }
 
-void check_batch(const std::vector<CurveView>& X, const Measure& measure) {
-    check_batch(*batch_of(measure), {X, "XA"});
+void check_batch(const std::vector<CurveView>& X, const Measure& measure, Control* control) {
+    check_batch(*batch_of(measure), {X, "XA"}, control);
 }
 
 void cdist(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
@@ -92,8 +92,8 @@ class Prepared::State : public detail::PreparedCurve {
     using PreparedCurve::PreparedCurve;
 };
 
-Prepared::Prepared(const CurveView& P, const Measure& measure)
-    : state_(std::make_shared<const State>(batch_of(measure), P)) {}
+Prepared::Prepared(const CurveView& P, const Measure& measure, Control* control)
+    : state_(std::make_shared<const State>(batch_of(measure), P, control)) {}
 
 double Prepared::operator()(const CurveView& Q, Control* control) const {
     return state_->value(Q, control);

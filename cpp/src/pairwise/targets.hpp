@@ -47,13 +47,14 @@ class Targets {
     virtual ~Targets() = default;
 
     // The points must outlive this. Throws where the curve serves no P.
-    virtual void add(const CheckedCurve& Q) = 0;
+    virtual void add(const CheckedCurve& Q, Poller& poller) = 0;
     // Adds those of `others`, of the same measure, and leaves it empty.
     virtual void take(Targets& others) = 0;
     virtual std::ptrdiff_t size() const noexcept = 0;
     // Throws where P serves no Q, as query() does.
-    virtual void check(const CheckedCurve& P) const = 0;
-    virtual std::unique_ptr<TargetQuery> query(const CheckedCurve& P) const = 0;
+    virtual void check(const CheckedCurve& P, Poller& poller) const = 0;
+    virtual std::unique_ptr<TargetQuery> query(const CheckedCurve& P,
+                                               Poller& poller) const = 0;
     // The nominal steps of a P of n points with all of these.
     virtual std::int64_t steps(std::ptrdiff_t n) const noexcept = 0;
     virtual std::unique_ptr<ThreadMemory> make_memory() const = 0;

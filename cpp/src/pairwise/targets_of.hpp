@@ -63,8 +63,8 @@ class TargetsOf final : public Targets {
    public:
     explicit TargetsOf(const M& measure) : measure_(measure) {}
 
-    void add(const CheckedCurve& Q) override {
-        curves_.emplace_back(Q);
+    void add(const CheckedCurve& Q, Poller& poller) override {
+        curves_.emplace_back(Q, poller);
         bounds_.keep(curves_.back());
         points_ += Q.curve.size();
     }
@@ -79,12 +79,14 @@ class TargetsOf final : public Targets {
     std::ptrdiff_t size() const noexcept override {
         return static_cast<std::ptrdiff_t>(curves_.size());
     }
-    void check(const CheckedCurve& P) const override { measure_.check_p(typename M::PreparedP(P)); }
+    void check(const CheckedCurve& P, Poller& poller) const override {
+        measure_.check_p(typename M::PreparedP(P, poller), poller);
+    }
     std::int64_t steps(std::ptrdiff_t n) const noexcept override {
         return M::steps(n, size(), points_);
     }
-    std::unique_ptr<TargetQuery> query(const CheckedCurve& P) const override {
-        return std::make_unique<Query>(*this, P);
+    std::unique_ptr<TargetQuery> query(const CheckedCurve& P, Poller& poller) const override {
+        return std::make_unique<Query>(*this, P, poller);
     }
     std::unique_ptr<ThreadMemory> make_memory() const override {
         return std::make_unique<OwnMemory>();
@@ -98,9 +100,9 @@ class TargetsOf final : public Targets {
 
     class Query final : public TargetQuery {
        public:
-        Query(const TargetsOf& targets, const CheckedCurve& P)
-            : targets_(targets), P_(P), bounds_(targets.measure_, targets.bounds_, P_) {
-            targets.measure_.check_p(P_);
+        Query(const TargetsOf& targets, const CheckedCurve& P, Poller& poller)
+            : targets_(targets), P_(P, poller), bounds_(targets.measure_, targets.bounds_, P_) {
+            targets.measure_.check_p(P_, poller);
         }
         int levels() const noexcept override { return Bounds::levels; }
         void quick(double* bounds) override { bounds_.quick(bounds); }

@@ -117,6 +117,10 @@ class AreaMeasure : public detail::LinearMeasure {
             return {range.restore(point.x, 1), range.restore(point.y, 1)};
         };
         AreaQuads result;
+        // So that nothing is copied to make room, which takes long where there are millions.
+        const auto most = static_cast<std::size_t>(P.checked.curve.size() + Q.checked.curve.size());
+        result.quads.reserve(most);
+        result.areas.reserve(most);
         const auto add = [&](const Measured& measured) {
             const Quad& quad = measured.quad;
             result.quads.push_back(

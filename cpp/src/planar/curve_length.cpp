@@ -22,20 +22,23 @@ using detail::Polyline;
 using detail::RangeScale;
 
 // The arc lengths after dividing each coordinate by the curve's own largest magnitude.
-std::vector<double> relative_arc_lengths(const CurveView& curve) {
+std::vector<double> relative_arc_lengths(const CurveView& curve, Poller& poller) {
     double largest[2] = {0.0, 0.0};
     for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        poller.poll_in_loop(static_cast<std::size_t>(i));
         largest[0] = std::max(largest[0], std::abs(curve(i, 0)));
         largest[1] = std::max(largest[1], std::abs(curve(i, 1)));
     }
     for (double& value : largest) {
         if (value == 0.0) value = 1e-15;
     }
-    Polyline scaled(static_cast<std::size_t>(curve.size()));
+    Polyline scaled;
+    scaled.reserve(static_cast<std::size_t>(curve.size()));
     for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-        scaled[static_cast<std::size_t>(i)] = {curve(i, 0) / largest[0], curve(i, 1) / largest[1]};
+        poller.poll_in_loop(static_cast<std::size_t>(i));
+        scaled.push_back({curve(i, 0) / largest[0], curve(i, 1) / largest[1]});
     }
-    return detail::arc_lengths(scaled);
+    return detail::arc_lengths(scaled, poller);
 }
 
 // A place on a curve: a segment and a fraction of it.
@@ -48,12 +51,13 @@ struct Place {
 std::vector<Place> corresponding_places(const std::vector<double>& s, const std::vector<double>& t,
                                         Poller& poller) {
     const double ratio = t.back() / s.back();
-    std::vector<Place> places(s.size());
+    std::vector<Place> places;
+    places.reserve(s.size());
     detail::ArcPosition position(t);
     for (std::size_t i = 0; i < s.size(); ++i) {
         poller.poll_in_loop(i);
         position.move_to(i + 1 < s.size() ? s[i] * ratio : t.back());
-        places[i] = {position.segment(), position.fraction()};
+        places.push_back({position.segment(), position.fraction()});
     }
     return places;
 }
@@ -65,8 +69,8 @@ struct Coordinate {
     std::vector<double> q;
     const char* name;
 
-    Coordinate(const CurveView& P, const CurveView& Q, std::ptrdiff_t c)
-        : p(values(P, c)), q(values(Q, c)), name(c == 0 ? "x" : "y") {
+    Coordinate(const CurveView& P, const CurveView& Q, std::ptrdiff_t c, Poller& poller)
+        : p(values(P, c, poller)), q(values(Q, c, poller)), name(c == 0 ? "x" : "y") {
         const double largest = largest_magnitude(p);
         if (RangeScale(std::max(largest, largest_magnitude(q))).is_identity()) return;
         const RangeScale range = RangeScale::to_unity(largest);
@@ -74,10 +78,12 @@ struct Coordinate {
         for (double& value : q) value = range.shrink(value);
     }
 
-    static std::vector<double> values(const CurveView& curve, std::ptrdiff_t c) {
-        std::vector<double> result(static_cast<std::size_t>(curve.size()));
-        for (std::size_t i = 0; i < result.size(); ++i) {
-            result[i] = curve(static_cast<std::ptrdiff_t>(i), c);
+    static std::vector<double> values(const CurveView& curve, std::ptrdiff_t c, Poller& poller) {
+        std::vector<double> result;
+        result.reserve(static_cast<std::size_t>(curve.size()));
+        for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+            poller.poll_in_loop(result.size());
+            result.push_back(curve(i, c));
         }
         return result;
     }
@@ -89,10 +95,13 @@ struct Coordinate {
 };
 
 // What differences in one coordinate are divided by.
-double coordinate_scale(const Coordinate& x, LengthScale scale, const std::string& what) {
+double coordinate_scale(const Coordinate& x, LengthScale scale, const std::string& what,
+                        Poller& poller) {
     const auto n = static_cast<double>(x.p.size());
     double low = x.p.front(), high = low, sum = 0.0, sum_abs = 0.0;
-    for (const double value : x.p) {
+    for (std::size_t i = 0; i < x.p.size(); ++i) {
+        poller.poll_in_loop(i);
+        const double value = x.p[i];
         low = std::min(low, value);
         high = std::max(high, value);
         sum += value;
@@ -134,9 +143,9 @@ void write_residuals(const Coordinate& x, const std::vector<Place>& places, doub
 class CurveLengthMeasure : public detail::LinearMeasure {
    public:
     struct Side {
-        explicit Side(const detail::CheckedCurve& curve)
-            : checked(curve), arc_lengths(relative_arc_lengths(curve.curve)) {
-            detail::check_length(arc_lengths.back(), curve.name, "curve_length");
+        Side(const detail::CheckedCurve& curve, Poller& poller)
+            : checked(curve), arc_lengths(relative_arc_lengths(curve.curve, poller)) {
+            detail::check_length(curve.curve, curve.name, CurveLengthOptions::measure, poller);
         }
         detail::CheckedCurve checked;
         std::vector<double> arc_lengths;  // after dividing by its largest |x| and |y|
@@ -150,10 +159,10 @@ class CurveLengthMeasure : public detail::LinearMeasure {
     }
 
     // Throws where there is nothing to divide by.
-    void check_p(const PreparedP& P) const {
+    void check_p(const PreparedP& P, Poller& poller) const {
         for (std::ptrdiff_t c = 0; c < 2; ++c) {
-            const Coordinate x(P.checked.curve, P.checked.curve, c);
-            coordinate_scale(x, options_.scale, P.checked.name);
+            const Coordinate x(P.checked.curve, P.checked.curve, c, poller);
+            coordinate_scale(x, options_.scale, P.checked.name, poller);
         }
     }
 
@@ -162,7 +171,12 @@ class CurveLengthMeasure : public detail::LinearMeasure {
         std::vector<double> all(2 * P.arc_lengths.size());
         residuals(P, Q, all.data(), call);
         double sum = 0.0;
-        for (const double r : all) sum += r * r;
+        call.poller.in_runs(static_cast<std::ptrdiff_t>(all.size()), 1, [&](auto first, auto end) {
+            for (auto i = first; i < end; ++i) {
+                const double r = all[static_cast<std::size_t>(i)];
+                sum += r * r;
+            }
+        });
         return std::sqrt(sum);
     }
 
@@ -171,8 +185,8 @@ class CurveLengthMeasure : public detail::LinearMeasure {
         const std::vector<Place> places =
             corresponding_places(P.arc_lengths, Q.arc_lengths, call.poller);
         for (std::ptrdiff_t c = 0; c < 2; ++c) {
-            const Coordinate x(P.checked.curve, Q.checked.curve, c);
-            const double scale = coordinate_scale(x, options_.scale, P.checked.name);
+            const Coordinate x(P.checked.curve, Q.checked.curve, c, call.poller);
+            const double scale = coordinate_scale(x, options_.scale, P.checked.name, call.poller);
             write_residuals(x, places, scale, out + c, call.poller);
         }
     }

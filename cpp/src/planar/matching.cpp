@@ -31,12 +31,13 @@ class CommonBox {
    public:
     CommonBox(const CurveView& P, const CurveView& Q) : sides_{side(P, Q, 0), side(P, Q, 1)} {}
 
-    Polyline scaled(const CurveView& curve) const {
-        Polyline points(static_cast<std::size_t>(curve.size()));
+    Polyline scaled(const CurveView& curve, Poller& poller) const {
+        Polyline points;
+        points.reserve(static_cast<std::size_t>(curve.size()));
         for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-            points[static_cast<std::size_t>(i)] = {
-                std::clamp(sides_[0].scaled(curve(i, 0)), -far, far),
-                std::clamp(sides_[1].scaled(curve(i, 1)), -far, far)};
+            poller.poll_in_loop(points.size());
+            points.push_back({std::clamp(sides_[0].scaled(curve(i, 0)), -far, far),
+                              std::clamp(sides_[1].scaled(curve(i, 1)), -far, far)});
         }
         return points;
     }
@@ -87,8 +88,8 @@ std::size_t count_pieces(const Polyline& scaled) {
 }
 
 // Where each vertex lies along its curve: 0 at the first, `samples` at the last.
-std::vector<double> positions_of(const Polyline& scaled, std::size_t samples) {
-    std::vector<double> positions = arc_lengths(scaled);
+std::vector<double> positions_of(const Polyline& scaled, std::size_t samples, Poller& poller) {
+    std::vector<double> positions = arc_lengths(scaled, poller);
     const double length = positions.back();
     const auto last = static_cast<double>(samples);
     for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -102,8 +103,8 @@ std::vector<double> positions_of(const Polyline& scaled, std::size_t samples) {
 // One of the two curves.
 struct Side {
     Side(const CurveView& curve, const RangeScale& range, const Polyline& scaled,
-         std::size_t samples)
-        : points(polyline(curve, range)), positions(positions_of(scaled, samples)) {
+         std::size_t samples, Poller& poller)
+        : points(polyline(curve, range, poller)), positions(positions_of(scaled, samples, poller)) {
         sampled.reserve(2 * (samples + 1));
         ArcPosition at(positions);
         for (std::size_t k = 0; k <= samples; ++k) {
@@ -189,10 +190,10 @@ Polyline points_at(const std::vector<double>& places, const Side& curve,
 
 Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, Poller& poller) {
     const CommonBox box(P, Q);
-    const Polyline scaled_p = box.scaled(P);
+    const Polyline scaled_p = box.scaled(P, poller);
     const std::size_t pieces = count_pieces(scaled_p);
-    const Side p(P, range, scaled_p, samples_per_piece * pieces);
-    const Side q(Q, range, box.scaled(Q), samples_per_piece * pieces);
+    const Side p(P, range, scaled_p, samples_per_piece * pieces, poller);
+    const Side q(Q, range, box.scaled(Q, poller), samples_per_piece * pieces, poller);
     poller.poll_in_loop(0);
     const Route route = warping_path(p, q, poller);
 

@@ -3,18 +3,26 @@
 // the interval's width h), so a second one is used: d_i is convex as long as s_i + o stays on one
 // segment, so it lies above its tangent at the interval's centre, less what the corners inside
 // the interval take away; that is added up exactly, corner by corner. What is lost is of second
-// order in h, so that a few intervals per halving survive. Typically 10^3 evaluations.
+// order in h, so that a few intervals per halving survive. Typically 10^3 evaluations; how many
+// there are at most is stated in pcm.hpp. Each takes O(n + m) time: the second bound gives up, and
+// the interval is halved, where more corners are inside.
 #include "planar/offset_search.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace curvewise::detail {
 namespace {
 
-constexpr double tolerance = 1e-12;  // of S
+// Of S; and of the value, where that is so far above S that the last bits of its sum are more.
+constexpr double finest_tolerance = 1e-12;
+constexpr double of_the_value = 0.1;
+
+// The corners that one lower bound may look at, in those of both curves.
+constexpr std::size_t most_corners = 16;
 
 double dot(const Point& a, const Point& b) noexcept { return a.x * b.x + a.y * b.y; }
 
@@ -28,12 +36,13 @@ class AreaAtOffset {
           weights_(shorter.points().size(), 0.0) {
         const std::vector<double>& s = shorter.arc_lengths();
         for (std::size_t i = 0; i + 1 < s.size(); ++i) {
+            poller_.poll_in_loop(i);
             const double half = 0.5 * (s[i + 1] - s[i]);
             weights_[i] += half;
             weights_[i + 1] += half;
         }
         const std::vector<double>& t = longer.arc_lengths();
-        segments_.reserve(t.size());
+        segments_.reserve(t.size() + 1);
         for (std::size_t k = 0; k + 1 < t.size(); ++k) {
             poller_.poll_in_loop(k);
             const double length = t[k + 1] - t[k];
@@ -42,7 +51,10 @@ class AreaAtOffset {
                 length > 0.0 ? Point{edge.x / length, edge.y / length} : Point{};
             segments_.push_back({t[k], longer.points()[k], direction});
         }
-        segments_.push_back({std::numeric_limits<double>::infinity(), {}, {}});  // ends every walk
+        // The end itself, which a long last segment would miss by its rounding; and the end of
+        // every walk.
+        segments_.push_back({longer.length(), longer.points().back(), {}});
+        segments_.push_back({std::numeric_limits<double>::infinity(), {}, {}});
         fill_signposts();
     }
 
@@ -82,12 +94,15 @@ class AreaAtOffset {
     }
 
     // Of f over centre - half .. centre + half.
-    double lower_bound(double centre, double half) const {
+    double lower_bound(double centre, double half) {
         ArcPosition position = start(centre);
         double value = 0.0;
         double slope = 0.0;
         double deficit = 0.0;
+        corners_ = 0;
+        const std::size_t most = most_corners * (weights_.size() + segments_.size());
         for (std::size_t i = 0; i < weights_.size(); ++i) {
+            if (corners_ > most) return -std::numeric_limits<double>::infinity();
             poller_.poll_in_loop(i);
             const double u = shorter_.arc_lengths()[i] + centre;
             position.move_to(u);
@@ -116,10 +131,11 @@ class AreaAtOffset {
     };
 
     // Of any magnitude.
-    double careful_value(double offset) const noexcept {
+    double careful_value(double offset) const {
         ArcPosition position = start(offset);
         double sum = 0.0;
         for (std::size_t i = 0; i < weights_.size(); ++i) {
+            poller_.poll_in_loop(i);
             position.move_to(shorter_.arc_lengths()[i] + offset);
             sum += weights_[i] * norm(position.point_on(longer_.points()) - shorter_.points()[i]);
         }
@@ -137,12 +153,12 @@ class AreaAtOffset {
         const std::vector<double>& t = longer_.arc_lengths();
         const std::size_t count = per_segment * t.size();
         signposts_per_length_ = static_cast<double>(count) / longer_.length();
-        signposts_.resize(count + 2);  // rounding may lead one past the last
+        signposts_.reserve(count + 2);  // rounding may lead one past the last
         ArcPosition position(t);
-        for (std::size_t b = 0; b < signposts_.size(); ++b) {
+        for (std::size_t b = 0; b < count + 2; ++b) {
             poller_.poll_in_loop(b);
             position.move_to(static_cast<double>(b) / signposts_per_length_);
-            signposts_[b] = position.segment();
+            signposts_.push_back(position.segment());
         }
     }
 
@@ -158,7 +174,11 @@ class AreaAtOffset {
         const double length = segment_length(segment);
         if (distance == 0.0 || length == 0.0) return 0.0;
         const Point edge = longer_.points()[segment + 1] - longer_.points()[segment];
-        return dot(gap, edge) / (distance * length);
+        const double cosine = dot(gap, edge) / (distance * length);
+        if (std::isfinite(cosine)) return cosine;
+        // The products have overflown.
+        const Point from{gap.x / distance, gap.y / distance};
+        return dot(from, {edge.x / length, edge.y / length});
     }
 
     double segment_length(std::size_t segment) const noexcept {
@@ -174,10 +194,11 @@ class AreaAtOffset {
     // How far d_i falls below its tangent between the tangent's place and `end` after it: behind
     // each corner d_i lies above the line that leaves the corner with its slope there.
     double deficit_after(std::size_t i, const Tangent& tangent, const ArcPosition& position,
-                         double end) const noexcept {
+                         double end) {
         const std::vector<double>& t = longer_.arc_lengths();
         double worst = 0.0;
         for (std::size_t k = position.segment() + 1; k + 1 < t.size() && t[k] < end; ++k) {
+            poller_.poll_in_loop(++corners_);
             const Point gap = longer_.points()[k] - shorter_.points()[i];
             const double distance = norm(gap);
             const double stop = std::min(t[k + 1], end);
@@ -188,10 +209,11 @@ class AreaAtOffset {
     }
 
     double deficit_before(std::size_t i, const Tangent& tangent, const ArcPosition& position,
-                          double begin) const noexcept {
+                          double begin) {
         const std::vector<double>& t = longer_.arc_lengths();
         double worst = 0.0;
         for (std::size_t k = position.segment(); k > 0 && t[k] > begin; --k) {
+            poller_.poll_in_loop(++corners_);
             const Point gap = longer_.points()[k] - shorter_.points()[i];
             const double distance = norm(gap);
             const double stop = std::max(t[k - 1], begin);
@@ -208,6 +230,7 @@ class AreaAtOffset {
     std::vector<Segment> segments_;
     std::vector<std::size_t> signposts_;
     double signposts_per_length_ = 0.0;
+    std::size_t corners_ = 0;  // looked at for the present lower bound
 };
 
 double slack(const ArcCurve& shorter, const ArcCurve& longer) noexcept {
@@ -250,9 +273,10 @@ Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdif
     return best_of_grid(AreaAtOffset(shorter, longer, poller), slack(shorter, longer), count);
 }
 
-Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poller) {
+Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poller,
+                   const SearchEffort& effort) {
     constexpr std::ptrdiff_t count = 200;
-    const AreaAtOffset f(shorter, longer, poller);
+    AreaAtOffset f(shorter, longer, poller);
     const double S = shorter.length();
     const double range = slack(shorter, longer);
     Offset best = best_of_grid(f, range, count);
@@ -260,15 +284,18 @@ Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poll
     for (std::ptrdiff_t i = count - 1; i > 0; --i) {
         open.push_back({grid_offset(range, i - 1, count), grid_offset(range, i, count)});
     }
-    while (!open.empty()) {
+    double tolerance = finest_tolerance;
+    // An infinite tolerance leaves nothing open that has a bound.
+    for (std::int64_t tried = 1; !open.empty() && std::isfinite(tolerance); ++tried) {
+        if (tried > effort.patience && tried % effort.impatience == 0) tolerance *= 2.0;
         const Interval interval = open.back();
         open.pop_back();
-        const double centre = 0.5 * (interval.low + interval.high);
-        const double half = 0.5 * (interval.high - interval.low);
+        const double centre = 0.5 * interval.low + 0.5 * interval.high;
+        const double half = 0.5 * interval.high - 0.5 * interval.low;
         if (!(interval.low < centre && centre < interval.high)) continue;
         const double area = f.value(centre);
         improve(best, centre, area);
-        const double target = best.area - tolerance * S;
+        const double target = best.area - tolerance * std::max(S, of_the_value * best.area);
         if (area - S * half >= target || f.lower_bound(centre, half) >= target) continue;
         open.push_back({centre, interval.high});
         open.push_back({interval.low, centre});

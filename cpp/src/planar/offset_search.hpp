@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "curves/arc_length.hpp"
 #include "runtime/poller.hpp"
@@ -23,7 +24,19 @@ struct Offset {
 Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdiff_t count,
                     Poller& poller);
 
-// The best of all offsets, to 1e-12 S; never above the grid of 200.
-Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poller);
+// How many evaluations the search over all offsets may take.
+struct SearchEffort {
+    // Those for a tolerance of 1e-12. A zigzag against half of itself has as many equal minima as
+    // segments, and takes some 20 evaluations for each.
+    std::int64_t patience = std::int64_t{1} << 20;
+    // After them, the tolerance is doubled with every so many more, so that the search ends,
+    // whatever the curves.
+    std::int64_t impatience = std::int64_t{1} << 14;
+};
+
+// The best of all offsets, to 1e-12 of S, or 1e-13 of the value where that is more, as long as that
+// takes no more than `effort.patience` evaluations; never above the grid of 200.
+Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poller,
+                   const SearchEffort& effort = {});
 
 }  // namespace curvewise::detail

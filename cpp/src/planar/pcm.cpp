@@ -35,10 +35,10 @@ struct Roles {
 };
 
 // A curve scaled by a box.
-ArcCurve scaled(const CheckedCurve& checked, const detail::Box& box) {
-    ArcCurve curve(detail::box_scaled(checked.curve, box));
-    detail::check_length(curve.length(), checked.name, "pcm");
-    return curve;
+ArcCurve scaled(const CheckedCurve& checked, const detail::Box& box, detail::Poller& poller) {
+    detail::check_length(checked.curve, checked.name, PcmOptions::measure, poller);
+    return {detail::box_scaled(checked.curve, box, poller),
+            detail::box_scaled_arc_lengths(checked.curve, box, poller)};
 }
 
 // A curve too long for a double is infinitely far from everything.
@@ -52,11 +52,12 @@ detail::Offset best_offset(const Roles& roles, const PcmOptions& options, detail
 
 // Where the shorter curve's vertices lie on the unscaled longer one.
 std::vector<std::array<double, 2>> mapped_points(const Roles& roles, const CurveView& longer,
-                                                 double offset) {
+                                                 double offset, detail::Poller& poller) {
     std::vector<std::array<double, 2>> points;
     points.reserve(roles.shorter.arc_lengths().size());
     detail::ArcPosition position(roles.longer.arc_lengths());
     for (const double s : roles.shorter.arc_lengths()) {
+        poller.poll_in_loop(points.size());
         position.move_to(s + offset);
         const auto k = static_cast<std::ptrdiff_t>(position.segment());
         const double h = position.fraction();
@@ -72,8 +73,8 @@ std::vector<std::array<double, 2>> mapped_points(const Roles& roles, const Curve
 class PcmMeasure : public detail::LinearMeasure {
    public:
     struct PreparedP {
-        explicit PreparedP(const CheckedCurve& P)
-            : checked(P), box(P.curve), curve(scaled(P, box)) {}
+        PreparedP(const CheckedCurve& P, detail::Poller& poller)
+            : checked(P), box(P.curve), curve(scaled(P, box, poller)) {}
         CheckedCurve checked;
         detail::Box box;
         ArcCurve curve;  // scaled by its own box
@@ -89,12 +90,12 @@ class PcmMeasure : public detail::LinearMeasure {
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
                       const detail::Call<Memory>& call) const {
-        const ArcCurve q = scaled(Q.checked, P.box);
+        const ArcCurve q = scaled(Q.checked, P.box, call.poller);
         return best_offset(Roles(P.curve, q), options_, call.poller).area;
     }
 
     PcmMatch match(const PreparedP& P, const PreparedQ& Q, const detail::Call<Memory>& call) const {
-        const ArcCurve q = scaled(Q.checked, P.box);
+        const ArcCurve q = scaled(Q.checked, P.box, call.poller);
         const Roles roles(P.curve, q);
         const detail::Offset best = best_offset(roles, options_, call.poller);
         PcmMatch match;
@@ -108,7 +109,7 @@ class PcmMeasure : public detail::LinearMeasure {
         }
         match.coverage = roles.shorter.length() / roles.longer.length();
         const CheckedCurve& longer = roles.maps_p ? Q.checked : P.checked;
-        match.points = mapped_points(roles, longer.curve, best.at);
+        match.points = mapped_points(roles, longer.curve, best.at, call.poller);
         return match;
     }
 

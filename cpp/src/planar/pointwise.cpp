@@ -14,16 +14,21 @@ namespace {
 // vanish; the degree of the term undoes them.
 template <class Term>
 double sum_of(const CurveView& P, const CurveView& Q, const char* measure, double divisor,
-              int degree, Term term) {
+              int degree, Control* control, Term term) {
     detail::check_equal_shapes(P, Q, measure);
-    const detail::CheckedCurve checked_p(P, "P"), checked_q(Q, "Q");
+    detail::Poller poller(control);
+    poller.begin(P.size() + Q.size());
+    const detail::CheckedCurve checked_p(P, "P", poller), checked_q(Q, "Q", poller);
     const detail::RangeScale range(std::max(checked_p.largest, checked_q.largest));
     double sum = 0.0;
-    for (std::ptrdiff_t i = 0; i < P.size(); ++i) {
-        for (std::ptrdiff_t c = 0; c < P.dim(); ++c) {
-            sum += term(range.shrink(P(i, c)) - range.shrink(Q(i, c)));
+    poller.in_runs(P.size(), P.dim(), [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = first; i < end; ++i) {
+            for (std::ptrdiff_t c = 0; c < P.dim(); ++c) {
+                sum += term(range.shrink(P(i, c)) - range.shrink(Q(i, c)));
+            }
         }
-    }
+    });
+    poller.finish();
     return range.restore(sum / divisor, degree);
 }
 
@@ -33,25 +38,33 @@ double entries(const CurveView& P) noexcept { return static_cast<double>(P.size(
 
 }  // namespace
 
-double sum_of_squares(const CurveView& P, const CurveView& Q) {
-    return sum_of(P, Q, "sum_of_squares", 1.0, 2, square);
+double sum_of_squares(const CurveView& P, const CurveView& Q, Control* control) {
+    return sum_of(P, Q, "sum_of_squares", 1.0, 2, control, square);
 }
 
-double mse(const CurveView& P, const CurveView& Q) {
-    return sum_of(P, Q, "mse", entries(P), 2, square);
+double mse(const CurveView& P, const CurveView& Q, Control* control) {
+    return sum_of(P, Q, "mse", entries(P), 2, control, square);
 }
 
-double mae(const CurveView& P, const CurveView& Q) {
-    return sum_of(P, Q, "mae", entries(P), 1, [](double delta) { return std::abs(delta); });
+double mae(const CurveView& P, const CurveView& Q, Control* control) {
+    return sum_of(P, Q, "mae", entries(P), 1, control,
+                  [](double delta) { return std::abs(delta); });
 }
 
-void normalize(const CurveView& P, const CurveView& C, double* out, const char* name) {
+void normalize(const CurveView& P, const CurveView& C, double* out, const char* name,
+               Control* control) {
     detail::check_shapes({"normalize", 1, false}, {P, "P"}, {C, name});
-    const detail::CheckedCurve checked_p(P, "P"), checked_c(C, name);
+    detail::Poller poller(control);
+    poller.begin(P.size() + C.size());
+    const detail::CheckedCurve checked_p(P, "P", poller), checked_c(C, name, poller);
     for (std::ptrdiff_t c = 0; c < P.dim(); ++c) {
         const detail::BoxSide side(P, c);
-        for (std::ptrdiff_t i = 0; i < C.size(); ++i) out[i * P.dim() + c] = side.scaled(C(i, c));
+        poller.in_runs(C.size(), 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+            for (std::ptrdiff_t i = first; i < end; ++i)
+                out[i * P.dim() + c] = side.scaled(C(i, c));
+        });
     }
+    poller.finish();
 }
 
 }  // namespace curvewise

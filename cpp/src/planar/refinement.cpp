@@ -46,13 +46,19 @@ std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacin
     std::vector<Part> parts;
     parts.reserve(curve.size() + count);
     for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+        poller.poll_in_loop(i);
         parts.push_back({segment_length(curve[i + 1] - curve[i], spacing), i, 0.0, 1.0});
     }
-    std::priority_queue<Part> heap({}, std::move(parts));
+    // Heaps and sorts have no other place to poll.
+    std::size_t comparisons = 0;
+    const auto less = [&](const auto& a, const auto& b) {
+        poller.poll_in_loop(++comparisons);
+        return a < b;
+    };
+    std::priority_queue<Part, std::vector<Part>, decltype(less)> heap(less, std::move(parts));
     std::vector<Cut> cuts;
     cuts.reserve(count);
     while (cuts.size() < count) {
-        poller.poll_in_loop(cuts.size());
         Part part = heap.top();
         heap.pop();
         part.length /= 2.0;
@@ -62,7 +68,7 @@ std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacin
         heap.push(part);
         cuts.emplace_back(part.segment, part.start);
     }
-    std::sort(cuts.begin(), cuts.end());
+    std::sort(cuts.begin(), cuts.end(), less);
     return cuts;
 }
 
@@ -84,8 +90,8 @@ Polyline refined(const Polyline& curve, std::size_t size, Spacing spacing, Polle
 // A curve walked by relative arc length.
 class RelativeWalk {
    public:
-    RelativeWalk(const Polyline& curve, const Polyline& scaled)
-        : curve_(curve), u_(arc_lengths(scaled)) {
+    RelativeWalk(const Polyline& curve, std::vector<double> arc_lengths)
+        : curve_(curve), u_(std::move(arc_lengths)) {
         const double length = u_.back();
         const bool measurable = length > 0.0 && std::isfinite(length);
         for (double& u : u_) u = measurable ? u / length : 0.0;
@@ -108,10 +114,10 @@ class RelativeWalk {
     std::size_t vertex_ = 0;
 };
 
-FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q, const Polyline& scaled_p,
-                                const Polyline& scaled_q, Poller& poller) {
-    RelativeWalk along_p(P, scaled_p);
-    RelativeWalk along_q(Q, scaled_q);
+FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q, std::vector<double> lengths_p,
+                                std::vector<double> lengths_q, Poller& poller) {
+    RelativeWalk along_p(P, std::move(lengths_p));
+    RelativeWalk along_q(Q, std::move(lengths_q));
     FacingCurves result{{P.front()}, {Q.front()}};
     result.A.reserve(P.size() + Q.size());
     result.B.reserve(P.size() + Q.size());
@@ -128,11 +134,12 @@ FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q, const Poly
 
 FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& range, Spacing spacing,
                   Poller& poller) {
-    Polyline A = polyline(P, range);
-    Polyline B = polyline(Q, range);
+    Polyline A = polyline(P, range, poller);
+    Polyline B = polyline(Q, range, poller);
     if (spacing == Spacing::arc_length) {
         const Box box(P);
-        return face_by_arc_length(A, B, box_scaled(P, box), box_scaled(Q, box), poller);
+        return face_by_arc_length(A, B, box_scaled_arc_lengths(P, box, poller),
+                                  box_scaled_arc_lengths(Q, box, poller), poller);
     }
     if (A.size() < B.size()) std::swap(A, B);
     if (A.size() > B.size()) B = refined(B, A.size(), spacing, poller);

@@ -3,6 +3,7 @@
 // also makes the reports. Without a Control it does nothing.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -54,6 +55,19 @@ class Poller {
     // For loops over points: polls in every 2^16th iteration and throws Stopped.
     void poll_in_loop(std::size_t i) {
         if ((i & 0xffff) == 0 && poll()) throw Stopped();
+    }
+    // Calls visit(first, end) for one run of 0 .. count - 1 after the other, and polls between
+    // them; throws Stopped. A run is as long as some 10^5 elements of which each index stands for
+    // `elements`: the loop inside is free of polls, and may be vectorised.
+    template <class Visit>
+    void in_runs(std::ptrdiff_t count, std::ptrdiff_t elements, Visit visit) {
+        constexpr std::ptrdiff_t elements_in_a_run = 1 << 17;
+        const std::ptrdiff_t length =
+            elements_in_a_run / std::clamp<std::ptrdiff_t>(elements, 1, elements_in_a_run);
+        for (std::ptrdiff_t first = 0; first < count; first += length) {
+            visit(first, first + std::min(length, count - first));
+            if (count > length && poll()) throw Stopped();
+        }
     }
 
     bool stopped() const noexcept { return control_ != nullptr && control_->stopped(); }

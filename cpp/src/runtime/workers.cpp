@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <thread>
 
 namespace curvewise::detail {
@@ -26,7 +26,9 @@ std::ptrdiff_t resolve_workers(std::ptrdiff_t workers) {
         throw std::invalid_argument("workers is " + std::to_string(workers) +
                                     "; give a whole number >= 1, or -1 for all cores");
     }
-    return workers;
+    // More than there are cores anywhere: what is multiplied by it must not overflow.
+    constexpr std::ptrdiff_t most = 1 << 14;
+    return std::min(workers, most);
 }
 
 void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work) {
@@ -52,8 +54,9 @@ void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work) {
             }
             threads.emplace_back(run, w);
         }
-    } catch (const std::system_error&) {
-        // The system gives no more threads; those there are, and this one, do the work.
+    } catch (const std::exception&) {
+        // The system gives no more threads (std::system_error), or no memory for what one begins
+        // with (std::bad_alloc); those there are, and this one, do the work.
         const std::lock_guard<std::mutex> lock(mutex);
         --at_work;
     }

@@ -83,8 +83,8 @@ class CoarseProblem {
     CoarseProblem(const SweepProblem& fine, std::ptrdiff_t decimation)
         : p_points_(decimated(fine.curves.p, PointOrder::forward, decimation)),
           q_points_(decimated(fine.curves.q, PointOrder::reversed, decimation)),
-          p_(view(p_points_, fine), RangeScale(1.0), PointOrder::forward),
-          q_(view(q_points_, fine), RangeScale(1.0), PointOrder::reversed),
+          p_(view(p_points_, fine), RangeScale(1.0), PointOrder::forward, fine.poller),
+          q_(view(q_points_, fine), RangeScale(1.0), PointOrder::reversed, fine.poller),
           problem_{fine.kernels,     {p_, q_},      fine.recurrence, fine.cost,
                    fine.minkowski_p, columns(fine), false,           1,
                    fine.poller,      fine.memory} {}

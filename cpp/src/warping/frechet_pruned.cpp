@@ -45,15 +45,16 @@ class Stopwatch {
 };
 
 // One point of every `step`, in the order in which the curve is stored.
-PackedCurve decimated(const PackedCurve& curve, std::ptrdiff_t step) {
+PackedCurve decimated(const PackedCurve& curve, std::ptrdiff_t step, Poller& poller) {
     const CurveView points(curve.data(), (curve.size() + step - 1) / step, curve.dim(), step,
                            curve.stride());
-    return {points, RangeScale(1.0), PointOrder::forward};
+    return {points, RangeScale(1.0), PointOrder::forward, poller};
 }
 
 // The distance of decimated curves: near that of the curves, neither above nor below.
 double decimated_distance(const SweepProblem& problem, std::ptrdiff_t step) {
-    const PackedCurve p = decimated(problem.curves.p, step), q = decimated(problem.curves.q, step);
+    const PackedCurve p = decimated(problem.curves.p, step, problem.poller);
+    const PackedCurve q = decimated(problem.curves.q, step, problem.poller);
     Poller poller(nullptr);
     SweepMemory memory;
     const SweepProblem small{problem.kernels,

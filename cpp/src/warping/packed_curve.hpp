@@ -7,6 +7,7 @@
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
 #include "runtime/aligned_buffer.hpp"
+#include "runtime/poller.hpp"
 
 namespace curvewise::detail {
 
@@ -14,7 +15,7 @@ enum class PointOrder { forward, reversed };
 
 class PackedCurve {
    public:
-    PackedCurve(const CurveView& curve, const RangeScale& range, PointOrder order);
+    PackedCurve(const CurveView& curve, const RangeScale& range, PointOrder order, Poller& poller);
 
     std::ptrdiff_t size() const noexcept { return n_; }
     std::ptrdiff_t dim() const noexcept { return dim_; }

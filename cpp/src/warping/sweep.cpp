@@ -140,7 +140,10 @@ const Row& last_row(const SweepProblem& problem) { return sweep_all(problem, {})
 
 void sweep_table(const SweepProblem& problem, double* table) {
     if (problem.columns.is_limited()) {
-        std::fill_n(table, problem.curves.rows() * problem.curves.columns(), infinity);
+        const std::ptrdiff_t columns = problem.curves.columns();
+        problem.poller.in_runs(problem.curves.rows(), columns, [&](auto first, auto end) {
+            std::fill(table + first * columns, table + end * columns, infinity);
+        });
     }
     Destination destination;
     destination.table = table;

@@ -18,6 +18,7 @@ namespace {
 using detail::CostToGo;
 using detail::PackedCurve;
 using detail::PointOrder;
+using detail::Poller;
 using detail::RangeScale;
 using detail::SweepMemory;
 using detail::WarpingOptions;
@@ -32,8 +33,8 @@ class WarpingMeasure {
     // Packed without scaling, which curves within the usual range do not need.
     template <PointOrder order>
     struct Side {
-        explicit Side(const detail::CheckedCurve& curve)
-            : checked(curve), packed(curve.curve, RangeScale(1.0), order) {}
+        Side(const detail::CheckedCurve& curve, Poller& poller)
+            : checked(curve), packed(curve.curve, RangeScale(1.0), order, poller) {}
         detail::CheckedCurve checked;
         PackedCurve packed;
     };
@@ -47,7 +48,7 @@ class WarpingMeasure {
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const {
         detail::check_sizes(options_, n, m);
     }
-    static void check_p(const PreparedP& /*P*/) noexcept {}
+    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
     std::ptrdiff_t workers() const noexcept { return options_.workers; }
     static std::int64_t steps(std::int64_t n, std::int64_t /*count*/,
                               std::int64_t points) noexcept {
@@ -63,8 +64,8 @@ class WarpingMeasure {
             WarpingProblem problem(options_, {P.packed, Q.packed}, range, call);
             return use(problem);
         }
-        const PackedCurve p(P.checked.curve, range, PointOrder::forward);
-        const PackedCurve q(Q.checked.curve, range, PointOrder::reversed);
+        const PackedCurve p(P.checked.curve, range, PointOrder::forward, call.poller);
+        const PackedCurve q(Q.checked.curve, range, PointOrder::reversed, call.poller);
         WarpingProblem problem(options_, {p, q}, range, call);
         return use(problem);
     }

@@ -22,7 +22,7 @@ import signal
 import subprocess
 import tempfile
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
@@ -37,9 +37,13 @@ Curves: TypeAlias = Array | list[Array]
 
 LOG = "command.log"
 
+# Bytes of output after which a program has run away, and what is then left of its log.
+_MOST_OUTPUT = 2**26
+_KEPT_OUTPUT = 2**20
+_LOOK = 0.1  # seconds between two looks at the log
+
 _GRACE = 2.0  # seconds between SIGTERM, on which solvers return their licence, and SIGKILL
-_PLACEHOLDER = re.compile(r"<<(.*?)>>")
-_INSIDE = re.compile(r"\s*([A-Za-z_]\w*)\s*(?::\s*(.*?)\s*)?")
+_NAME = re.compile(r"[A-Za-z_]\w*")
 _WIDTH = re.compile(r"(?:.?[<>=^])?[-+ ]?z?#?0?(\d+)")
 
 
@@ -101,10 +105,11 @@ class CommandModel:
     Notes
     -----
     A call raises `SolverError` when the program cannot be started, ends with another exit code
-    than 0 or by a signal, takes longer than `timeout`, or when `read` fails or returns something
-    other than curves of finite numbers. The folder is then kept, with all the program has printed
-    in ``command.log``, which the error names. When a call ends, in whichever way (Ctrl-C
-    included), so do all processes of the run's group (on Windows: the program itself).
+    than 0 or by a signal, takes longer than `timeout`, prints more than 64 MiB, or when `read`
+    fails or returns something other than curves of finite numbers. The folder is then kept, with
+    all the program has printed in ``command.log``, which the error names. When a call ends, in
+    whichever way (Ctrl-C included), so do all processes of the run's group (on Windows: the
+    program itself).
 
     A store, or a history, knows the model by its `identity`: the text of its templates, its command
     and environment, and the function that reads (its own code, not that of functions it calls).
@@ -251,13 +256,22 @@ class CommandModel:
             except OSError as error:
                 raise SolverError(f"{program} did not start: {error}; folder: {folder}") from error
             try:
-                code = process.wait(self.timeout)
+                code = _wait(process, begin + self.timeout, log)
+                too_much = False
             except subprocess.TimeoutExpired:
                 raise SolverError(
                     f"{program} took longer than {self.timeout:g} s and was stopped; log: {log}"
                 ) from None
+            except _RunAwayError:
+                too_much = True
             finally:
                 _end_group(process)
+        if too_much:
+            os.truncate(log, _KEPT_OUTPUT)
+            raise SolverError(
+                f"{program} printed more than {_MOST_OUTPUT >> 20} MiB and was stopped; "
+                f"the first of it: {log}"
+            )
         if code != 0:
             how = f"was killed by signal {-code}" if code < 0 else f"ended with exit code {code}"
             seconds = time.monotonic() - begin
@@ -321,16 +335,30 @@ def _parse(path: Path) -> _Template:
     # Bytes rather than text, as line ends and what other encodings a deck's comments have stay.
     whole = path.read_bytes().decode("utf-8", "surrogateescape")
     texts, placeholders, end, line = [], [], 0, 1
-    for match in _PLACEHOLDER.finditer(whole):
-        texts.append(whole[end : match.start()])
+    for begin, past in _placeholders(whole):
+        texts.append(whole[end:begin])
         line += texts[-1].count("\n")
-        place = f"{path.name}, line {line}: {match.group()}"
-        inside = _INSIDE.fullmatch(match.group(1))
-        if inside is None:
+        place = f"{path.name}, line {line}: {whole[begin:past]}"
+        name, _, spec = whole[begin + 2 : past - 2].partition(":")
+        if not _NAME.fullmatch(name.strip()):
             raise ValueError(f"{place} is malformed; write <<name>> or <<name:10.4g>>")
-        placeholders.append(_Placeholder(inside.group(1), inside.group(2) or "", place))
-        end = match.end()
+        placeholders.append(_Placeholder(name.strip(), spec.strip(), place))
+        end = past
     return _Template(path.name, [*texts, whole[end:]], placeholders)
+
+
+def _placeholders(text: str) -> Iterator[tuple[int, int]]:
+    """Yield where each "<<" with the next ">>" of its line begins and ends, in linear time."""
+    begin = text.find("<<")
+    while begin >= 0:
+        close = text.find(">>", begin + 2)
+        if close < 0:
+            return
+        line_end = text.find("\n", begin, close)
+        if line_end < 0:
+            yield begin, close + 2
+            line_end = close + 2
+        begin = text.find("<<", line_end)
 
 
 def _check_names(templates: Sequence[_Template], parameters: Sequence[str]) -> None:
@@ -380,6 +408,23 @@ def _checked(curve: object, name: str) -> Array:
     if array.size == 0 or not np.isfinite(array).all():
         raise ValueError(f"{name} is {'empty' if array.size == 0 else 'not finite'}")
     return array
+
+
+class _RunAwayError(Exception):
+    """A program has printed more than any log is worth."""
+
+
+def _wait(process: subprocess.Popen[bytes], deadline: float, log: Path) -> int:
+    """Return the exit code; TimeoutExpired at the deadline, _RunAwayError for a huge log."""
+    while True:
+        left = deadline - time.monotonic()
+        try:
+            return process.wait(min(max(left, 0.0), _LOOK))
+        except subprocess.TimeoutExpired:
+            if left <= _LOOK:
+                raise
+            if log.stat().st_size > _MOST_OUTPUT:
+                raise _RunAwayError from None
 
 
 def _end_group(process: subprocess.Popen[bytes]) -> None:

@@ -4,7 +4,9 @@ A CSV file. Its first line, a comment, holds the settings of the search as JSON;
 and one line per evaluation, in the order in which they were finished, numbers as %.17g, which
 gives a double back bit for bit. Every line is flushed when it is written, so that a search that is
 killed loses the evaluations that were running and no other; half a line at the end is cut off.
-Methods that learn more from a simulation than its value have the curves appended as base64.
+Methods that learn more from a simulation than its value have the curves appended as base64. Every
+line ends with a checksum of the rest of it (CRC-32, in hexadecimal digits): a damaged file is
+refused, and never changes a result.
 """
 
 from __future__ import annotations
@@ -14,7 +16,8 @@ import csv
 import io
 import json
 import os
-from collections.abc import Mapping
+import zlib
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -30,6 +33,7 @@ __all__ = ["Evaluation", "History", "as_records"]
 _LARGEST_CELL = 2**31 - 1
 
 _TITLE = "# curvewise identification "
+_CHECKSUM = "checksum"
 
 
 @dataclass(frozen=True)
@@ -84,8 +88,7 @@ class History:
         header = ("evaluation", *names, "value", "failed", "seconds", "message", "simulations")
         if not self._load(Path(path), json.loads(text), header):
             with open(path, "w", encoding="utf-8", newline="") as file:
-                file.write(_TITLE + text + "\n")
-                csv.writer(file, lineterminator="\n").writerow(header)
+                file.write(_with_checksum(_TITLE + text) + _line([*header, _CHECKSUM]))
         self._file = open(path, "a", encoding="utf-8", newline="")  # noqa: SIM115 (close() does)
 
     def close(self) -> None:
@@ -102,10 +105,10 @@ class History:
             *(f"{value:.17g}" for value in (*evaluation.point, evaluation.value)),
             int(evaluation.failed),
             f"{evaluation.seconds:.6g}",
-            evaluation.message,
+            " ".join(evaluation.message.split()),  # on one line
             _encoded(evaluation.simulations or ()) if self._keep_simulations else "",
         ]
-        csv.writer(self._file, lineterminator="\n").writerow(row)
+        self._file.write(_with_checksum(_line(row).rstrip("\n")))
         self._file.flush()
 
     def _load(self, path: Path, settings: dict[str, Any], header: tuple[str, ...]) -> bool:
@@ -115,23 +118,41 @@ class History:
         except FileNotFoundError:
             return False
         complete = content[: content.rfind(b"\n") + 1]
-        title, _, table = complete.decode("utf-8", errors="replace").partition("\n")
         if content and not content.startswith(_TITLE.encode()):
             raise ValueError(f"{path} is not a history; give the name of a file to be made")
-        csv.field_size_limit(_LARGEST_CELL)
-        rows = list(csv.reader(io.StringIO(table)))
-        if not rows:  # empty, or killed while it was made
+        lines = complete.decode("utf-8", errors="replace").split("\n")[:-1]
+        if len(lines) < 2:  # empty, or killed while it was made
             return False
+        title = _checked(lines[0], f"{path}, line 1", "give another file")
         _check_settings(path, json.loads(title.removeprefix(_TITLE)), settings)
-        for line, row in enumerate(rows[1:], 3):
-            try:
-                evaluation = _parsed(row, len(header))
-            except ValueError as error:
-                raise ValueError(f"{path}, line {line}: {error}; delete the line") from error
+        if lines[1] != _line([*header, _CHECKSUM]).rstrip("\n"):
+            raise ValueError(f"{path}, line 2 is not the header of a history; give another file")
+        csv.field_size_limit(_LARGEST_CELL)
+        for number, line in enumerate(lines[2:], 3):
+            row = _checked(line, f"{path}, line {number}", "delete the line: it will be run again")
+            evaluation = _parsed(next(csv.reader([row])))
             self.saved[evaluation.point] = evaluation
         if len(complete) < len(content):
             os.truncate(path, len(complete))
         return True
+
+
+def _line(row: Sequence[Any]) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(row)
+    return text.getvalue()
+
+
+def _with_checksum(line: str) -> str:
+    return f"{line},{zlib.crc32(line.encode()):08x}\n"
+
+
+def _checked(line: str, place: str, way_out: str) -> str:
+    """Return a line without its checksum, or raise ValueError where that is another's."""
+    content, _, checksum = line.rpartition(",")
+    if checksum != f"{zlib.crc32(content.encode()):08x}":
+        raise ValueError(f"{place} is damaged, by its checksum; {way_out}")
+    return content
 
 
 def _check_settings(path: Path, found: dict[str, Any], wanted: dict[str, Any]) -> None:
@@ -143,9 +164,7 @@ def _check_settings(path: Path, found: dict[str, Any], wanted: dict[str, Any]) -
             )
 
 
-def _parsed(row: list[str], width: int) -> Evaluation:
-    if len(row) != width:
-        raise ValueError(f"there are {len(row)} columns, not {width}")
+def _parsed(row: list[str]) -> Evaluation:
     number, *values, failed, seconds, message, simulations = row
     *point, value = map(float, values)
     return Evaluation(

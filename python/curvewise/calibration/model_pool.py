@@ -2,11 +2,12 @@
 
 With one worker the model is called here. With more, a pool of processes is started once and each
 gets the model once, pickled; outcomes come as they are finished. Ctrl-C stops the model in every
-process: workers raise KeyboardInterrupt while the model runs, so that it can end what it started
-(a solver, say), and ignore it while they are idle. A worker that dies (killed, or crashed in the
-model's compiled code) takes the pool with it; the points under way are then run again one by one,
-each in a fresh process, so that only the one that kills its process counts as failed. Workers end
-by themselves when the process that started them is killed.
+process: workers raise KeyboardInterrupt while the model runs, so that it can end what it started (a
+solver, say), and ignore it while they are idle. Where SIGINT is ignored, as in what a shell script
+starts in the background, SIGTERM takes its place between these processes. A worker that dies
+(killed, or crashed in the model's compiled code) takes the pool with it; the points under way are
+then run again one by one, each in a fresh process, so that only the one that kills its process
+counts as failed. Workers end by themselves when the process that started them is killed.
 
 An executor of the caller's takes the place of these processes: dask's, a cluster's. It is left as
 it was found; what it still runs after Ctrl-C is its owner's to stop.
@@ -179,13 +180,19 @@ class ModelPool:
         assert self._pool is not None
         for process in self._processes:
             if process.is_alive() and os.name == "posix":
-                os.kill(process.pid, signal.SIGINT)
+                os.kill(process.pid, _stop_signal())
         self._pool.shutdown(wait=False, cancel_futures=True)
         deadline = time.monotonic() + _PATIENCE
         for process in self._processes:
             process.join(max(0.0, deadline - time.monotonic()))
             if process.is_alive():
                 process.terminate()
+
+
+def _stop_signal() -> signal.Signals:
+    """Return what tells a worker to stop: SIGINT, or SIGTERM where SIGINT is ignored."""
+    is_ignored = signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+    return signal.SIGTERM if is_ignored else signal.SIGINT
 
 
 def _pickled(model: Model) -> bytes:
@@ -238,9 +245,7 @@ _worker: dict[str, Any] = {"model": None, "running": False, "interrupted": False
 
 def _prepare_worker(pickled: bytes) -> None:
     _worker["model"] = pickle.loads(pickled)
-    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:  # as it is in the background
-        signal.signal(signal.SIGINT, _interrupt)
-
+    signal.signal(_stop_signal(), _interrupt)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
@@ -253,7 +258,7 @@ def _end_with_parent() -> None:
     while parent.is_alive() and os.getppid() == started_by:
         parent.join(1.0)
     if os.name == "posix":
-        os.kill(os.getpid(), signal.SIGINT)  # the model may have a solver to end
+        os.kill(os.getpid(), _stop_signal())  # the model may have a solver to end
         time.sleep(_PATIENCE)
     os._exit(1)
 
@@ -262,6 +267,8 @@ def _interrupt(number: int, frame: object) -> None:
     _worker["interrupted"] = True
     if _worker["running"]:
         raise KeyboardInterrupt
+    if number != signal.SIGINT:  # SIGTERM, by which the executor, too, ends its processes
+        os._exit(1)
 
 
 def _call_in_worker(parameters: dict[str, Any]) -> Outcome:

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._curves import Array
+from .._curves import Array, check_column_names, column_names
 from .._docstrings import filled, listed
 from .._options import Preset
 from ..measures import normalize, registry
@@ -196,7 +196,8 @@ class Objective:
         Raises
         ------
         ValueError
-            The number of simulations, or their dimension, is not that of the experiments.
+            The number of simulations, their dimension, or the names of their columns are not those
+            of the experiments.
         TypeError
             A simulation does not hold real numbers.
         """
@@ -340,6 +341,8 @@ class Loop:
         min_coverage: float,
     ) -> None:
         self.experiment = as_points(experiment, name).copy()
+        self._columns = column_names(experiment)
+        self._name = "the experiment" if name == "P" else name
         self._min_coverage = 0.0 if part == "simulation" else min_coverage
         try:
             (P,) = normalize(self.experiment)  # refuses what is empty or not finite
@@ -400,6 +403,8 @@ class Loop:
         if np.iscomplexobj(simulation):  # what Python makes of a root of a negative number
             raise FailedSimulationError("the simulation is complex")
         Q = as_points(simulation, "Q")
+        # Swapped columns would be scored as if they were not.
+        check_column_names(self._columns, self._name, column_names(simulation), "the simulation")
         if Q.size == 0:
             raise FailedSimulationError("the simulation is empty")
         if Q.shape[1] != self.experiment.shape[1]:

@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 from .. import _core
-from .._curves import Array, CurveLike, as_curve, as_curves
+from .._curves import (
+    Array,
+    CurveLike,
+    as_curve,
+    as_curves,
+    check_column_names,
+    column_names,
+)
 
 __all__ = ["mae", "mse", "normalize", "sum_of_squares"]
 
@@ -125,7 +132,7 @@ def normalize(P: CurveLike, *others: CurveLike) -> list[Array]:
     Raises
     ------
     ValueError
-        A curve is empty, not finite, or differs from P in d.
+        A curve is empty, not finite, or differs from P in d or in the names of its columns.
     TypeError
         A curve does not hold real numbers.
 
@@ -142,5 +149,7 @@ def normalize(P: CurveLike, *others: CurveLike) -> list[Array]:
     """
     box = as_curve(P, "P")
     names = ["P", "Q"] if len(others) == 1 else ["P", *(f"others[{i}]" for i in range(len(others)))]
+    for curve, name in zip(others, names[1:], strict=True):
+        check_column_names(column_names(P), "P", column_names(curve), name)
     curves = [box, *(as_curve(curve, name) for curve, name in zip(others, names[1:], strict=True))]
     return [_core.normalize(box, curve, name) for curve, name in zip(curves, names, strict=True)]

@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .._curves import Array
-from .scaling import range_exponent, times_power_of_two
+from .scaling import box_scaled_differences
 
-__all__ = ["arc_lengths", "interpolate", "locate", "norms"]
+__all__ = ["arc_lengths", "box_scaled_arc_lengths", "interpolate", "locate", "norms"]
 
 
 def arc_lengths(curve: Array) -> Array:
@@ -19,15 +19,31 @@ def arc_lengths(curve: Array) -> Array:
 
     Beyond the range of a double it is inf, or nan where coordinates are infinite.
     """
-    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-        return np.concatenate([[0.0], np.cumsum(norms(np.diff(curve, axis=0)))])
+    with np.errstate(over="ignore", invalid="ignore"):
+        return _summed(np.diff(curve, axis=0))
+
+
+def box_scaled_arc_lengths(curve: Array, box_of: Array) -> Array:
+    """Return those of a curve scaled by the bounding box of another, both of shape (., 2).
+
+    By the differences of its own coordinates: where it lies far from the box, scaled coordinates
+    have lost the bits in which they differ.
+    """
+    return _summed(box_scaled_differences(curve, box_of))
+
+
+def _summed(edges: Array) -> Array:
+    with np.errstate(over="ignore", invalid="ignore"):
+        return np.concatenate([[0.0], np.cumsum(norms(edges))])
 
 
 def norms(vectors: Array) -> Array:
     """Return sqrt(dx² + dy²) of vectors, shape (..., 2), of which squares may be out of range."""
-    exponent = range_exponent(vectors)
-    dx, dy = np.moveaxis(times_power_of_two(vectors, -exponent), -1, 0)
-    return times_power_of_two(np.sqrt(dx * dx + dy * dy), exponent)
+    dx, dy = np.moveaxis(vectors, -1, 0)
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        squares = dx * dx + dy * dy
+        in_range = (squares > 2.0**-900) & (squares < 2.0**1000)
+        return np.asarray(np.where(in_range, np.sqrt(squares), np.hypot(dx, dy)))
 
 
 def locate(lengths: Array, position: Array) -> tuple[npt.NDArray[np.intp], Array]:
@@ -43,9 +59,9 @@ def locate(lengths: Array, position: Array) -> tuple[npt.NDArray[np.intp], Array
     segment = np.searchsorted(lengths, position, side="right") - 1
     segment = np.clip(segment, 0, len(lengths) - 2)
     extent = lengths[segment + 1] - lengths[segment]
-    # Where a point is repeated the segment has no extent, and any fraction is the same point.
+    # Where a segment has no extent, beside the length of the curve, its end is meant.
     fraction = (position - lengths[segment]) / np.where(extent > 0, extent, 1.0)
-    return segment, fraction
+    return segment, np.where(extent > 0, fraction, 1.0)
 
 
 def interpolate(curve: Array, segment: npt.NDArray[np.intp], fraction: Array) -> Array:
@@ -53,4 +69,6 @@ def interpolate(curve: Array, segment: npt.NDArray[np.intp], fraction: Array) ->
     if curve.ndim == 2:
         fraction = fraction[..., np.newaxis]
     start, end = curve[segment], curve[segment + 1]
-    return np.asarray(start + fraction * (end - start))
+    # The end itself, not start + (end - start): beside a large start a small end is lost.
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        return np.asarray(np.where(fraction == 1.0, end, start + fraction * (end - start)))

@@ -78,10 +78,10 @@ def _measure(P: CurveLike, Q: CurveLike, spacing: Spacing, crossing: Crossing) -
     check_choice("crossing", crossing, get_args(Crossing))
     P, Q = check_pair(P, Q, "area", least_points=2, planar=True)
     exponent = range_exponent(P, Q)
-    P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
     if spacing == "matched":
+        P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
         return _measure_pieces(P, Q, exponent)
-    quads = _between(*facing_curves(P, Q, spacing))
+    quads = _between(*facing_curves(P, Q, spacing, exponent))
     with np.errstate(over="ignore", under="ignore"):
         quads, areas = _measured(quads, crossing)
     return _Measured(quads, areas, exponent, None)

@@ -17,7 +17,7 @@ import numpy as np
 from .._curves import Array, CurveLike, as_curves
 from .._options import Default, Offsets
 from ..results import PcmMatch
-from .arc_length import arc_lengths, interpolate, locate, norms
+from .arc_length import box_scaled_arc_lengths, interpolate, locate, norms
 from .checks import check_length, check_pair, whole_number
 from .scaling import box_scaled, range_exponent, times_power_of_two
 
@@ -79,7 +79,7 @@ class _Roles(NamedTuple):
 
 def _assign_roles(P: Array, Q: Array) -> _Roles:
     p, q = box_scaled(P, P), box_scaled(Q, P)
-    s, t = arc_lengths(p), arc_lengths(q)
+    s, t = box_scaled_arc_lengths(P, P), box_scaled_arc_lengths(Q, P)
     if s[-1] - t[-1] > _EQUAL_LENGTHS * s[-1]:
         return _Roles(q, p, t, s, "Q")
     return _Roles(p, q, s, t, "P")
@@ -103,9 +103,9 @@ def _areas(roles: _Roles, offsets: Array) -> Array:
 def _areas_at_once(roles: _Roles, offsets: Array) -> Array:
     position = np.minimum(roles.s + offsets[:, np.newaxis], roles.t[-1])
     points = interpolate(roles.longer, *locate(roles.t, position))
-    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):  # too far away: inf
         d = norms(points - roles.shorter)
-        areas = np.sum(0.5 * (d[:, :-1] + d[:, 1:]) * np.diff(roles.s), axis=1)
+        areas = np.sum((0.5 * d[:, :-1] + 0.5 * d[:, 1:]) * np.diff(roles.s), axis=1)
     return np.where(np.isfinite(areas), areas, np.inf)
 
 

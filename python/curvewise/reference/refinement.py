@@ -15,19 +15,24 @@ import numpy as np
 
 from .._curves import Array
 from .._options import Spacing
-from .arc_length import arc_lengths
-from .scaling import box_scaled
+from .arc_length import box_scaled_arc_lengths
+from .scaling import times_power_of_two
 
 __all__ = ["facing_curves"]
 
 
-def facing_curves(P: Array, Q: Array, spacing: Spacing) -> tuple[Array, Array]:
+def facing_curves(P: Array, Q: Array, spacing: Spacing, exponent: int) -> tuple[Array, Array]:
     """Return A and B, the curves with as many vertices each; A is the one with more points.
 
-    With "arc_length", after which both have more, A is P.
+    Both come out in units of 2**exponent. With "arc_length", after which both have more, A is P.
     """
-    if spacing == "arc_length":
-        return _merged_by_arc_length(P, Q)
+    # Before that: a coordinate that is small beside the other may vanish in these units.
+    lengths = (
+        [_relative_arc_lengths(curve, P) for curve in (P, Q)] if spacing == "arc_length" else []
+    )
+    P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
+    if lengths:
+        return _merged_by_arc_length(_Walk(P, lengths[0]), _Walk(Q, lengths[1]))
     A, B = (P, Q) if len(P) >= len(Q) else (Q, P)
     return A, _bisected(B, len(A) - len(B), spacing)
 
@@ -72,9 +77,8 @@ def _segment_lengths(edges: Array, spacing: Spacing) -> Array:
         return np.asarray(np.ldexp(np.rint(np.ldexp(mantissa, 34)), exponent - 34))
 
 
-def _merged_by_arc_length(P: Array, Q: Array) -> tuple[Array, Array]:
-    p, q = _Walk(P, _relative_arc_lengths(P, P)), _Walk(Q, _relative_arc_lengths(Q, P))
-    A, B = [P[0]], [Q[0]]
+def _merged_by_arc_length(p: _Walk, q: _Walk) -> tuple[Array, Array]:
+    A, B = [p.curve[0]], [q.curve[0]]
     while not (p.at_end() and q.at_end()):
         u = min(p.next_u(), q.next_u())
         A.append(p.advance(u))
@@ -84,7 +88,7 @@ def _merged_by_arc_length(P: Array, Q: Array) -> tuple[Array, Array]:
 
 def _relative_arc_lengths(curve: Array, box_of: Array) -> Array:
     """Return the arc length of every vertex, 0 to 1, after scaling by a bounding box."""
-    lengths = arc_lengths(box_scaled(curve, box_of))
+    lengths = box_scaled_arc_lengths(curve, box_of)
     total = lengths[-1]
     # A curve without a length, or with one beyond a double, stays at its first point to the end.
     u = lengths / total if 0 < total < math.inf else np.zeros(len(curve))

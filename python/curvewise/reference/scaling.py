@@ -12,10 +12,17 @@ import math
 
 import numpy as np
 
-from .._curves import Array, CurveLike, as_curve
+from .._curves import Array, CurveLike, as_curve, check_column_names, column_names
 from .checks import check_pair
 
-__all__ = ["box", "box_scaled", "normalize", "range_exponent", "times_power_of_two"]
+__all__ = [
+    "box",
+    "box_scaled",
+    "box_scaled_differences",
+    "normalize",
+    "range_exponent",
+    "times_power_of_two",
+]
 
 _LARGE = 2.0**500
 _SMALL = 2.0**-500
@@ -24,6 +31,8 @@ _SMALL = 2.0**-500
 def normalize(P: CurveLike, *others: CurveLike) -> list[Array]:
     """Section 2.1 of the paper. Time and memory O(n d) a curve."""
     names = ["P", "Q"] if len(others) == 1 else ["P", *(f"others[{i}]" for i in range(len(others)))]
+    for curve, name in zip(others, names[1:], strict=True):
+        check_column_names(column_names(P), "P", column_names(curve), name)
     given = [as_curve(curve, name) for curve, name in zip((P, *others), names, strict=True)]
     scaled = []
     for curve, name in zip(given, names, strict=True):
@@ -46,14 +55,32 @@ def box_scaled(curve: Array, box_of: Array) -> Array:
     """
     scaled = np.empty(curve.shape)
     for c in range(curve.shape[1]):
-        x, sides = curve[:, c], box_of[:, c]
-        if sides.max() > sides.min():
-            exponent = range_exponent(sides)
-            x, sides = times_power_of_two(x, -exponent), times_power_of_two(sides, -exponent)
-        low, extent = box(sides)
+        x, low, extent, _ = _in_range_of(curve[:, c], box_of[:, c])
         with np.errstate(over="ignore", under="ignore"):
             scaled[:, c] = (x - low) / extent
     return scaled
+
+
+def box_scaled_differences(curve: Array, box_of: Array) -> Array:
+    """Return the edges of a curve, shape (n - 1, d), scaled by the bounding box of another."""
+    edges = np.empty((len(curve) - 1, curve.shape[1]))
+    for c in range(curve.shape[1]):
+        x, _, extent, exponent = _in_range_of(curve[:, c], box_of[:, c])
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+            # First the difference, then the range, in which both may be infinite; the other way
+            # round where the difference is.
+            plain = np.diff(curve[:, c])
+            in_range = np.where(np.isfinite(plain), np.ldexp(plain, -exponent), np.diff(x))
+            edges[:, c] = in_range / extent
+    return edges
+
+
+def _in_range_of(x: Array, sides: Array) -> tuple[Array, float, float, int]:
+    """Return a coordinate, the box's lower side, and its extent, in the box's range, and that."""
+    exponent = range_exponent(sides) if sides.max() > sides.min() else 0
+    x, sides = times_power_of_two(x, -exponent), times_power_of_two(sides, -exponent)
+    low, extent = box(sides)
+    return x, float(low), float(extent), exponent
 
 
 def range_exponent(*arrays: Array) -> int:

@@ -130,6 +130,24 @@ void symmetry_is_known() {
     CHECK_EQUAL(symmetric, (std::vector<int>{1, 1, 0, 1, 1, 0, 0, 0, 1}));
 }
 
+// Their number times anything must not overflow, which the undefined-behaviour sanitizer would
+// tell.
+void any_number_of_workers() {
+    const std::vector<Curve> curves = random_curves({40, 50, 60}, 2);
+    const std::vector<CurveView> X = views_of(curves);
+    const auto most = std::numeric_limits<std::ptrdiff_t>::max();
+    for (const Measure& measure : measures()) {
+        std::vector<double> one(9), many(9);
+        cdist(X, X, measure, one.data(), {1});
+        cdist(X, X, measure, many.data(), {most});
+        CHECK_EQUAL(many, one);
+    }
+    DtwOptions options;
+    const double value = dtw(X[0], X[1], options);
+    options.workers = most;
+    CHECK_EQUAL(dtw(X[0], X[1], options), value);
+}
+
 void cutoff_gives_infinity() {
     const std::vector<Curve> curves = random_curves({300, 600, 2, 700, 40, 1}, 3);
     const std::vector<CurveView> X = views_of(curves);
@@ -230,6 +248,7 @@ int main() {
     return check::run({{"batches equal single calls", batches_equal_single_calls},
                        {"prepared equals single calls", prepared_equals_single_calls},
                        {"symmetry is known", symmetry_is_known},
+                       {"any number of workers", any_number_of_workers},
                        {"cutoff gives infinity", cutoff_gives_infinity},
                        {"errors name the curve", errors_name_the_curve},
                        {"reports go up to the total", reports_go_up_to_the_total},

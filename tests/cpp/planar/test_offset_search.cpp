@@ -1,13 +1,16 @@
 // The search over all offsets against a search in every interval in which the area is convex; and
 // where the smallest area is known.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "check.hpp"
 #include "curves.hpp"
 #include "planar/offset_search.hpp"
+#include "unpolled.hpp"
 
 namespace {
 
@@ -20,12 +23,15 @@ using curvewise::detail::norm;
 using curvewise::detail::Offset;
 using curvewise::detail::Point;
 using curvewise::detail::RangeScale;
+using curvewise::detail::SearchEffort;
 using test::Curve;
 using test::Random;
+using test::unpolled;
 
-curvewise::detail::Poller unpolled(nullptr);
-
-ArcCurve arc_curve(const Curve& curve) { return ArcCurve(polyline(curve, RangeScale(1.0))); }
+ArcCurve arc_curve(const Curve& curve) {
+    const curvewise::detail::Polyline points = polyline(curve, RangeScale(1.0), unpolled);
+    return ArcCurve(points, arc_lengths(points, unpolled));
+}
 
 // The point at arc length u, found anew.
 Point place(const ArcCurve& curve, double u) {
@@ -155,6 +161,43 @@ void one_segment() {
     CHECK_CLOSE(best.area, 2.0 * std::hypot(0.2, 0.6), 1e-12);
 }
 
+// Evaluations of the search for all offsets, each of which polls once where curves are short.
+int evaluations(const ArcCurve& shorter, const ArcCurve& longer, const SearchEffort& effort) {
+    int polls = 0;
+    curvewise::Control control([&](std::int64_t, std::int64_t) { return ++polls < 1'000'000; },
+                               std::chrono::milliseconds(0));
+    curvewise::detail::Poller poller(&control);
+    best_of_all(shorter, longer, poller, effort);
+    return polls;
+}
+
+// Where the value is large beside S, its last bits are all that offsets differ by; and products of
+// lengths overflow.
+void curves_far_apart() {
+    const ArcCurve p = arc_curve({{0.0, 0.0}, {1.0, 1.0}});
+    for (const int exponent : {20, 40, 100, 400, 600, 1000}) {
+        const check::Note note("2^" + std::to_string(exponent));
+        const Curve far{{-3.0, 0.1}, {0.1, 0.1}, {0.1, 0.0}};
+        const ArcCurve q = arc_curve(far.times_power_of_two(exponent));
+        CHECK(evaluations(p, q, {}) < 3000);
+        const double least = best_of_all(p, q, unpolled).area;
+        CHECK(least <= best_of_grid(p, q, 20'000, unpolled).area * (1.0 + 1e-13));
+    }
+}
+
+// Whatever the curves, the search ends; what it then has is no worse than the grid.
+void an_effort_that_ends() {
+    std::vector<double> values;
+    for (int i = 0; i < 400; ++i) values.insert(values.end(), {static_cast<double>(i % 2), 0.0});
+    const Curve zigzag(values, 2);
+    const ArcCurve p = arc_curve(zigzag.part(0, 150)), q = arc_curve(zigzag);
+    const int full = evaluations(p, q, {});
+    const int cut_short = evaluations(p, q, {500, 10});
+    CHECK(full > 3000);
+    CHECK(cut_short < 500 + 10 * 60 + 1000);  // the grid, and the bounds, poll, too
+    CHECK(best_of_all(p, q, unpolled, {500, 10}).area <= best_of_grid(p, q, 200, unpolled).area);
+}
+
 void the_grid() {
     Random random(54);
     const ArcCurve p = arc_curve(random.walk(9)), q = arc_curve(random.walk(40));
@@ -202,6 +245,8 @@ int main() {
                        {"a piece of the other", a_piece_of_the_other},
                        {"a plateau", a_plateau},
                        {"one segment", one_segment},
+                       {"curves far apart", curves_far_apart},
+                       {"an effort that ends", an_effort_that_ends},
                        {"the grid", the_grid},
                        {"walking forward", walking_forward}});
 }

@@ -10,6 +10,7 @@
 #include "curves.hpp"
 #include "curves/arc_length.hpp"
 #include "planar/refinement.hpp"
+#include "unpolled.hpp"
 
 namespace {
 
@@ -24,12 +25,11 @@ using curvewise::detail::Polyline;
 using curvewise::detail::RangeScale;
 using test::Curve;
 using test::Random;
-
-curvewise::detail::Poller unpolled(nullptr);
+using test::unpolled;
 
 const RangeScale as_they_are(1.0);
 
-Polyline points_of(const Curve& curve) { return polyline(curve, as_they_are); }
+Polyline points_of(const Curve& curve) { return polyline(curve, as_they_are, unpolled); }
 
 FacingCurves facing_curves(const Curve& P, const Curve& Q, Spacing spacing) {
     return face(P, Q, as_they_are, spacing, unpolled);
@@ -112,7 +112,8 @@ void no_length() {
 
 // After scaling by P's box.
 std::vector<double> relative_lengths(const Curve& curve, const Curve& P) {
-    std::vector<double> lengths = arc_lengths(box_scaled(curve, curvewise::detail::Box(P)));
+    std::vector<double> lengths =
+        box_scaled_arc_lengths(curve, curvewise::detail::Box(P), unpolled);
     const double length = lengths.back();
     for (double& u : lengths) u /= length;
     return lengths;

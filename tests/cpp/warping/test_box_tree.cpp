@@ -7,6 +7,7 @@
 
 #include "check.hpp"
 #include "curves.hpp"
+#include "unpolled.hpp"
 #include "warping/box_tree.hpp"
 
 namespace {
@@ -24,13 +25,14 @@ using curvewise::detail::with_norm;
 
 using test::Curve;
 using test::Random;
+using test::unpolled;
 
 constexpr Metric metrics[] = {Metric::euclidean, Metric::sqeuclidean, Metric::cityblock,
                               Metric::chebyshev};
 
 struct Side {
     Side(const Curve& curve, PointOrder order)
-        : packed(curve, RangeScale(1.0), order), tree(packed, order) {}
+        : packed(curve, RangeScale(1.0), order, unpolled), tree(packed, order) {}
     PackedCurve packed;
     BoxTree tree;
 };

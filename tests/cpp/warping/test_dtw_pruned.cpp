@@ -12,6 +12,7 @@
 #include "check.hpp"
 #include "curves/range_scale.hpp"
 #include "hard_curves.hpp"
+#include "unpolled.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/dtw_pruned.hpp"
 #include "warping/ground_distance.hpp"
@@ -38,6 +39,7 @@ using curvewise::detail::SweepProblem;
 using curvewise::kernels::Recurrence;
 using test::Curve;
 using test::Random;
+using test::unpolled;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Metric metrics[] = {Metric::euclidean, Metric::sqeuclidean, Metric::cityblock,
@@ -84,8 +86,8 @@ class Comparison {
    public:
     Comparison(const test::Pair& pair, const Setup& setup)
         : setup_(setup),
-          rows_(pair.P, RangeScale(1.0), PointOrder::forward),
-          columns_(pair.Q, RangeScale(1.0), PointOrder::reversed) {}
+          rows_(pair.P, RangeScale(1.0), PointOrder::forward, unpolled),
+          columns_(pair.Q, RangeScale(1.0), PointOrder::reversed, unpolled) {}
 
     void run() const {
         for (const Level& level : available_levels()) {
@@ -177,8 +179,8 @@ void least_distances_are_bounds() {
         const auto [P, Q] = test::any_pair(random);
         const Metric metric = metrics[random.index(4)];
         const check::Note note(test::described(P, Q));
-        const PackedCurve p(P, RangeScale(1.0), PointOrder::forward);
-        const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed);
+        const PackedCurve p(P, RangeScale(1.0), PointOrder::forward, unpolled);
+        const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed, unpolled);
         const curvewise::detail::BoxTree from(p, PointOrder::forward), to(q, PointOrder::reversed);
         std::vector<double> bounds(static_cast<std::size_t>(P.size()), -1.0);
         Poller poller(nullptr);
@@ -204,8 +206,8 @@ void least_distances_are_bounds() {
 void gives_up_where_it_should() {
     Random random(4);
     const auto gives_up = [](const Curve& P, const Curve& Q) {
-        const PackedCurve p(P, RangeScale(1.0), PointOrder::forward);
-        const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed);
+        const PackedCurve p(P, RangeScale(1.0), PointOrder::forward, unpolled);
+        const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed, unpolled);
         Poller poller(nullptr);
         SweepMemory memory;
         const SweepProblem problem{*available_levels().front().kernels,
@@ -235,8 +237,8 @@ void progress_counts_the_table() {
     Random random(5);
     const Curve P = test::loops(14000, 2, 2.0, 0.0, false), Q = test::alike(P, 13000, random);
     curvewise::Control control;
-    const PackedCurve p(P, RangeScale(1.0), PointOrder::forward);
-    const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed);
+    const PackedCurve p(P, RangeScale(1.0), PointOrder::forward, unpolled);
+    const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed, unpolled);
     Poller poller(&control);
     poller.begin(P.size() * Q.size());
     SweepMemory memory;

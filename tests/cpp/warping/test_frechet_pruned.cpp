@@ -12,6 +12,7 @@
 #include "check.hpp"
 #include "curves.hpp"
 #include "hard_curves.hpp"
+#include "unpolled.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/frechet_corridor.hpp"
 #include "warping/frechet_pruned.hpp"
@@ -44,6 +45,7 @@ using test::empty_curve;
 using test::loops;
 using test::Pair;
 using test::Random;
+using test::unpolled;
 using test::with_plateaus;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -53,8 +55,8 @@ std::ptrdiff_t pairs = 300;  // in each test
 class Comparison {
    public:
     Comparison(const Curve& P, const Curve& Q)
-        : rows_(P, RangeScale(1.0), PointOrder::forward),
-          columns_(Q, RangeScale(1.0), PointOrder::reversed) {}
+        : rows_(P, RangeScale(1.0), PointOrder::forward, unpolled),
+          columns_(Q, RangeScale(1.0), PointOrder::reversed, unpolled) {}
 
     void run() const {
         for (const Level& level : available_levels()) {

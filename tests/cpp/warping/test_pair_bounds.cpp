@@ -39,11 +39,11 @@ void bounds_hold(const Options& options, std::ptrdiff_t dim, Random& random) {
     for (int i = 0; i < 7; ++i) curves.push_back(some_curve(random, dim));
     const auto measure = detail::batch_measure(options);
     const auto targets = measure->make_targets();
-    for (const Curve& Q : curves) targets->add(CheckedCurve(Q, "Q"));
-    const auto memory = targets->make_memory();
     Poller poller(nullptr);
+    for (const Curve& Q : curves) targets->add(CheckedCurve(Q, "Q", poller), poller);
+    const auto memory = targets->make_memory();
     for (const Curve& P : curves) {
-        const auto query = targets->query(CheckedCurve(P, "P"));
+        const auto query = targets->query(CheckedCurve(P, "P", poller), poller);
         std::vector<double> quick(curves.size());
         query->quick(quick.data());
         for (std::size_t j = 0; j < curves.size(); ++j) {

@@ -12,6 +12,7 @@
 #include "check.hpp"
 #include "curves.hpp"
 #include "oracle.hpp"
+#include "unpolled.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/ground_distance.hpp"
 #include "warping/path.hpp"
@@ -34,6 +35,7 @@ using curvewise::kernels::Recurrence;
 using oracle::Path;
 using test::Curve;
 using test::Random;
+using test::unpolled;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -133,8 +135,8 @@ class Comparison {
           setup_(setup),
           expected_(P, Q, setup),
           band_(P.size(), Q.size(), setup.window),
-          rows_(P, RangeScale(1.0), PointOrder::forward),
-          columns_(Q, RangeScale(1.0), PointOrder::reversed),
+          rows_(P, RangeScale(1.0), PointOrder::forward, unpolled),
+          columns_(Q, RangeScale(1.0), PointOrder::reversed, unpolled),
           cost_(curvewise::detail::canonical_cost(setup.ground, {rows_, columns_})) {}
 
     void run() const {

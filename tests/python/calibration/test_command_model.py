@@ -9,6 +9,8 @@ from __future__ import annotations
 import contextlib
 import os
 import pickle
+import random
+import re
 import shutil
 import signal
 import subprocess
@@ -23,6 +25,7 @@ import numpy as np
 import pytest
 
 from curvewise.calibration import CommandModel, SolverError, identify
+from curvewise.calibration.command_model import _placeholders
 
 SOLVER = "open('curve.txt', 'w').write('0 0\\n1 <<E>>\\n')\n"
 
@@ -196,6 +199,19 @@ def test_values_that_do_not_fit_are_refused(
         filled(tmp_path, text, value)
 
 
+def test_placeholders_are_what_stands_between_two_brackets_of_a_line() -> None:
+    rng = random.Random(4)
+    for _ in range(3000):
+        text = "".join(rng.choices("<>\nE", [6, 6, 1, 2], k=rng.randrange(40)))
+        expected = [match.span() for match in re.finditer("<<(.*?)>>", text)]
+        assert list(_placeholders(text)) == expected, text
+
+
+def test_open_brackets_take_linear_time(tmp_path: Path) -> None:
+    text = "<<" * 300_000  # read again for each of them, they would take an hour
+    assert filled(tmp_path, f"<<E>>\n{text}", 1.5) == f"1.5\n{text}"
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -268,6 +284,15 @@ def test_an_exit_code_keeps_the_log(tmp_path: Path) -> None:
     assert pickle.loads(pickle.dumps(caught.value)).args == caught.value.args
 
 
+def test_a_program_that_prints_without_end_is_stopped(tmp_path: Path) -> None:
+    script = "# <<E>>\nimport sys\nwhile True: sys.stdout.write('x' * 2**20)\n"
+    model = python_model(tmp_path, script, timeout=600)
+    with pytest.raises(SolverError, match="printed more than 64 MiB and was stopped") as caught:
+        model({"E": 1.0})
+    log = Path(str(caught.value).rpartition("the first of it: ")[2])
+    assert log.read_bytes() == b"x" * 2**20
+
+
 @posix
 def test_a_killed_solver_is_an_error(tmp_path: Path) -> None:
     model = python_model(tmp_path, "import os\nos.kill(os.getpid(), 9)  # <<E>>\n")
@@ -301,7 +326,9 @@ def test_what_a_solver_leaves_running_is_ended(tmp_path: Path) -> None:
 
 
 @contextlib.contextmanager
-def interrupted(folder: Path, solver: str, call: str) -> Iterator[subprocess.Popen[bytes]]:
+def interrupted(
+    folder: Path, solver: str, call: str, handler: str = "default_int_handler"
+) -> Iterator[subprocess.Popen[bytes]]:
     """Run a call that uses `model` in a process of its own, which says when it is interrupted."""
     (folder / "solver.py").write_text(solver)
     scratch = folder / "scratch"
@@ -314,7 +341,7 @@ def interrupted(folder: Path, solver: str, call: str) -> Iterator[subprocess.Pop
         f"    print, parameters=['E'], timeout=600, scratch={str(scratch)!r})\n"
         "if __name__ == '__main__':\n"
         # What a shell starts in the background ignores SIGINT, and so do its children.
-        "    signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        f"    signal.signal(signal.SIGINT, signal.{handler})\n"
         f"    try:\n        {call}\n"
         "    except KeyboardInterrupt:\n        print('interrupted')\n"
     )
@@ -408,18 +435,31 @@ def test_an_identification_goes_on_after_failures(tmp_path: Path) -> None:
     assert len(list((tmp_path / "scratch").iterdir())) == len(found.failures)
 
 
+SEARCH = "identify(model, [(0.0, 0.0), (1.0, 5.0)], {'E': (0.0, 10.0)}, workers=2, progress=False)"
+
+
 @posix
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
 def test_no_solver_outlives_an_identification(tmp_path: Path, how: signal.Signals) -> None:
     pipe = Pipe(tmp_path)
-    search = (
-        "identify(model, [(0.0, 0.0), (1.0, 5.0)], {'E': (0.0, 10.0)}, workers=2, progress=False)"
-    )
-    with interrupted(tmp_path, parent_and_child(pipe), search) as process:
+    with interrupted(tmp_path, parent_and_child(pipe), SEARCH) as process:
         wait_until(lambda: pipe.started() == 4)
         process.send_signal(how)
         output, _ = process.communicate(timeout=60)
     assert output == (b"interrupted\n" if how == signal.SIGINT else b"")
+    assert pipe.all_gone(processes=4)
+    wait_until(lambda: not list((tmp_path / "scratch").iterdir()))
+
+
+@posix
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
+def test_nor_one_that_was_started_in_the_background(tmp_path: Path, how: signal.Signals) -> None:
+    """There, SIGINT is ignored."""
+    pipe = Pipe(tmp_path)
+    with interrupted(tmp_path, parent_and_child(pipe), SEARCH, "SIG_IGN") as process:
+        wait_until(lambda: pipe.started() == 4)
+        process.send_signal(how)
+        process.communicate(timeout=60)
     assert pipe.all_gone(processes=4)
     wait_until(lambda: not list((tmp_path / "scratch").iterdir()))
 

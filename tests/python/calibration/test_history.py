@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import random
 import signal
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import numpy as np
 import pytest
 
 from curvewise.calibration import identify
+from curvewise.calibration.history import Evaluation, History
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
@@ -124,8 +126,58 @@ def test_a_spoilt_line_is_reported(tmp_path):
     lines = file.read_text().splitlines(keepends=True)
     lines[4] = "3,what,1,2,0,0.1,,\n"
     file.write_text("".join(lines))
-    with pytest.raises(ValueError, match="line 5: could not convert"):
+    with pytest.raises(ValueError, match="line 5 is damaged, by its checksum; delete the line"):
         identify(line, EXPERIMENT, BOUNDS, history=file, **QUICK)
+    lines[1] = lines[1].replace("value", "other")
+    file.write_text("".join(lines))
+    with pytest.raises(ValueError, match="line 2 is not the header of a history"):
+        identify(line, EXPERIMENT, BOUNDS, history=file, **QUICK)
+
+
+def test_no_damage_goes_unnoticed(tmp_path):
+    """What a damaged file holds is refused, or is what was written."""
+    file = tmp_path / "history.csv"
+    settings, names = {"seed": 0, "bounds": {"a": [0, 1]}}, ("a", "b")
+    rng = random.Random(6)
+    history = History(file, settings, names)
+    curves = (np.arange(6.0).reshape(3, 2),)
+    for number in range(1, 9):
+        point = (rng.random(), rng.random())
+        failed = number % 3 == 0
+        message = 'it said: "no",\nand ended' if failed else ""
+        kept = None if failed else curves
+        history.write(Evaluation(number, point, rng.random(), failed, 0.25, message, kept))
+    history.close()
+    content = file.read_bytes()
+    written = read_back(file, settings, names)
+    assert len(written) == 8
+    refused = 0
+    for _ in range(1000):
+        damaged = bytearray(content)
+        place = rng.randrange(len(damaged))
+        if rng.random() < 0.5:
+            damaged[place] = rng.choice(b'0123456789,.-\n"ae \xff\0')
+        else:
+            del damaged[place : place + rng.choice([1, 1, 2, 60, 300])]
+        file.write_bytes(damaged)
+        found = read_back(file, settings, names)
+        if found is None:
+            refused += 1
+        else:
+            assert set(found) <= set(written)
+    assert 600 < refused < 1000
+
+
+def read_back(file, settings, names):
+    """Return what a history holds, or None where it is refused in words."""
+    try:
+        history = History(file, settings, names)
+    except ValueError as error:
+        if str(file) not in str(error):
+            raise
+        return None
+    history.close()
+    return [repr(evaluation) for evaluation in history.saved.values()]
 
 
 SLOW_SCRIPT = """

@@ -70,6 +70,12 @@ def bad_types() -> Iterator[tuple[str, str, Any, str, type[Exception]]]:
         ("none", None, "{} has dtype object; a curve holds real numbers"),
         ("dates", dates, "{} has dtype datetime64[D]; a curve holds real numbers"),
         ("masked", masked, "{} is a masked array with masked entries; drop or fill them first"),
+        ("masked rows", [masked] * 3, "{} is a list with masked entries; drop or fill them first"),
+        (
+            "a masked number",
+            [(1.0, 2.0), (1.0, np.ma.masked)],
+            "{} is a list with masked entries; drop or fill them first",
+        ),
     ]
     dimensions = "{{}} has {} array dimensions; give shape (n, d), or (n,) for d = 1"
     ragged = "{} is ragged; a curve is n points with the same number of coordinates each"

@@ -108,6 +108,12 @@ def test_columns_that_are_not_asked_for_may_hold_anything(read):
     np.testing.assert_array_equal(read(content, [3]), [[0.0], [0.001], [0.002]])
 
 
+def test_empty_cells_at_the_end_of_a_line_are_no_surplus(read):
+    for content in ("1,2\n3,4,,\n", "1,2,\n3,4\n", "e,s\n1,2\n3,4,\n", "1\t2\n3\t4\t\n"):
+        assert read(content).tolist() == [[1.0, 2.0], [3.0, 4.0]]
+    assert read("e,s,note\n1,2\n3,4,spoilt\n").tolist() == [[1.0, 2.0], [3.0, 4.0]]
+
+
 def test_names_come_from_the_fullest_header_line(read):
     content = "Test 12b,,\nstrain,stress,note\n-,MPa,-\n0,0,\n1,2,\n"
     np.testing.assert_array_equal(read(content, ["stress"]), [[0.0], [2.0]])
@@ -158,6 +164,10 @@ def test_a_latin_1_header_names_its_column(read):
         ),
         ("0,0\n1," + "x" * 99, f"loop.csv, line 2, column 2: '{'x' * 37}...' is not a number"),
         ('0,0\n1,"' + "x" * 200_000, "loop.csv, line 2, column 2: '\"" + "x" * 36 + "...' is not"),
+        ("1,2\n2,5,3\n3,4", "loop.csv, line 2 has 3 cells, and 2 are expected by the lines above"),
+        ("e,s\n1,2\n2,5,3", "loop.csv, line 3 has 3 cells, and 2 are expected by the lines above"),
+        ("1,2,a\n" * 300 + "2,5,3,a", "loop.csv, line 301 has 4 cells, and 3 are expected"),
+        ("1 2\n1 2 3", "loop.csv, line 2 has 3 cells, and 2 are expected by the lines above"),
         ("", "loop.csv holds no numbers; a curve is one point per line"),
         ("# 1,2\n", "loop.csv holds no numbers; a curve is one point per line"),
         ("strain,stress\n", "loop.csv holds no numbers; a curve is one point per line"),

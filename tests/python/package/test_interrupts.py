@@ -26,6 +26,8 @@ def random_walk(n: int, dim: int = 2, seed: int = 0) -> np.ndarray:
 
 LONG = random_walk(300_000), random_walk(300_000, seed=1)
 MANY = [random_walk(100, seed=seed) for seed in range(200)] * 50
+SHORT = random_walk(160)
+ENDLESS = np.broadcast_to(np.array([1.0, 2.0]), (10**10, 2))  # takes no memory
 ZIGZAG = np.column_stack((np.arange(20_001) % 2, np.zeros(20_001)))
 
 MANY_ALIKE = curvewise.Index([LONG[0][: 300 + i] for i in range(200)] * 10)
@@ -54,6 +56,11 @@ LONG_CALLS: dict[str, Callable[[], object]] = {
     "subsequence": lambda: curvewise.subsequence(*LONG, k=3),
     "dtw_mean": lambda: curvewise.dtw_mean(LONG, initial=LONG[0], workers=2),
     "medoid": lambda: curvewise.medoid(MANY, "frechet", metric="minkowski", p=3),
+    "Prepared, few points": lambda: curvewise.Prepared(
+        random_walk(3000, 2000), "dtw", metric="minkowski", p=3
+    )(random_walk(2000, 2000)),
+    "cdist, many offsets": lambda: curvewise.cdist([SHORT], [SHORT[:80]], "pcm", offsets=10**9),
+    "sum_of_squares": lambda: curvewise.sum_of_squares(ENDLESS, ENDLESS),
     "Prepared, list": lambda: curvewise.Prepared(LONG[0], "dtw")([LONG[1]] * 3, workers=2),
 }
 

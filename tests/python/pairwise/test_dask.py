@@ -230,6 +230,52 @@ def test_a_cluster(client: Client) -> None:
     assert len(client.scheduler_info()["workers"]) == 2
 
 
+SCRIPT = """
+import os, signal, sys, threading, time
+import numpy as np
+import curvewise.dask
+
+signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in the background
+walks = [np.random.default_rng(k).normal(size=(300_000, 2)).cumsum(axis=0) for k in range(4)]
+lazy = curvewise.dask.cdist(walks, block=1, metric="minkowski", p=3)  # minutes a block
+threading.Timer(1.0, os.kill, [os.getpid(), signal.SIGINT]).start()
+try:
+    lazy.compute(scheduler="threads", num_workers=2)
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+def running():
+    modules = [frame.f_globals["__name__"] for frame in sys._current_frames().values()]
+    return "curvewise.pairwise" in modules
+if sys.argv[1] == "stay":
+    while running():
+        time.sleep(0.01)
+    print("idle", flush=True)
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="os.kill sends SIGINT on POSIX systems only")
+@pytest.mark.parametrize(("then", "output"), [("leave", ""), ("stay", "idle\n")])
+def test_ctrl_c_ends_the_blocks_that_have_begun(then: str, output: str) -> None:
+    """The process ends, too, which waits for its threads."""
+    run = subprocess.run(
+        [sys.executable, "-c", SCRIPT, then], capture_output=True, text=True, timeout=60, check=True
+    )
+    assert run.stdout == "interrupted\n" + output
+
+
+def test_cancelling_ends_the_blocks_that_have_begun(client: Client) -> None:
+    long = [np.random.default_rng(k).normal(size=(300_000, 2)).cumsum(axis=0) for k in range(2)]
+    future = client.compute(curvewise.dask.cdist(long, block=1, metric="minkowski", p=3))
+    while not any(client.processing().values()):
+        time.sleep(0.01)
+    time.sleep(0.3)
+    future.cancel()
+    # The workers are free again: what they are given now they compute.
+    few = walks(3)
+    found = client.compute(curvewise.dask.cdist(few)).result(timeout=60)
+    assert np.array_equal(found, curvewise.cdist(few))
+
+
 def test_a_worker_killed_in_the_middle_loses_nothing(client: Client, tmp_path: Path) -> None:
     curves = walks(20)
     # 25 blocks of 16 pairs, a sixth of a second each: some are done, one is half done.

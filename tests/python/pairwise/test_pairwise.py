@@ -147,6 +147,18 @@ def test_cutoff_between_rows_of_strips(measure):
         np.testing.assert_array_equal(curvewise.pdist(loops, measure, cutoff=cutoff), expected)
 
 
+def test_out_may_overlap_the_curves():
+    Z = np.random.default_rng(1).normal(size=(6, 6))
+    expected = curvewise.cdist(Z[:, :, np.newaxis])
+    found = curvewise.cdist(Z[:, :, np.newaxis], out=Z)
+    assert found is Z
+    np.testing.assert_array_equal(Z, expected)
+    flat = np.random.default_rng(2).normal(size=45)
+    curves = flat[:40].reshape(10, 4)
+    expected = curvewise.pdist(list(curves))
+    np.testing.assert_array_equal(curvewise.pdist(list(curves), out=flat), expected)
+
+
 def test_out_is_filled_and_returned(curves):
     out = np.full((len(curves), 3), np.nan)
     assert curvewise.cdist(curves, curves[:3], out=out) is out

@@ -1,0 +1,112 @@
+// Every call on long curves hears that it is to stop, at every stage of it: while curves are read,
+// packed, scaled and refined as well as during the work itself. No test asserts a time. A Control
+// with an interval of 0 is asked at every poll: how often that is, and that each of them can end
+// the call, is what is checked.
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "check.hpp"
+#include "curves.hpp"
+#include "curvewise/curvewise.hpp"
+
+namespace {
+
+using namespace curvewise;
+using test::Curve;
+using test::Random;
+
+constexpr std::ptrdiff_t points = std::ptrdiff_t{1} << 18;
+
+using Call = std::function<void(Control*)>;
+
+// How often `call` looks at its Control.
+int polls_of(const Call& call) {
+    int polls = 0;
+    Control control([&](std::int64_t, std::int64_t) { return ++polls > 0; },
+                    std::chrono::milliseconds(0));
+    call(&control);
+    return polls;
+}
+
+// Whether `call` ends where the poll of that number says so, counted from 1.
+bool ends_at(const Call& call, int number) {
+    int polls = 0;
+    Control control([&](std::int64_t, std::int64_t) { return ++polls < number; },
+                    std::chrono::milliseconds(0));
+    try {
+        call(&control);
+    } catch (const Stopped&) {
+        return polls == number;
+    }
+    return false;
+}
+
+// At least one poll in every so many points that are read: each of them is read several times.
+constexpr int fewest_polls = 2 * points / (std::ptrdiff_t{1} << 16);
+
+void hears(const std::string& name, const Call& call) {
+    const check::Note note(name);
+    const int polls = polls_of(call);
+    CHECK(polls >= fewest_polls);
+    const int step = polls / 4 + 1;
+    for (int number = 1; number <= polls; number += step) CHECK(ends_at(call, number));
+    CHECK(ends_at(call, polls));
+}
+
+// Of two points against many the work is linear, and the reading is most of it.
+void single_calls() {
+    Random random(3);
+    const Curve P = random.walk(points), Q = random.walk(points), few = P.part(0, 2);
+    std::vector<double> out(static_cast<std::size_t>(2 * points));
+    for_each_measure([&](auto options) {
+        if constexpr (std::is_same_v<decltype(options), CurveLengthOptions>) {
+            options.scale = LengthScale::range;
+        }
+        hears(options.measure, [&](Control* control) { evaluate(options, few, Q, control); });
+        hears(std::string(options.measure) + ", the other way round",
+              [&](Control* control) { evaluate(options, P, few, control); });
+    });
+    const AreaOptions by_arc_length{Spacing::arc_length};
+    const CurveLengthOptions by_range{LengthScale::range};
+    hears("area by arc length", [&](Control* control) { area(P, Q, by_arc_length, control); });
+    hears("area_quads", [&](Control* control) { area_quads(P, few, {}, control); });
+    hears("pcm_match", [&](Control* control) { pcm_match(P, Q, {2}, control); });
+    hears("residuals",
+          [&](Control* control) { curve_length_residuals(P, Q, out.data(), by_range, control); });
+    hears("dtw_path", [&](Control* control) { dtw_path(few, Q, {}, control); });
+    hears("frechet_path", [&](Control* control) { frechet_path(few, Q, {}, control); });
+    DtwOptions window;
+    window.window = 1;
+    hears("dtw_table", [&](Control* control) { dtw_table(few, Q, out.data(), window, control); });
+    hears("sum_of_squares", [&](Control* control) { sum_of_squares(P, Q, control); });
+    hears("mse", [&](Control* control) { mse(P, Q, control); });
+    hears("mae", [&](Control* control) { mae(P, Q, control); });
+    hears("normalize", [&](Control* control) { normalize(P, Q, out.data(), "Q", control); });
+}
+
+void batches() {
+    Random random(4);
+    const Curve P = random.walk(points), Q = random.walk(2);
+    const std::vector<CurveView> rows{P}, columns{Q};
+    std::vector<double> out(1);
+    for_each_measure([&](auto options) {
+        if constexpr (std::is_same_v<decltype(options), CurveLengthOptions>) {
+            options.scale = LengthScale::range;
+        }
+        const std::string name = options.measure;
+        hears("check_batch, " + name,
+              [&](Control* control) { check_batch(rows, rows, options, control); });
+        hears("cdist, " + name,
+              [&](Control* control) { cdist(rows, columns, options, out.data(), {}, control); });
+        hears("Prepared, " + name,
+              [&](Control* control) { Prepared(P, options, control)(Q, control); });
+    });
+}
+
+}  // namespace
+
+int main() { return check::run({{"single calls", single_calls}, {"batches", batches}}); }
