@@ -31,9 +31,9 @@ struct PcmOptions {
     // The number of evenly spaced offsets, at least 1 (1: no offset). Time O(offsets (n + m)).
     std::ptrdiff_t offsets = 200;
     // Search all offsets instead, by branch and bound: to 1e-12 of S, or 1e-13 of the value where
-    // that is more. `offsets` is not used. 10^3 evaluations of O(n + m) are usual. After 2^20 of them the
-    // tolerance is doubled with every 2^14 more, so that a curve of up to 10^6 boxes in length takes
-    // 2.1 million at most.
+    // that is more. `offsets` is not used. 10^3 evaluations of O(n + m) are usual. After 2^20 of
+    // them the tolerance is doubled with every 2^14 more, so that a curve of up to 10^6 boxes in
+    // length takes 2.1 million at most.
     bool continuous = false;
 
     static constexpr bool is_symmetric() noexcept { return false; }
