@@ -53,8 +53,7 @@ class Targets {
     virtual std::ptrdiff_t size() const noexcept = 0;
     // Throws where P serves no Q, as query() does.
     virtual void check(const CheckedCurve& P, Poller& poller) const = 0;
-    virtual std::unique_ptr<TargetQuery> query(const CheckedCurve& P,
-                                               Poller& poller) const = 0;
+    virtual std::unique_ptr<TargetQuery> query(const CheckedCurve& P, Poller& poller) const = 0;
     // The nominal steps of a P of n points with all of these.
     virtual std::int64_t steps(std::ptrdiff_t n) const noexcept = 0;
     virtual std::unique_ptr<ThreadMemory> make_memory() const = 0;
