@@ -10,8 +10,9 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from . import _core, datasets
+from . import _core, curves, datasets
 from .compare import Comparison, compare
+from .curve_files import read_curve
 from .embedding import get_include
 from .measures import (
     area,
@@ -63,6 +64,7 @@ __all__ = [
     "compare",
     "curve_length",
     "curve_length_residuals",
+    "curves",
     "datasets",
     "dtw",
     "dtw_info",
@@ -82,6 +84,7 @@ __all__ = [
     "pcm",
     "pcm_match",
     "pdist",
+    "read_curve",
     "reference",
     "sum_of_squares",
 ]
