@@ -36,6 +36,7 @@ from .measures import (
     pcm,
     pcm_match,
     sum_of_squares,
+    value_and_gradient,
 )
 from .pairwise import Prepared, available_measures, cdist, pdist
 from .results import Alignment, AreaQuads, Matching, PcmMatch, WarpingInfo
@@ -87,6 +88,7 @@ __all__ = [
     "read_curve",
     "reference",
     "sum_of_squares",
+    "value_and_gradient",
 ]
 
 _LAZY = ("calibration", "compat", "dask", "plotting", "reference")

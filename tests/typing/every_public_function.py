@@ -63,6 +63,7 @@ names: list[str] = curvewise.available_measures()
 
 residuals: FloatArray = curvewise.curve_length_residuals(P, Q, scale="range")
 number = curvewise.sum_of_squares(P, P) + curvewise.mse(P, P) + curvewise.mae(P, P)
+value_and_slope: tuple[float, FloatArray] = curvewise.value_and_gradient(P, Q, "area", spacing="x")
 scaled: list[FloatArray] = curvewise.normalize(P, Q, listed)
 
 comparison: curvewise.Comparison = curvewise.compare(P, Q, preset="paper", measures=["dtw"])

@@ -5,6 +5,7 @@
 #include "curvewise/compare.hpp"
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
+#include "curvewise/gradient.hpp"
 #include "curvewise/measure.hpp"  // and all measures
 #include "curvewise/options.hpp"
 #include "curvewise/pairwise.hpp"

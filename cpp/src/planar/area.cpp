@@ -1,90 +1,56 @@
 // Algorithm 1 of Jekel et al. (2018): refinement, then the areas of the quadrilaterals between
-// the curves. Areas are half the cross product of the diagonals, Gauss's formula without its
-// cancellation. With Spacing::matched the curves are matched by a warping path instead
+// the curves (quad.hpp). With Spacing::matched the curves are matched by a warping path instead
 // (matching.hpp), and areas have signs, which cancel within a piece.
 #include "curvewise/area.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <stdexcept>
 
 #include "curves/polyline.hpp"
+#include "curvewise/gradient.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
 #include "planar/matching.hpp"
+#include "planar/quad.hpp"
 #include "planar/refinement.hpp"
 
 namespace curvewise {
 namespace {
 
-using detail::cross;
+using detail::Measured;
 using detail::Point;
+using detail::Polyline;
+using detail::Quad;
 using detail::RangeScale;
-
-struct Quad {
-    Point a, b, c, d;
-
-    // By the signs of the cross products of consecutive edges (the paper's Eq. 6, where CD is
-    // misprinted): two of each in a quadrilateral that intersects itself.
-    bool is_simple() const noexcept {
-        const Point ab = b - a, bc = c - b, cd = d - c, da = a - d;
-        const double turns[] = {cross(ab, bc), cross(bc, cd), cross(cd, da), cross(da, ab)};
-        int left = 0;
-        int right = 0;
-        for (const double turn : turns) {
-            left += turn >= 0.0;
-            right += turn <= 0.0;
-        }
-        return left >= 3 || right >= 3;
-    }
-
-    // Positive if the corners turn left.
-    double signed_area() const noexcept { return 0.5 * cross(c - a, d - b); }
-    double area() const noexcept { return std::abs(signed_area()); }
-
-    // For a complex quadrilateral: its first two vertices swapped, or its second and third.
-    Quad rearranged() const noexcept {
-        const Quad swapped{b, a, c, d};
-        return swapped.is_simple() ? swapped : Quad{a, c, b, d};
-    }
-
-    // Where AB crosses CD: the areas of the two triangles at the crossing point, which divides
-    // CD as |ABC| : |ABD|. Negative where they do not cross.
-    double split_area() const noexcept {
-        const double abc = cross(b - a, c - a), abd = cross(b - a, d - a);
-        const double cda = cross(d - c, a - c), cdb = cross(d - c, b - c);
-        if (!opposite(abc, abd) || !opposite(cda, cdb)) return -1.0;
-        const double sum = std::abs(abc) + std::abs(abd);
-        return 0.5 * (std::abs(abc) / sum * std::abs(cdb) + std::abs(abd) / sum * std::abs(cda));
-    }
-
-   private:
-    static bool opposite(double s, double t) noexcept {
-        return (s <= 0.0 && t >= 0.0 && s != t) || (s >= 0.0 && t <= 0.0 && s != t);
-    }
-};
-
-// The quadrilateral as its area is taken, and that area.
-struct Measured {
-    Quad quad;
-    double area;
-};
-
-Measured measure(const Quad& quad, Crossing crossing) noexcept {
-    if (quad.is_simple()) return {quad, quad.area()};
-    if (crossing == Crossing::split) {
-        const double area = quad.split_area();
-        if (area >= 0.0) return {quad, area};
-        const double other = Quad{quad.b, quad.c, quad.d, quad.a}.split_area();
-        if (other >= 0.0) return {quad, other};
-    }
-    const Quad simple = quad.rearranged();
-    return {simple, simple.area()};
-}
 
 // Of FacingCurves or of a Matching.
 template <class Curves>
 Quad quad_at(const Curves& curves, std::size_t i) noexcept {
     return {curves.A[i], curves.A[i + 1], curves.B[i + 1], curves.B[i]};
+}
+
+// Of a curve before its refinement, given those by the vertices after it: a cut at a + h (b - a)
+// hands 1 - h of its own to a and h to b.
+void write_unrefined(const Polyline& by_vertex, const std::vector<detail::Cut>& cuts,
+                     const RangeScale& range, int degree, double* gradient) {
+    std::size_t vertex = 0;
+    auto cut = cuts.begin();
+    Point carried{0.0, 0.0};
+    for (std::size_t i = 0; vertex < by_vertex.size(); ++i) {
+        Point sum{by_vertex[vertex].x + carried.x, by_vertex[vertex].y + carried.y};
+        carried = {0.0, 0.0};
+        ++vertex;
+        for (; cut != cuts.end() && cut->first == i; ++cut, ++vertex) {
+            const double h = cut->second;
+            sum = {sum.x + (1.0 - h) * by_vertex[vertex].x,
+                   sum.y + (1.0 - h) * by_vertex[vertex].y};
+            carried = {carried.x + h * by_vertex[vertex].x, carried.y + h * by_vertex[vertex].y};
+        }
+        gradient[2 * i] = range.restore(sum.x, degree);
+        gradient[2 * i + 1] = range.restore(sum.y, degree);
+    }
 }
 
 class AreaMeasure : public detail::LinearMeasure {
@@ -136,6 +102,35 @@ class AreaMeasure : public detail::LinearMeasure {
             for_each_quad(P, Q, range, call.poller, add);
         }
         return result;
+    }
+
+    // The area, and its derivative by Q.
+    double with_gradient(const PreparedP& P, const PreparedQ& Q, double* gradient,
+                         const detail::Call<Memory>& call) const {
+        const RangeScale range = range_of(P, Q);
+        const detail::FacingCurves curves =
+            detail::face(P.checked.curve, Q.checked.curve, range, options_.spacing, call.poller);
+        const bool q_is_a = P.checked.curve.size() < Q.checked.curve.size();
+        Polyline by_vertex(curves.A.size(), Point{0.0, 0.0});
+        double sum = 0.0;
+        for (std::size_t i = 0; i + 1 < curves.A.size(); ++i) {
+            call.poller.poll_in_loop(i);
+            const Quad quad = quad_at(curves, i);
+            const Measured measured = measure(quad, options_.crossing);
+            sum += options_.squared ? measured.area * measured.area : measured.area;
+            const detail::CornerGradient by_corner = area_gradient(quad, measured.figure);
+            const double weight = options_.squared ? 2.0 * measured.area : 1.0;
+            const Point& first = by_corner[q_is_a ? 0 : 3];
+            const Point& second = by_corner[q_is_a ? 1 : 2];
+            by_vertex[i].x += weight * first.x;
+            by_vertex[i].y += weight * first.y;
+            by_vertex[i + 1].x += weight * second.x;
+            by_vertex[i + 1].y += weight * second.y;
+        }
+        const int degree = options_.squared ? 4 : 2;
+        const std::vector<detail::Cut> none;
+        write_unrefined(by_vertex, q_is_a ? none : curves.cuts, range, degree - 1, gradient);
+        return range.restore(sum, degree);
     }
 
    private:
@@ -190,6 +185,20 @@ AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& 
     return detail::with_pair(
         measure, P, Q, control,
         [&](const auto& p, const auto& q, const auto& call) { return measure.quads(p, q, call); });
+}
+
+double value_and_gradient(const AreaOptions& options, const CurveView& P, const CurveView& Q,
+                          double* gradient, Control* control) {
+    if (options.spacing == Spacing::arc_length || options.spacing == Spacing::matched) {
+        throw std::invalid_argument(
+            "area has a gradient with spacing='distance' or 'x' only: with the others its places "
+            "move along Q");
+    }
+    const AreaMeasure measure(options);
+    return detail::with_pair(measure, P, Q, control,
+                             [&](const auto& p, const auto& q, const auto& call) {
+                                 return measure.with_gradient(p, q, gradient, call);
+                             });
 }
 
 std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(const AreaOptions& options) {

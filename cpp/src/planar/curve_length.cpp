@@ -2,6 +2,7 @@
 #include "curvewise/curve_length.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 
 #include "curves/arc_length.hpp"
 #include "curves/range_scale.hpp"
+#include "curvewise/gradient.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
 
@@ -64,12 +66,13 @@ struct Coordinate {
     std::vector<double> p;
     std::vector<double> q;
     const char* name;
+    RangeScale range = RangeScale(1.0);
 
     Coordinate(const CurveView& P, const CurveView& Q, std::ptrdiff_t c)
         : p(values(P, c)), q(values(Q, c)), name(c == 0 ? "x" : "y") {
         const double largest = largest_magnitude(p);
         if (RangeScale(std::max(largest, largest_magnitude(q))).is_identity()) return;
-        const RangeScale range = RangeScale::to_unity(largest);
+        range = RangeScale::to_unity(largest);
         for (double& value : p) value = range.shrink(value);
         for (double& value : q) value = range.shrink(value);
     }
@@ -131,6 +134,61 @@ void write_residuals(const Coordinate& x, const std::vector<Place>& places, doub
     }
 }
 
+// Goes back from the derivatives by places on Q to those by Q's points: of a place at arc length
+// s / L_P of Q, whose lengths are taken after dividing by Q's largest |x| and |y|, which move too.
+class PlaceGradient {
+   public:
+    PlaceGradient(const CurveView& Q, const std::vector<double>& arc_lengths)
+        : Q_(Q), arc_lengths_(arc_lengths), by_length_(arc_lengths.size(), 0.0) {}
+
+    // By the fraction of its segment at which a place lies, `share` of Q's length from its start.
+    void add(const Place& place, double share, double by_fraction) noexcept {
+        const std::size_t k = place.segment;
+        const double length = arc_lengths_[k + 1] - arc_lengths_[k];
+        if (!(length > 0.0)) return;
+        by_length_[k] -= (1.0 - place.fraction) * by_fraction / length;
+        by_length_[k + 1] -= place.fraction * by_fraction / length;
+        by_length_.back() += share * by_fraction / length;
+    }
+
+    // Adds the derivatives by Q's points.
+    void write(double* gradient) const noexcept {
+        const std::array<std::ptrdiff_t, 2> largest{largest_of(0), largest_of(1)};
+        double by_segment = 0.0;  // by its length: all later arc lengths hold it
+        for (auto k = static_cast<std::ptrdiff_t>(by_length_.size()) - 1; k > 0; --k) {
+            const auto vertex = static_cast<std::size_t>(k);
+            by_segment += by_length_[vertex];
+            const double length = arc_lengths_[vertex] - arc_lengths_[vertex - 1];
+            if (!(length > 0.0)) continue;
+            for (std::size_t c = 0; c < 2; ++c) {
+                const auto coordinate = static_cast<std::ptrdiff_t>(c);
+                const double divisor = Q_(largest[c], coordinate);
+                if (divisor == 0.0) continue;
+                const double step = (Q_(k, coordinate) - Q_(k - 1, coordinate)) / std::abs(divisor);
+                const double slope = by_segment * step / length / std::abs(divisor);
+                gradient[2 * k + coordinate] += slope;
+                gradient[2 * (k - 1) + coordinate] -= slope;
+                gradient[2 * largest[c] + coordinate] -=
+                    slope * step * (divisor < 0.0 ? -1.0 : 1.0);
+            }
+        }
+    }
+
+   private:
+    // The first of the points with the largest magnitude.
+    std::ptrdiff_t largest_of(std::ptrdiff_t c) const noexcept {
+        std::ptrdiff_t largest = 0;
+        for (std::ptrdiff_t i = 1; i < Q_.size(); ++i) {
+            if (std::abs(Q_(i, c)) > std::abs(Q_(largest, c))) largest = i;
+        }
+        return largest;
+    }
+
+    CurveView Q_;
+    const std::vector<double>& arc_lengths_;
+    std::vector<double> by_length_;  // by the arc length at every vertex
+};
+
 class CurveLengthMeasure : public detail::LinearMeasure {
    public:
     struct Side {
@@ -177,6 +235,37 @@ class CurveLengthMeasure : public detail::LinearMeasure {
         }
     }
 
+    // The value, and its derivative by Q.
+    double with_gradient(const PreparedP& P, const PreparedQ& Q, double* gradient,
+                         const detail::Call<Memory>& call) const {
+        const double value = (*this)(P, Q, call);
+        const CurveView& q = Q.checked.curve;
+        std::fill_n(gradient, static_cast<std::size_t>(2 * q.size()), 0.0);
+        if (value == 0.0) return value;
+        const std::vector<Place> places =
+            corresponding_places(P.arc_lengths, Q.arc_lengths, call.poller);
+        PlaceGradient by_place(q, Q.arc_lengths);
+        for (std::ptrdiff_t c = 0; c < 2; ++c) {
+            const Coordinate x(P.checked.curve, q, c);
+            const double scale = coordinate_scale(x, options_.scale, P.checked.name);
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                call.poller.poll_in_loop(i);
+                const auto [k, fraction] = places[i];
+                const double edge = x.q[k + 1] - x.q[k];
+                const double relative = (x.q[k] + fraction * edge - x.p[i]) / std::abs(scale);
+                const double residual = std::log1p(std::abs(relative));
+                const double slope = std::copysign(residual, relative) / value /
+                                     (1.0 + std::abs(relative)) / std::abs(scale);
+                const std::ptrdiff_t at = 2 * static_cast<std::ptrdiff_t>(k) + c;
+                gradient[at] += x.range.shrink((1.0 - fraction) * slope);
+                gradient[at + 2] += x.range.shrink(fraction * slope);
+                by_place.add(places[i], P.arc_lengths[i] / P.arc_lengths.back(), slope * edge);
+            }
+        }
+        by_place.write(gradient);
+        return value;
+    }
+
    private:
     CurveLengthOptions options_;
 };
@@ -194,6 +283,15 @@ void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
     detail::with_pair(measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
         measure.residuals(p, q, out, call);
     });
+}
+
+double value_and_gradient(const CurveLengthOptions& options, const CurveView& P, const CurveView& Q,
+                          double* gradient, Control* control) {
+    const CurveLengthMeasure measure(options);
+    return detail::with_pair(measure, P, Q, control,
+                             [&](const auto& p, const auto& q, const auto& call) {
+                                 return measure.with_gradient(p, q, gradient, call);
+                             });
 }
 
 std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(
