@@ -17,6 +17,8 @@ class BoxSide {
 
     bool has_extent() const noexcept { return has_extent_; }
     double scaled(double x) const noexcept { return (range_.shrink(x) - low_) / extent_; }
+    // The derivative of scaled().
+    double slope() const noexcept { return range_.shrink(1.0 / extent_); }
 
    private:
     RangeScale range_;

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "curves/arc_gradient.hpp"
+#include "curves/arc_length.hpp"
 #include "curves/polyline.hpp"
 #include "curvewise/gradient.hpp"
 #include "pairwise/batch_of.hpp"
@@ -53,6 +55,37 @@ void write_unrefined(const Polyline& by_vertex, const std::vector<detail::Cut>& 
     }
 }
 
+// Of Q, given those by the vertices of a matching's B: what is no vertex of Q lies at a fixed share
+// of its length.
+void write_unmatched(const Polyline& by_vertex, const detail::PlacesOnQ& on_q, const Polyline& q,
+                     const RangeScale& range, int degree, double* gradient) {
+    std::fill_n(gradient, 2 * q.size(), 0.0);
+    const std::vector<double> arc_lengths = detail::arc_lengths(on_q.scaled);
+    detail::ArcGradient by_arc(arc_lengths);
+    for (std::size_t i = 0; i < by_vertex.size(); ++i) {
+        const auto& [is_vertex, k, h, share] = on_q.places[i];
+        const Point& by_point = by_vertex[i];
+        gradient[2 * k] += (1.0 - h) * by_point.x;
+        gradient[2 * k + 1] += (1.0 - h) * by_point.y;
+        if (is_vertex) continue;
+        gradient[2 * k + 2] += h * by_point.x;
+        gradient[2 * k + 3] += h * by_point.y;
+        const Point edge = q[k + 1] - q[k];
+        by_arc.add(k, h, share, by_point.x * edge.x + by_point.y * edge.y);
+    }
+    for (std::size_t k = 0; k < 2 * q.size(); ++k) {
+        gradient[k] = range.restore(gradient[k], degree - 1);
+    }
+    by_arc.for_each_segment([&](std::size_t k, double length, double by_length) {
+        const Point step = on_q.scaled[k] - on_q.scaled[k - 1];
+        const double by_step = range.restore(by_length / length, degree);
+        gradient[2 * k] += by_step * step.x * on_q.slopes[0];
+        gradient[2 * k + 1] += by_step * step.y * on_q.slopes[1];
+        gradient[2 * k - 2] -= by_step * step.x * on_q.slopes[0];
+        gradient[2 * k - 1] -= by_step * step.y * on_q.slopes[1];
+    });
+}
+
 class AreaMeasure : public detail::LinearMeasure {
    public:
     using PreparedP = detail::UnpreparedCurve;
@@ -67,7 +100,8 @@ class AreaMeasure : public detail::LinearMeasure {
         double sum = 0.0;
         const auto add = [&](double area) { sum += options_.squared ? area * area : area; };
         if (options_.spacing == Spacing::matched) {
-            for_each_piece(P, Q, range, call.poller,
+            for_each_piece(detail::match(P.checked.curve, Q.checked.curve, range, call.poller),
+                           call.poller,
                            [&](const auto&, auto, auto, double area) { add(std::abs(area)); });
         } else {
             for_each_quad(P, Q, range, call.poller, [&](const Measured& quad) { add(quad.area); });
@@ -90,8 +124,8 @@ class AreaMeasure : public detail::LinearMeasure {
             result.areas.push_back(range.restore(measured.area, 2));
         };
         if (options_.spacing == Spacing::matched) {
-            for_each_piece(P, Q, range, call.poller,
-                           [&](const auto& curves, auto first, auto end, double area) {
+            for_each_piece(detail::match(P.checked.curve, Q.checked.curve, range, call.poller),
+                           call.poller, [&](const auto& curves, auto first, auto end, double area) {
                                for (std::size_t i = first; i < end; ++i) {
                                    const Quad quad = quad_at(curves, i);
                                    const double part = quad.signed_area();
@@ -133,6 +167,33 @@ class AreaMeasure : public detail::LinearMeasure {
         return range.restore(sum, degree);
     }
 
+    // The same with Spacing::matched.
+    double with_matched_gradient(const PreparedP& P, const PreparedQ& Q, double* gradient,
+                                 const detail::Call<Memory>& call) const {
+        const RangeScale range = range_of(P, Q);
+        detail::PlacesOnQ on_q;
+        const detail::Matching curves =
+            detail::match(P.checked.curve, Q.checked.curve, range, call.poller, &on_q);
+        Polyline by_vertex(curves.B.size(), Point{0.0, 0.0});
+        double sum = 0.0;
+        for_each_piece(curves, call.poller, [&](const auto&, auto first, auto end, double area) {
+            sum += options_.squared ? area * area : std::abs(area);
+            const double side = area < 0.0 ? -1.0 : static_cast<double>(area > 0.0);
+            const double weight = options_.squared ? 2.0 * area : side;
+            for (std::size_t i = first; i < end; ++i) {
+                const auto by_corner = signed_area_gradient(quad_at(curves, i));
+                by_vertex[i].x += weight * by_corner[3].x;
+                by_vertex[i].y += weight * by_corner[3].y;
+                by_vertex[i + 1].x += weight * by_corner[2].x;
+                by_vertex[i + 1].y += weight * by_corner[2].y;
+            }
+        });
+        const int degree = options_.squared ? 4 : 2;
+        write_unmatched(by_vertex, on_q, detail::polyline(Q.checked.curve, range), range, degree,
+                        gradient);
+        return range.restore(sum, degree);
+    }
+
    private:
     static RangeScale range_of(const PreparedP& P, const PreparedQ& Q) noexcept {
         return RangeScale(std::max(P.checked.largest, Q.checked.largest));
@@ -154,10 +215,8 @@ class AreaMeasure : public detail::LinearMeasure {
     // quadrilaterals are those from `first` to before `end`, and their areas, with their signs,
     // make up `area`.
     template <class Visit>
-    void for_each_piece(const PreparedP& P, const PreparedQ& Q, const RangeScale& range,
-                        detail::Poller& poller, Visit visit) const {
-        const detail::Matching curves =
-            detail::match(P.checked.curve, Q.checked.curve, range, poller);
+    static void for_each_piece(const detail::Matching& curves, detail::Poller& poller,
+                               Visit visit) {
         std::size_t first = 0;
         for (const std::size_t end : curves.ends) {
             double area = 0.0;
@@ -189,15 +248,16 @@ AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& 
 
 double value_and_gradient(const AreaOptions& options, const CurveView& P, const CurveView& Q,
                           double* gradient, Control* control) {
-    if (options.spacing == Spacing::arc_length || options.spacing == Spacing::matched) {
+    if (options.spacing == Spacing::arc_length) {
         throw std::invalid_argument(
-            "area has a gradient with spacing='distance' or 'x' only: with the others its places "
-            "move along Q");
+            "area has no gradient with spacing='arc_length'; choose from distance, x, matched");
     }
     const AreaMeasure measure(options);
     return detail::with_pair(measure, P, Q, control,
                              [&](const auto& p, const auto& q, const auto& call) {
-                                 return measure.with_gradient(p, q, gradient, call);
+                                 return options.spacing == Spacing::matched
+                                            ? measure.with_matched_gradient(p, q, gradient, call)
+                                            : measure.with_gradient(p, q, gradient, call);
                              });
 }
 

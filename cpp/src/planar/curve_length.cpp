@@ -2,7 +2,6 @@
 #include "curvewise/curve_length.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "curves/arc_gradient.hpp"
 #include "curves/arc_length.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/gradient.hpp"
@@ -134,60 +134,32 @@ void write_residuals(const Coordinate& x, const std::vector<Place>& places, doub
     }
 }
 
-// Goes back from the derivatives by places on Q to those by Q's points: of a place at arc length
-// s / L_P of Q, whose lengths are taken after dividing by Q's largest |x| and |y|, which move too.
-class PlaceGradient {
-   public:
-    PlaceGradient(const CurveView& Q, const std::vector<double>& arc_lengths)
-        : Q_(Q), arc_lengths_(arc_lengths), by_length_(arc_lengths.size(), 0.0) {}
-
-    // By the fraction of its segment at which a place lies, `share` of Q's length from its start.
-    void add(const Place& place, double share, double by_fraction) noexcept {
-        const std::size_t k = place.segment;
-        const double length = arc_lengths_[k + 1] - arc_lengths_[k];
-        if (!(length > 0.0)) return;
-        by_length_[k] -= (1.0 - place.fraction) * by_fraction / length;
-        by_length_[k + 1] -= place.fraction * by_fraction / length;
-        by_length_.back() += share * by_fraction / length;
+// The first of the points whose coordinate has the largest magnitude.
+std::ptrdiff_t largest_of(const CurveView& curve, std::ptrdiff_t c) noexcept {
+    std::ptrdiff_t largest = 0;
+    for (std::ptrdiff_t i = 1; i < curve.size(); ++i) {
+        if (std::abs(curve(i, c)) > std::abs(curve(largest, c))) largest = i;
     }
+    return largest;
+}
 
-    // Adds the derivatives by Q's points.
-    void write(double* gradient) const noexcept {
-        const std::array<std::ptrdiff_t, 2> largest{largest_of(0), largest_of(1)};
-        double by_segment = 0.0;  // by its length: all later arc lengths hold it
-        for (auto k = static_cast<std::ptrdiff_t>(by_length_.size()) - 1; k > 0; --k) {
-            const auto vertex = static_cast<std::size_t>(k);
-            by_segment += by_length_[vertex];
-            const double length = arc_lengths_[vertex] - arc_lengths_[vertex - 1];
-            if (!(length > 0.0)) continue;
-            for (std::size_t c = 0; c < 2; ++c) {
-                const auto coordinate = static_cast<std::ptrdiff_t>(c);
-                const double divisor = Q_(largest[c], coordinate);
-                if (divisor == 0.0) continue;
-                const double step = (Q_(k, coordinate) - Q_(k - 1, coordinate)) / std::abs(divisor);
-                const double slope = by_segment * step / length / std::abs(divisor);
-                gradient[2 * k + coordinate] += slope;
-                gradient[2 * (k - 1) + coordinate] -= slope;
-                gradient[2 * largest[c] + coordinate] -=
-                    slope * step * (divisor < 0.0 ? -1.0 : 1.0);
-            }
-        }
+// Adds the derivatives by Q's points that its arc lengths hand on, which are taken after dividing
+// by its largest |x| and |y|: these move too.
+void add_arc_gradient(const CurveView& Q, const detail::ArcGradient& by_arc, double* gradient) {
+    for (std::ptrdiff_t c = 0; c < 2; ++c) {
+        const std::ptrdiff_t largest = largest_of(Q, c);
+        const double divisor = Q(largest, c);
+        if (divisor == 0.0) continue;
+        by_arc.for_each_segment([&](std::size_t segment, double length, double by_length) {
+            const auto k = static_cast<std::ptrdiff_t>(segment);
+            const double step = (Q(k, c) - Q(k - 1, c)) / std::abs(divisor);
+            const double slope = by_length * step / length / std::abs(divisor);
+            gradient[2 * k + c] += slope;
+            gradient[2 * (k - 1) + c] -= slope;
+            gradient[2 * largest + c] -= slope * step * std::copysign(1.0, divisor);
+        });
     }
-
-   private:
-    // The first of the points with the largest magnitude.
-    std::ptrdiff_t largest_of(std::ptrdiff_t c) const noexcept {
-        std::ptrdiff_t largest = 0;
-        for (std::ptrdiff_t i = 1; i < Q_.size(); ++i) {
-            if (std::abs(Q_(i, c)) > std::abs(Q_(largest, c))) largest = i;
-        }
-        return largest;
-    }
-
-    CurveView Q_;
-    const std::vector<double>& arc_lengths_;
-    std::vector<double> by_length_;  // by the arc length at every vertex
-};
+}
 
 class CurveLengthMeasure : public detail::LinearMeasure {
    public:
@@ -244,7 +216,7 @@ class CurveLengthMeasure : public detail::LinearMeasure {
         if (value == 0.0) return value;
         const std::vector<Place> places =
             corresponding_places(P.arc_lengths, Q.arc_lengths, call.poller);
-        PlaceGradient by_place(q, Q.arc_lengths);
+        detail::ArcGradient by_arc(Q.arc_lengths);
         for (std::ptrdiff_t c = 0; c < 2; ++c) {
             const Coordinate x(P.checked.curve, q, c);
             const double scale = coordinate_scale(x, options_.scale, P.checked.name);
@@ -259,10 +231,10 @@ class CurveLengthMeasure : public detail::LinearMeasure {
                 const std::ptrdiff_t at = 2 * static_cast<std::ptrdiff_t>(k) + c;
                 gradient[at] += x.range.shrink((1.0 - fraction) * slope);
                 gradient[at + 2] += x.range.shrink(fraction * slope);
-                by_place.add(places[i], P.arc_lengths[i] / P.arc_lengths.back(), slope * edge);
+                by_arc.add(k, fraction, P.arc_lengths[i] / P.arc_lengths.back(), slope * edge);
             }
         }
-        by_place.write(gradient);
+        add_arc_gradient(q, by_arc, gradient);
         return value;
     }
 

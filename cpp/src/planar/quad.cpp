@@ -7,12 +7,12 @@ namespace {
 
 double sign(double x) noexcept { return static_cast<double>((x > 0.0) - (x < 0.0)); }
 
-// Of |AC x BD| / 2.
+// Of Quad::area.
 CornerGradient diagonals_gradient(const Quad& quad) noexcept {
-    const Point u = quad.c - quad.a, v = quad.d - quad.b;
-    const double half = 0.5 * sign(cross(u, v));
-    const Point by_c{half * v.y, -half * v.x}, by_d{-half * u.y, half * u.x};
-    return {Point{-by_c.x, -by_c.y}, Point{-by_d.x, -by_d.y}, by_c, by_d};
+    CornerGradient gradient = signed_area_gradient(quad);
+    const double side = sign(quad.signed_area());
+    for (Point& by_corner : gradient) by_corner = {side * by_corner.x, side * by_corner.y};
+    return gradient;
 }
 
 // Twice the area of a triangle, with its sign, as a function of three of a quadrilateral's corners.
@@ -53,6 +53,12 @@ CornerGradient split_gradient(const Quad& quad) noexcept {
 }
 
 }  // namespace
+
+CornerGradient signed_area_gradient(const Quad& quad) noexcept {
+    const Point u = quad.c - quad.a, v = quad.d - quad.b;  // half their cross product
+    return {Point{-0.5 * v.y, 0.5 * v.x}, Point{0.5 * u.y, -0.5 * u.x},
+            Point{0.5 * v.y, -0.5 * v.x}, Point{-0.5 * u.y, 0.5 * u.x}};
+}
 
 CornerGradient area_gradient(const Quad& quad, Figure figure) noexcept {
     CornerGradient gradient{};

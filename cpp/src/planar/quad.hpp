@@ -79,6 +79,9 @@ inline Measured measure(const Quad& quad, Crossing crossing) noexcept {
 // The derivatives of an area by the corners A, B, C, D of the quadrilateral it was measured of.
 using CornerGradient = std::array<Point, 4>;
 
+// Of Quad::signed_area.
+CornerGradient signed_area_gradient(const Quad& quad) noexcept;
+
 CornerGradient area_gradient(const Quad& quad, Figure figure) noexcept;
 
 }  // namespace curvewise::detail
