@@ -73,17 +73,19 @@ void write_unmatched(const Polyline& by_vertex, const detail::PlacesOnQ& on_q, c
         const Point edge = q[k + 1] - q[k];
         by_arc.add(k, h, share, by_point.x * edge.x + by_point.y * edge.y);
     }
-    for (std::size_t k = 0; k < 2 * q.size(); ++k) {
-        gradient[k] = range.restore(gradient[k], degree - 1);
-    }
+    // By the coordinates in `range`, as everything up to here.
+    const double dx = range.restore(on_q.slopes[0], 1), dy = range.restore(on_q.slopes[1], 1);
     by_arc.for_each_segment([&](std::size_t k, double length, double by_length) {
         const Point step = on_q.scaled[k] - on_q.scaled[k - 1];
-        const double by_step = range.restore(by_length / length, degree);
-        gradient[2 * k] += by_step * step.x * on_q.slopes[0];
-        gradient[2 * k + 1] += by_step * step.y * on_q.slopes[1];
-        gradient[2 * k - 2] -= by_step * step.x * on_q.slopes[0];
-        gradient[2 * k - 1] -= by_step * step.y * on_q.slopes[1];
+        const Point by_step{by_length * step.x / length * dx, by_length * step.y / length * dy};
+        gradient[2 * k] += by_step.x;
+        gradient[2 * k + 1] += by_step.y;
+        gradient[2 * k - 2] -= by_step.x;
+        gradient[2 * k - 1] -= by_step.y;
     });
+    for (std::size_t k = 0; k < 2 * q.size(); ++k) {
+        gradient[k] = range.restore(gradient[k], degree);
+    }
 }
 
 class AreaMeasure : public detail::LinearMeasure {
@@ -124,14 +126,15 @@ class AreaMeasure : public detail::LinearMeasure {
             result.areas.push_back(range.restore(measured.area, 2));
         };
         if (options_.spacing == Spacing::matched) {
+            const auto visit = [&](const auto& curves, auto first, auto end, double area) {
+                for (std::size_t i = first; i < end; ++i) {
+                    const Quad quad = quad_at(curves, i);
+                    const double part = quad.signed_area();
+                    add({quad, area < 0.0 ? -part : part, detail::Figure::simple});
+                }
+            };
             for_each_piece(detail::match(P.checked.curve, Q.checked.curve, range, call.poller),
-                           call.poller, [&](const auto& curves, auto first, auto end, double area) {
-                               for (std::size_t i = first; i < end; ++i) {
-                                   const Quad quad = quad_at(curves, i);
-                                   const double part = quad.signed_area();
-                                   add({quad, area < 0.0 ? -part : part});
-                               }
-                           });
+                           call.poller, visit);
         } else {
             for_each_quad(P, Q, range, call.poller, add);
         }
@@ -189,8 +192,8 @@ class AreaMeasure : public detail::LinearMeasure {
             }
         });
         const int degree = options_.squared ? 4 : 2;
-        write_unmatched(by_vertex, on_q, detail::polyline(Q.checked.curve, range), range, degree,
-                        gradient);
+        write_unmatched(by_vertex, on_q, detail::polyline(Q.checked.curve, range), range,
+                        degree - 1, gradient);
         return range.restore(sum, degree);
     }
 

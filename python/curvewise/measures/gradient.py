@@ -30,8 +30,7 @@ def value_and_gradient(
     measure : {"area", "curve_length", "dtw", "frechet", "sum_of_squares"}
         The measure.
     **options
-        Its options. area needs ``spacing="distance"`` or "x": with the others its places move
-        along Q.
+        Its options; of area not ``spacing="arc_length"``.
 
     Returns
     -------
@@ -48,12 +47,14 @@ def value_and_gradient(
     Notes
     -----
     O(n + m) time and memory beyond the value; beyond the path for dtw and frechet. Exact where the
-    path, the cuts of the refinement and the order of corners do not change at once: an optimum's
-    derivative is that with its path held (the envelope theorem). There is no derivative
+    path, the cuts of the refinement and the order of corners do not change at once: dtw and
+    frechet are optima over paths, whose derivative is that with the path held (the envelope
+    theorem). There is no derivative
 
     - at ties: two paths that cost the same (dtw), two pairs of points that are furthest apart
-      (frechet), two segments that are longest (area), two points of Q with the largest abs(x) or
-      abs(y), or a place that lies on a vertex of Q (curve_length);
+      (frechet), two segments that are longest (area), two paths, or equal points of Q (area with
+      ``spacing="matched"``), two points of Q with the largest abs(x) or abs(y), or a place that
+      lies on a vertex of Q (curve_length);
     - where matched points coincide or a difference is 0, except for squares: a kink, as of abs(x).
 
     There the result is the derivative to one side, or 0 for a term that vanishes. The gradient of
