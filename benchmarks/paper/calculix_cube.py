@@ -97,6 +97,7 @@ class CubeModel:
             environment={"OMP_NUM_THREADS": "1"},
             scratch=folder,
         )
+        self.identity = self._solver.identity  # what a store knows the runs by
 
     def __call__(self, parameters: Mapping[str, float]) -> list[Array]:
         """Run CalculiX."""

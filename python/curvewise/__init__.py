@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from . import _core, curves, datasets
+from .averages import dtw_mean, medoid
 from .compare import Comparison, compare
 from .curve_files import read_curve
 from .embedding import get_include
@@ -38,8 +39,18 @@ from .measures import (
     sum_of_squares,
     value_and_gradient,
 )
+from .nearest import Index
 from .pairwise import Prepared, available_measures, cdist, pdist
-from .results import Alignment, AreaQuads, Matching, PcmMatch, WarpingInfo
+from .results import (
+    Alignment,
+    AreaQuads,
+    DtwMean,
+    Matching,
+    PcmMatch,
+    Subsequence,
+    WarpingInfo,
+)
+from .subsequence import subsequence
 
 if TYPE_CHECKING:
     from . import calibration as calibration
@@ -47,14 +58,18 @@ if TYPE_CHECKING:
     from . import dask as dask
     from . import plotting as plotting
     from . import reference as reference
+    from . import sklearn as sklearn
 
 __all__ = [
     "Alignment",
     "AreaQuads",
     "Comparison",
+    "DtwMean",
+    "Index",
     "Matching",
     "PcmMatch",
     "Prepared",
+    "Subsequence",
     "WarpingInfo",
     "__version__",
     "area",
@@ -69,6 +84,7 @@ __all__ = [
     "datasets",
     "dtw",
     "dtw_info",
+    "dtw_mean",
     "dtw_path",
     "dtw_table",
     "frechet",
@@ -80,6 +96,7 @@ __all__ = [
     "frechet_within",
     "get_include",
     "mae",
+    "medoid",
     "mse",
     "normalize",
     "pcm",
@@ -87,11 +104,12 @@ __all__ = [
     "pdist",
     "read_curve",
     "reference",
+    "subsequence",
     "sum_of_squares",
     "value_and_gradient",
 ]
 
-_LAZY = ("calibration", "compat", "dask", "plotting", "reference")
+_LAZY = ("calibration", "compat", "dask", "plotting", "reference", "sklearn")
 
 # Hidden from type checkers, which would otherwise accept every misspelt attribute.
 if not TYPE_CHECKING:
@@ -104,8 +122,8 @@ if not TYPE_CHECKING:
 
 
 def __dir__() -> list[str]:
-    # help() imports all of these, and the import of curvewise.dask fails where dask is missing.
-    return sorted({*globals(), *_LAZY} - {"dask"})
+    # help() imports all of these, and the import of some fails where their packages are missing.
+    return sorted({*globals(), *_LAZY} - {"dask", "sklearn"})
 
 
 def build_info() -> _core.BuildInfo:

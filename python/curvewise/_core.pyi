@@ -1,4 +1,4 @@
-"""Types of the compiled module; documented in measures/ and pairwise.py.
+"""Types of the compiled module; documented in measures/, pairwise.py and nearest.py.
 
 Options are given by name; those left out have the defaults that ``measures()`` returns.
 """
@@ -88,3 +88,45 @@ class Prepared:
     def __init__(self, P: _Array, measure: str, options: _Options, /) -> None: ...
     def value(self, Q: _Array, /) -> float: ...
     def values(self, Qs: list[_Array], workers: SupportsIndex, /) -> _Array: ...
+
+class Index:
+    def __init__(self, curves: list[_Array], measure: str, options: _Options, /) -> None: ...
+    def add(self, curves: list[_Array], /) -> None: ...
+    def size(self) -> int: ...
+    def curves(self) -> list[_Array]: ...
+    def kneighbors(
+        self,
+        X: list[_Array] | None,
+        n_neighbors: int,
+        workers: SupportsIndex,
+        progress: _Report | None,
+        /,
+    ) -> tuple[_Array, _Path, tuple[int, int, int]]: ...
+    def radius_neighbors(
+        self,
+        X: list[_Array] | None,
+        radius: float,
+        sort_results: bool,
+        with_distances: bool,
+        workers: SupportsIndex,
+        progress: _Report | None,
+        /,
+    ) -> tuple[_Array, _Path, _Path, tuple[int, int, int]]: ...
+
+def dtw_subsequences(
+    P: _Array, Q: _Array, count: int, options: _Options, /
+) -> list[tuple[float, int, int]]: ...
+def frechet_subsequences(
+    P: _Array, Q: _Array, count: int, options: _Options, /
+) -> list[tuple[float, int, int]]: ...
+def dtw_mean(
+    curves: list[_Array],
+    weights: list[float],
+    initial: _Array,
+    window: SupportsIndex | None,
+    iterations: SupportsIndex,
+    tolerance: float,
+    workers: SupportsIndex,
+    progress: _Report | None,
+    /,
+) -> tuple[_Array, _Array, bool]: ...

@@ -1,5 +1,7 @@
 """One measure between many curves, on any scheduler of dask: threads, processes, a cluster.
 
+Nearest neighbours are found block by block, in an index of each block of the curves, and merged.
+
 The matrix of :func:`curvewise.cdist` is cut into blocks. A block is one call of curvewise.cdist for
 some rows and columns, made wherever dask makes it; without XB, a block of a symmetric measure below
 the diagonal is the transpose of the one above. Since a value depends on its two curves alone, the
@@ -17,10 +19,13 @@ from functools import partial
 from typing import Any, SupportsFloat, SupportsIndex
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core, pairwise
 from ._curves import Array, as_curve_list
 from ._extras import extra
+from ._options import MeasureName
+from .nearest import Index, _whole_number
 from .pairwise import Curves, Measure
 
 with extra("dask", "curvewise.dask needs dask"):
@@ -29,7 +34,7 @@ with extra("dask", "curvewise.dask needs dask"):
     from dask.base import tokenize
     from dask.highlevelgraph import HighLevelGraph
 
-__all__ = ["cdist"]
+__all__ = ["cdist", "kneighbors"]
 
 # Points of the curves of a block's rows, and of its columns, where the caller does not say: 10^9
 # cells of dtw or frechet, about a second, which is long beside what a block costs the scheduler.
@@ -105,6 +110,126 @@ def cdist(
     token = tokenize(rows, columns, measure, limit, options, size, mirrored)
     compute = partial(_block, measure=measure, cutoff=limit, options=options)
     return _blocks(_Pieces(rows, size), _Pieces(columns, size), token, compute, mirrored)
+
+
+def kneighbors(
+    X: Curves,
+    curves: Curves,
+    n_neighbors: SupportsIndex = 5,
+    measure: MeasureName = "dtw",
+    *,
+    block: SupportsIndex | None = None,
+    **options: Any,
+) -> tuple[dask_array.Array, dask_array.Array]:
+    """Find the curves that are nearest to each of some others, with dask.
+
+    Parameters
+    ----------
+    X : array_like, shape (q, n, d), or a sequence of curves
+        What to look for.
+    curves : array_like, shape (k, n, d), or a sequence of curves
+        Where.
+    n_neighbors : int
+        How many to find for each, from 1 to the number of `curves`.
+    measure, **options
+        As for :class:`curvewise.Index`.
+    block : int, optional
+        As for :func:`cdist`: an index holds this many curves.
+
+    Returns
+    -------
+    distances, indices : dask.array.Array, shape (q, n_neighbors)
+        Lazy: ``dask.compute(distances, indices)`` computes both at once. They have the bits that
+        :meth:`curvewise.Index.kneighbors` gives them.
+
+    Raises
+    ------
+    ValueError, TypeError, ImportError
+        As for :func:`cdist`; ValueError for an `n_neighbors` that is too small or too large.
+
+    Notes
+    -----
+    An index of each block of `curves` is asked for the neighbours of each block of X, and the best
+    of all blocks are kept. Each block has to find its own nearest, so that more is computed than by
+    a single index: blocks should be as large as a worker's memory allows.
+
+    Examples
+    --------
+    >>> import curvewise.dask, dask
+    >>> curves = [[0, 1, 2, 3], [0, 0, 3, 3], [0, 3, 0]]
+    >>> lazy = curvewise.dask.kneighbors([[0, 2, 3]], curves, 2, block=2)
+    >>> [part.tolist() for part in dask.compute(*lazy, scheduler="threads")]
+    [[[1.0, 1.0]], [[0, 1]]]
+    """
+    queries = as_curve_list(X, "XA")
+    targets = as_curve_list(curves, "XB", like=X)
+    _refuse_local_only(options)
+    name = pairwise._check_names(measure, options)
+    _core.check_batch(queries, targets, name, options)
+    count = _whole_number("n_neighbors", n_neighbors)
+    if not 1 <= count <= len(targets):
+        raise ValueError(
+            f"n_neighbors is {count}; give a whole number from 1 to {len(targets)}, the curves"
+        )
+    size = _block_size(block, queries, targets)
+    token = tokenize(queries, targets, name, options, size, count)
+    return _neighbor_arrays(
+        _Pieces(queries, size), _Pieces(targets, size), token, count, measure, options
+    )
+
+
+def _neighbor_arrays(
+    queries: _Pieces,
+    targets: _Pieces,
+    token: str,
+    count: int,
+    measure: MeasureName,
+    options: dict[str, Any],
+) -> tuple[dask_array.Array, dask_array.Array]:
+    """Return lazy distances and indices: an index for each piece of targets."""
+    P, index, found, merged = (f"{part}-{token}" for part in ("kn-P", "kn-index", "kn", "kn-best"))
+    build = partial(_index_of, measure=measure, options=options)
+    graph: dict[Any, Any] = {(P, a): piece for a, piece in enumerate(queries.packed())}
+    begins = [0, *itertools.accumulate(targets.lengths)]
+    for b, piece in enumerate(targets.packed()):
+        graph[index, b] = (build, piece)
+    for a in range(len(queries.lengths)):
+        parts = []
+        for b, begin in enumerate(begins[:-1]):
+            graph[found, a, b] = (partial(_neighbors, count=count, begin=begin), (P, a), (index, b))
+            parts.append((found, a, b))
+        graph[merged, a] = (partial(_best, count=count), parts)
+        for which, part in enumerate(("distances", "indices")):
+            graph[f"{part}-{token}", a, 0] = (operator.itemgetter(which), (merged, a))
+    arrays = []
+    array: Callable[..., dask_array.Array] = dask_array.Array
+    for part, dtype in (("distances", np.float64), ("indices", np.int64)):
+        name = f"{part}-{token}"
+        layers = HighLevelGraph.from_collections(name, graph)
+        arrays.append(array(layers, name, (queries.lengths, (count,)), dtype=dtype))
+    return arrays[0], arrays[1]
+
+
+def _index_of(piece: _Piece, *, measure: MeasureName, options: dict[str, Any]) -> Index:
+    return Index(piece.curves, measure, **options)
+
+
+def _neighbors(
+    piece: _Piece, index: Index, *, count: int, begin: int
+) -> tuple[Array, npt.NDArray[np.int64]]:
+    """Return the nearest of a block, with their places in the whole list."""
+    distances, indices = index.kneighbors(piece.curves, min(count, len(index)))
+    return distances, indices + begin
+
+
+def _best(
+    parts: list[tuple[Array, npt.NDArray[np.int64]]], *, count: int
+) -> tuple[Array, npt.NDArray[np.int64]]:
+    """Return the nearest of all blocks, which come in the order of the curves."""
+    distances = np.concatenate([part[0] for part in parts], axis=1)
+    indices = np.concatenate([part[1] for part in parts], axis=1)
+    order = np.argsort(distances, axis=1, kind="stable")[:, :count]
+    return np.take_along_axis(distances, order, axis=1), np.take_along_axis(indices, order, axis=1)
 
 
 class _Pieces:

@@ -8,7 +8,15 @@ from typing import Literal, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Alignment", "AreaQuads", "Matching", "PcmMatch", "WarpingInfo"]
+__all__ = [
+    "Alignment",
+    "AreaQuads",
+    "DtwMean",
+    "Matching",
+    "PcmMatch",
+    "Subsequence",
+    "WarpingInfo",
+]
 
 
 @dataclass(frozen=True)
@@ -117,3 +125,44 @@ class WarpingInfo:
     share: float
     bounds: tuple[float, float]
     seconds: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Subsequence:
+    """A run of consecutive points of Q that is like P.
+
+    Attributes
+    ----------
+    distance : float
+        That of P and the run, ``Q[start : stop + 1]``.
+    start, stop : int
+        The first point of the run, and the last.
+    path : ndarray of int64, shape (k, 2), or None
+        Where asked for, index pairs ``(i, j)`` as those of :class:`Alignment`: point ``i`` of P is
+        matched to point ``j`` of Q.
+    """
+
+    distance: float
+    start: int
+    stop: int
+    path: npt.NDArray[np.int64] | None = None
+
+
+@dataclass(frozen=True)
+class DtwMean:
+    """The mean of curves under dtw.
+
+    Attributes
+    ----------
+    curve : ndarray, shape (n, d)
+        The mean, with as many points as the initial curve.
+    costs : ndarray
+        The weighted sum of the dtw distances, with squared ground distances, from the curves: of
+        the initial curve, and of the mean after every move. It never rises.
+    converged : bool
+        Whether the last move lowered the sum by no more than the tolerance.
+    """
+
+    curve: npt.NDArray[np.float64]
+    costs: npt.NDArray[np.float64]
+    converged: bool

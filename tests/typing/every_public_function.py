@@ -61,6 +61,19 @@ prepared = curvewise.Prepared(listed, "dtw", window=4)
 number = prepared(Q)
 names: list[str] = curvewise.available_measures()
 
+index = curvewise.Index([P, Q], "dtw", window=3)
+index.add([P])
+places: npt.NDArray[np.int64]
+distances, places = index.kneighbors([P], 2, workers=2, progress=print)
+places = index.kneighbors(n_neighbors=np.int64(1), return_distance=False)
+near, far = index.radius_neighbors([P], 1.0, sort_results=False)
+graph = index.kneighbors_graph([P], 1, mode="distance")
+runs: list[curvewise.Subsequence] = curvewise.subsequence(P[:5], Q, k=3, cutoff=9, path=True)
+number = runs[0].distance + runs[0].start + runs[0].stop
+mean: curvewise.DtwMean = curvewise.dtw_mean([P, Q], weights=[1, 2], iterations=2)
+average: FloatArray = mean.curve
+chosen: int = curvewise.medoid([P, Q], "frechet", metric="chebyshev")
+
 residuals: FloatArray = curvewise.curve_length_residuals(P, Q, scale="range")
 number = curvewise.sum_of_squares(P, P) + curvewise.mse(P, P) + curvewise.mae(P, P)
 value_and_slope: tuple[float, FloatArray] = curvewise.value_and_gradient(P, Q, "area", spacing="x")

@@ -5,9 +5,12 @@
 #include "curvewise/compare.hpp"
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
+#include "curvewise/dtw_mean.hpp"
 #include "curvewise/gradient.hpp"
 #include "curvewise/measure.hpp"  // and all measures
+#include "curvewise/nearest.hpp"
 #include "curvewise/options.hpp"
 #include "curvewise/pairwise.hpp"
 #include "curvewise/pointwise.hpp"
+#include "curvewise/subsequence.hpp"
 #include "curvewise/version.hpp"

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "continuous/coupling.hpp"
+#include "continuous/leash_bounds.hpp"
 #include "continuous/leash_search.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
@@ -94,8 +96,57 @@ class FrechetContinuousMeasure {
         return with_search(P, Q, call, [&](auto& search) { return search.value(call.cutoff); });
     }
 
+    class Bounds;
+
    private:
     std::ptrdiff_t workers_;
+};
+
+// See leash_bounds.hpp.
+class FrechetContinuousMeasure::Bounds {
+   public:
+    static constexpr int levels = 3;
+    void keep(const PreparedQ& Q) { kept_.emplace_back(Q.checked, Q.boxed); }
+    void take(Bounds& others) {
+        kept_.insert(kept_.end(), std::make_move_iterator(others.kept_.begin()),
+                     std::make_move_iterator(others.kept_.end()));
+        others.kept_.clear();
+    }
+
+    class Query {
+       public:
+        Query(const FrechetContinuousMeasure& measure, const Bounds& bounds, const PreparedP& P)
+            : measure_(measure), kept_(bounds.kept_), P_(P), summary_(P.checked, P.boxed) {}
+        void quick(double* bounds) const {
+            for (const detail::CurveSummary& other : kept_) {
+                *bounds++ = is_plain(other.largest()) ? summary_.bound(other, P_.boxed.dim()) : 0.0;
+            }
+        }
+        double refined(std::ptrdiff_t /*j*/, const PreparedQ& Q, int level) const {
+            if (!is_plain(Q.checked.largest)) return 0.0;
+            return detail::run_bound(P_.boxed, Q.boxed, level == 1 ? 8 : 32);
+        }
+        double value(std::ptrdiff_t /*j*/, const PreparedQ& Q, const Call& call) const {
+            return measure_(P_, Q, call);
+        }
+        bool is_within(std::ptrdiff_t /*j*/, const PreparedQ& Q, const Call& call) const {
+            return with_search(P_, Q, call,
+                               [&](auto& search) { return search.is_within(call.cutoff); });
+        }
+
+       private:
+        bool is_plain(double largest) const noexcept {
+            return plain_scale(std::max(summary_.largest(), largest)).is_identity();
+        }
+
+        const FrechetContinuousMeasure& measure_;
+        const std::vector<detail::CurveSummary>& kept_;
+        const PreparedP& P_;
+        detail::CurveSummary summary_;
+    };
+
+   private:
+    std::vector<detail::CurveSummary> kept_;
 };
 
 // Calls use(search) for two checked curves.

@@ -10,6 +10,7 @@
 #include "curves/checks.hpp"
 #include "curvewise/pairwise.hpp"
 #include "pairwise/pair_run.hpp"
+#include "pairwise/targets.hpp"
 #include "runtime/poller.hpp"
 
 namespace curvewise::detail {
@@ -46,6 +47,8 @@ class BatchMeasure {
                                                     const std::vector<CheckedCurve>& Q) const = 0;
     // Throws where a row serves no Q.
     virtual void check_rows(const Rows& rows) const = 0;
+    // None yet. They must not outlive this.
+    virtual std::unique_ptr<Targets> make_targets() const = 0;
 };
 
 // What a batch writes, and how.

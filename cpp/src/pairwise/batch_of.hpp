@@ -9,6 +9,7 @@
 
 #include "pairwise/batch.hpp"
 #include "pairwise/measure.hpp"
+#include "pairwise/targets_of.hpp"
 
 namespace curvewise::detail {
 
@@ -37,6 +38,10 @@ class BatchOf final : public BatchMeasure {
 
     void check_rows(const Rows& rows) const override {
         for (const PreparedP& row : sides(rows)) measure_.check_p(row);
+    }
+
+    std::unique_ptr<Targets> make_targets() const override {
+        return std::make_unique<TargetsOf<M>>(measure_);
     }
 
     std::unique_ptr<const PairValues> pairs(const Rows& rows,

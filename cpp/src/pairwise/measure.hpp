@@ -18,6 +18,17 @@
 //                                        curves of `points` points in all
 //   (prepared_p, prepared_q, call)       the value
 //
+// It may have, for searches that look at a bound before they compute a value (targets.hpp),
+//
+//   M::Bounds                            what is kept of all Qs for that, by keep(prepared_q) and
+//                                        take(others), which leaves the others empty
+//   M::Bounds::levels                    how many bounds there are of a pair, from cheap to dear
+//   M::Bounds::Query                     of one P: made from (measure, bounds, prepared_p);
+//     quick(out)                         the first bound of every Q
+//     refined(j, prepared_q, level)      a later one
+//     value(j, prepared_q, call)         the value, as the measure gives it
+//     is_within(j, prepared_q, call)     whether that is at most the call's cutoff
+//
 // and, for what else its functions return (a path, a table), members of its own that take the same
 // three arguments.
 #pragma once

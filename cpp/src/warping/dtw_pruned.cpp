@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "curves/range_scale.hpp"
+#include "warping/cost_sums.hpp"
 #include "warping/least_distances.hpp"
 #include "warping/sweep.hpp"
 
@@ -63,46 +64,18 @@ double last_value(const SweepProblem& problem, bool open_end) {
 }
 
 // What the rows and columns to come cost at least, with an open end the rows alone.
-class CostBounds {
-   public:
-    CostBounds(const SweepProblem& problem, bool open_end)
-        : after_row_(static_cast<std::size_t>(problem.curves.rows() + 1), 0.0),
-          after_column_(static_cast<std::size_t>(problem.curves.columns() + 1), 0.0),
-          they_add_(problem.recurrence == kernels::Recurrence::dtw_symmetric2) {
-        const BoxTree P(problem.curves.p, PointOrder::forward);
-        const BoxTree Q(problem.curves.q, PointOrder::reversed);
-        const Metric metric = problem.cost.metric;
-        least_distances(P, Q, metric, problem.poller, after_row_.data());
-        add_up(after_row_);
-        if (open_end) return;
-        least_distances(Q, P, metric, problem.poller, after_column_.data());
-        add_up(after_column_);
-    }
-
-    // For paths that cost `most` at most. The table adds up the n + m - 1 cells of a path at most,
-    // and the sums above n or m terms, each with a relative error of 2^-53.
-    CostToGo cost_to_go(double most) const noexcept {
-        const auto terms = static_cast<double>(after_row_.size() + after_column_.size());
-        return {most, 1.0 - terms * 0x1p-52, after_row_.data() + 1, after_column_.data() + 1,
-                they_add_};
-    }
-
-    // Of a whole path, whose first cell is paid for once.
-    double all() const noexcept {
-        const double rows = after_row_[0], columns = after_column_[0];
-        return they_add_ ? std::max(rows + after_column_[1], after_row_[1] + columns)
-                         : std::max(rows, columns);
-    }
-
-   private:
-    static void add_up(std::vector<double>& terms) noexcept {
-        for (std::size_t k = terms.size() - 1; k > 0; --k) terms[k - 1] += terms[k];
-    }
-
-    std::vector<double> after_row_;
-    std::vector<double> after_column_;
-    bool they_add_;
-};
+CostSums cost_bounds(const SweepProblem& problem, bool open_end) {
+    CostSums sums;
+    sums.assign(problem.curves.rows(), problem.curves.columns(),
+                problem.recurrence == kernels::Recurrence::dtw_symmetric2);
+    const BoxTree P(problem.curves.p, PointOrder::forward);
+    const BoxTree Q(problem.curves.q, PointOrder::reversed);
+    const Metric metric = problem.cost.metric;
+    least_distances(P, Q, metric, problem.poller, sums.rows());
+    if (!open_end) least_distances(Q, P, metric, problem.poller, sums.columns());
+    sums.add_up();
+    return sums;
+}
 
 // Both curves with `decimation` times fewer points, their ends among them, and their table.
 class CoarseProblem {
@@ -213,7 +186,7 @@ class DtwSearch {
     std::optional<double> value() {
         if (!find_upper_bound()) return std::nullopt;
         const double most = std::min(record_.upper, options_.cutoff);
-        const CostBounds bounds(problem_, options_.open_end);
+        const CostSums bounds = cost_bounds(problem_, options_.open_end);
         const CostToGo cost_to_go = bounds.cost_to_go(most);
         record_.lower = bounds.all();
         record_.lower_seconds = stopwatch_.lap();
@@ -284,7 +257,7 @@ class DtwSearch {
         }
         Path path = find_path(coarse, options_.open_end);
         if (options_.gives_up) {
-            const CostBounds bounds(coarse, options_.open_end);
+            const CostSums bounds = cost_bounds(coarse, options_.open_end);
             narrowed_value(coarse, bounds.cost_to_go(path.value));
             coarse_share_ = share(swept_.cells, coarse);
         }

@@ -6,17 +6,6 @@
 #include <string>
 
 namespace curvewise::detail {
-namespace {
-
-Metric canonical_metric(const GroundDistance& ground, std::ptrdiff_t dim) noexcept {
-    if (dim == 1 && ground.metric != Metric::sqeuclidean) return Metric::cityblock;
-    if (ground.metric != Metric::minkowski) return ground.metric;
-    if (ground.p == 1.0) return Metric::cityblock;
-    if (ground.p == 2.0) return Metric::euclidean;
-    return std::isinf(ground.p) ? Metric::chebyshev : Metric::minkowski;
-}
-
-}  // namespace
 
 void check_ground_distance(const GroundDistance& ground) {
     if (ground.metric == Metric::minkowski && !(ground.p >= 1.0)) {
@@ -24,6 +13,14 @@ void check_ground_distance(const GroundDistance& ground) {
         std::snprintf(p, sizeof p, "%.17g", ground.p);
         throw std::invalid_argument("p is " + std::string(p) + "; minkowski needs 1 <= p <= inf");
     }
+}
+
+Metric canonical_metric(const GroundDistance& ground, std::ptrdiff_t dim) noexcept {
+    if (dim == 1 && ground.metric != Metric::sqeuclidean) return Metric::cityblock;
+    if (ground.metric != Metric::minkowski) return ground.metric;
+    if (ground.p == 1.0) return Metric::cityblock;
+    if (ground.p == 2.0) return Metric::euclidean;
+    return std::isinf(ground.p) ? Metric::chebyshev : Metric::minkowski;
 }
 
 kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& curves) noexcept {

@@ -8,25 +8,42 @@ hysteresis loops using inverse analysis", Int. J. Material Forming (2018). scipy
 needed: ``pip install "curvewise[calibration]"``.
 """
 
+from .cases import Case
 from .command_model import CommandModel, SolverError
 from .cross_validation import CrossValidation, Fold, cross_validate
 from .evaluations import Progress
 from .identification import Identification, identify
 from .line_plot import LinePlot, line_plot
 from .objective import MEASURES, Objective, Score
+from .parameters import Below, Log, Tied
+from .rescoring import Rescored, rescore
+from .several_measures import SeveralMeasures, identify_each
+from .store import SimulationStore, StoredRun
+from .uncertainty import Uncertainty
 
 __all__ = [
     "MEASURES",
+    "Below",
+    "Case",
     "CommandModel",
     "CrossValidation",
     "Fold",
     "Identification",
     "LinePlot",
+    "Log",
     "Objective",
     "Progress",
+    "Rescored",
     "Score",
+    "SeveralMeasures",
+    "SimulationStore",
     "SolverError",
+    "StoredRun",
+    "Tied",
+    "Uncertainty",
     "cross_validate",
     "identify",
+    "identify_each",
     "line_plot",
+    "rescore",
 ]

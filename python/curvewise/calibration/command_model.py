@@ -13,6 +13,7 @@ and ``#`` a meaning; none of them gives one to two angle brackets.
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import math
 import os
 import re
@@ -28,6 +29,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from .._curves import Array, as_curve
+from .model_identity import fingerprint
 
 __all__ = ["CommandModel", "SolverError"]
 
@@ -83,6 +85,11 @@ class CommandModel:
     keep : bool
         Keep the folders of runs that succeeded, too.
 
+    Attributes
+    ----------
+    identity : str
+        A text that is another for another model: what a store of simulations knows it by.
+
     Raises
     ------
     ValueError
@@ -98,6 +105,11 @@ class CommandModel:
     other than curves of finite numbers. The folder is then kept, with all the program has printed
     in ``command.log``, which the error names. When a call ends, in whichever way (Ctrl-C
     included), so do all processes of the run's group (on Windows: the program itself).
+
+    A store, or a history, knows the model by its `identity`: the text of its templates, its command
+    and environment, and the function that reads (its own code, not that of functions it calls).
+    What it cannot see is another version of the program, or of a file that the deck names
+    and that is no template: give ``identify(..., version=...)`` for those.
 
     Parameters may also be text, which is inserted as it is, e.g. a table of a hardening curve
     that a function has made of two numbers before it calls the model.
@@ -159,6 +171,7 @@ class CommandModel:
         self.keep = keep
         self._templates = _read_templates(template_files)
         _check_names(self._templates, self.parameters)
+        self.identity = self._identity()
 
     def __call__(self, parameters: Mapping[str, float | str]) -> Curves:
         """Run the program with these parameters and return its curves.
@@ -198,6 +211,17 @@ class CommandModel:
         finally:
             if not keep:
                 shutil.rmtree(folder, ignore_errors=True)  # a file left behind spoils no result
+
+    def _identity(self) -> str:
+        """Return a text that is another where the curves may be: of the deck and what reads it."""
+        digest = hashlib.sha256()
+        for template in self._templates:
+            digest.update(repr((template.name, template.texts)).encode("utf-8", "surrogateescape"))
+            digest.update(repr(template.placeholders).encode())
+        digest.update(repr((self.command, sorted(self.environment.items()))).encode())
+        digest.update(fingerprint(self.read).encode())
+        names = " ".join(template.name for template in self._templates)
+        return f"{Path(self.command[0]).name} {names}, {digest.hexdigest()[:16]}"
 
     def _fill(self, parameters: Mapping[str, float | str]) -> list[tuple[str, bytes]]:
         if set(parameters) != set(self.parameters):

@@ -1,8 +1,9 @@
-"""Differences of y at a common x: what sum_of_squares sums over.
+"""Differences of y at a common x, or a common time: what sum_of_squares sums over.
 
-The simulation is interpolated linearly at the experiment's x. That is defined only where neither
-turns back, so a hysteresis loop is refused, and where the simulation covers the experiment: what
-numpy.interp would make up beyond its ends is no simulation. O(n log m) time.
+The simulation is interpolated linearly at the experiment's x, or at its time or step where curves
+have such a column. That is defined only where neither turns back, so a hysteresis loop is refused
+over x, and where the simulation covers the experiment: what numpy.interp would make up beyond its
+ends is no simulation. O(n log m) time.
 """
 
 from __future__ import annotations
@@ -11,26 +12,38 @@ import numpy as np
 
 from .._curves import Array
 
-__all__ = ["check_common_x", "differences", "squared_differences"]
+__all__ = ["check_common_x", "differences", "squared_differences", "y_column"]
 
 # How far, relative to the experiment's extent in x, rounding may put the ends apart.
 _SLACK = 1e-9
 
 
-def check_common_x(P: Array) -> None:
-    """Refuse an experiment whose x is not monotonic."""
-    if P.shape[1] != 2:
-        raise ValueError(f"P has shape {P.shape}; sum_of_squares needs x and y, shape (n, 2)")
-    steps = np.diff(P[:, 0])
+def y_column(over: int) -> int:
+    """Return the column that is compared over another: the second, or the first over the second."""
+    return 0 if over == 1 else 1
+
+
+def check_common_x(P: Array, over: int = 0) -> None:
+    """Refuse an experiment whose x, or other column that y is a function of, is not monotonic."""
+    if over == 0 and P.shape[1] != 2:
+        raise ValueError(
+            f"P has shape {P.shape}; sum_of_squares needs x and y, shape (n, 2), or a third column "
+            "such as time, over=2"
+        )
+    if not (isinstance(over, int) and 0 <= over < P.shape[1]) or P.shape[1] < 2:
+        raise ValueError(f"over is {over!r}; P has the columns 0 to {P.shape[1] - 1}")
+    steps = np.diff(P[:, over])
     if (steps > 0).any() and (steps < 0).any():
+        if over:
+            raise ValueError(f"column {over} of P turns back; give one that grows, such as time")
         raise ValueError(
             "x of P turns back; sum_of_squares compares at a common x: "
             "use area, dtw or another measure for loops"
         )
 
 
-def differences(P: Array, Q: Array) -> Array:
-    """Return y of Q at P's x, minus y of P.
+def differences(P: Array, Q: Array, *, over: int = 0) -> Array:
+    """Return y of Q at P's x, or at its column `over`, minus y of P.
 
     Raises
     ------
@@ -39,23 +52,24 @@ def differences(P: Array, Q: Array) -> Array:
     """
     if not np.isfinite(Q).all():
         raise ValueError("the simulation is not finite")
-    x, y = Q.T
+    name = "x" if over == 0 else f"column {over}"
+    x, y = Q[:, over], Q[:, y_column(over)]
     if x[0] > x[-1]:
         x, y = x[::-1], y[::-1]
     if (np.diff(x) < 0).any():
-        raise ValueError("x of the simulation turns back; sum_of_squares needs it monotonic")
-    wanted = P[:, 0]
+        raise ValueError(f"{name} of the simulation turns back; sum_of_squares needs it monotonic")
+    wanted = P[:, over]
     low, high = wanted.min(), wanted.max()
     slack = _SLACK * (high - low)
     if x[0] > low + slack or x[-1] < high - slack:
         raise ValueError(
-            f"the simulation covers x from {x[0]:.6g} to {x[-1]:.6g}, "
+            f"the simulation covers {name} from {x[0]:.6g} to {x[-1]:.6g}, "
             f"the experiment goes from {low:.6g} to {high:.6g}"
         )
-    difference: Array = np.interp(wanted, x, y) - P[:, 1]
+    difference: Array = np.interp(wanted, x, y) - P[:, y_column(over)]
     return difference
 
 
-def squared_differences(P: Array, Q: Array) -> float:
+def squared_differences(P: Array, Q: Array, *, over: int = 0) -> float:
     """Return the sum of the squared differences."""
-    return float(np.sum(differences(P, Q) ** 2))
+    return float(np.sum(differences(P, Q, over=over) ** 2))

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import inspect
 import os
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -21,8 +20,12 @@ from .._curves import Array
 from .._options import Preset
 from .curve_list import as_points, curve_list
 from .identification import Identification, identify
+from .loop_selection import Selection
+from .model_identity import model_identity
 from .model_pool import Model
 from .objective import Objective
+from .parameters import Bounds
+from .store import SimulationStore
 
 __all__ = ["CrossValidation", "Fold", "cross_validate"]
 
@@ -99,7 +102,7 @@ class CrossValidation:
 def cross_validate(
     model: Model,
     experiments: Any,
-    bounds: Mapping[str, tuple[float, float]],
+    bounds: Bounds,
     *,
     history: str | os.PathLike[str] | None = None,
     weights: Any = None,
@@ -134,7 +137,8 @@ def cross_validate(
 
     Notes
     -----
-    Time: for k loops that of k identifications, and k runs of the model. The paper's section on
+    Time: for k loops that of k identifications, and k runs of the model; with ``store=`` a run that
+    several folds ask for is made once. The paper's section on
     cross-validation leaves out each of its five loops.
 
     Examples
@@ -160,7 +164,7 @@ def cross_validate(
     for left_out in range(count):
         kept = tuple(i for i in range(count) if i != left_out)
         identification = identify(
-            _Selection(model, kept, count),
+            Selection(model, kept, count),
             [curves[i] for i in kept],
             bounds,
             history=None if history is None else _fold_file(Path(history), left_out),
@@ -186,8 +190,9 @@ def _fold(
 ) -> Fold:
     """Return what the identification without a loop makes of that loop."""
     options = {key: value for key, value in keywords.items() if key not in _SEARCH_KEYWORDS}
+    simulation: Any
     try:
-        simulation = curve_list(model(dict(identification.parameters)))[left_out]
+        simulation = curve_list(_at_optimum(model, identification, keywords))[left_out]
     except Exception as error:  # the left-out loop may be the one that fails
         simulation = error
     score = Objective(curves[left_out], **options).score([simulation])
@@ -202,20 +207,15 @@ def _fold(
     )
 
 
+def _at_optimum(model: Model, identification: Identification, keywords: dict[str, Any]) -> Any:
+    """Return the model's curves at the optimum, of the store if there is one."""
+    store, version = keywords.get("store"), keywords.get("version")
+    if store is None:
+        return model(dict(identification.parameters))
+    with SimulationStore(store) as runs:
+        outcome = runs.look_up(model_identity(model, version).text, identification.parameters)
+    return model(dict(identification.parameters)) if outcome is None else outcome.simulations
+
+
 def _fold_file(history: Path, left_out: int) -> Path:
     return history.with_name(f"{history.stem}_without_{left_out}{history.suffix}")
-
-
-class _Selection:
-    """A model that returns some of its curves; a class, so that it can be pickled."""
-
-    def __init__(self, model: Model, kept: tuple[int, ...], count: int) -> None:
-        self._model, self._kept, self._count = model, kept, count
-
-    def __call__(self, parameters: dict[str, float]) -> list[Any]:
-        curves = curve_list(self._model(parameters))
-        if len(curves) == 1 and curves[0] is None:
-            raise RuntimeError("no simulation")
-        if len(curves) != self._count:
-            raise RuntimeError(f"the model gave {len(curves)} curves for {self._count} loops")
-        return [curves[i] for i in self._kept]

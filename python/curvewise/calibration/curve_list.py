@@ -8,7 +8,7 @@ import numpy as np
 
 from .._curves import Array, as_curve
 
-__all__ = ["as_points", "curve_list"]
+__all__ = ["as_points", "curve_list", "points_of"]
 
 
 def as_points(curve: Any, name: str) -> Array:
@@ -40,3 +40,9 @@ def curve_list(curves: Any) -> list[Any]:
             is_curve = ndim == 2
         return list(curves) if is_curve else [curves]
     return list(curves) if curves else [curves]
+
+
+def points_of(simulations: Any) -> tuple[Array, ...]:
+    """Return copies of the curves that are there, each of shape (n, d)."""
+    curves = curve_list(simulations)
+    return tuple(as_points(curve, "Q").copy() for curve in curves if curve is not None)

@@ -5,9 +5,8 @@ two-level design picks (D-optimal for a linear surface) and at its centre. Plane
 least squares to every coordinate of every point of the simulated curves, and the parameters at
 which the curves that these planes predict have the smallest objective, within the region, become
 the centre of the next. A parameter that keeps going the same way keeps its range (panning); where
-it turns back, or stays in the middle, the range shrinks (zooming). If the simulations of an
-iteration differ in their number of points (a solver with adaptive steps), a single plane is fitted
-to the objective instead, which is far less exact: its minimum is always in a corner.
+it turns back, or stays in the middle, the range shrinks (zooming). Simulations that differ in their
+number of points (a solver with adaptive steps) are resampled by arc length for the planes.
 
 Linear surfaces average over noise and jumps that mislead gradients. Cost: an iteration takes 5
 evaluations for k <= 3 parameters, 9 up to 7, and 17 up to 15. With the default options there are at
@@ -31,6 +30,7 @@ from .evaluations import Evaluations, Finish
 from .history import Evaluation
 from .nelder_mead import nelder_mead
 from .objective import Objective
+from .surfaces import Responses
 
 __all__ = ["domain_reduction"]
 
@@ -74,6 +74,7 @@ def domain_reduction(
     centre = np.full(k, 0.5) if start is None else start
     size = np.full(k, initial_range)
     move = np.zeros(k)
+    responses: Responses | None = None
     for _ in range(maxiter):
         low, high = np.clip((centre - size / 2, centre + size / 2), 0.0, 1.0)
         points = np.vstack((centre, np.where(_design(k, random) > 0, high, low)))
@@ -82,7 +83,9 @@ def domain_reduction(
         target = evaluations.best_unit  # what is left if no plane goes through so few points
         if len(good) > k:
             successes = [done[i] for i in good]
-            surface = _surface(points[good], successes, evaluations.objective)
+            if responses is None:
+                responses = Responses(successes[0].simulations or ())
+            surface = _surface(points[good], successes, responses, evaluations.objective)
             target = _lowest(surface, centre, (low, high), random, evaluations.negligible)
         last_move, move = move, np.clip(2.0 * (target - centre) / size, -1.0, 1.0)
         size = size * _contraction(last_move, move, gamma_osc, gamma_pan, eta)
@@ -120,25 +123,12 @@ def _design(k: int, random: np.random.Generator) -> Array:
 
 
 def _surface(
-    points: Array, done: list[Evaluation], objective: Objective
+    points: Array, done: list[Evaluation], responses: Responses, objective: Objective
 ) -> Callable[[Array], float]:
     """Return the objective as linear response surfaces predict it."""
     curves = [e.simulations for e in done if e.simulations is not None]
-    shapes = [curve.shape for curve in curves[0]]
-    if any([curve.shape for curve in other] != shapes for other in curves[1:]):
-        plane = _planes(points, np.array([[e.value] for e in done]))
-        return lambda point: float(plane(point)[0])
-    planes = _planes(
-        points, np.array([np.concatenate([c.ravel() for c in several]) for several in curves])
-    )
-    ends = np.cumsum([np.prod(shape) for shape in shapes])[:-1]
-
-    def predicted(point: Array) -> float:
-        parts = np.split(planes(point), ends)
-        simulations = [part.reshape(shape) for part, shape in zip(parts, shapes, strict=True)]
-        return objective.predicted(simulations).value
-
-    return predicted
+    planes = _planes(points, np.array([responses.vector(several) for several in curves]))
+    return lambda point: objective.predicted(responses.curves(planes(point))).value
 
 
 def _planes(points: Array, responses: Array) -> Callable[[Array], Array]:

@@ -9,7 +9,7 @@ nothing that it sees depends on the number of processes or on what was run befor
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -18,15 +18,20 @@ import numpy as np
 from .._curves import Array
 from .curve_list import as_points, curve_list
 from .history import Evaluation, History
-from .model_pool import ModelPool, Outcome
+from .model_pool import Outcome
 from .objective import Objective
 from .parameters import Point, Space
+from .simulator import Simulator
 
 __all__ = ["Evaluations", "Finish", "Progress", "SearchEndedError"]
 
 # A fraction of the value of simulations that are wrong by their loops' heights. The smallest value
 # of an objective is 0, for a perfect model, so no tolerance relative to it alone is ever met.
 _NEGLIGIBLE = 1e-7
+
+# Earlier runs give the slopes at a point if none is further away than this, and if their spread in
+# every direction is at least this fraction of their reach.
+_NEAR, _FLATTEST = 0.25, 0.03
 
 _log = logging.getLogger("curvewise.calibration")
 
@@ -65,7 +70,7 @@ class Evaluations:
 
     Parameters
     ----------
-    pool, objective, space, history
+    simulator, objective, space, history
         What runs the model, scores it, names the parameters and keeps the record.
     limit : int or None
         How many parameter sets to evaluate at most.
@@ -73,11 +78,13 @@ class Evaluations:
         Told the progress after every batch; a true result ends the search.
     bar : object
         A tqdm progress bar.
+    known : sequence of (ndarray, Evaluation)
+        Runs of the same models by earlier searches, with their places in the unit cube.
     """
 
     def __init__(
         self,
-        pool: ModelPool,
+        simulator: Simulator,
         objective: Objective,
         space: Space,
         history: History,
@@ -85,9 +92,11 @@ class Evaluations:
         limit: int | None,
         callback: Callable[[Progress], Any] | None,
         bar: Any,
+        known: Sequence[tuple[Array, Evaluation]] = (),
     ) -> None:
+        self._known = known
         self.objective = objective
-        self._pool, self._space, self._history = pool, space, history
+        self._simulator, self._space, self._history = simulator, space, history
         self._limit, self._callback, self._bar = limit, callback, bar
         self._done: dict[Point, Evaluation] = {}
         self._units: dict[Point, Array] = {}
@@ -111,6 +120,12 @@ class Evaluations:
         return list(self._done.values())
 
     @property
+    def kept(self) -> tuple[tuple[Array, Evaluation], ...]:
+        """Every evaluation whose curves are known, earlier searches' too, with its place."""
+        own = [(self._units[point], e) for point, e in self._done.items() if e.simulations]
+        return (*self._known, *own)
+
+    @property
     def best(self) -> Evaluation:
         """The evaluation with the smallest value, the first among equals."""
         assert self._best is not None
@@ -126,6 +141,25 @@ class Evaluations:
         """Show the name of a stage of the search beside the progress."""
         self._bar.set_description(name)
 
+    def known_near(self, unit: Array) -> tuple[Array, list[Evaluation]] | None:
+        """Return earlier runs around a point that determine the slopes there, if they do.
+
+        The 2 k + 1 nearest that succeeded, if they are within a quarter of the bounds' range and
+        not all in a plane.
+        """
+        k = self.dimensions
+        near = [(place, run) for place, run in self._known if run.simulations is not None]
+        near.sort(key=lambda item: float(np.abs(item[0] - unit).max()))
+        near = near[: 2 * k + 1]
+        if len(near) <= k + 1:
+            return None
+        places = np.array([place for place, _ in near])
+        reach = float(np.abs(places - unit).max())
+        spread = np.linalg.svd((places - places.mean(axis=0)) / reach, compute_uv=False)
+        if reach > _NEAR or spread[-1] < _FLATTEST * np.sqrt(len(near)):
+            return None
+        return places, [run for _, run in near]
+
     def values(self, units: Array) -> Array:
         """Return the objective at points of the unit cube, shape (count, dimensions)."""
         return np.array([e.value for e in self.evaluated(units)])
@@ -137,7 +171,7 @@ class Evaluations:
     def best_simulations(self) -> Any:
         """Return the simulations at the best point; runs the model again if it has to."""
         if self._best_simulations is None:
-            ((_, outcome),) = self._pool.run([self._space.dictionary(self.best.point)])
+            ((_, outcome),) = self._simulator.run([self._space.dictionary(self.best.point)])
             self._best_simulations = outcome.simulations
         return self._best_simulations
 
@@ -182,16 +216,19 @@ class Evaluations:
         finished: dict[Point, Evaluation] = {}
         simulations: dict[Point, Any] = {}
         for i, point in enumerate(batch):
-            if point in self._history.saved:
-                finished[point] = replace(self._history.saved[point], number=first + i)
+            saved = self._history.saved.get(point)
+            # A file that was written beside a store has no curves; the store has them.
+            if saved is not None and (saved.simulations or saved.failed or not keep_simulations):
+                finished[point] = replace(saved, number=first + i)
         self._bar.update(len(finished))
         missing = [(first + i, p) for i, p in enumerate(batch) if p not in finished]
         parameters = [self._space.dictionary(point) for _, point in missing]
-        for k, outcome in self._pool.run(parameters):
+        for k, outcome in self._simulator.run(parameters):
             number, point = missing[k]
             finished[point] = self._judged(number, point, outcome, keep_simulations)
             simulations[point] = outcome.simulations
-            self._history.write(finished[point])
+            if point not in self._history.saved:
+                self._history.write(finished[point])
             self._bar.update()
         for point in batch:
             self._done[point] = finished[point]

@@ -56,6 +56,8 @@ class History:
         What must be the same for an evaluation to be used again; JSON can hold it.
     names : tuple of str
         The parameters.
+    keep_simulations : bool
+        Write curves too; not where a store has them.
 
     Raises
     ------
@@ -70,7 +72,10 @@ class History:
         path: str | os.PathLike[str] | None,
         settings: Mapping[str, Any],
         names: tuple[str, ...],
+        *,
+        keep_simulations: bool = True,
     ) -> None:
+        self._keep_simulations = keep_simulations
         self.saved: dict[Point, Evaluation] = {}
         self._file: io.TextIOWrapper | None = None
         if path is None:
@@ -98,7 +103,7 @@ class History:
             int(evaluation.failed),
             f"{evaluation.seconds:.6g}",
             evaluation.message,
-            "" if evaluation.simulations is None else _encoded(evaluation.simulations),
+            _encoded(evaluation.simulations or ()) if self._keep_simulations else "",
         ]
         csv.writer(self._file, lineterminator="\n").writerow(row)
         self._file.flush()

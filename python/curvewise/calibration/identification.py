@@ -6,9 +6,9 @@ runs the model, a history file, and a method that searches. Almost all time is t
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -18,21 +18,26 @@ from .._curves import Array
 from .._options import Preset
 from ..deviations import Deviation, deviation
 from ..measures.registry import Condition, default_measures
-from ._extra import required
-from .curve_list import as_points, curve_list
-from .evaluations import Evaluations, Finish, Progress, SearchEndedError
-from .history import Evaluation, History, as_records
+from .cases import Case, CaseObjective, Cases
+from .curve_list import points_of
+from .evaluations import Progress
+from .history import Evaluation, as_records
 from .loop_measure import Measure, Part
-from .methods import METHODS, search
-from .model_pool import Model, ModelPool
-from .objective import LEAST_SQUARES, Objective
-from .parameters import Space
+from .loop_selection import Selection
+from .model_pool import Model
+from .objective import Objective
+from .parameters import Bounds, Space
 from .pictures import loops_and_convergence
+from .running import Ended, Plan, run_search
+from .sensitivity import design_runs, indifferent, optimum_surfaces
+from .store import StorePath
+from .study import Study, models_of
+from .uncertainty import Uncertainty, determined_by, uncertainty_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Identification", "identify"]
+__all__ = ["Identification", "identification_of", "identify"]
 
 # A parameter this near to a bound, as a fraction of the range, is said to be at the bound.
 _AT_BOUND = 1e-3
@@ -65,6 +70,10 @@ class Identification:
         How the search ended.
     method, seed, bounds, measure, preset, part
         As asked for.
+    runs : int
+        How many runs of the model were made for it; the others were looked up.
+    study, kept
+        What was searched, and the runs whose curves are known: for what comes after the search.
     condition : Condition or None
         Whether the measure is computed on scaled curves, and its options, the preset's included;
         None for "sum_of_squares" and for a function.
@@ -84,7 +93,9 @@ class Identification:
     bounds: dict[str, tuple[float, float]]
     measure: str
     preset: Preset
-
+    runs: int
+    study: Study = field(repr=False)
+    kept: tuple[tuple[Array, Evaluation], ...] = field(repr=False)
     part: Part
     condition: Condition | None = field(repr=False)
 
@@ -119,6 +130,9 @@ class Identification:
         width = max(map(len, (*self.parameters, *self.measures)))
         lines = [f"{'parameter':<{width}}  {'value':>12}  {'from':>12}  {'to':>12}"]
         for name, value in self.parameters.items():
+            if name not in self.bounds:
+                lines.append(f"{name:<{width}}  {value:>12.6g}  {self.study.space.kind(name):>12}")
+                continue
             low, high = self.bounds[name]
             near = _AT_BOUND * (high - low)
             note = "  at its lower bound" if value - low < near else ""
@@ -135,9 +149,113 @@ class Identification:
         lines += [
             "",
             f"{self.method}, seed {self.seed}: {self.evaluations} evaluations{failed}",
-            f"{'converged' if self.converged else 'not converged'}: {self.message}",
+            self._ending(),
         ]
         return "\n".join(lines)
+
+    def _ending(self) -> str:
+        """Say how the search ended; what is not determined has not converged to anything."""
+        determined = self.determined
+        loose = [name for name, good in (determined or {}).items() if not good]
+        if self.converged and loose:
+            return (
+                f"undetermined: {', '.join(loose)} (the objective hardly notices; see "
+                f"uncertainty()); the search ended: {self.message}"
+            )
+        text = f"{'converged' if self.converged else 'not converged'}: {self.message}"
+        if self.converged and determined is None:
+            runs = self.uncertainty_runs
+            text += f"\nare the parameters determined? uncertainty() says, after {runs} runs"
+        return text
+
+    @property
+    def uncertainty_runs(self) -> int:
+        """How many runs of the model `uncertainty` will make: 0, or 2 for every parameter."""
+        return design_runs(self.study, self._unit, self.kept)
+
+    @property
+    def determined(self) -> dict[str, bool] | None:
+        """Whether the tests determine each parameter, as far as can be said without noise.
+
+        A parameter is determined if it cannot change by a tenth of its bounds' range or a fifth of
+        itself, others with it, before the objective rises by 1 %, and if twice its standard error
+        by linear theory is within the same. None if that would take runs (`uncertainty_runs`).
+        """
+        if self.uncertainty_runs:
+            return None
+        optimum = optimum_surfaces(self.study, self._unit, self.simulations, self.kept)
+        return determined_by(optimum, indifferent(optimum)[2])
+
+    def uncertainty(
+        self,
+        *,
+        sigma: float | Sequence[float] | None = None,
+        level: float = 0.95,
+        samples: int = 1000,
+        seed: int = 0,
+    ) -> Uncertainty:
+        """Say how well the tests determine the parameters.
+
+        Parameters
+        ----------
+        sigma : float or sequence of float, optional
+            The standard deviation of the noise in y, of all loops or of each. By default the
+            residuals are taken for the noise, in blocks where neighbours are alike.
+        level : float, default 0.95
+            The probability of the intervals.
+        samples : int, default 1000
+            How many times the noise is drawn anew; "sum_of_squares" needs none.
+        seed : int, default 0
+            Of the draws.
+
+        Returns
+        -------
+        Uncertainty
+            Errors, intervals, correlations, sensitivities and what is not determined; prints as a
+            table, plots itself.
+
+        Raises
+        ------
+        ValueError
+            A level, sigma or number of samples out of range; fewer points than parameters.
+
+        Notes
+        -----
+        Runs of the model: `uncertainty_runs`, which is 0 after "trust-region" and "sdrm". Time:
+        that of `samples` minimisations on the response surfaces, some 20 evaluations of the measure
+        a parameter each. The surfaces are linear: intervals that are a large part of the bounds say
+        "not determined", and no more. Sources: see the module.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from curvewise.calibration import identify
+        >>> x = np.linspace(0, 1, 50)
+        >>> def line(p):
+        ...     return np.column_stack((x, p["slope"] * x + p["intercept"]))
+        >>> test = line({"slope": 2.0, "intercept": 1.0})
+        >>> test[:, 1] += np.random.default_rng(0).normal(0.0, 0.1, 50)
+        >>> found = identify(
+        ...     line,
+        ...     test,
+        ...     {"slope": (0, 10), "intercept": (-5, 5)},
+        ...     measure="sum_of_squares",
+        ...     method="trust-region",
+        ...     progress=False,
+        ... )
+        >>> errors = found.uncertainty().standard_errors
+        >>> {name: round(error, 3) for name, error in errors.items()}
+        {'slope': 0.041, 'intercept': 0.024}
+        """
+        runs = self.uncertainty_runs
+        optimum = optimum_surfaces(self.study, self._unit, self.simulations, self.kept)
+        return uncertainty_of(
+            optimum, sigma=sigma, level=level, samples=samples, seed=seed, runs=runs
+        )
+
+    @property
+    def _unit(self) -> Array:
+        return self.study.space.unit_of(self.parameters)
 
     def plot(self) -> Figure:
         """Return a matplotlib Figure of the loops and of the convergence.
@@ -152,18 +270,21 @@ class Identification:
 
 
 def identify(
-    model: Model,
-    experiments: Any,
-    bounds: Mapping[str, tuple[float, float]],
+    model: Model | Selection | Sequence[Case],
+    experiments: Any = None,
+    bounds: Bounds | None = None,
     *,
     measure: Measure = "area",
     preset: Preset = "scaled",
-    method: str = "sdrm+de",
+    method: str = "trust-region",
     seed: int = 0,
     workers: int = 1,
+    executor: Executor | None = None,
     progress: bool = True,
     callback: Callable[[Progress], Any] | None = None,
     history: str | os.PathLike[str] | None = None,
+    store: StorePath | None = None,
+    version: str | None = None,
     start: Mapping[str, float] | None = None,
     max_evaluations: int | None = None,
     weights: Sequence[float] | None = None,
@@ -177,22 +298,25 @@ def identify(
 
     Parameters
     ----------
-    model : callable
+    model : callable, or sequence of Case
         ``model(parameters: dict) -> curve``, or a list of curves, one for every experiment. What
-        it raises, and curves that have no value, count as failed simulations.
+        it raises, and curves that have no value, count as failed simulations. Tests of different
+        kinds are given as a list of :class:`Case` in the place of model, experiments and measure.
     experiments : array_like, shape (n, d), or sequence of such
         The measured curve, or curves.
     bounds : mapping of str to (low, high)
-        The parameters and where to search.
+        The parameters and where to search. In the place of a pair: a number for a parameter that
+        stays what it is, :class:`Log`, :class:`Below` another parameter, or :class:`Tied`.
     measure, preset, weights, failure_value, min_coverage, part, **options
         The objective: see :class:`Objective`.
-    method : {"sdrm+de", "de", "sdrm", "nelder-mead", "least_squares"}
-        "de": differential evolution, global. "sdrm": successive linear response surfaces with
-        domain reduction, few evaluations and robust to noise. "sdrm+de": the best point of
-        "sdrm" joins the first population of "de". "nelder-mead": local, from `start`.
-        "least_squares": local, fast and exact where the model is smooth, for the measures
-        "curve_length" and "sum_of_squares"; of several loops it minimises the weighted sum of
-        squares.
+    method : {"sdrm+de", "trust-region", "de", "sdrm", "nelder-mead", "least_squares"}
+        "trust-region": linear surfaces of the curves, on which the measure is minimised within a
+        region around the best run: local, for expensive models. "de": differential evolution,
+        global. "sdrm": successive linear response surfaces with domain reduction, few evaluations
+        and robust to noise. "sdrm+de": the best point of "sdrm" joins the first population of
+        "de". "nelder-mead": local, from `start`. "least_squares": local, fast and exact where the
+        model is smooth, for the measures "curve_length" and "sum_of_squares"; of several loops it
+        minimises the weighted sum of squares.
     seed : int, default 0
         Of all random numbers. The same seed gives the same result, bit for bit, with any number
         of workers and after any interruption (and the same versions of numpy and scipy).
@@ -200,6 +324,10 @@ def identify(
         Processes in which the model runs at the same time; -1 for one per core. The model must
         be picklable, and a script must have its ``if __name__ == "__main__":``. "nelder-mead"
         asks for one simulation at a time.
+    executor : concurrent.futures.Executor, optional
+        Runs the model in the place of processes of this machine: ``MPIPoolExecutor()``, or
+        ``Client(...).get_executor()`` of dask. It is not shut down. After Ctrl-C nothing more is
+        given to it; what it is running goes on until it ends.
     progress : bool, default True
         Show a progress bar (tqdm).
     callback : callable, optional
@@ -208,6 +336,15 @@ def identify(
         A CSV file to which every evaluation is appended at once. If it exists, the search is
         resumed: it runs again with the evaluations that the file holds looked up instead of
         computed, and goes on from there. Of a callable measure it knows the name alone.
+    store : path-like, optional
+        A file (see :class:`SimulationStore`) with the curves of every run, by model and
+        parameters. Runs that it holds are looked up, for whichever measure, method, weights or
+        fold they were made; new ones are added at once. Several searches may use it at a time.
+    version : str, optional
+        What you call the present state of the model. A store, and a history, take a model of
+        another version for another model. A store needs it for a Python function;
+        :class:`CommandModel`, and any model with an attribute `identity`, says by itself what it
+        is.
     start : mapping of str to float, optional
         Where the search starts: the middle of the bounds if not given; for "de" one member of
         the first population.
@@ -216,11 +353,14 @@ def identify(
     method_options : mapping, optional
         Passed on. "de": those of `scipy.optimize.differential_evolution` (popsize, tol, atol,
         maxiter, ...), and stall: (improvement, generations), with which the search ends once the
-        best value has improved by less than that fraction over so many generations, as
-        (0.001, 100) in the paper. "sdrm": gamma_osc, gamma_pan, eta, initial_range, tol, maxiter.
+        best value has improved by less than that fraction over so many generations, as (0.001,
+        100) in the paper. "sdrm": gamma_osc, gamma_pan, eta, initial_range, tol, maxiter.
         "nelder-mead": size (of the simplex, 0.1), restarts (10), and scipy's options (xatol,
-            fatol, ...). "least_squares": those of `scipy.optimize.least_squares`. "sdrm+de": a
-        mapping for each, ``{"sdrm": {...}, "de": {...}}``.
+        fatol, ...). "least_squares": diff_step (of the derivatives, as a fraction of the bounds'
+        range, 1e-6; 1e-4 to 1e-3 for a solver that prints seven digits) and those of
+        `scipy.optimize.least_squares`, e.g. loss for a robust sum. "trust-region": initial_range
+        (0.5), diff_step (0.02), tol (1e-3), gain (1e-3: the least that is worth going on for),
+        maxiter. "sdrm+de": a mapping for each, ``{"sdrm": {...}, "de": {...}}``.
 
     Returns
     -------
@@ -232,7 +372,8 @@ def identify(
     ------
     ValueError
         Wrong bounds, options or experiments; simulations of another number or dimension than the
-        experiments; a history of another search; a model that cannot be pickled (workers > 1).
+        experiments; a history of another search; a model that cannot be pickled (workers > 1); a
+        store for a model without identity or version, or with runs of other code of that version.
     RuntimeError
         No simulation of the first batch has succeeded: the message has the first reason.
     ImportError
@@ -242,12 +383,13 @@ def identify(
 
     Notes
     -----
-    Evaluations: "sdrm" takes 5, 9 or 17 an iteration (for up to 3, 7 or 15 parameters), in 14 to
-    some 30 iterations with its default options (50 at most); "de" takes 15 k a generation for k
-    parameters, in some 100 generations. Memory: the history. The search is over the unit cube, so
-    that the units of parameters do not matter. Sources: Storn & Price (1997) for "de", in the
-    place of the paper's genetic algorithm; Stander & Craig (2002) for "sdrm"; Nelder & Mead
-    (1965). Failures are logged under "curvewise.calibration", the first as a warning.
+    Evaluations: "trust-region" takes 10 to 15 for 3 parameters, 30 for 7. "sdrm" takes 5, 9 or 17
+    an iteration (for up to 3, 7 or 15 parameters), in 14 to some 30 iterations with its default
+    options (50 at most); "de" takes 15 k a generation for k parameters, in some 100 generations.
+    Memory: the history. The search is over the unit cube, so that the units of parameters do not
+    matter. Sources: Storn & Price (1997) for "de", in the place of the paper's genetic algorithm;
+    Stander & Craig (2002) for "sdrm"; Nelder & Mead (1965). Failures are logged under
+    "curvewise.calibration", the first as a warning.
 
     Examples
     --------
@@ -263,12 +405,37 @@ def identify(
     >>> round(found.parameters["slope"], 4), round(found.parameters["intercept"], 4)
     (2.0, 1.0)
     """
-    method_options = dict(method_options or {})
-    _check_method(method, measure, method_options)
-    if max_evaluations is not None and max_evaluations < 1:
-        raise ValueError(f"max_evaluations is {max_evaluations}; give at least 1")
+    plan = Plan(
+        method,
+        dict(method_options or {}),
+        seed,
+        start,
+        progress,
+        callback,
+        history,
+        max_evaluations,
+    )
+    plan.check(measure)
+    if bounds is None:
+        raise TypeError("identify needs bounds: a dict of name: (low, high)")
     space = Space(bounds)
-    start_unit = None if start is None else space.unit(start)
+    if start is not None:
+        space.unit(start)
+    if (cases := _cases_of(model)) is not None:
+        changed = {**options, "experiments": experiments, "weights": weights}
+        if given := [name for name, value in changed.items() if value is not None]:
+            raise ValueError(f"{', '.join(given)} given beside cases; give them to each Case")
+        study = Study(
+            cases.models,
+            cases.assembled,
+            CaseObjective(cases.cases),
+            space,
+            store,
+            version,
+            workers,
+            executor,
+        )
+        return identification_of(study, plan, run_search(study, plan))
     objective = Objective(
         experiments,
         measure,
@@ -279,109 +446,49 @@ def identify(
         part=part,
         **options,
     )
-    required("scipy.optimize")
-    tqdm = required("tqdm.auto").tqdm
-    settings = {
-        **_settings(objective),
-        "bounds": space.bounds,
-        "method": method,
-        "method_options": method_options,
-        "seed": seed,
-        "start": None if start is None else dict(start),
-    }
-    record = History(history, settings, space.names)
-    try:
-        with ModelPool(model, workers) as pool:
-            with tqdm(total=max_evaluations, unit="run", disable=not progress) as bar:
-                evaluations = Evaluations(
-                    pool,
-                    objective,
-                    space,
-                    record,
-                    limit=max_evaluations,
-                    callback=callback,
-                    bar=bar,
-                )
-                try:
-                    finish = search(evaluations, method, start_unit, seed, method_options)
-                except SearchEndedError as end:
-                    finish = Finish(False, str(end))
-            simulations = evaluations.best_simulations()
-    finally:
-        record.close()
-    return _result(evaluations, finish, simulations, objective, space, method, seed)
+    models, assemble = models_of(model)
+    study = Study(models, assemble, objective, space, store, version, workers, executor)
+    return identification_of(study, plan, run_search(study, plan))
 
 
-def _result(
-    evaluations: Evaluations,
-    finish: Finish,
-    simulations: Any,
-    objective: Objective,
-    space: Space,
-    method: str,
-    seed: int,
-) -> Identification:
-    done: list[Evaluation] = evaluations.done
-    best = evaluations.best
+def _cases_of(model: Any) -> Cases | None:
+    """Return the cases, if it is those that are given in the place of a model."""
+    if isinstance(model, (list, tuple)) and model and all(isinstance(c, Case) for c in model):
+        return Cases(model)
+    return None
+
+
+def identification_of(study: Study, plan: Plan, ended: Ended) -> Identification:
+    """Return what a search has found."""
+    evaluations, objective = ended.evaluations, study.objective
+    done, best = evaluations.done, evaluations.best
     return Identification(
-        parameters=space.dictionary(best.point),
+        parameters=study.space.dictionary(best.point),
         value=best.value,
-        measures=_measures(objective, simulations, best.value),
-        simulations=tuple(
-            as_points(curve, "Q").copy() for curve in curve_list(simulations) if curve is not None
-        ),
+        measures=_measures(objective, ended.simulations, best.value),
+        simulations=points_of(ended.simulations),
         experiments=objective.experiments,
-        history=as_records(done, space.names),
+        history=as_records(done, study.space.names),
         failures=tuple((e.number, e.message) for e in done if e.failed),
-        converged=finish.converged,
-        message=finish.message,
-        method=method,
-        seed=seed,
-        bounds=space.bounds,
+        converged=ended.finish.converged,
+        message=ended.finish.message,
+        method=plan.method,
+        seed=plan.seed,
+        bounds=study.space.bounds,
         measure=objective.measure,
         preset=objective.preset,
+        runs=ended.runs,
+        study=study,
+        kept=evaluations.kept,
         part=objective.part,
         condition=objective.condition,
     )
 
 
-def _check_method(method: str, measure: Measure, method_options: dict[str, Any]) -> None:
-    if method not in METHODS:
-        raise ValueError(f"unknown method {method!r}; choose from {', '.join(METHODS)}")
-    if method == "least_squares" and measure not in LEAST_SQUARES:
-        raise ValueError(
-            f"measure {measure!r} is not a sum of squares; method 'least_squares' needs "
-            f"measure={' or '.join(map(repr, LEAST_SQUARES))}"
-        )
-    stages = METHODS[method]
-    if len(stages) > 1 and not set(method_options) <= set(stages):
-        raise ValueError(
-            f"method_options has {', '.join(method_options)}; "
-            f"method {method!r} takes a dict for each of {', '.join(stages)}"
-        )
-
-
-def _settings(objective: Objective) -> dict[str, Any]:
-    """Return what decides the value of a simulation, for the history file."""
-    digest = hashlib.sha256()
-    for curve in objective.experiments:
-        digest.update(repr(curve.shape).encode() + curve.tobytes())
-    options = dict(objective.options)
-    if objective.part != "experiment":  # histories from before this option have none
-        options["part"] = objective.part
-    return {
-        "measure": objective.measure,
-        "preset": objective.preset,
-        "options": options,
-        "weights": objective.weights.tolist(),
-        "failure_value": objective.failure_value.tolist(),
-        "min_coverage": objective.min_coverage,
-        "experiments": digest.hexdigest(),
-    }
-
-
 def _measures(objective: Objective, simulations: Any, value: float) -> dict[str, float]:
-    """Return the value of simulations under every measure."""
+    """Return the value of simulations under every measure; of cases, what each contributes."""
+    if isinstance(objective, CaseObjective):
+        return objective.by_case(simulations)
     values = {}
     for name in default_measures(objective.experiments[0]):
         if name == objective.measure:

@@ -31,9 +31,9 @@ def functions(
     if callable(measure):
         return partial(_called, measure, P, options), None
     if measure == "sum_of_squares":
-        if options:
-            raise TypeError(f"sum_of_squares has no options, but {', '.join(options)} given")
-        return partial(squared_differences, P), partial(differences, P)
+        if unknown := set(options) - {"over"}:
+            raise TypeError(f"sum_of_squares has the option over alone, not {', '.join(unknown)}")
+        return partial(squared_differences, P, **options), partial(differences, P, **options)
     info = MEASURES[measure]
     residuals = None if info.residuals is None else partial(info.residuals, P, **options)
     if measure == "pcm":  # for its coverage

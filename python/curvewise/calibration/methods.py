@@ -19,6 +19,7 @@ from ._extra import required
 from .domain_reduction import domain_reduction
 from .evaluations import Evaluations, Finish
 from .nelder_mead import nelder_mead
+from .trust_region import trust_region
 
 __all__ = ["METHODS", "search"]
 
@@ -150,15 +151,22 @@ def _nelder_mead(
 
 
 def _least_squares(
-    evaluations: Evaluations, start: Array | None, seed: int, **options: Any
+    evaluations: Evaluations,
+    start: Array | None,
+    seed: int,
+    *,
+    diff_step: float = 1e-6,
+    **options: Any,
 ) -> Finish:
     """Local search by scipy's trust-region least squares on the terms of the measure.
 
-    Derivatives are differences over 1e-6 of the bounds' range: models iterate, and do not give the
-    16 digits that scipy's own step relies on.
+    Derivatives are differences over `diff_step` of the bounds' range. The default is for models in
+    double precision; a solver that prints seven digits needs 1e-4 to 1e-3.
     """
+    if not 0.0 < diff_step < 1.0:
+        raise ValueError(f"diff_step is {diff_step}; give a fraction of the bounds, such as 1e-3")
     k = evaluations.dimensions
-    step = 1e-6
+    step = diff_step
     objective = evaluations.objective
 
     def residuals(unit: Array) -> Array:
@@ -189,6 +197,7 @@ METHODS: dict[str, dict[str, Callable[..., Finish]]] = {
     "sdrm+de": {"sdrm": domain_reduction, "de": _differential_evolution},
     "de": {"de": _differential_evolution},
     "sdrm": {"sdrm": domain_reduction},
+    "trust-region": {"trust-region": trust_region},
     "nelder-mead": {"nelder-mead": _nelder_mead},
     "least_squares": {"least_squares": _least_squares},
 }

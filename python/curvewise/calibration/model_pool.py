@@ -7,6 +7,9 @@ process: workers raise KeyboardInterrupt while the model runs, so that it can en
 model's compiled code) takes the pool with it; the points under way are then run again one by one,
 each in a fresh process, so that only the one that kills its process counts as failed. Workers end
 by themselves when the process that started them is killed.
+
+An executor of the caller's takes the place of these processes: dask's, a cluster's. It is left as
+it was found; what it still runs after Ctrl-C is its owner's to stop.
 """
 
 from __future__ import annotations
@@ -18,13 +21,13 @@ import signal
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, NamedTuple, TypeAlias
 
 __all__ = ["Model", "ModelPool", "Outcome"]
 
-Model: TypeAlias = Callable[[dict[str, float]], Any]
+Model: TypeAlias = Callable[[dict[str, Any]], Any]
 
 _LONGEST_MESSAGE = 500
 _PATIENCE = 5.0  # seconds that a model has to end after Ctrl-C before its process is ended
@@ -47,18 +50,29 @@ class ModelPool:
         Called with a dict of parameters.
     workers : int
         Processes: at least 1 (the model is called in this process), or -1 for one per core.
+    executor : concurrent.futures.Executor, optional
+        Runs the model in the place of processes of this pool's own.
 
     Raises
     ------
     ValueError
-        `workers` is out of range; the model cannot be sent to another process.
+        `workers` is out of range, or given beside an executor; the model cannot be sent to
+        another process.
     """
 
-    def __init__(self, model: Model, workers: int = 1) -> None:
+    def __init__(self, model: Model, workers: int = 1, executor: Executor | None = None) -> None:
         if not callable(model):
             raise TypeError(f"the model is {type(model).__name__}; it must be callable")
         if workers == 0 or workers < -1:
             raise ValueError(f"workers is {workers}; give at least 1, or -1 for one per core")
+        if executor is not None and workers != 1:
+            raise ValueError(f"workers is {workers} beside an executor, which has its own; drop it")
+        if executor is not None and not callable(getattr(executor, "submit", None)):
+            raise TypeError(
+                f"executor is {type(executor).__name__}; give one as concurrent.futures has, such "
+                "as ProcessPoolExecutor() or dask's Client.get_executor()"
+            )
+        self._executor = executor
         self._workers = (os.cpu_count() or 1) if workers == -1 else workers
         self._model = model
         self._pickled = b"" if self._workers == 1 else _pickled(model)
@@ -79,8 +93,19 @@ class ModelPool:
             self._stop()
         self._pool = None
 
-    def run(self, parameters: Sequence[dict[str, float]]) -> Iterator[tuple[int, Outcome]]:
-        """Call the model for every dict; yield index and outcome as they are finished."""
+    def run(self, parameters: Sequence[dict[str, Any]]) -> Iterator[tuple[int, Outcome]]:
+        """Call the model for every dict; yield index and outcome as they are finished.
+
+        Raises
+        ------
+        RuntimeError
+            The caller's executor has broken down.
+        ValueError
+            The model cannot be sent where that executor runs it.
+        """
+        if self._executor is not None:
+            yield from self._run_by_executor(self._executor, parameters)
+            return
         if self._pool is None:
             for i, values in enumerate(parameters):
                 yield i, _called(self._model, values)
@@ -102,8 +127,26 @@ class ModelPool:
         if lost:
             yield from self._run_one_by_one(parameters, sorted(lost))
 
+    def _run_by_executor(
+        self, executor: Executor, parameters: Sequence[dict[str, Any]]
+    ) -> Iterator[tuple[int, Outcome]]:
+        futures: dict[Future[Outcome], int] = {}
+        try:
+            for i, values in enumerate(parameters):
+                futures[executor.submit(_called, self._model, values)] = i
+            for future in as_completed(futures):
+                yield futures[future], _result_of_executor(future)
+        except BrokenExecutor as error:
+            raise RuntimeError(
+                f"the executor has broken down ({error}); start a new one and run this again: what "
+                "a history or a store holds is not lost"
+            ) from error
+        finally:
+            for future in futures:
+                future.cancel()
+
     def _run_one_by_one(
-        self, parameters: Sequence[dict[str, float]], indices: list[int]
+        self, parameters: Sequence[dict[str, Any]], indices: list[int]
     ) -> Iterator[tuple[int, Outcome]]:
         for i in indices:
             self._restart(1)
@@ -155,7 +198,7 @@ def _pickled(model: Model) -> bytes:
         ) from error
 
 
-def _called(model: Model, parameters: dict[str, float]) -> Outcome:
+def _called(model: Model, parameters: dict[str, Any]) -> Outcome:
     started = time.perf_counter()
     try:
         simulations, message = model(dict(parameters)), ""
@@ -170,6 +213,22 @@ def _result(future: Future[Outcome]) -> Outcome | None:
         return future.result()
     except BrokenProcessPool:
         return None
+
+
+def _result_of_executor(future: Future[Outcome]) -> Outcome:
+    """Return the outcome; what kills a worker of a cluster is a failed simulation."""
+    try:
+        return future.result()
+    except BrokenExecutor:
+        raise
+    except (pickle.PicklingError, AttributeError, TypeError) as error:
+        raise ValueError(
+            f"the model cannot be sent to the executor's processes ({error}); define it at the "
+            "top level of a module"
+        ) from error
+    except Exception as error:  # dask's KilledWorker, say: the model's own are outcomes already
+        message = " ".join(f"{type(error).__name__}: {error}".split())
+        return Outcome(None, message[:_LONGEST_MESSAGE], 0.0)
 
 
 # What follows runs in the worker processes.
@@ -205,7 +264,7 @@ def _interrupt(number: int, frame: object) -> None:
         raise KeyboardInterrupt
 
 
-def _call_in_worker(parameters: dict[str, float]) -> Outcome:
+def _call_in_worker(parameters: dict[str, Any]) -> Outcome:
     # The executor hands out a call or two in advance, which can no longer be cancelled: a solver
     # started for one of them would outlive this process.
     if _worker["interrupted"]:

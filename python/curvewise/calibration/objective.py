@@ -22,11 +22,11 @@ from ..measures import normalize, registry
 from ..measures.registry import PRESETS
 from ..reference.scaling import box
 from ..results import PcmMatch
-from .common_x import check_common_x
+from .common_x import check_common_x, y_column
 from .curve_list import as_points, curve_list
 from .loop_measure import Measure, Part, check_part, condition_of, functions, measure_name
 
-__all__ = ["LEAST_SQUARES", "MEASURES", "Objective", "Score"]
+__all__ = ["LEAST_SQUARES", "MEASURES", "FailedSimulationError", "Loop", "Objective", "Score"]
 
 MEASURES = (*registry.MEASURES, "sum_of_squares")
 # Those that are made of differences whose squares are added up.
@@ -70,7 +70,8 @@ class Objective:
         A measure by its name, or a function of the experiment, the simulation and the options
         that returns a float; where it raises ValueError the simulation has failed.
         "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
-        the experiment's x: for data with a common x, which must not turn back.
+        the experiment's x, which must not turn back. Of loops that have a third column, such as
+        time or the step, ``over=2`` compares y at the same time instead.
     preset : {"scaled", "paper", "raw"}
         As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
         that loops, and x and y, count alike, and takes area with ``spacing="matched"``, which
@@ -151,6 +152,7 @@ class Objective:
         if not 0.0 <= min_coverage <= 1.0:
             raise ValueError(f"min_coverage is {min_coverage}; it must be from 0 to 1")
         self.measure = measure_name(measure)
+        self._measure = measure
         self._has_residuals = measure in LEAST_SQUARES
         self.preset = preset
         self.options = dict(options)
@@ -165,7 +167,7 @@ class Objective:
         curves = curve_list(experiments)
         names = ["P"] if len(curves) == 1 else [f"experiments[{i}]" for i in range(len(curves))]
         self._loops = [
-            _Loop(curve, name, measure, condition.scaled, options, part, min_coverage)
+            Loop(curve, name, measure, condition.scaled, options, part, min_coverage)
             for curve, name in zip(curves, names, strict=True)
         ]
         self.experiments = tuple(loop.experiment for loop in self._loops)
@@ -248,6 +250,61 @@ class Objective:
             parts.append(math.sqrt(self.weights[i]) * part)
         return np.concatenate(parts)
 
+    @property
+    def is_least_squares(self) -> bool:
+        """Whether the value is a weighted sum of squares of `residuals`."""
+        return self.measure == "sum_of_squares" and self._has_residuals
+
+    @property
+    def extents(self) -> list[Array]:
+        """The extent of every experiment in each coordinate, of a number the number itself."""
+        return [loop.extent for loop in self._loops]
+
+    def fitted(self, simulations: Any) -> list[Array] | None:
+        """Return the experiments with the simulated y, where y is compared at a common x."""
+        if self.measure != "sum_of_squares" or not self._has_residuals:
+            return None
+        fitted = []
+        for loop, simulation in zip(self._loops, self._matched(simulations), strict=True):
+            points = loop.experiment.copy()
+            points[:, loop.y] += loop.height * loop.residuals(simulation)
+            fitted.append(points)
+        return fitted
+
+    @property
+    def y_columns(self) -> list[int]:
+        """The column of each experiment that noise is in."""
+        return [loop.y for loop in self._loops]
+
+    @property
+    def sigmas(self) -> list[float | None]:
+        """The noise of each loop, where it is given beforehand."""
+        return [None] * len(self._loops)
+
+    @property
+    def residual_counts(self) -> list[int]:
+        """How many residuals each loop has."""
+        return [loop.residual_count for loop in self._loops]
+
+    @property
+    def residual_factors(self) -> Array:
+        """By what a difference in y is multiplied to be a residual of "sum_of_squares"."""
+        heights = np.array([loop.height for loop in self._loops])
+        factors: Array = np.sqrt(self.weights) / heights
+        return factors
+
+    def of_other_tests(self, experiments: Sequence[Array]) -> Objective:
+        """Return the same objective of other experiments, one for each."""
+        return Objective(
+            list(experiments),
+            self._measure,
+            preset=self.preset,
+            weights=self.weights.tolist(),
+            min_coverage=self.min_coverage,
+            part=self.part,
+            **self.options,
+        )
+
     def _matched(self, simulations: Any) -> list[Any]:
         """Return one simulation for every experiment."""
         count = len(self._loops)
@@ -269,7 +326,7 @@ class FailedSimulationError(Exception):
     """A simulation has no value; the message says why."""
 
 
-class _Loop:
+class Loop:
     """One experiment, checked and scaled, ready to be compared with simulations."""
 
     def __init__(
@@ -288,11 +345,17 @@ class _Loop:
             (P,) = normalize(self.experiment)  # refuses what is empty or not finite
             self._box = box(self.experiment) if scaled else None
             self._P = P if scaled else self.experiment
+            extent = np.ptp(self.experiment, axis=0)
+            self.extent = np.where(extent > 0, extent, 1.0)
+            self.y = self._P.shape[1] - 1  # the column that noise is in
             if measure == "sum_of_squares":
-                check_common_x(self._P)
+                over = options.get("over", 0)
+                check_common_x(self._P, over)
+                self.y = y_column(over)
+            self.height = 1.0 if self._box is None else float(self._box[1][self.y])
             self._value, self._residuals = functions(measure, self._P, options, part)
             # Fails here, not at the first simulation, for an experiment or option it refuses.
-            value = self._value(_moved_up(self._P))
+            value = self._value(_moved_up(self._P, self.y))
             self.scale = value.value if isinstance(value, PcmMatch) else value
         except ValueError as error:
             prefix = "" if name == "P" else f"{name}, as P: "
@@ -313,6 +376,12 @@ class _Loop:
         if not math.isfinite(value):
             raise FailedSimulationError(f"the value of the measure is {value}")
         return value
+
+    def of_move(self, distance: float) -> float:
+        """Return the measure of a simulation that is off by a distance in y everywhere."""
+        moved = self.experiment.copy()
+        moved[:, self.y] += distance
+        return self.value(moved)
 
     def residuals(self, simulation: Any) -> Array:
         """Return the differences that the measure squares, or raise FailedSimulationError."""
@@ -354,10 +423,10 @@ class _Loop:
         return match.value
 
 
-def _moved_up(curve: Array) -> Array:
-    """Return the curve, moved along its last coordinate by its extent there."""
+def _moved_up(curve: Array, y: int) -> Array:
+    """Return the curve, moved along a coordinate by its extent there."""
     moved = curve.copy()
-    moved[:, -1] += np.ptp(moved[:, -1]) or 1.0
+    moved[:, y] += np.ptp(moved[:, y]) or 1.0
     return moved
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["loops_and_convergence"]
+__all__ = ["drawn", "loops_and_convergence"]
 
 
 def loops_and_convergence(
@@ -107,3 +107,10 @@ def _draw_convergence(history: np.recarray[Any, Any], objective: str, ax: Axes) 
         ax.set_ylim(top=2.0 * positive.max())
     ax.set(xlabel="evaluation", ylabel=objective)
     ax.legend(loc="best" if len(history) < 1000 else "upper right", frameon=False)
+
+
+def drawn(curve: Array) -> tuple[Array, Array]:
+    """Return what is drawn of a curve: its first two coordinates, or a series by its index."""
+    if curve.shape[1] == 1:
+        return np.arange(len(curve), dtype=np.float64), curve[:, 0]
+    return curve[:, 0], curve[:, 1]

@@ -9,6 +9,9 @@ sum is written out in its order, and nothing is left to a library that may reord
 measures agree to 1e-12 relative, where no decision (longest segment, simple or complex
 quadrilateral, shorter curve) hangs on rounding.
 
+:mod:`curvewise.reference.nearest` has what is made of many distances: nearest neighbours, the runs
+of a long curve, and the mean.
+
 Tables are stored whole, so memory is O(n m) where the compiled library needs O(n + m).
 
 "The paper" is Jekel, Venter, Venter, Stander & Haftka, "Similarity measures for identifying
@@ -20,6 +23,7 @@ from __future__ import annotations
 
 from .. import measures as _measures
 from .._docstrings import inherit
+from . import nearest as nearest
 from .area import area, area_quads
 from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_path, dtw_table

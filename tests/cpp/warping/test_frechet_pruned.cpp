@@ -48,7 +48,7 @@ using test::with_plateaus;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Metric metrics[] = {Metric::sqeuclidean, Metric::cityblock, Metric::chebyshev};
-std::ptrdiff_t pairs = 800;  // in each test
+std::ptrdiff_t pairs = 300;  // in each test
 
 class Comparison {
    public:

@@ -16,7 +16,11 @@ from curvewise.calibration import identify
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
-QUICK = {"progress": False, "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}}}
+QUICK = {
+    "method": "sdrm+de",
+    "progress": False,
+    "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}},
+}
 
 
 def line(parameters):
@@ -47,7 +51,7 @@ def assert_same(one, other):
 
 
 @pytest.mark.parametrize("workers", [1, 2])
-@pytest.mark.parametrize("method", ["sdrm+de", "least_squares", "nelder-mead"])
+@pytest.mark.parametrize("method", ["sdrm+de", "trust-region", "least_squares", "nelder-mead"])
 def test_a_finished_search_is_replayed_from_its_file(tmp_path, method, workers):
     keywords = {"measure": "curve_length", "method": method, "progress": False}
     if method == "sdrm+de":
@@ -140,7 +144,7 @@ SLOW_SCRIPT = """
         try:
             identify(
                 line, line({"a": 2.0, "b": 1.0}), {"a": (0.0, 10.0), "b": (-5.0, 5.0)},
-                workers=int(sys.argv[1]), history=sys.argv[2], method_options={
+                workers=int(sys.argv[1]), history=sys.argv[2], method="sdrm+de", method_options={
                     "sdrm": {"maxiter": 3}, "de": {"maxiter": 3}
                 },
             )

@@ -15,7 +15,11 @@ from curvewise.calibration import identify
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
-QUICK = {"progress": False, "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}}}
+QUICK = {
+    "method": "sdrm+de",
+    "progress": False,
+    "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}},
+}
 DE_ONCE = {"progress": False, "method_options": {"maxiter": 1, "popsize": 8}}
 
 
@@ -137,7 +141,7 @@ def test_same_seed_same_result_and_another_seed_another():
     assert not np.array_equal(found[0].history.a, found[2].history.a)
 
 
-@pytest.mark.parametrize("method", ["sdrm+de", "nelder-mead", "least_squares"])
+@pytest.mark.parametrize("method", ["sdrm+de", "trust-region", "nelder-mead", "least_squares"])
 def test_result_does_not_depend_on_the_number_of_processes(method):
     keywords = {"measure": "curve_length", "method": method, "progress": False}
     if method == "sdrm+de":
@@ -177,7 +181,7 @@ def test_callback_is_told_and_can_stop():
     assert (told[-1].value, told[-1].parameters) == (found.value, found.parameters)
 
 
-@pytest.mark.parametrize("method", ["sdrm+de", "de", "nelder-mead"])
+@pytest.mark.parametrize("method", ["sdrm+de", "de", "trust-region", "nelder-mead"])
 def test_max_evaluations(method):
     calls = []
 
@@ -232,9 +236,11 @@ def test_pictures_have_a_panel_for_every_loop():
     ("bounds", "message"),
     [
         ({}, "bounds is empty"),
-        ({"a": (1, 1)}, r"bounds\['a'\] is \(1, 1\); they must be finite, low < high"),
+        ({"a": (2, 1)}, r"bounds\['a'\] is \(2, 1\); they must be finite, low < high"),
+        ({"a": (1, 1)}, "every parameter is fixed; give one of them bounds"),
+        ([("a", 0, 1)], "bounds is list; give a dict of name"),
         ({"a": (0, np.inf)}, "must be finite"),
-        ({"a": 3}, r"bounds\['a'\] is 3; give \(low, high\)"),
+        ({"a": "3"}, r"bounds\['a'\] is '3'; give \(low, high\)"),
         ({"value": (0, 1)}, "cannot be called 'value'"),
     ],
 )
@@ -252,7 +258,12 @@ def test_wrong_bounds(bounds, message):
         ({"start": {"a": 11.0, "b": 0.0}}, r"start\['a'\] is 11.0; it must be from 0.0 to 10.0"),
         ({"max_evaluations": 0}, "max_evaluations is 0"),
         ({"workers": 0}, "workers is 0"),
-        ({"method_options": {"popsize": 3}}, "takes a dict for each of sdrm, de"),
+        (
+            {"method": "sdrm+de", "method_options": {"popsize": 3}},
+            "takes a dict for each of sdrm, de",
+        ),
+        ({"method_options": {"popsize": 3}}, "'trust-region' has no option popsize; it has starts"),
+        ({"method_options": {"starts": 0}}, "starts is 0"),
     ],
 )
 def test_wrong_keywords(keywords, message):
@@ -260,7 +271,7 @@ def test_wrong_keywords(keywords, message):
         identify(line, EXPERIMENT, BOUNDS, progress=False, **keywords)
 
 
-@pytest.mark.parametrize("method", ["de", "sdrm+de", "nelder-mead"])
+@pytest.mark.parametrize("method", ["de", "sdrm+de", "trust-region", "nelder-mead"])
 def test_a_model_that_never_succeeds_is_an_error_at_once(method):
     calls = []
 
@@ -273,7 +284,7 @@ def test_a_model_that_never_succeeds_is_an_error_at_once(method):
     assert len(calls) <= 30
 
 
-@pytest.mark.parametrize("method", ["de", "sdrm+de", "nelder-mead"])
+@pytest.mark.parametrize("method", ["de", "sdrm+de", "trust-region", "nelder-mead"])
 def test_a_model_hooked_up_wrongly_is_an_error(method):
     with pytest.raises(ValueError, match="there are 2 simulations and 1 experiments"):
         identify(lambda p: [line(p), line(p)], EXPERIMENT, BOUNDS, method=method, progress=False)

@@ -208,7 +208,7 @@ def test_wrong_options_are_refused(keywords, message):
 def test_an_option_that_the_measure_lacks_is_refused():
     with pytest.raises(TypeError, match="window"):
         Objective(EXPERIMENT, "area", window=3)
-    with pytest.raises(TypeError, match="sum_of_squares has no options"):
+    with pytest.raises(TypeError, match="sum_of_squares has the option over alone, not"):
         Objective(BRANCH, "sum_of_squares", window=3)
 
 

@@ -112,6 +112,21 @@ def test_batch(examples) -> None:
     assert done.stderr.endswith("100 %\n")
 
 
+def test_nearest(examples) -> None:
+    library = [loop(65 if i % 2 == 0 else 129, 0.125 * i) for i in range(40)]
+    test = loop(65, 1.3)
+    index = curvewise.Index(library)
+    distances, indices = index.kneighbors([test], 3)
+    lines = [f"{i} {d:.17g}" for i, d in zip(indices[0], distances[0], strict=True)]
+    near = index.radius_neighbors([test], 10.0, return_distance=False)[0]
+    lines += [f"within 10: {i}" for i in near]
+    record = np.concatenate([loop(65, height) for height in (0.5, 1.5, 1.0, 1.25)])
+    found = curvewise.subsequence(test, record, k=2)
+    lines += [f"{one.start} to {one.stop}: {one.distance:.17g}" for one in found]
+    assert output(examples / "nearest").splitlines() == lines
+    assert len(near) > 1
+
+
 C_VALUES = {
     "area": curvewise.area(P, Q),
     "pcm": curvewise.pcm(P, Q),
@@ -231,6 +246,9 @@ def test_the_shared_library_shows_its_interface_alone(prefix) -> None:
     expected -= {"curvewise::shape", "curvewise::Prepared"}
     expected |= {"curvewise::CurveView::shape", "curvewise::Prepared::Prepared"}
     expected |= {"curvewise::Prepared::operator"}
+    of_index = {"Index", "add", "size", "curves", "kneighbors", "radius_neighbors"}
+    expected -= {f"curvewise::{name}" for name in of_index}
+    expected |= {f"curvewise::Index::{name}" for name in of_index | {"~Index", "operator="}}
     expected |= {
         f"{what} for curvewise::Stopped" for what in ("typeinfo", "typeinfo name", "vtable")
     }

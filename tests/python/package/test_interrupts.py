@@ -28,6 +28,9 @@ LONG = random_walk(300_000), random_walk(300_000, seed=1)
 MANY = [random_walk(100, seed=seed) for seed in range(200)] * 50
 ZIGZAG = np.column_stack((np.arange(20_001) % 2, np.zeros(20_001)))
 
+MANY_ALIKE = curvewise.Index([LONG[0][: 300 + i] for i in range(200)] * 10)
+MANY_AREA = curvewise.Index(MANY, "pcm")
+
 LONG_CALLS: dict[str, Callable[[], object]] = {
     "dtw": lambda: curvewise.dtw(*LONG),
     "dtw, 2 workers": lambda: curvewise.dtw(*LONG, workers=2),
@@ -45,6 +48,12 @@ LONG_CALLS: dict[str, Callable[[], object]] = {
     "cdist, pcm": lambda: curvewise.cdist(MANY, measure="pcm", workers=2),
     "cdist, callable": lambda: curvewise.cdist(MANY, measure=lambda P, Q: curvewise.pcm(P, Q)),
     "Prepared": lambda: curvewise.Prepared(LONG[0], "dtw")(LONG[1]),
+    "kneighbors": lambda: MANY_ALIKE.kneighbors(n_neighbors=1999),
+    "kneighbors, 2 workers": lambda: MANY_ALIKE.kneighbors(n_neighbors=1999, workers=2),
+    "radius_neighbors": lambda: MANY_AREA.radius_neighbors(radius=1.0),
+    "subsequence": lambda: curvewise.subsequence(*LONG, k=3),
+    "dtw_mean": lambda: curvewise.dtw_mean(LONG, initial=LONG[0], workers=2),
+    "medoid": lambda: curvewise.medoid(MANY, "frechet", metric="minkowski", p=3),
     "Prepared, list": lambda: curvewise.Prepared(LONG[0], "dtw")([LONG[1]] * 3, workers=2),
 }
 

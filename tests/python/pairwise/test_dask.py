@@ -248,3 +248,28 @@ def test_a_worker_killed_in_the_middle_loses_nothing(client: Client, tmp_path: P
     lost = pairs.pop(victim)
     assert len(lost) < 400
     assert lost <= set().union(*pairs.values())
+
+
+@pytest.mark.parametrize(("measure", "options"), [("dtw", {"window": 30}), ("area", {})])
+@pytest.mark.parametrize("block", [1, 3, 50])
+def test_neighbours_are_those_of_one_index(measure, options, block):
+    random = np.random.default_rng(4)
+    curves = [random.normal(size=(n, 2)).cumsum(axis=0) for n in random.integers(10, 30, 14)]
+    curves[9] = curves[2]  # equal distances, in different blocks
+    X, count = curves[:4], 5
+    expected = curvewise.Index(curves, measure, **options).kneighbors(X, count)
+    lazy = curvewise.dask.kneighbors(X, curves, count, measure, block=block, **options)
+    for found, part in zip(dask.compute(*lazy, scheduler="threads"), expected, strict=True):
+        np.testing.assert_array_equal(found, part)
+    assert lazy[0].shape == lazy[1].shape == (4, count)
+    assert lazy[1].dtype == np.int64
+
+
+def test_neighbours_are_refused_at_once():
+    for call, message in [
+        (lambda: curvewise.dask.kneighbors([[0]], [[0], [1]], 3), "n_neighbors is 3; give .* 1 to"),
+        (lambda: curvewise.dask.kneighbors([[0]], [[0], [np.nan]], 1), r"XB\[1\]\[0\] is nan"),
+        (lambda: curvewise.dask.kneighbors([[0]], [[0]], 1, "far"), "unknown measure 'far'"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            call()

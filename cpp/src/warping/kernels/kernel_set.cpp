@@ -9,8 +9,10 @@
 namespace curvewise::kernels {
 namespace {
 #include "block.inl.hpp"
+#include "boxes.inl.hpp"
 }  // namespace
 
-const KernelSet CURVEWISE_LEVEL = {select_advance, select_fill, select_reach, select_values};
+const KernelSet CURVEWISE_LEVEL = {select_advance, select_fill, select_reach, select_values,
+                                   select_least};
 
 }  // namespace curvewise::kernels

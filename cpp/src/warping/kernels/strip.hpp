@@ -18,6 +18,7 @@
 #include <cstdint>
 
 #include "block.hpp"
+#include "boxes.hpp"
 #include "curvewise/ground_distance.hpp"
 
 namespace curvewise::kernels {
@@ -97,6 +98,7 @@ struct KernelSet {
     // Null for a ground distance without bounds.
     ReachFunction (*reach)(Metric metric, std::ptrdiff_t dim) noexcept;
     ValueFunction (*values)(Metric metric, std::ptrdiff_t dim) noexcept;
+    LeastFunction (*least)(Metric metric, std::ptrdiff_t dim) noexcept;
 };
 
 extern const KernelSet baseline;

@@ -1,0 +1,38 @@
+// Lower bounds of the continuous Fréchet distance between one curve, P, and many that are kept, Q,
+// from cheap to dear: what a search looks at before it computes a distance.
+//
+//   level 0   O(d)       the distances of the ends; how far one box reaches beyond the other
+//   level 1   O(64 d)    both curves cut into some 8 runs of edges: the largest distance of the box
+//                        of a run to the nearest box of the other curve
+//   level 2   O(1000 d)  the same with some 32 runs
+//
+// The distance is the real number, rounded up. What is computed here is made a little smaller than
+// its rounding can have made it larger. Curves outside the usual range have the bound 0.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "continuous/boxed_curve.hpp"
+#include "curves/checks.hpp"
+
+namespace curvewise::detail {
+
+// The first point of a curve, the last, and its box; and the largest |coordinate|.
+class CurveSummary {
+   public:
+    CurveSummary(const CheckedCurve& checked, const BoxedCurve& boxed);
+
+    // Of the summaries of two curves with `dim` coordinates.
+    double bound(const CurveSummary& other, std::ptrdiff_t dim) const noexcept;
+    double largest() const noexcept { return largest_; }
+
+   private:
+    double largest_;
+    std::vector<double> numbers_;
+};
+
+// At most `most_runs` of either curve.
+double run_bound(const BoxedCurve& P, const BoxedCurve& Q, std::ptrdiff_t most_runs);
+
+}  // namespace curvewise::detail

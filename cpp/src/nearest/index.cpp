@@ -1,0 +1,285 @@
+// Index: copies of the curves, prepared by their measure, and queries shared out among threads. A
+// query is one thread's, so that the number of threads changes nothing.
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <set>
+#include <shared_mutex>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "curvewise/nearest.hpp"
+#include "nearest/neighbor_search.hpp"
+#include "pairwise/batch.hpp"
+#include "runtime/workers.hpp"
+
+namespace curvewise {
+namespace {
+
+using detail::CheckedCurve;
+using detail::CurveList;
+using detail::NeighborSearch;
+using detail::Poller;
+using detail::TargetQuery;
+using detail::Targets;
+
+// A curve with points of its own. Flat where the caller's is, for messages.
+class OwnedCurve {
+   public:
+    explicit OwnedCurve(const CurveView& curve) : is_flat_(curve.is_flat()), dim_(curve.dim()) {
+        points_.reserve(static_cast<std::size_t>(curve.size() * dim_));
+        for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+            for (std::ptrdiff_t c = 0; c < dim_; ++c) points_.push_back(curve(i, c));
+        }
+    }
+    CurveView view() const noexcept {
+        const auto n = static_cast<std::ptrdiff_t>(points_.size()) / dim_;
+        return is_flat_ ? CurveView(points_.data(), n, 1, 1, 0)
+                        : CurveView(points_.data(), n, dim_);
+    }
+
+   private:
+    bool is_flat_;
+    std::ptrdiff_t dim_;
+    std::vector<double> points_;
+};
+
+// What is asked: of curve `i` of the queries, by what is left out of the targets, or -1.
+using Answer = std::function<void(NeighborSearch& search, TargetQuery& query, std::size_t i,
+                                  std::int64_t all_steps, std::ptrdiff_t left_out)>;
+
+// The queries of one call: curves of the caller's, or all of the index, each without itself.
+struct Queries {
+    std::vector<CheckedCurve> curves;
+    bool are_targets;
+};
+
+class QueryRun {
+   public:
+    QueryRun(const Targets& targets, const Queries& queries, const Answer& answer)
+        : targets_(targets), queries_(queries), answer_(answer) {}
+
+    SearchRecord run(std::ptrdiff_t workers, Control* control) {
+        Poller poller(control);
+        std::int64_t total = 0;
+        for (const CheckedCurve& P : queries_.curves) total += targets_.steps(P.curve.size());
+        poller.begin(total);
+        const auto useful = static_cast<std::ptrdiff_t>(queries_.curves.size());
+        run_workers(std::min(workers, useful), poller,
+                    [this](std::ptrdiff_t /*w*/, Poller& own) { take_queries(own); });
+        if (failure_) std::rethrow_exception(failure_);
+        poller.finish();
+        return record_;
+    }
+
+   private:
+    void take_queries(Poller& poller) noexcept {
+        try {
+            NeighborSearch search(targets_, poller);
+            for (std::size_t i = next_++; i < queries_.curves.size() && !has_failed_; i = next_++) {
+                const CheckedCurve& P = queries_.curves[i];
+                const std::unique_ptr<TargetQuery> query = targets_.query(P);
+                answer_(search, *query, i, targets_.steps(P.curve.size()),
+                        queries_.are_targets ? static_cast<std::ptrdiff_t>(i) : -1);
+            }
+            const std::lock_guard<std::mutex> lock(mutex_);
+            record_.pairs += search.record().pairs;
+            record_.refined += search.record().refined;
+            record_.computed += search.record().computed;
+        } catch (...) {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            if (!failure_) failure_ = std::current_exception();
+            has_failed_ = true;
+        }
+    }
+
+    const Targets& targets_;
+    const Queries& queries_;
+    const Answer& answer_;
+    std::atomic<std::size_t> next_{0};
+    std::atomic<bool> has_failed_{false};
+    std::mutex mutex_;
+    std::exception_ptr failure_;
+    SearchRecord record_;
+};
+
+void check_radius(double radius) {
+    if (radius >= 0.0) return;
+    throw std::invalid_argument("radius is " + std::to_string(radius) + "; give a number >= 0");
+}
+
+}  // namespace
+
+class Index::State {
+   public:
+    explicit State(const Measure& measure)
+        : measure_(std::visit([](const auto& options) { return detail::batch_measure(options); },
+                              measure)),
+          targets_(measure_->make_targets()) {}
+
+    void add(const std::vector<CurveView>& curves) {
+        const std::unique_lock<std::shared_mutex> lock(mutex_);
+        check_like_first({curves, "curves"});
+        std::vector<OwnedCurve> owned;
+        owned.reserve(curves.size());
+        const std::unique_ptr<Targets> added = measure_->make_targets();
+        for (std::size_t i = 0; i < curves.size(); ++i) {
+            owned.emplace_back(curves[i]);
+            added->add(CheckedCurve(owned.back().view(), CurveList(curves, "curves").name_of(i)));
+        }
+        for (const OwnedCurve& curve : owned) sizes_.insert(curve.view().size());
+        curves_.insert(curves_.end(), std::make_move_iterator(owned.begin()),
+                       std::make_move_iterator(owned.end()));
+        targets_->take(*added);
+    }
+
+    std::size_t size() const {
+        const std::shared_lock<std::shared_mutex> lock(mutex_);
+        return curves_.size();
+    }
+
+    std::vector<CurveView> curves() const {
+        const std::shared_lock<std::shared_mutex> lock(mutex_);
+        std::vector<CurveView> views;
+        views.reserve(curves_.size());
+        for (const OwnedCurve& curve : curves_) views.push_back(curve.view());
+        return views;
+    }
+
+    // Of the curves of X, or, where that is null, of the index.
+    void kneighbors(const std::vector<CurveView>* X, std::ptrdiff_t count, double* distances,
+                    std::int64_t* indices, const SearchOptions& options, Control* control) const {
+        const std::shared_lock<std::shared_mutex> lock(mutex_);
+        check_count(count, X == nullptr);
+        ask(X, options, control,
+            [=](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
+                std::ptrdiff_t left_out) {
+                auto place = static_cast<std::ptrdiff_t>(i) * count;
+                for (const Neighbor& found : search.nearest(query, all_steps, count, left_out)) {
+                    distances[place] = found.distance;
+                    indices[place++] = found.index;
+                }
+            });
+    }
+
+    std::vector<std::vector<Neighbor>> radius_neighbors(const std::vector<CurveView>* X,
+                                                        double radius, const SearchOptions& options,
+                                                        Control* control) const {
+        const std::shared_lock<std::shared_mutex> lock(mutex_);
+        check_radius(radius);
+        std::vector<std::vector<Neighbor>> results(X == nullptr ? curves_.size() : X->size());
+        ask(X, options, control,
+            [&](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
+                std::ptrdiff_t left_out) {
+                results[i] =
+                    search.within(query, all_steps, radius,
+                                  options.with_distances || options.sort_results, left_out);
+                if (options.sort_results) {
+                    std::sort(results[i].begin(), results[i].end(), detail::is_nearer);
+                }
+            });
+        return results;
+    }
+
+   private:
+    void ask(const std::vector<CurveView>* X, const SearchOptions& options, Control* control,
+             const Answer& answer) const {
+        const std::ptrdiff_t workers = detail::resolve_workers(options.workers);
+        const Queries queries = checked(X);
+        const SearchRecord record = QueryRun(*targets_, queries, answer).run(workers, control);
+        if (options.record == nullptr) return;
+        options.record->pairs += record.pairs;
+        options.record->refined += record.refined;
+        options.record->computed += record.computed;
+    }
+
+    Queries checked(const std::vector<CurveView>* X) const {
+        Queries queries{{}, X == nullptr};
+        if (X == nullptr) {
+            for (std::size_t i = 0; i < curves_.size(); ++i) {
+                queries.curves.emplace_back(curves_[i].view(), "curves[" + std::to_string(i) + "]");
+            }
+        } else {
+            const CurveList list(*X, "X");
+            check_like_first(list);
+            for (std::size_t i = 0; i < X->size(); ++i) {
+                queries.curves.emplace_back(list[i], list.name_of(i));
+            }
+        }
+        std::set<std::ptrdiff_t> sizes;
+        for (const CheckedCurve& P : queries.curves) {
+            sizes.insert(P.curve.size());
+            targets_->check(P);
+        }
+        for (const std::ptrdiff_t n : sizes) {
+            for (const std::ptrdiff_t m : sizes_) measure_->check_sizes(n, m);
+        }
+        return queries;
+    }
+
+    // The shapes of a list, which must agree with those of the index.
+    void check_like_first(const CurveList& list) const {
+        if (curves_.empty()) {
+            check_shapes(measure_->requirements(), list);
+        } else {
+            const CurveView first = curves_.front().view();
+            check_shapes(measure_->requirements(), {first, "curve 0 of the index"}, list);
+        }
+    }
+
+    void check_count(std::ptrdiff_t count, bool leaves_itself_out) const {
+        const auto most = static_cast<std::ptrdiff_t>(curves_.size()) - (leaves_itself_out ? 1 : 0);
+        if (count >= 1 && count <= most) return;
+        throw std::invalid_argument(
+            "n_neighbors is " + std::to_string(count) + "; give a whole number from 1 to " +
+            std::to_string(most) +
+            (leaves_itself_out ? ", the other curves of the index" : ", the curves of the index"));
+    }
+
+    std::unique_ptr<const detail::BatchMeasure> measure_;
+    mutable std::shared_mutex mutex_;
+    std::vector<OwnedCurve> curves_;
+    std::set<std::ptrdiff_t> sizes_;
+    std::unique_ptr<Targets> targets_;
+};
+
+Index::Index(const std::vector<CurveView>& curves, const Measure& measure)
+    : state_(std::make_unique<State>(measure)) {
+    state_->add(curves);
+}
+Index::Index(Index&&) noexcept = default;
+Index& Index::operator=(Index&&) noexcept = default;
+Index::~Index() = default;
+
+void Index::add(const std::vector<CurveView>& curves) { state_->add(curves); }
+std::size_t Index::size() const { return state_->size(); }
+std::vector<CurveView> Index::curves() const { return state_->curves(); }
+
+void Index::kneighbors(const std::vector<CurveView>& X, std::ptrdiff_t n_neighbors,
+                       double* distances, std::int64_t* indices, const SearchOptions& options,
+                       Control* control) const {
+    state_->kneighbors(&X, n_neighbors, distances, indices, options, control);
+}
+
+void Index::kneighbors(std::ptrdiff_t n_neighbors, double* distances, std::int64_t* indices,
+                       const SearchOptions& options, Control* control) const {
+    state_->kneighbors(nullptr, n_neighbors, distances, indices, options, control);
+}
+
+std::vector<std::vector<Neighbor>> Index::radius_neighbors(const std::vector<CurveView>& X,
+                                                           double radius,
+                                                           const SearchOptions& options,
+                                                           Control* control) const {
+    return state_->radius_neighbors(&X, radius, options, control);
+}
+
+std::vector<std::vector<Neighbor>> Index::radius_neighbors(double radius,
+                                                           const SearchOptions& options,
+                                                           Control* control) const {
+    return state_->radius_neighbors(nullptr, radius, options, control);
+}
+
+}  // namespace curvewise

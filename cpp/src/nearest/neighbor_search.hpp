@@ -1,0 +1,69 @@
+// The search for the nearest targets of one query, by one thread (see curvewise/nearest.hpp).
+//
+// Candidates stand in a heap by their bounds. The one with the smallest is taken out: if its bound
+// can be raised it is, and the candidate goes back; if not, its distance is computed. The search
+// ends where the smallest bound is above the k-th best distance: strictly, since an equal distance
+// with a smaller index would still come first. O(N) time for N targets, and O(log N) for each that
+// is taken out, besides bounds and distances.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "curvewise/nearest.hpp"
+#include "pairwise/targets.hpp"
+#include "runtime/poller.hpp"
+
+namespace curvewise::detail {
+
+// Smaller distances first, then smaller indices; distances that are no numbers last.
+bool is_nearer(const Neighbor& a, const Neighbor& b) noexcept;
+
+class NeighborSearch {
+   public:
+    // Throw Stopped where the poller of `call` says so. Count `all_steps` as done.
+    NeighborSearch(const Targets& targets, Poller& poller);
+
+    // The `count` nearest, in order. `left_out`: a target that is not looked at, or -1.
+    std::vector<Neighbor> nearest(TargetQuery& query, std::int64_t all_steps, std::ptrdiff_t count,
+                                  std::ptrdiff_t left_out);
+    // All within `radius`, by index; the distances are nan where they are not wanted.
+    std::vector<Neighbor> within(TargetQuery& query, std::int64_t all_steps, double radius,
+                                 bool with_distances, std::ptrdiff_t left_out);
+
+    const SearchRecord& record() const noexcept { return record_; }
+
+   private:
+    struct Candidate {
+        double bound;
+        std::ptrdiff_t target;
+        int level;
+    };
+
+    static bool comes_later(const Candidate& a, const Candidate& b) noexcept;
+    void look_at(TargetQuery& query, Candidate candidate);
+    // The distance, or nan where it is not wanted, of a target that is within the radius.
+    std::optional<double> distance_within(TargetQuery& query, std::ptrdiff_t target, double radius,
+                                          bool is_wanted);
+    double value(TargetQuery& query, std::ptrdiff_t target, double cutoff);
+    double refined(TargetQuery& query, const Candidate& candidate);
+    void keep_if_near(const Neighbor& found);
+    // A distance above it is of no interest.
+    double cutoff() const noexcept;
+    void finish_pair(TargetQuery& query, std::ptrdiff_t target);
+
+    const Targets& targets_;
+    Poller& poller_;
+    std::unique_ptr<ThreadMemory> memory_;
+    std::vector<double> quick_;
+    std::vector<Candidate> heap_;
+    std::vector<Neighbor> best_;  // a heap with the furthest on top
+    std::size_t most_ = 0;
+    std::int64_t counted_ = 0;
+    SearchRecord record_;
+};
+
+}  // namespace curvewise::detail

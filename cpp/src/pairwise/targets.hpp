@@ -1,0 +1,62 @@
+// One curve against many that are kept, whatever the measure: what a search for the nearest goes
+// through. Of every pair there is the value, and there may be lower bounds of it, from cheap to
+// dear, none of which is above the value as it is computed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "curves/checks.hpp"
+#include "pairwise/pair_run.hpp"
+
+namespace curvewise::detail {
+
+// One P, prepared, for one thread.
+class TargetQuery {
+   public:
+    TargetQuery() = default;
+    TargetQuery(const TargetQuery&) = delete;
+    TargetQuery(TargetQuery&&) = delete;
+    TargetQuery& operator=(const TargetQuery&) = delete;
+    TargetQuery& operator=(TargetQuery&&) = delete;
+    virtual ~TargetQuery() = default;
+
+    // The number of bounds of a pair, at least 1.
+    virtual int levels() const noexcept = 0;
+    // Writes the first bound of every target.
+    virtual void quick(double* bounds) = 0;
+    // That of a level above 0.
+    virtual double refined(std::ptrdiff_t j, int level) = 0;
+    virtual double value(std::ptrdiff_t j, const PairCall& call) = 0;
+    // Whether the value is at most the call's cutoff.
+    virtual bool is_within(std::ptrdiff_t j, const PairCall& call) = 0;
+    // The nominal steps of the pair with target j.
+    virtual std::int64_t steps(std::ptrdiff_t j) const noexcept = 0;
+};
+
+// All curves that take Q's place, prepared. A query may be made, and used, by several threads at
+// once, while nothing is added.
+class Targets {
+   public:
+    Targets() = default;
+    Targets(const Targets&) = delete;
+    Targets(Targets&&) = delete;
+    Targets& operator=(const Targets&) = delete;
+    Targets& operator=(Targets&&) = delete;
+    virtual ~Targets() = default;
+
+    // The points must outlive this. Throws where the curve serves no P.
+    virtual void add(const CheckedCurve& Q) = 0;
+    // Adds those of `others`, of the same measure, and leaves it empty.
+    virtual void take(Targets& others) = 0;
+    virtual std::ptrdiff_t size() const noexcept = 0;
+    // Throws where P serves no Q, as query() does.
+    virtual void check(const CheckedCurve& P) const = 0;
+    virtual std::unique_ptr<TargetQuery> query(const CheckedCurve& P) const = 0;
+    // The nominal steps of a P of n points with all of these.
+    virtual std::int64_t steps(std::ptrdiff_t n) const noexcept = 0;
+    virtual std::unique_ptr<ThreadMemory> make_memory() const = 0;
+};
+
+}  // namespace curvewise::detail

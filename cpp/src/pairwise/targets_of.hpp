@@ -1,0 +1,140 @@
+// The hooks of Targets for one measure class (see measure.hpp), with its bounds if it has some.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "pairwise/measure.hpp"
+#include "pairwise/targets.hpp"
+
+namespace curvewise::detail {
+
+// In the place of M::Bounds: 0 is below every value.
+template <class M>
+class NoBounds {
+   public:
+    static constexpr int levels = 1;
+    void keep(const typename M::PreparedQ& /*Q*/) noexcept { ++size_; }
+    void take(NoBounds& others) noexcept { size_ += std::exchange(others.size_, 0); }
+
+    class Query {
+       public:
+        Query(const M& measure, const NoBounds& bounds, const typename M::PreparedP& P) noexcept
+            : measure_(measure), size_(bounds.size_), P_(P) {}
+        void quick(double* bounds) const noexcept { std::fill_n(bounds, size_, 0.0); }
+        double refined(std::ptrdiff_t /*j*/, const typename M::PreparedQ& /*Q*/,
+                       int /*level*/) const noexcept {
+            return 0.0;
+        }
+        double value(std::ptrdiff_t /*j*/, const typename M::PreparedQ& Q,
+                     const Call<typename M::Memory>& call) const {
+            return measure_(P_, Q, call);
+        }
+        bool is_within(std::ptrdiff_t j, const typename M::PreparedQ& Q,
+                       const Call<typename M::Memory>& call) const {
+            return value(j, Q, call) <= call.cutoff;
+        }
+
+       private:
+        const M& measure_;
+        std::ptrdiff_t size_;
+        const typename M::PreparedP& P_;
+    };
+
+   private:
+    std::ptrdiff_t size_ = 0;
+};
+
+template <class M, class = void>
+struct BoundsOf {
+    using type = NoBounds<M>;
+};
+template <class M>
+struct BoundsOf<M, std::void_t<typename M::Bounds>> {
+    using type = typename M::Bounds;
+};
+
+template <class M>
+class TargetsOf final : public Targets {
+   public:
+    explicit TargetsOf(const M& measure) : measure_(measure) {}
+
+    void add(const CheckedCurve& Q) override {
+        curves_.emplace_back(Q);
+        bounds_.keep(curves_.back());
+        points_ += Q.curve.size();
+    }
+    void take(Targets& targets) override {
+        auto& others = static_cast<TargetsOf&>(targets);
+        curves_.insert(curves_.end(), std::make_move_iterator(others.curves_.begin()),
+                       std::make_move_iterator(others.curves_.end()));
+        bounds_.take(others.bounds_);
+        points_ += std::exchange(others.points_, 0);
+        others.curves_.clear();
+    }
+    std::ptrdiff_t size() const noexcept override {
+        return static_cast<std::ptrdiff_t>(curves_.size());
+    }
+    void check(const CheckedCurve& P) const override { measure_.check_p(typename M::PreparedP(P)); }
+    std::int64_t steps(std::ptrdiff_t n) const noexcept override {
+        return M::steps(n, size(), points_);
+    }
+    std::unique_ptr<TargetQuery> query(const CheckedCurve& P) const override {
+        return std::make_unique<Query>(*this, P);
+    }
+    std::unique_ptr<ThreadMemory> make_memory() const override {
+        return std::make_unique<OwnMemory>();
+    }
+
+   private:
+    using Bounds = typename BoundsOf<M>::type;
+    struct OwnMemory final : ThreadMemory {
+        typename M::Memory content;
+    };
+
+    class Query final : public TargetQuery {
+       public:
+        Query(const TargetsOf& targets, const CheckedCurve& P)
+            : targets_(targets), P_(P), bounds_(targets.measure_, targets.bounds_, P_) {
+            targets.measure_.check_p(P_);
+        }
+        int levels() const noexcept override { return Bounds::levels; }
+        void quick(double* bounds) override { bounds_.quick(bounds); }
+        double refined(std::ptrdiff_t j, int level) override {
+            return bounds_.refined(j, target(j), level);
+        }
+        double value(std::ptrdiff_t j, const PairCall& call) override {
+            return bounds_.value(j, target(j), own(call));
+        }
+        bool is_within(std::ptrdiff_t j, const PairCall& call) override {
+            return bounds_.is_within(j, target(j), own(call));
+        }
+        std::int64_t steps(std::ptrdiff_t j) const noexcept override {
+            return M::steps(P_.checked.curve.size(), 1, target(j).checked.curve.size());
+        }
+
+       private:
+        static Call<typename M::Memory> own(const PairCall& call) noexcept {
+            typename M::Memory& memory = static_cast<OwnMemory&>(call.memory).content;
+            return {call.cutoff, call.workers, call.poller, memory};
+        }
+        const typename M::PreparedQ& target(std::ptrdiff_t j) const noexcept {
+            return targets_.curves_[static_cast<std::size_t>(j)];
+        }
+
+        const TargetsOf& targets_;
+        typename M::PreparedP P_;
+        typename Bounds::Query bounds_;
+    };
+
+    const M& measure_;
+    std::vector<typename M::PreparedQ> curves_;
+    Bounds bounds_;
+    std::int64_t points_ = 0;
+};
+
+}  // namespace curvewise::detail

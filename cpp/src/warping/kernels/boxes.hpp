@@ -1,0 +1,28 @@
+// What lower bounds ask of an instruction-set level: how far the points of one curve are from the
+// boxes around the runs of another. As for strips, pointers and sizes only.
+#pragma once
+
+#include <cstddef>
+
+namespace curvewise::kernels {
+
+struct PointsAndBoxes {
+    // Coordinate c of point i is points[c * stride + i]; padded as for a strip.
+    const double* points;
+    std::ptrdiff_t stride;
+    std::ptrdiff_t count;
+    std::ptrdiff_t dim;
+    // Box after box, its lowest coordinates and then its highest.
+    const double* boxes;
+    std::ptrdiff_t box_count;
+    // Where not null, point i looks at boxes first_box[i]..last_box[i] only, or at a few more. Both
+    // never fall, or never rise, from point to point.
+    const std::ptrdiff_t* first_box;
+    const std::ptrdiff_t* last_box;
+    // The distance of every point to the nearest of its boxes; padded.
+    double* least;
+};
+
+using LeastFunction = void (*)(const PointsAndBoxes& sides) noexcept;
+
+}  // namespace curvewise::kernels

@@ -1,0 +1,59 @@
+// The distances of points to the nearest of some boxes (see boxes.hpp), a SIMD vector of points at
+// a time: O(points boxes d). The nearest coordinate of a box is subtracted, and the rest computed,
+// by the operations of the ground distance, each of which is monotone in floating point too: no
+// point within a box is nearer, to the bit. Included by the kernel of each level, inside its
+// anonymous namespace.
+
+template <class Norm, int fixed_dim>
+void least(const PointsAndBoxes& sides) noexcept {
+    const std::ptrdiff_t dim = fixed_dim > 0 ? fixed_dim : sides.dim;
+    for (std::ptrdiff_t k = 0; k < sides.count; k += width) {
+        std::ptrdiff_t begin = 0, end = sides.box_count;
+        if (sides.first_box != nullptr) {
+            const std::ptrdiff_t last = k + width < sides.count ? k + width - 1 : sides.count - 1;
+            const std::ptrdiff_t* const first_box = sides.first_box;
+            const std::ptrdiff_t* const last_box = sides.last_box;
+            begin = first_box[k] < first_box[last] ? first_box[k] : first_box[last];
+            end = (last_box[k] > last_box[last] ? last_box[k] : last_box[last]) + 1;
+        }
+        Pack best = simd::pset1<Pack>(std::numeric_limits<double>::infinity());
+        for (std::ptrdiff_t b = begin; b < end; ++b) {
+            const double* const low = sides.boxes + b * 2 * dim;
+            const double* const high = low + dim;
+            Pack sum = simd::pset1<Pack>(0.0);
+            for (std::ptrdiff_t c = 0; c < dim; ++c) {
+                const Pack x = load(sides.points + c * sides.stride + k);
+                const Pack inside = simd::pmax(simd::pmin(x, simd::pset1<Pack>(high[c])),
+                                               simd::pset1<Pack>(low[c]));
+                sum = Norm::add(sum, simd::psub(x, inside));
+            }
+            best = simd::pmin(best, sum);
+        }
+        store(sides.least + k, Norm::finish(best));
+    }
+}
+
+template <class Norm>
+LeastFunction select_least_in(std::ptrdiff_t dim) noexcept {
+    if (dim == 1) return least<Norm, 1>;
+    if (dim == 2) return least<Norm, 2>;
+    if (dim == 3) return least<Norm, 3>;
+    return least<Norm, 0>;
+}
+
+// The rounding of minkowski's powers is not monotone.
+LeastFunction select_least(Metric metric, std::ptrdiff_t dim) noexcept {
+    switch (metric) {
+        case Metric::euclidean:
+            return select_least_in<RootOfSquares<DividerRoot>>(dim);
+        case Metric::sqeuclidean:
+            return select_least_in<Squares>(dim);
+        case Metric::cityblock:
+            return select_least_in<AbsoluteSum>(dim);
+        case Metric::chebyshev:
+            return select_least_in<AbsoluteMaximum>(dim);
+        case Metric::minkowski:
+            return nullptr;
+    }
+    return nullptr;
+}

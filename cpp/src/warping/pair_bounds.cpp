@@ -1,0 +1,265 @@
+#include "warping/pair_bounds.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+#include "warping/dispatch.hpp"
+#include "warping/ground_distance.hpp"
+
+namespace curvewise::detail {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// With fewer cells, the table is swept as fast as the points are compared with boxes.
+constexpr std::ptrdiff_t fewest_cells = 1 << 10;
+
+// With more, the pruning of a single pair, which searches for its bounds, is the faster way.
+constexpr std::ptrdiff_t most_narrowed_cells = 3 << 18;
+
+// Of a level of the bounds.
+constexpr std::ptrdiff_t most_boxes[PairBounds::levels] = {1, 8, 32, 48};
+constexpr int point_level = 3;
+
+// The finest level of a tree with at most so many boxes.
+std::ptrdiff_t tree_level(const BoxTree& tree, std::ptrdiff_t most) noexcept {
+    std::ptrdiff_t level = 0;
+    while (tree.boxes(level) > most) ++level;
+    return level;
+}
+
+void append_summary(const BoxTree& tree, std::vector<double>& summary) {
+    const PointAccess& points = tree.points();
+    const std::ptrdiff_t dim = tree.dim();
+    for (std::ptrdiff_t c = 0; c < dim; ++c) summary.push_back(points(0, c));
+    for (std::ptrdiff_t c = 0; c < dim; ++c) summary.push_back(points(tree.size() - 1, c));
+    const double* const box = tree.box(tree.levels() - 1, 0);
+    summary.insert(summary.end(), box, box + 2 * dim);
+}
+
+template <class Norm>
+double distance(const double* a, const double* b, std::ptrdiff_t dim) noexcept {
+    double sum = 0.0;
+    for (std::ptrdiff_t c = 0; c < dim; ++c) sum = Norm::add(sum, a[c] - b[c]);
+    return Norm::finish(sum);
+}
+
+// Four sums side by side: the order does not matter here.
+double sum_of(const double* terms, std::ptrdiff_t count) noexcept {
+    double sums[4] = {};
+    std::ptrdiff_t k = 0;
+    for (; k + 4 <= count; k += 4) {
+        for (std::ptrdiff_t lane = 0; lane < 4; ++lane) sums[lane] += terms[k + lane];
+    }
+    for (; k < count; ++k) sums[0] += terms[k];
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+// Of runs of `points` points of a curve of `size`, a term for every point, except for the first.
+double sum_but_one(const double* terms, std::ptrdiff_t runs, std::ptrdiff_t points,
+                   std::ptrdiff_t size) noexcept {
+    if (runs == 1) return terms[0] * static_cast<double>(size - 1);
+    const std::ptrdiff_t in_last = size - (runs - 1) * points;
+    return terms[0] * static_cast<double>(points - 1) +
+           sum_of(terms + 1, runs - 2) * static_cast<double>(points) +
+           terms[runs - 1] * static_cast<double>(in_last);
+}
+
+// As smallest_distance(), before the norm's finish, which is monotone.
+template <class Norm>
+double unfinished_distance(const double* a, const double* b, std::ptrdiff_t dim) noexcept {
+    double sum = 0.0;
+    for (std::ptrdiff_t c = 0; c < dim; ++c) {
+        sum = Norm::add(sum, std::max(std::max(a[c] - b[dim + c], b[c] - a[dim + c]), 0.0));
+    }
+    return sum;
+}
+
+}  // namespace
+
+void KeptBounds::keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrder order) {
+    trees_.emplace_back(packed, order);
+    dim_ = packed.dim();
+    append_summary(trees_.back(), summaries_);
+    largest_.push_back(Q.largest);
+}
+
+void KeptBounds::take(KeptBounds& others) {
+    dim_ = std::max(dim_, others.dim_);
+    largest_.insert(largest_.end(), others.largest_.begin(), others.largest_.end());
+    summaries_.insert(summaries_.end(), others.summaries_.begin(), others.summaries_.end());
+    trees_.insert(trees_.end(), std::make_move_iterator(others.trees_.begin()),
+                  std::make_move_iterator(others.trees_.end()));
+    others = KeptBounds();
+}
+
+PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, const CheckedCurve& P,
+                       const PackedCurve& packed)
+    : options_(options),
+      kept_(kept),
+      P_(packed),
+      metric_(canonical_metric(options.ground, packed.dim())),
+      kernel_(active_level().kernels->least(metric_, packed.dim())),
+      largest_(P.largest),
+      tree_(packed, PointOrder::forward) {
+    append_summary(tree_, summary_);
+}
+
+bool PairBounds::is_bounded(std::ptrdiff_t j) const noexcept {
+    return has_box_bounds(metric_) &&
+           RangeScale(std::max(largest_, kept_.largest(j))).is_identity();
+}
+
+template <class Norm>
+double PairBounds::quick_bound(std::ptrdiff_t j) const noexcept {
+    if (!is_bounded(j)) return 0.0;
+    const std::ptrdiff_t dim = tree_.dim();
+    const double* const p = summary_.data();
+    const double* const q = kept_.summary(j);
+    const double first = options_.open_begin ? 0.0 : distance<Norm>(p, q, dim);
+    const double last = options_.open_end ? 0.0 : distance<Norm>(p + dim, q + dim, dim);
+    const bool is_one_cell = tree_.size() == 1 && kept_.tree(j).size() == 1;
+    const double ends = is_frechet() || is_one_cell ? std::max(first, last) : first + last;
+    // Some point of the one curve lies so far beyond all points of the other.
+    double beyond = 0.0;
+    for (std::ptrdiff_t c = 2 * dim; c < 3 * dim; ++c) {
+        const double low = q[c] - p[c], high = p[c + dim] - q[c + dim];
+        beyond = std::max(beyond, std::max(low, high));
+        if (!is_open()) beyond = std::max(beyond, std::max(-low, -high));
+    }
+    const double bound = std::max(ends, Norm::finish(Norm::add(0.0, beyond)));
+    return bound / options_.divisor(tree_.size(), kept_.tree(j).size());
+}
+
+void PairBounds::quick(double* bounds) const {
+    with_norm(metric_, [&](auto norm) {
+        for (std::ptrdiff_t j = 0; j < kept_.size(); ++j) {
+            bounds[j] = quick_bound<decltype(norm)>(j);
+        }
+    });
+}
+
+void BandedBoxes::assign(std::ptrdiff_t count, PointOrder order, const BoxTree& boxes,
+                         std::ptrdiff_t level, std::optional<std::ptrdiff_t> window) {
+    if (count == count_ && boxes.size() == size_) return;
+    count_ = count;
+    size_ = boxes.size();
+    const Band band(count, size_, window);
+    is_limited_ = band.is_limited();
+    if (!is_limited_) return;
+    const std::ptrdiff_t points_per_box = BoxTree::leaf_points << level;
+    first_.resize(static_cast<std::size_t>(count));
+    last_.resize(static_cast<std::size_t>(count));
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+        const ColumnRange range = band.columns(i);
+        const auto place =
+            static_cast<std::size_t>(order == PointOrder::forward ? i : count - 1 - i);
+        first_[place] = range.first / points_per_box;
+        last_[place] = range.last / points_per_box;
+    }
+}
+
+double PairBounds::combined(double rows, double columns, double first_row,
+                            double first_column) const {
+    // symmetric2 pays for rows and columns, except for the first cell: once.
+    return options_.recurrence == kernels::Recurrence::dtw_symmetric2
+               ? rows + columns + std::max(first_row, first_column)
+               : std::max(rows + first_row, columns + first_column);
+}
+
+template <class Norm>
+double PairBounds::run_bound(const BoxTree& Q, std::ptrdiff_t most_runs) {
+    const std::ptrdiff_t level = tree_level(tree_, most_runs), q_level = tree_level(Q, most_runs);
+    const std::ptrdiff_t rows = tree_.boxes(level), columns = Q.boxes(q_level);
+    const std::ptrdiff_t row_points = BoxTree::leaf_points << level;
+    const std::ptrdiff_t column_points = BoxTree::leaf_points << q_level;
+    const Band band(tree_.size(), Q.size(), options_.window_for(tree_.size(), Q.size()));
+    run_terms_.assign(static_cast<std::size_t>(rows + columns), infinity);
+    double* const row_terms = run_terms_.data();
+    double* const column_terms = row_terms + rows;
+    for (std::ptrdiff_t a = 0; a < rows; ++a) {
+        std::ptrdiff_t first = 0, last = columns - 1;
+        if (band.is_limited()) {
+            const std::ptrdiff_t end = std::min((a + 1) * row_points, tree_.size());
+            first = band.columns(a * row_points).first / column_points;
+            last = band.columns(end - 1).last / column_points;
+        }
+        double least = infinity;
+        for (std::ptrdiff_t b = first; b <= last; ++b) {
+            const double sum =
+                unfinished_distance<Norm>(tree_.box(level, a), Q.box(q_level, b), tree_.dim());
+            least = std::min(least, sum);
+            column_terms[b] = std::min(column_terms[b], sum);
+        }
+        row_terms[a] = least;
+    }
+    for (double& term : run_terms_) term = Norm::finish(term);
+    if (is_frechet()) return *std::max_element(run_terms_.begin(), run_terms_.end());
+    const double rest_of_rows = sum_but_one(row_terms, rows, row_points, tree_.size());
+    if (is_open()) return combined(rest_of_rows, 0.0, row_terms[0], 0.0);
+    const double rest_of_columns = sum_but_one(column_terms, columns, column_points, Q.size());
+    return combined(rest_of_rows, rest_of_columns, row_terms[0], column_terms[0]);
+}
+
+double PairBounds::point_bound(std::ptrdiff_t j, const PackedCurve& q) {
+    compute_terms(j, q);
+    const std::ptrdiff_t n = P_.size(), m = q.size();
+    const double* const rows = row_terms_.data();
+    const double* const columns = column_terms_.data();
+    if (is_frechet()) {
+        return std::max(*std::max_element(rows, rows + n), *std::max_element(columns, columns + m));
+    }
+    const double rest_of_rows = sum_of(rows + 1, n - 1);
+    if (is_open()) return combined(rest_of_rows, 0.0, rows[0], 0.0);
+    return combined(rest_of_rows, sum_of(columns, m - 1), rows[0], columns[m - 1]);
+}
+
+double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
+    const std::ptrdiff_t n = P_.size(), m = q.size();
+    if (!is_bounded(j) || n * m < fewest_cells) return 0.0;
+    const double bound =
+        level == point_level ? point_bound(j, q) : with_norm(metric_, [&](auto norm) {
+            return run_bound<decltype(norm)>(kept_.tree(j), most_boxes[level]);
+        });
+    if (is_frechet()) return bound;
+    // The table adds up as many terms in another order.
+    return bound * (1.0 - static_cast<double>(n + m + 2) * 0x1p-52) / options_.divisor(n, m);
+}
+
+void PairBounds::compute_terms(std::ptrdiff_t j, const PackedCurve& q) {
+    if (terms_of_ == j) return;
+    const auto least = [&](const PackedCurve& points, PointOrder order, const BoxTree& boxes,
+                           BandedBoxes& banded, AlignedBuffer& out) {
+        const std::ptrdiff_t level = tree_level(boxes, most_boxes[point_level]);
+        banded.assign(points.size(), order, boxes, level,
+                      options_.window_for(points.size(), boxes.size()));
+        out.reserve(AlignedBuffer::rounded(points.size() + kernels::padding));
+        kernel_({points.data(), points.stride(), points.size(), points.dim(), boxes.box(level, 0),
+                 boxes.boxes(level), banded.first(), banded.last(), out.data()});
+    };
+    least(P_, PointOrder::forward, kept_.tree(j), boxes_of_rows_, row_terms_);
+    if (!is_open()) least(q, PointOrder::reversed, tree_, boxes_of_columns_, column_terms_);
+    terms_of_ = j;
+}
+
+std::optional<CostToGo> PairBounds::cost_to_go(std::ptrdiff_t j, const PackedCurve& q,
+                                               double most) {
+    const std::ptrdiff_t n = P_.size(), m = q.size();
+    if (!is_bounded(j) || n * m < fewest_cells || n * m >= most_narrowed_cells ||
+        options_.open_begin) {
+        return std::nullopt;
+    }
+    sums_.assign(n, m, options_.recurrence == kernels::Recurrence::dtw_symmetric2);
+    if (!is_frechet()) {
+        compute_terms(j, q);
+        std::copy_n(row_terms_.data(), n, sums_.rows());
+        if (!is_open()) {
+            std::reverse_copy(column_terms_.data(), column_terms_.data() + m, sums_.columns());
+        }
+        sums_.add_up();
+    }
+    return sums_.cost_to_go(most);
+}
+
+}  // namespace curvewise::detail

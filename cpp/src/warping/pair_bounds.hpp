@@ -1,0 +1,133 @@
+// Lower bounds of dtw and frechet between one curve, P, and many that are kept, Q, from cheap to
+// dear: what a search looks at before it computes a distance.
+//
+//   level 0   the distances of the ends; how far one box reaches beyond the other
+//   level 1   both curves cut into some 8 runs: for each run the distance of its box to the nearest
+//             box of the other curve, times its points, added up (dtw); the largest distance
+//             (frechet); of P's runs and of Q's, the larger of the two
+//   level 2   the same with some 32 runs
+//   level 3   each point in the place of the runs, against some 48 boxes
+//
+// in the dimension d, O(d), O(64 d), O(1000 d) and O(48 (n + m) d) time, the last one in SIMD.
+// A window leaves a point, or a run, only the boxes that its band reaches: the bound of Keogh &
+// Ratanamahatana (2005) with several boxes in the place of their one. The terms of the last level
+// say, besides, what the rest of a path costs at least: a sweep with a cutoff leaves out what is
+// too dear (live_columns.hpp).
+//
+// No bound is above the value as it is computed. Distances to boxes are computed by the monotone
+// operations of the ground distance (kernels/boxes.inl.hpp), and the ends' in the table's own
+// order: no slack. Sums in another order than the table's get the slack of CostSums. minkowski,
+// whose powers round as they like, and curves outside the usual range, have the bound 0.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "curves/checks.hpp"
+#include "runtime/aligned_buffer.hpp"
+#include "warping/box_tree.hpp"
+#include "warping/cost_sums.hpp"
+#include "warping/packed_curve.hpp"
+#include "warping/warping_problem.hpp"
+
+namespace curvewise::detail {
+
+// What is kept of each Q besides its points: its ends and its box, one curve behind the other, and
+// its boxes.
+class KeptBounds {
+   public:
+    // `packed` must outlive this, at the address of its points.
+    void keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrder order);
+    // Adds those of `others`, and leaves it empty.
+    void take(KeptBounds& others);
+
+    std::ptrdiff_t size() const noexcept { return static_cast<std::ptrdiff_t>(trees_.size()); }
+    double largest(std::ptrdiff_t j) const noexcept {
+        return largest_[static_cast<std::size_t>(j)];
+    }
+    // The first point, the last, the lowest coordinates, the highest.
+    const double* summary(std::ptrdiff_t j) const noexcept {
+        return summaries_.data() + j * 4 * dim_;
+    }
+    const BoxTree& tree(std::ptrdiff_t j) const noexcept {
+        return trees_[static_cast<std::size_t>(j)];
+    }
+
+   private:
+    std::ptrdiff_t dim_ = 0;
+    std::vector<double> largest_;  // |coordinate|
+    std::vector<double> summaries_;
+    std::vector<BoxTree> trees_;
+};
+
+// Which boxes of one curve the band leaves each point of the other, kept as long as the numbers of
+// points stay as they are.
+class BandedBoxes {
+   public:
+    // Of `count` points, in the order in which they are stored.
+    void assign(std::ptrdiff_t count, PointOrder order, const BoxTree& boxes, std::ptrdiff_t level,
+                std::optional<std::ptrdiff_t> window);
+    // Null where there is no band.
+    const std::ptrdiff_t* first() const noexcept { return is_limited_ ? first_.data() : nullptr; }
+    const std::ptrdiff_t* last() const noexcept { return is_limited_ ? last_.data() : nullptr; }
+
+   private:
+    std::ptrdiff_t count_ = -1;
+    std::ptrdiff_t size_ = -1;
+    bool is_limited_ = false;
+    std::vector<std::ptrdiff_t> first_;
+    std::vector<std::ptrdiff_t> last_;
+};
+
+// Of one P. For one thread.
+class PairBounds {
+   public:
+    static constexpr int levels = 4;
+
+    // All must outlive this.
+    PairBounds(const WarpingOptions& options, const KeptBounds& kept, const CheckedCurve& P,
+               const PackedCurve& packed);
+
+    // Those of level 0, of all kept curves.
+    void quick(double* bounds) const;
+    // That of a level above 0 and curve j, whose points are `q`.
+    double refined(std::ptrdiff_t j, const PackedCurve& q, int level);
+    // What the rest of a path costs at least, for a sweep that leaves out what is above `most`, in
+    // the unit of the table. Nothing where the measure's own pruning does better, or where there
+    // are no bounds. Valid until the next call.
+    std::optional<CostToGo> cost_to_go(std::ptrdiff_t j, const PackedCurve& q, double most);
+
+   private:
+    bool is_bounded(std::ptrdiff_t j) const noexcept;
+    bool is_frechet() const noexcept { return options_.recurrence == kernels::Recurrence::frechet; }
+    bool is_open() const noexcept { return options_.open_begin || options_.open_end; }
+    template <class Norm>
+    double quick_bound(std::ptrdiff_t j) const noexcept;
+    template <class Norm>
+    double run_bound(const BoxTree& Q, std::ptrdiff_t most_runs);
+    double point_bound(std::ptrdiff_t j, const PackedCurve& q);
+    void compute_terms(std::ptrdiff_t j, const PackedCurve& q);
+    // The larger of what P's parts cost and what Q's do, or their sum.
+    double combined(double rows, double columns, double first_row, double first_column) const;
+
+    const WarpingOptions& options_;
+    const KeptBounds& kept_;
+    const PackedCurve& P_;
+    Metric metric_;
+    kernels::LeastFunction kernel_;
+    double largest_;
+    BoxTree tree_;
+    std::vector<double> summary_;
+    // The terms of the last level that were computed last: of P's points in order, of Q's as they
+    // are stored.
+    AlignedBuffer row_terms_;
+    AlignedBuffer column_terms_;
+    std::ptrdiff_t terms_of_ = -1;
+    BandedBoxes boxes_of_rows_;
+    BandedBoxes boxes_of_columns_;
+    std::vector<double> run_terms_;
+    CostSums sums_;
+};
+
+}  // namespace curvewise::detail

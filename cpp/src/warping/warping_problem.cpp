@@ -1,0 +1,230 @@
+#include "warping/warping_problem.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "curves/checks.hpp"
+#include "runtime/workers.hpp"
+#include "warping/dispatch.hpp"
+#include "warping/dtw_pruned.hpp"
+#include "warping/frechet_corridor.hpp"
+#include "warping/frechet_pruned.hpp"
+#include "warping/ground_distance.hpp"
+#include "warping/sweep.hpp"
+
+namespace curvewise::detail {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void check_window(const DtwOptions& options) {
+    if (options.window && options.window_fraction) {
+        throw std::invalid_argument("window and window_fraction are both given; give one of them");
+    }
+    if (options.window) check_whole_number("window", *options.window, window_range);
+    if (options.window_fraction &&
+        !(*options.window_fraction > 0.0 && *options.window_fraction < 1.0)) {
+        throw std::invalid_argument("window is " + std::to_string(*options.window_fraction) + "; " +
+                                    window_range.advice);
+    }
+}
+
+}  // namespace
+
+WarpingOptions checked_options(const DtwOptions& options) {
+    check_ground_distance(options.ground);
+    check_cutoff(options.cutoff);
+    check_window(options);
+    const bool is_symmetric1 = options.step_pattern == StepPattern::symmetric1;
+    if (options.open_begin || options.open_end) {
+        if (!is_symmetric1) {
+            throw std::invalid_argument("open_begin and open_end need step_pattern='symmetric1'");
+        }
+        if (options.window || options.window_fraction) {
+            throw std::invalid_argument("open_begin and open_end cannot be combined with window");
+        }
+    }
+    if (options.normalize && is_symmetric1) {
+        throw std::invalid_argument(
+            "normalize needs step_pattern='symmetric2', whose paths all have the weight n + m");
+    }
+    return {
+        DtwOptions::measure,
+        is_symmetric1 ? kernels::Recurrence::dtw_symmetric1 : kernels::Recurrence::dtw_symmetric2,
+        options.ground,
+        resolve_workers(options.workers),
+        options.prune,
+        options.cutoff,
+        options.window,
+        options.window_fraction,
+        options.open_begin,
+        options.open_end,
+        options.normalize};
+}
+
+WarpingOptions checked_options(const FrechetOptions& options) {
+    check_ground_distance(options.ground);
+    check_cutoff(options.cutoff);
+    return {FrechetOptions::measure, kernels::Recurrence::frechet,
+            options.ground,          resolve_workers(options.workers),
+            options.prune,           options.cutoff};
+}
+
+void check_sizes(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m) {
+    if (options.window_for(n, m) == 0 && n != m && n > 1 && m > 1) {
+        throw std::invalid_argument("window=0 admits no path between " + std::to_string(n) +
+                                    " and " + std::to_string(m) + " points; use at least 1");
+    }
+}
+
+WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& curves,
+                               const RangeScale& range, const Call<SweepMemory>& call)
+    : range_(range),
+      degree_(degree(options.ground.metric)),
+      open_end_(options.open_end),
+      prune_(options.prune),
+      sweep_{*active_level().kernels,
+             curves,
+             options.recurrence,
+             canonical_cost(options.ground, curves),
+             options.ground.p,
+             Band(curves.rows(), curves.columns(),
+                  options.window_for(curves.rows(), curves.columns())),
+             options.open_begin,
+             call.workers,
+             call.poller,
+             call.memory} {
+    squared_ = options.recurrence == kernels::Recurrence::frechet &&
+               sweep_.cost.metric == Metric::euclidean;
+    if (squared_) sweep_.cost.metric = Metric::sqeuclidean;
+}
+
+double WarpingProblem::distance(double cutoff) {
+    if (cutoff < infinity && range_.is_identity()) {
+        if (!ends_are_within(cutoff)) {
+            sweep_.poller.count_steps(sweep_.curves.rows() * sweep_.curves.columns());
+            return infinity;
+        }
+        sweep_.give_up_above = most_in_table(cutoff);
+    }
+    if (const std::optional<double> value = pruned_value()) return restore(*value);
+    return restore(last_value(sweep_));
+}
+
+double WarpingProblem::narrowed_distance(const CostToGo& cost_to_go) {
+    SweptColumns swept;
+    SweepProblem narrowed = sweep_;
+    narrowed.columns = LiveColumns(sweep_.columns, cost_to_go, swept);
+    return restore(last_value(narrowed));
+}
+
+double WarpingProblem::last_value(const SweepProblem& problem) const {
+    const Row& bottom = last_row(problem);
+    return bottom[open_end_ ? bottom.argmin() : problem.curves.columns() - 1];
+}
+
+WarpingInfo WarpingProblem::info() {
+    const Clock::time_point start = Clock::now();
+    WarpingInfo info;
+    std::optional<double> value;
+    if (prune_) value = is_frechet() ? frechet_with_info(info) : dtw_with_info(info);
+    info.pruned = value.has_value();
+    if (!value) {
+        for (std::ptrdiff_t i = 0; i < sweep_.curves.rows(); ++i) {
+            const ColumnRange columns = sweep_.columns.columns(i);
+            info.cells_swept += columns.last - columns.first + 1;
+        }
+        const Clock::time_point before = Clock::now();
+        value = last_value(sweep_);
+        info.phases.push_back({"full sweep", seconds_since(before)});
+    }
+    info.value = restore(*value);
+    info.share =
+        static_cast<double>(info.cells_swept) /
+        (static_cast<double>(sweep_.curves.rows()) * static_cast<double>(sweep_.curves.columns()));
+    info.phases.push_back({"all", seconds_since(start)});
+    return info;
+}
+
+Alignment WarpingProblem::alignment() const {
+    std::optional<Path> path = pruned_path();
+    if (!path) path = find_path(sweep_, open_end_);
+    return {restore(path->value), std::move(path->pairs)};
+}
+
+void WarpingProblem::write_table(double* out) const {
+    sweep_table(sweep_, out);
+    if (range_.is_identity() && !squared_) return;
+    const std::ptrdiff_t n = sweep_.curves.rows(), m = sweep_.curves.columns();
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        for (std::ptrdiff_t j = 0; j < m; ++j) out[i * m + j] = restore(out[i * m + j]);
+        if (sweep_.poller.poll()) throw Stopped();
+    }
+}
+
+std::optional<double> WarpingProblem::frechet_with_info(WarpingInfo& info) const {
+    PruningRecord record;
+    const std::int64_t steps = sweep_.curves.rows() * sweep_.curves.columns();
+    const auto value = frechet_pruned(sweep_, {infinity, true, steps}, record);
+    info.cells_swept = record.swept_cells;
+    info.lower = restore(record.lower);
+    info.upper = restore(record.upper);
+    info.phases = {{"bounds", record.bound_seconds}, {"search", record.search_seconds}};
+    return value;
+}
+
+std::optional<double> WarpingProblem::dtw_with_info(WarpingInfo& info) const {
+    DtwPruningRecord record;
+    const auto value = dtw_pruned(sweep_, {infinity, open_end_}, record);
+    info.cells_swept = record.swept_cells + record.corridor_cells;
+    info.lower = restore(record.lower);
+    info.upper = restore(record.upper);
+    info.phases = {{"coarse path", record.path_seconds},
+                   {"upper bound", record.upper_seconds},
+                   {"lower bounds", record.lower_seconds},
+                   {"sweep", record.sweep_seconds}};
+    return value;
+}
+
+// Nothing where pruning is off, or does not pay.
+std::optional<double> WarpingProblem::pruned_value() const {
+    if (!prune_) return std::nullopt;
+    if (is_frechet()) {
+        PruningRecord record;
+        const std::int64_t steps = sweep_.curves.rows() * sweep_.curves.columns();
+        return frechet_pruned(sweep_, {sweep_.give_up_above, true, steps}, record);
+    }
+    DtwPruningRecord record;
+    return dtw_pruned(sweep_, {sweep_.give_up_above, open_end_}, record);
+}
+
+std::optional<Path> WarpingProblem::pruned_path() const {
+    if (!prune_) return std::nullopt;
+    if (is_frechet()) return frechet_path_in_corridor();
+    DtwPruningRecord record;
+    return dtw_path_pruned(sweep_, {infinity, open_end_}, record);
+}
+
+std::optional<Path> WarpingProblem::frechet_path_in_corridor() const {
+    PruningRecord record;
+    const std::optional<double> value = frechet_pruned(sweep_, {}, record);
+    if (!value) return std::nullopt;
+    const SweptColumns corridor = frechet_corridor(sweep_, *value);
+    SweepProblem narrow = sweep_;
+    const std::ptrdiff_t n = sweep_.curves.rows(), m = sweep_.curves.columns();
+    narrow.columns = {Band(n, m, std::nullopt), corridor};
+    // Threads are worth their start by the cells that are left.
+    narrow.cells_per_worker *= std::max<std::int64_t>(1, n * m / corridor.cells);
+    return find_path(narrow, open_end_);
+}
+
+// Every path holds the first and the last cell, unless an end is open.
+bool WarpingProblem::ends_are_within(double cutoff) const {
+    const std::ptrdiff_t n = sweep_.curves.rows(), m = sweep_.curves.columns();
+    if (!sweep_.open_begin && restore(lone_cell(sweep_, 0, 0)) > cutoff) return false;
+    return open_end_ || restore(lone_cell(sweep_, n - 1, m - 1)) <= cutoff;
+}
+
+}  // namespace curvewise::detail

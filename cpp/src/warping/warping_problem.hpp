@@ -1,0 +1,105 @@
+// dtw or frechet of two packed curves: the cumulative table between them, and what is read off it,
+// the value, the path, or all of it.
+//
+// For Fréchet with the Euclidean distance the table holds squares and one sqrt is taken at the end:
+// sqrt is monotone, so the value has the same bits. The path is decided on the squares, that is
+// before the rounding of sqrt can make two of them equal. Time O(n m), memory O(n + m), except for
+// the table.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include "curves/range_scale.hpp"
+#include "curvewise/alignment.hpp"
+#include "curvewise/dtw.hpp"
+#include "curvewise/frechet.hpp"
+#include "curvewise/warping_info.hpp"
+#include "pairwise/measure.hpp"
+#include "warping/path.hpp"
+#include "warping/sweep_problem.hpp"
+
+namespace curvewise::detail {
+
+// The options of either measure, as the sweep takes them, checked.
+struct WarpingOptions {
+    const char* measure;
+    kernels::Recurrence recurrence;
+    GroundDistance ground;
+    std::ptrdiff_t workers;
+    bool prune = false;
+    double cutoff = std::numeric_limits<double>::infinity();
+    std::optional<std::ptrdiff_t> window = std::nullopt;
+    std::optional<double> window_fraction = std::nullopt;
+    bool open_begin = false;
+    bool open_end = false;
+    bool normalize = false;
+
+    std::optional<std::ptrdiff_t> window_for(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
+        if (!window_fraction) return window;
+        return static_cast<std::ptrdiff_t>(*window_fraction * static_cast<double>(std::max(n, m)));
+    }
+    // What a distance is divided by.
+    double divisor(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
+        return normalize ? static_cast<double>(n) + static_cast<double>(m) : 1.0;
+    }
+};
+
+WarpingOptions checked_options(const DtwOptions& options);
+WarpingOptions checked_options(const FrechetOptions& options);
+// Throws where the window admits no path.
+void check_sizes(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m);
+
+class WarpingProblem {
+   public:
+    WarpingProblem(const WarpingOptions& options, const PackedPair& curves, const RangeScale& range,
+                   const Call<SweepMemory>& call);
+
+    // One above `cutoff` may come back as any other that is.
+    double distance(double cutoff);
+    // The same, for curves within the usual range, where the cells that are dead by `cost_to_go`
+    // (in the unit of the table, of which `most_in_table` makes the cutoff) are left out.
+    double narrowed_distance(const CostToGo& cost_to_go);
+    // A little above the cutoff in the unit of the table, so that the rounding of squares and roots
+    // gives nothing up.
+    double most_in_table(double cutoff) const noexcept {
+        return squared_ ? cutoff * cutoff * (1.0 + 1e-15) : cutoff;
+    }
+
+    // The distance, and how it was found.
+    WarpingInfo info();
+    // Counts twice the cells of the table as done.
+    Alignment alignment() const;
+    void write_table(double* out) const;
+
+   private:
+    using Clock = std::chrono::steady_clock;
+    static double seconds_since(Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    }
+
+    std::optional<double> frechet_with_info(WarpingInfo& info) const;
+    std::optional<double> dtw_with_info(WarpingInfo& info) const;
+    double restore(double value) const noexcept {
+        return range_.restore(squared_ ? std::sqrt(value) : value, degree_);
+    }
+    bool is_frechet() const noexcept { return sweep_.recurrence == kernels::Recurrence::frechet; }
+    double last_value(const SweepProblem& problem) const;
+    std::optional<double> pruned_value() const;
+    std::optional<Path> pruned_path() const;
+    std::optional<Path> frechet_path_in_corridor() const;
+    bool ends_are_within(double cutoff) const;
+
+    RangeScale range_;
+    int degree_;            // of homogeneity in the coordinates
+    bool squared_ = false;  // the table holds squares of the values
+    bool open_end_;
+    bool prune_;
+    SweepProblem sweep_;
+};
+
+}  // namespace curvewise::detail

@@ -1,0 +1,213 @@
+// The index of many curves, runs of a long curve, and the mean: arrays in, arrays out.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bind_topics.hpp"
+#include "curve_list.hpp"
+#include "curvewise/dtw_mean.hpp"
+#include "curvewise/nearest.hpp"
+#include "curvewise/subsequence.hpp"
+#include "interruptible.hpp"
+#include "options.hpp"
+
+namespace curvewise::bindings {
+namespace {
+
+using Numbers = py::array_t<double>;
+using Places = py::array_t<std::int64_t>;
+
+template <class T>
+py::array_t<T> as_array(const std::vector<T>& values) {
+    return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::tuple counts_of(const SearchRecord& record) {
+    return py::make_tuple(record.pairs, record.refined, record.computed);
+}
+
+// Whatever waits for other threads' calls of the same index does so without the interpreter's lock,
+// which these may need for their reports.
+class BoundIndex {
+   public:
+    BoundIndex(const py::list& curves, const py::object& name, const py::dict& options)
+        : measure_(read_measure(name, options)), index_(make(curves)) {}
+
+    void add(const py::list& curves) {
+        const Curves added(curves);
+        const py::gil_scoped_release unlocked;
+        index_.add(added.views);
+        note_longest(added);
+    }
+    std::size_t size() const {
+        const py::gil_scoped_release unlocked;
+        return index_.size();
+    }
+    py::list curves() const {
+        py::list arrays;
+        for (const CurveView& curve : views()) {
+            Numbers array =
+                curve.is_flat() ? Numbers(curve.size()) : Numbers({curve.size(), curve.dim()});
+            double* to = array.mutable_data();
+            for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+                for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) *to++ = curve(i, c);
+            }
+            arrays.append(std::move(array));
+        }
+        return arrays;
+    }
+
+    // X is a list, or None for the curves of the index.
+    py::tuple kneighbors(const py::object& X, std::ptrdiff_t count, const py::object& workers,
+                         const py::object& progress) const {
+        SearchRecord record;
+        const SearchOptions options = search_options(workers, true, true, record);
+        const std::optional<Curves> queries = read(X);
+        const auto rows = static_cast<py::ssize_t>(queries ? queries->views.size() : size());
+        const auto columns = std::max<std::ptrdiff_t>(count, 0);
+        Numbers distances({rows, columns});
+        Places indices({rows, columns});
+        double* const to_distances = distances.mutable_data();
+        std::int64_t* const to_indices = indices.mutable_data();
+        interruptible(work(queries), progress, [&](Control* control) {
+            if (queries) {
+                index_.kneighbors(queries->views, count, to_distances, to_indices, options,
+                                  control);
+            } else {
+                index_.kneighbors(count, to_distances, to_indices, options, control);
+            }
+        });
+        return py::make_tuple(distances, indices, counts_of(record));
+    }
+
+    // The neighbours of all queries, one query's behind the other's, and where each query's begin.
+    py::tuple radius_neighbors(const py::object& X, double radius, bool sort_results,
+                               bool with_distances, const py::object& workers,
+                               const py::object& progress) const {
+        SearchRecord record;
+        const SearchOptions options = search_options(workers, sort_results, with_distances, record);
+        const std::optional<Curves> queries = read(X);
+        const auto found = interruptible(work(queries), progress, [&](Control* control) {
+            return queries ? index_.radius_neighbors(queries->views, radius, options, control)
+                           : index_.radius_neighbors(radius, options, control);
+        });
+        std::vector<std::int64_t> begins{0}, indices;
+        std::vector<double> distances;
+        for (const std::vector<Neighbor>& neighbors : found) {
+            for (const Neighbor& neighbor : neighbors) {
+                indices.push_back(neighbor.index);
+                distances.push_back(neighbor.distance);
+            }
+            begins.push_back(static_cast<std::int64_t>(indices.size()));
+        }
+        return py::make_tuple(as_array(distances), as_array(indices), as_array(begins),
+                              counts_of(record));
+    }
+
+   private:
+    Index make(const py::list& list) {
+        const Curves curves(list);
+        note_longest(curves);
+        return unlocked(curves.size() * curves.longest() * curves.dim(),
+                        [&] { return Index(curves.views, measure_); });
+    }
+
+    std::vector<CurveView> views() const {
+        const py::gil_scoped_release unlocked;
+        return index_.curves();
+    }
+
+    void note_longest(const Curves& curves) noexcept {
+        longest_ = std::max(longest_.load(), curves.longest());
+        dim_ = std::max(dim_.load(), curves.dim());
+    }
+
+    static std::optional<Curves> read(const py::object& X) {
+        if (X.is_none()) return std::nullopt;
+        return Curves(X.cast<py::list>());
+    }
+
+    static SearchOptions search_options(const py::object& workers, bool sort_results,
+                                        bool with_distances, SearchRecord& record) {
+        return {whole_number("workers", workers, workers_range), sort_results, with_distances,
+                &record};
+    }
+
+    // An upper bound of the elementary steps ahead, and enough to be called without the lock.
+    double work(const std::optional<Curves>& queries) const {
+        const auto count = static_cast<double>(size());
+        const double rows = queries ? queries->size() : count;
+        const double n = queries ? queries->longest() : longest_.load();
+        const double pair = std::visit(
+            [&](const auto& options) { return options.work(n, longest_, dim_); }, measure_);
+        return std::max(rows * count * pair, steps_worth_unlocking);
+    }
+
+    std::atomic<double> longest_{0.0};  // of all curves
+    std::atomic<double> dim_{0.0};
+    Measure measure_;
+    Index index_;
+};
+
+// A list of (distance, start, stop).
+template <class Options>
+py::list found_subsequences(const CurveArray& P, const CurveArray& Q, std::ptrdiff_t count,
+                            const py::dict& given) {
+    const auto options = read_options<Options>(given);
+    const CurveView p = view(P), q = view(Q);
+    const double work = options.work(static_cast<double>(p.size()), static_cast<double>(q.size()),
+                                     static_cast<double>(p.dim()));
+    const std::vector<Subsequence> found = interruptible(work, py::none(), [&](Control* control) {
+        return subsequences(p, q, count, options, control);
+    });
+    py::list list;
+    for (const Subsequence& one : found) {
+        list.append(py::make_tuple(one.distance, one.start, one.stop));
+    }
+    return list;
+}
+
+py::tuple found_mean(const py::list& list, const std::vector<double>& weights,
+                     const CurveArray& initial, const py::object& window, const py::object& rounds,
+                     double tolerance, const py::object& workers, const py::object& progress) {
+    DtwMeanOptions options;
+    options.window_fraction = proper_fraction(window);
+    if (!window.is_none() && !options.window_fraction) {
+        options.window = whole_number("window", window, window_range);
+    }
+    options.iterations = whole_number("iterations", rounds, {0, "give a whole number >= 0"});
+    options.tolerance = tolerance;
+    options.workers = whole_number("workers", workers, workers_range);
+    const Curves curves(list);
+    const CurveView start = view(initial);
+    const double work = curves.size() * curves.longest() * static_cast<double>(start.size());
+    const DtwMean mean = interruptible(work, progress, [&](Control* control) {
+        return dtw_mean(curves.views, weights, start, options, control);
+    });
+    Numbers points = start.is_flat() ? Numbers(start.size()) : Numbers({start.size(), start.dim()});
+    std::copy(mean.points.begin(), mean.points.end(), points.mutable_data());
+    return py::make_tuple(points, as_array(mean.costs), mean.converged);
+}
+
+}  // namespace
+
+void bind_nearest(py::module_& module) {
+    py::class_<BoundIndex>(module, "Index")
+        .def(py::init<const py::list&, const py::object&, const py::dict&>())
+        .def("add", &BoundIndex::add)
+        .def("size", &BoundIndex::size)
+        .def("curves", &BoundIndex::curves)
+        .def("kneighbors", &BoundIndex::kneighbors)
+        .def("radius_neighbors", &BoundIndex::radius_neighbors);
+    module.def("dtw_subsequences", found_subsequences<DtwOptions>);
+    module.def("frechet_subsequences", found_subsequences<FrechetOptions>);
+    module.def("dtw_mean", found_mean);
+}
+
+}  // namespace curvewise::bindings

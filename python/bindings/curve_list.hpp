@@ -1,0 +1,38 @@
+// A Python list of arrays as a list of views.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "numpy_view.hpp"
+
+namespace curvewise::bindings {
+
+// The arrays that a list of curves looks at, and the views.
+struct Curves {
+    explicit Curves(const py::list& list) {
+        arrays.reserve(list.size());
+        views.reserve(list.size());
+        for (const py::handle& item : list) {
+            arrays.push_back(item.cast<CurveArray>());
+            views.push_back(view(arrays.back()));
+        }
+    }
+
+    // The largest curve.
+    double longest() const noexcept {
+        double most = 0.0;
+        for (const CurveView& curve : views)
+            most = std::max(most, static_cast<double>(curve.size()));
+        return most;
+    }
+    double dim() const noexcept {
+        return views.empty() ? 0.0 : static_cast<double>(views.front().dim());
+    }
+    double size() const noexcept { return static_cast<double>(views.size()); }
+
+    std::vector<CurveArray> arrays;
+    std::vector<CurveView> views;
+};
+
+}  // namespace curvewise::bindings

@@ -1,0 +1,174 @@
+"""Look at the runs of a store with another measure, other weights or another part of the test.
+
+The curves are there, so nothing is run. Cost: the measure, for every run and loop.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .._curves import Array
+from .._options import Preset
+from .curve_list import as_points, curve_list
+from .history import Evaluation, as_records
+from .loop_measure import Measure, Part
+from .model_identity import model_identity
+from .objective import Objective
+from .store import SimulationStore, StoredRun, StorePath
+
+__all__ = ["Rescored", "rescore"]
+
+
+@dataclass(frozen=True, eq=False)
+class Rescored:
+    """What `rescore` returns.
+
+    Attributes
+    ----------
+    parameters : dict of str to float
+        The best of the stored runs.
+    value : float
+        The objective there.
+    simulations : tuple of ndarray
+        Its curves.
+    history : numpy.recarray
+        Every run in the order of the store: its number, the parameters, value, failed, seconds.
+    failures : tuple of (int, str)
+        Number of every run that failed, and why.
+    measure, preset
+        As asked for.
+    """
+
+    parameters: dict[str, float]
+    value: float
+    simulations: tuple[Array, ...] = field(repr=False)
+    history: np.recarray[Any, Any] = field(repr=False)
+    failures: tuple[tuple[int, str], ...] = field(repr=False)
+    measure: str
+    preset: Preset
+
+
+def rescore(
+    store: StorePath,
+    experiments: Any,
+    measure: Measure = "area",
+    *,
+    model: Any = None,
+    version: str | None = None,
+    preset: Preset = "scaled",
+    weights: Sequence[float] | None = None,
+    failure_value: float | None = None,
+    min_coverage: float = 0.5,
+    part: Part = "experiment",
+    **options: Any,
+) -> Rescored:
+    """Evaluate an objective at every stored run of a model, without running anything.
+
+    Parameters
+    ----------
+    store : path-like
+        A file that `identify` has filled.
+    experiments : array_like, shape (n, d), or sequence of such
+        The measured curves.
+    measure, preset, weights, failure_value, min_coverage, part, **options
+        The objective: see :class:`Objective`.
+    model : callable or str, optional
+        Whose runs: the model, or its identity as :meth:`SimulationStore.models` lists it. Needed
+        where the store has runs of several.
+    version : str, optional
+        As for :func:`identify`, beside a model that is a function.
+
+    Returns
+    -------
+    Rescored
+        The best run, and the value of every run.
+
+    Raises
+    ------
+    ValueError
+        The store has no runs, or runs of several models and none is named; wrong options.
+    FileNotFoundError
+        There is no such file.
+
+    Notes
+    -----
+    Time: that of the measure for every run; memory: the curves of the best.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import numpy as np
+    >>> from curvewise.calibration import identify, rescore
+    >>> x = np.linspace(0, 1, 20)
+    >>> def line(p):
+    ...     return np.column_stack((x, p["slope"] * x))
+    >>> folder = tempfile.TemporaryDirectory()
+    >>> file = Path(folder.name, "lines.db")
+    >>> keywords = {"method": "sdrm", "store": file, "version": "1", "progress": False}
+    >>> found = identify(line, line({"slope": 2.0}), {"slope": (0, 10)}, **keywords)
+    >>> again = rescore(file, line({"slope": 2.0}), "dtw")
+    >>> len(again.history) == found.evaluations, round(again.parameters["slope"], 3)
+    (True, 2.0)
+    >>> folder.cleanup()
+    """
+    objective = Objective(
+        experiments,
+        measure,
+        preset=preset,
+        weights=weights,
+        failure_value=failure_value,
+        min_coverage=min_coverage,
+        part=part,
+        **options,
+    )
+    evaluations: list[Evaluation] = []
+    best: StoredRun | None = None
+    lowest = np.inf
+    names: tuple[str, ...] = ()
+    if not Path(store).is_file():
+        raise FileNotFoundError(f"there is no store {str(store)!r}; give identify(..., store=...)")
+    with SimulationStore(store) as runs:
+        for number, run in enumerate(runs.runs(_identity(runs, model, version)), 1):
+            names = names or tuple(run.parameters)
+            score = objective.score(run.simulations)
+            message = run.message or "; ".join(score.failures)
+            point = tuple(run.parameters[name] for name in names)
+            evaluations.append(
+                Evaluation(number, point, score.value, bool(message), run.seconds, message)
+            )
+            if score.value < lowest and not message:
+                best, lowest = run, score.value
+    if best is None or best.simulations is None:
+        raise ValueError(f"{store} has no run of that model that succeeded")
+    return Rescored(
+        best.parameters,
+        lowest,
+        tuple(as_points(curve, "Q") for curve in curve_list(best.simulations)),
+        as_records(evaluations, names),
+        tuple((e.number, e.message) for e in evaluations if e.failed),
+        objective.measure,
+        preset,
+    )
+
+
+def _identity(runs: SimulationStore, model: Any, version: str | None) -> str:
+    known = runs.models()
+    if model is None:
+        if len(known) != 1:
+            listed = "; ".join(known) or "none"
+            raise ValueError(
+                f"{runs.path} has runs of {len(known)} models ({listed}); name one: model=..."
+            )
+        return known[0]
+    wanted = model if isinstance(model, str) else model_identity(model, version).text
+    if wanted not in known:
+        raise ValueError(
+            f"{runs.path} has no runs of {wanted}; it has those of: {'; '.join(known) or 'none'}"
+        )
+    return wanted

@@ -1,0 +1,156 @@
+"""One search from its start to its end: history, processes, progress, and whatever ends it."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from .._curves import Array
+from ._extra import required
+from .cases import CaseObjective
+from .evaluations import Evaluations, Finish, Progress, SearchEndedError
+from .history import Evaluation, History
+from .loop_measure import Measure, measure_name
+from .methods import METHODS, search
+from .objective import LEAST_SQUARES, Objective
+from .study import Study
+
+__all__ = ["Ended", "Plan", "run_search"]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How to search: as the arguments of `identify` of the same names."""
+
+    method: str
+    method_options: Mapping[str, Any]
+    seed: int
+    start: Mapping[str, float] | None
+    progress: bool
+    callback: Callable[[Progress], Any] | None
+    history: str | os.PathLike[str] | None
+    max_evaluations: int | None
+
+    def check(self, measure: Measure) -> None:
+        """Refuse a method that does not exist or does not go with a measure."""
+        if self.method not in METHODS:
+            raise ValueError(f"unknown method {self.method!r}; choose from {', '.join(METHODS)}")
+        if self.method == "least_squares" and measure not in LEAST_SQUARES:
+            raise ValueError(
+                f"measure {measure!r} is not a sum of squares; method 'least_squares' needs "
+                f"measure={' or '.join(map(repr, LEAST_SQUARES))}"
+            )
+        stages = METHODS[self.method]
+        if len(stages) > 1 and not set(self.method_options) <= set(stages):
+            raise ValueError(
+                f"method_options has {', '.join(self.method_options)}; "
+                f"method {self.method!r} takes a dict for each of {', '.join(stages)}"
+            )
+        for name, stage in stages.items():
+            chosen = self.method_options if len(stages) == 1 else self.method_options.get(name, {})
+            _check_options(name, stage, chosen)
+        if self.max_evaluations is not None and self.max_evaluations < 1:
+            raise ValueError(f"max_evaluations is {self.max_evaluations}; give at least 1")
+
+
+def _check_options(method: str, stage: Callable[..., Finish], options: Mapping[str, Any]) -> None:
+    """Refuse options that a method does not have; those of scipy's functions scipy refuses."""
+    parameters = inspect.signature(stage).parameters.values()
+    if any(p.kind is p.VAR_KEYWORD for p in parameters):
+        return
+    known = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY]
+    if unknown := set(options) - set(known):
+        raise ValueError(
+            f"method {method!r} has no option {', '.join(sorted(unknown))}; "
+            f"it has {', '.join(known)}"
+        )
+
+
+class Ended(NamedTuple):
+    """What is left of a search: its evaluations, how it ended, the best curves, the runs made."""
+
+    evaluations: Evaluations
+    finish: Finish
+    simulations: Any
+    runs: int
+
+
+def run_search(study: Study, plan: Plan, known: Sequence[tuple[Array, Evaluation]] = ()) -> Ended:
+    """Search, or go on with what a history has.
+
+    Parameters
+    ----------
+    study, plan
+        What to search for, and how.
+    known : sequence of (ndarray, Evaluation)
+        Runs of earlier searches, from which some methods begin.
+    """
+    start = None if plan.start is None else study.space.unit(plan.start)
+    required("scipy.optimize")
+    tqdm = required("tqdm.auto").tqdm
+    record = History(
+        plan.history, _settings(study, plan), study.space.names, keep_simulations=not study.store
+    )
+    try:
+        with study.simulator() as simulator:
+            with tqdm(total=plan.max_evaluations, unit="run", disable=not plan.progress) as bar:
+                evaluations = Evaluations(
+                    simulator,
+                    study.objective,
+                    study.space,
+                    record,
+                    limit=plan.max_evaluations,
+                    callback=plan.callback,
+                    bar=bar,
+                    known=known,
+                )
+                try:
+                    finish = search(evaluations, plan.method, start, plan.seed, plan.method_options)
+                except SearchEndedError as end:
+                    finish = Finish(False, str(end))
+            simulations = evaluations.best_simulations()
+    finally:
+        record.close()
+    return Ended(evaluations, finish, simulations, simulator.runs)
+
+
+def _settings(study: Study, plan: Plan) -> dict[str, Any]:
+    """Return what decides the value of a simulation and the course of the search."""
+    settings = {
+        **_objective_settings(study.objective),
+        "bounds": study.space.settings,
+        "method": plan.method,
+        "method_options": dict(plan.method_options),
+        "seed": plan.seed,
+        "start": None if plan.start is None else dict(plan.start),
+    }
+    if (identities := study.identities()) is not None:
+        settings["model"] = identities
+    return settings
+
+
+def _objective_settings(objective: Objective) -> dict[str, Any]:
+    digest = hashlib.sha256()
+    for curve in objective.experiments:
+        digest.update(repr(curve.shape).encode() + curve.tobytes())
+    options = dict(objective.options)
+    if isinstance(objective, CaseObjective):
+        options["cases"] = [
+            [case.name, measure_name(case.measure), case.sigma, case.preset, dict(case.options)]
+            for case in objective.cases
+        ]
+    if objective.part != "experiment":  # histories from before this option have none
+        options["part"] = objective.part
+    return {
+        "measure": objective.measure,
+        "preset": objective.preset,
+        "options": options,
+        "weights": objective.weights.tolist(),
+        "failure_value": objective.failure_value.tolist(),
+        "min_coverage": objective.min_coverage,
+        "experiments": digest.hexdigest(),
+    }

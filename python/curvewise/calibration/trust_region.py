@@ -1,0 +1,318 @@
+"""A search for expensive models: the measure is minimised on surfaces of the curves, run by run.
+
+Linear surfaces of the simulated curves (`surfaces`) come from a simplex of k + 1 runs. The
+parameters at which the curves that they predict are nearest to the tests, within a region of
+trust around the best run, are run next; the surfaces learn from every run (Broyden's update),
+and the region grows or shrinks by how well the gain was predicted. For a sum of squares this is
+Gauss and Newton's method with a Broyden update; here the exact measure, whichever it is, stands in
+the place of the squares. Where nothing is gained any more, k fresh runs nearby give new slopes,
+and the search ends when these find nothing either.
+
+Differences are taken over hundredths of the bounds' range, not 1e-6 of it: a solver prints seven
+digits. Cost: k + 1 runs to begin with, k for every renewal, one for every step; 20 to 80 in what
+we have run. Local: another `start`, or another seed, is another chance.
+
+C. G. Broyden, "A class of methods for solving nonlinear simultaneous equations", Math. Comp. 19
+(1965) 577-593; A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from .._curves import Array
+from ._extra import required
+from .evaluations import Evaluations, Finish
+from .history import Evaluation
+from .nelder_mead import nelder_mead
+from .surfaces import Responses, Surfaces, regression
+
+__all__ = ["trust_region"]
+
+# A step is a success if it gains this fraction of what was predicted, and a full one from _GOOD on.
+_POOR, _GOOD = 0.1, 0.7
+_SMALLEST_STEP = 0.5  # of the differences, as a fraction of the largest
+_PERFECT = 1e3  # values below this multiple of what is negligible are alike: perfect fits
+_DRAWN = (0.1, 0.9)  # where starts are drawn, between the bounds
+_AFTER_RENEWAL = 0.15  # fresh slopes deserve trust again
+
+
+def trust_region(
+    evaluations: Evaluations,
+    start: Array | None,
+    seed: int,
+    *,
+    starts: int = 3,
+    initial_range: float = 0.5,
+    diff_step: float = 0.02,
+    tol: float = 1e-3,
+    gain: float = 1e-3,
+    maxiter: int = 200,
+) -> Finish:
+    """Minimise on surfaces of the curves in a region of trust.
+
+    Parameters
+    ----------
+    evaluations : Evaluations
+        The objective.
+    start : ndarray or None
+        Where to begin; the middle of the bounds if not given, and then elsewhere.
+    seed : int
+        Of the other starts, and of the search on the surfaces.
+    starts : int
+        How many searches to make where no start is given.
+    initial_range : float
+        Half the size of the first region of trust, as a fraction of the bounds' range; the first
+        differences are over half of that.
+    diff_step : float
+        The largest difference over which slopes are renewed, as a fraction of the bounds' range.
+    tol : float
+        The search ends where the region is smaller than this.
+    gain : float
+        And where fresh slopes promise to gain no more than this fraction of the value.
+    maxiter : int
+        The most steps, of each start.
+    """
+    if starts < 1:
+        raise ValueError(f"starts is {starts}; give at least 1")
+    random = np.random.default_rng(seed)
+    if start is None:
+        places = [np.full(evaluations.dimensions, 0.5)]
+        places += [random.uniform(*_DRAWN, evaluations.dimensions) for _ in range(starts - 1)]
+    else:
+        places = [np.asarray(start)]
+    ends: list[tuple[float, Finish]] = []
+    failure: RuntimeError | None = None
+    responses: Responses | None = None
+    for place in places:
+        search = _Search(evaluations, random, diff_step, responses)
+        try:
+            search.begin(place, initial_range)
+        except RuntimeError as error:
+            failure = failure or error
+            continue
+        finish = _descend(search, evaluations, initial_range, diff_step, tol, gain, maxiter)
+        ends.append((search.value, finish))
+        responses = search.responses
+    if not ends:
+        assert failure is not None
+        raise failure
+    best, finish = min(ends, key=lambda end: end[0])
+    if len(places) == 1:
+        return finish
+    alike = sum(value <= 1.01 * best + _PERFECT * evaluations.negligible for value, _ in ends)
+    return Finish(finish.converged, f"{alike} of {len(places)} starts within 1 %; {finish.message}")
+
+
+def _descend(
+    search: _Search,
+    evaluations: Evaluations,
+    radius: float,
+    diff_step: float,
+    tol: float,
+    gain: float,
+    maxiter: int,
+) -> Finish:
+    """Go down from one start."""
+    for _ in range(maxiter):
+        candidate, promised = search.lowest(radius)
+        least = max(evaluations.negligible, gain * search.value)
+        if promised <= least or radius < tol:
+            if search.is_fresh:
+                how = f"nothing within {radius:.2g} of the bounds promises a gain of {least:.2g}"
+                return Finish(True, how if radius >= tol else f"the region is below {tol:g}")
+            search.renew(max(min(diff_step, radius), _SMALLEST_STEP * diff_step))
+            radius = max(radius, _AFTER_RENEWAL)
+            continue
+        length = float(np.abs(candidate - search.centre).max())
+        ratio = search.step(candidate) / promised
+        if ratio >= _GOOD:
+            radius = min(1.0, max(radius, 2.0 * length))
+        elif ratio < _POOR:
+            radius = 0.3 * length
+    return Finish(False, f"maxiter = {maxiter} steps")
+
+
+class _Search:
+    """The best run, the surfaces around it, and what they have not seen yet."""
+
+    def __init__(
+        self,
+        evaluations: Evaluations,
+        random: np.random.Generator,
+        diff_step: float,
+        responses: Responses | None,
+    ) -> None:
+        self._evaluations, self._random = evaluations, random
+        self._diff_step = diff_step
+        self.responses = responses
+        self.is_fresh = False
+        self.value = np.inf
+
+    @property
+    def centre(self) -> Array:
+        """The best run so far."""
+        return self._surfaces.centre
+
+    def begin(self, start: Array, radius: float) -> None:
+        """Run a simplex around the start, around the best of its runs if the start fails."""
+        known = self._evaluations.known_near(start)
+        if known is not None:
+            (first,) = self._run(start[np.newaxis])
+            if not first.failed:
+                self._take(start, first)
+                points, runs = known
+                self._surfaces.slopes = self._fitted(points, runs, start)
+                return
+        for _ in range(5):
+            points = _simplex(start, radius / 2.0, self._random)
+            first, *others = self._run(np.vstack((start, points)))
+            if not first.failed:
+                self._take(start, first)
+                self._fit_simplex(points, others, radius / 2.0)
+                return
+            good = [i for i, other in enumerate(others) if not other.failed]
+            if not good:
+                break
+            start = points[min(good, key=lambda i: others[i].value)]
+        raise RuntimeError(
+            "simulations fail all around the start; give identify another start=, or closer bounds"
+        )
+
+    def renew(self, step: float) -> None:
+        """Measure the slopes anew, over a step."""
+        points = _simplex(self.centre, step, self._random)
+        runs = self._run(points)
+        self._fit_simplex(points, runs, step)
+        best = min(range(len(runs)), key=lambda i: runs[i].value)
+        if not runs[best].failed and runs[best].value < self.value:
+            self._recentre(points[best], runs[best])
+        self.is_fresh = True
+
+    def lowest(self, radius: float) -> tuple[Array, float]:
+        """Return where the surfaces are lowest within the region, and the gain they promise."""
+        low = np.clip(self.centre - radius, 0.0, 1.0)
+        high = np.clip(self.centre + radius, 0.0, 1.0)
+        objective, responses = self._evaluations.objective, self.responses
+        assert responses is not None
+
+        def predicted(point: Array) -> float:
+            return objective.predicted(responses.curves(self._surfaces.at(point))).value
+
+        best = lowest_point(
+            predicted,
+            self.centre,
+            (low, high),
+            self._random,
+            negligible=self._evaluations.negligible,
+        )
+        return best, self.value - predicted(best)
+
+    def step(self, candidate: Array) -> float:
+        """Run a candidate, learn from it, move there if it is better; return the gain."""
+        (run,) = self._run(candidate[np.newaxis])
+        self.is_fresh = False
+        if run.failed:
+            return -np.inf
+        gained = self.value - run.value
+        self._surfaces.learn(candidate, self._vector(run), recentre=gained > 0)
+        if gained > 0:
+            self.value = run.value
+        return gained
+
+    def _take(self, point: Array, run: Evaluation) -> None:
+        """Make a run the centre of surfaces that are level."""
+        base = self._vector(run)
+        self._surfaces = Surfaces(point, base, np.zeros((base.size, point.size)))
+        self.value = run.value
+
+    def _recentre(self, point: Array, run: Evaluation) -> None:
+        slopes = self._surfaces.slopes
+        self._take(point, run)
+        self._surfaces.slopes = slopes
+
+    def _fit_simplex(self, points: Array, runs: Sequence[Evaluation], step: float) -> None:
+        """Set the slopes by differences; on the other side, and nearer, where runs fail."""
+        for i, (point, first) in enumerate(zip(points, runs, strict=True)):
+            run, place = first, point
+            for factor in (-1.0, 0.25, -0.25):
+                if not run.failed:
+                    break
+                place = self.centre.copy()
+                place[i] += factor * (point[i] - self.centre[i])
+                if 0.0 <= place[i] <= 1.0:
+                    (run,) = self._run(place[np.newaxis])
+            if not run.failed:
+                difference = self._vector(run) - self._surfaces.base
+                self._surfaces.slopes[:, i] = difference / (place[i] - self.centre[i])
+
+    def _fitted(self, points: Array, runs: Sequence[Evaluation], centre: Array) -> Array:
+        responses = np.array([self._vector(run) for run in runs])
+        distances = np.abs(points - centre).max(axis=1)
+        weights = 1.0 / (distances + self._diff_step) ** 2
+        return regression(points, responses, centre, weights)
+
+    def _run(self, points: Array) -> list[Evaluation]:
+        return self._evaluations.evaluated(points, keep_simulations=True)
+
+    def _vector(self, run: Evaluation) -> Array:
+        assert run.simulations is not None
+        if self.responses is None:
+            self.responses = Responses(run.simulations)
+        return self.responses.vector(run.simulations)
+
+
+def _simplex(centre: Array, step: float, random: np.random.Generator) -> Array:
+    """Return a point beside the centre for every axis, inwards where a bound is near."""
+    signs = random.choice((-1.0, 1.0), centre.size)
+    signs = np.where(centre + signs * step > 1.0, -1.0, signs)
+    signs = np.where(centre + signs * step < 0.0, 1.0, signs)
+    points: Array = np.clip(centre + np.diag(signs * step), 0.0, 1.0)
+    return points
+
+
+def lowest_point(
+    function: Any,
+    start: Array,
+    region: tuple[Array, Array],
+    random: np.random.Generator,
+    *,
+    negligible: float,
+) -> Array:
+    """Return where a function on surfaces is lowest in a box.
+
+    Quasi-Newton steps with differences over thousandths of the box, which is quick where the
+    measure is smooth, then a small simplex search, which does not mind kinks.
+    """
+    low, high = region
+    width = np.where(high > low, high - low, 1.0)
+    k = start.size
+    at_start = (start - low) / width
+
+    def scaled(unit: Array) -> float:
+        return float(function(low + np.clip(unit, 0.0, 1.0) * width))
+
+    result = required("scipy.optimize").minimize(
+        scaled,
+        at_start,
+        method="L-BFGS-B",
+        bounds=[(0.0, 1.0)] * k,
+        options={"eps": 1e-4, "maxiter": 30, "ftol": 1e-6},
+    )
+    best, _ = nelder_mead(
+        scaled,
+        np.clip(result.x, 0.0, 1.0),
+        (np.zeros(k), np.ones(k)),
+        random,
+        negligible=negligible,
+        size=0.05,
+        restarts=0,
+        xatol=1e-3,
+        fatol=max(negligible, 1e-4 * float(result.fun)),
+        maxfev=40 * k,
+    )
+    point: Array = low + best * width
+    return point

@@ -1,0 +1,177 @@
+"""The nearest of many curves, and what goes with them, in plain numpy: as their definitions read.
+
+Nothing is left out and nothing is estimated: distances are those of this package, of every pair or
+of every run, and what is wanted is picked from them. Values and indices equal those of
+:class:`curvewise.Index`, :func:`curvewise.subsequence` and :func:`curvewise.dtw_mean`, bit for bit,
+where the measure's do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .._curves import Array, CurveLike, as_curve
+from .._options import Default, MeasureName, Metric, Order, WarpingName, Window
+from ..results import DtwMean, Subsequence
+from .checks import check_pair
+from .dtw import dtw_path
+from .ground_distance import check_metric, degree, ground_distances
+from .scaling import range_exponent, times_power_of_two
+
+__all__ = ["dtw_mean", "kneighbors", "radius_neighbors", "subsequence"]
+
+Curves = Sequence[CurveLike]
+
+
+def kneighbors(
+    curves: Curves,
+    X: Curves,
+    n_neighbors: int = 5,
+    measure: MeasureName = "dtw",
+    **options: Any,
+) -> tuple[Array, npt.NDArray[np.int64]]:
+    """Return distances and indices of the nearest of `curves`: a table, and a stable sort."""
+    table = _all_distances(X, curves, measure, options)
+    order = np.argsort(table, axis=1, kind="stable")[:, :n_neighbors]
+    return np.take_along_axis(table, order, axis=1), order
+
+
+def radius_neighbors(
+    curves: Curves, X: Curves, radius: float, measure: MeasureName = "dtw", **options: Any
+) -> tuple[list[Array], list[npt.NDArray[np.int64]]]:
+    """Return distances and indices of those of `curves` within a radius, the nearest first."""
+    distances, indices = [], []
+    for row in _all_distances(X, curves, measure, options):
+        order = np.argsort(row, kind="stable")
+        near = order[row[order] <= radius]
+        distances.append(row[near])
+        indices.append(near)
+    return distances, indices
+
+
+def subsequence(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    k: int = 1,
+    measure: WarpingName = "dtw",
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    cutoff: float = np.inf,
+) -> list[Subsequence]:
+    """Return the best run of Q, and again and again the best of the pieces that are left.
+
+    Every piece is searched by itself, in a table of its own.
+    """
+    P, Q = check_pair(as_curve(P, "P"), as_curve(Q, "Q"), measure)
+    metric, order = check_metric(metric, p)
+    exponent = range_exponent(P, Q)
+    P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
+    # As for frechet: squares, and one root at the end.
+    squared = measure == "frechet" and metric == "euclidean" and P.shape[1] > 1
+    ground = ground_distances(P[:, np.newaxis], Q, "sqeuclidean" if squared else metric, order)
+    pieces = [_best_run(ground, measure, 0, ground.shape[1])]
+    answers: list[Subsequence] = []
+    while pieces and len(answers) < k:
+        best = min(pieces, key=lambda piece: (piece[0], piece[2]))
+        value, start, stop, begin, end = best
+        root = np.array(np.sqrt(value) if squared else value)
+        distance = float(times_power_of_two(root, exponent * degree(metric)))
+        if value == np.inf or distance > cutoff:
+            break
+        answers.append(Subsequence(distance, start, stop))
+        pieces.remove(best)
+        for left, right in ((begin, start), (stop + 1, end)):
+            if right > left:
+                pieces.append(_best_run(ground, measure, left, right))
+    return answers
+
+
+def dtw_mean(
+    curves: Curves,
+    initial: CurveLike,
+    *,
+    weights: Sequence[float] | None = None,
+    window: Window = Default.window,
+    iterations: int = 30,
+    tolerance: float = 1e-6,
+) -> DtwMean:
+    """Average along the best paths, round after round, in the order of the curves."""
+    given = [as_curve(curve, f"curves[{i}]") for i, curve in enumerate(curves)]
+    shares = [1.0] * len(given) if weights is None else list(weights)
+    mean = as_curve(initial, "initial")
+    moved, cost = _averaged(mean, given, shares, window)
+    costs, converged = [cost], False
+    for _ in range(iterations):
+        candidate = moved
+        moved, cost = _averaged(candidate, given, shares, window)
+        converged = not costs[-1] - cost > tolerance * costs[-1]
+        if cost > costs[-1]:
+            break
+        costs.append(cost)
+        mean = candidate
+        if converged:
+            break
+    return DtwMean(mean, np.array(costs), converged)
+
+
+def _all_distances(
+    X: Curves, curves: Curves, measure: MeasureName, options: dict[str, Any]
+) -> Array:
+    function: Callable[..., float] = getattr(import_module("curvewise.reference"), measure)
+    return np.array([[function(P, Q, **options) for Q in curves] for P in X])
+
+
+def _best_run(
+    ground: Array, measure: WarpingName, begin: int, end: int
+) -> tuple[float, int, int, int, int]:
+    """Return value, start and stop of the best run of a piece, and the piece.
+
+    Row by row, every cell has the value of the best path that begins anywhere in the first row,
+    and where it begins. Among equal predecessors: the diagonal, then (i-1, j), then (i, j-1).
+    """
+    piece = ground[:, begin:end]
+    values = [float(d) for d in piece[0]]
+    starts = list(range(begin, end))
+    for costs in piece[1:]:
+        above, above_starts = values, starts
+        values, starts = [], []
+        for j, d in enumerate(float(d) for d in costs):
+            before = [(above[j], above_starts[j])]
+            if j > 0:
+                before = [(above[j - 1], above_starts[j - 1]), *before, (values[-1], starts[-1])]
+            if measure == "dtw":
+                steps = [(value + d, start) for value, start in before]
+                # The choice between up and left is by their values before d is added.
+                side = min(before[-2:] if j > 0 else before, key=lambda step: step[0])
+                best = (side[0] + d, side[1])
+                if j > 0 and steps[0][0] <= best[0]:
+                    best = steps[0]
+            else:
+                best = min(before, key=lambda step: step[0])
+                best = (max(d, best[0]), best[1])
+            values.append(best[0])
+            starts.append(best[1])
+    stop = int(np.argmin(values))
+    return values[stop], starts[stop], begin + stop, begin, end
+
+
+def _averaged(
+    mean: Array, curves: list[Array], weights: list[float], window: Any
+) -> tuple[Array, float]:
+    """Return the mean, moved, and the cost of the mean as it was."""
+    sums, shares = np.zeros_like(mean), np.zeros(len(mean))
+    cost = 0.0
+    for curve, weight in zip(curves, weights, strict=True):
+        alignment = dtw_path(mean, curve, metric="sqeuclidean", window=window)
+        cost += weight * alignment.distance
+        for i, j in alignment.path:
+            sums[i] += weight * curve[j]
+            shares[i] += weight
+    with np.errstate(invalid="ignore", over="ignore"):
+        return sums / (shares if mean.ndim == 1 else shares[:, np.newaxis]), cost

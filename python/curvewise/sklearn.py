@@ -1,0 +1,226 @@
+"""Estimators of scikit-learn for lists of curves: a nearest-neighbour classifier.
+
+The conventions are those of scikit-learn 1.6 and later (``pip install "curvewise[sklearn]"``), so
+that pipelines, grid searches and cross-validation take it. The neighbours are found by
+:class:`curvewise.Index`, exactly, without the table of all distances.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal, SupportsIndex, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from ._curves import Array
+from ._extras import extra
+from ._options import Default, MeasureName
+from .nearest import Index, Places
+from .pairwise import Curves
+
+with extra("sklearn", "curvewise.sklearn needs scikit-learn >= 1.6"):
+    # Absolute, so these are the packages of that name and not this module. They have no types.
+    from sklearn.base import BaseEstimator, ClassifierMixin  # type: ignore[import-untyped]
+    from sklearn.utils.multiclass import (  # type: ignore[import-untyped]
+        check_classification_targets,
+    )
+    from sklearn.utils.validation import (  # type: ignore[import-untyped]
+        check_is_fitted,
+        column_or_1d,
+        validate_data,
+    )
+
+__all__ = ["CurveKNeighborsClassifier"]
+
+Weights: TypeAlias = Literal["uniform", "distance"]
+
+
+class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore[misc]  # untyped
+    """Classify a curve as the nearest of known curves are.
+
+    As ``sklearn.neighbors.KNeighborsClassifier``, for curves of different lengths.
+
+    Parameters
+    ----------
+    n_neighbors : int
+        How many neighbours vote.
+    measure : str
+        A measure by its name, see :func:`curvewise.available_measures`.
+    options : dict, optional
+        Those of the measure's own function, e.g. ``{"window": 10}``.
+    weights : {"uniform", "distance"}
+        Whether every neighbour has one vote, or one over its distance; neighbours at distance 0
+        then vote alone.
+    workers : int
+        Threads for a call: at least 1, or -1 for one per core. Never changes a result.
+
+    Attributes
+    ----------
+    classes_ : ndarray
+        The classes, in ascending order.
+    index_ : Index
+        The known curves.
+
+    Notes
+    -----
+    Curves are an array of shape (k, n, d), a sequence of curves of different lengths, or, as
+    elsewhere in scikit-learn, an array of shape (k, n) whose rows are curves with d = 1; such rows
+    must have as many points as those that were fitted. Of classes with equal votes the first wins.
+
+    Examples
+    --------
+    >>> from curvewise.sklearn import CurveKNeighborsClassifier
+    >>> known = [[0, 1, 2, 3], [0, 2, 3], [3, 2, 1, 0], [3, 1, 0]]
+    >>> classifier = CurveKNeighborsClassifier(n_neighbors=1)
+    >>> _ = classifier.fit(known, ["up", "up", "down", "down"])
+    >>> classifier.predict([[0, 0, 3], [3, 3, 0]]).tolist()
+    ['up', 'down']
+    """
+
+    def __init__(
+        self,
+        n_neighbors: SupportsIndex = 5,
+        *,
+        measure: MeasureName = "dtw",
+        options: Mapping[str, Any] | None = None,
+        weights: Weights = "uniform",
+        workers: SupportsIndex = Default.workers,
+    ) -> None:
+        self.n_neighbors = n_neighbors
+        self.measure = measure
+        self.options = options
+        self.weights = weights
+        self.workers = workers
+
+    def fit(self, X: Curves, y: npt.ArrayLike) -> CurveKNeighborsClassifier:
+        """Keep curves X of classes y.
+
+        Parameters
+        ----------
+        X : array_like, shape (k, n, d) or (k, n), or a sequence of curves
+            The known curves.
+        y : array_like, shape (k,)
+            Their classes.
+
+        Returns
+        -------
+        CurveKNeighborsClassifier
+            This one.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As for :class:`curvewise.Index`; a `y` that does not fit, or holds no classes.
+        """
+        if self.weights not in ("uniform", "distance"):
+            raise ValueError(f"unknown weights {self.weights!r}; choose from uniform, distance")
+        if y is None:
+            raise ValueError(
+                "fit requires y to be passed, but the target y is None: give the classes"
+            )
+        curves = X
+        if _is_list_of_curves(X):
+            self.__dict__.pop("n_features_in_", None)  # of rows that were fitted before
+        else:
+            rows, y = validate_data(self, X, y, dtype=np.float64)
+            curves = list(rows)
+        labels = column_or_1d(y, warn=True)
+        check_classification_targets(labels)
+        if len(labels) != len(curves):
+            raise ValueError(f"y has {len(labels)} classes for the {len(curves)} curves of X")
+        self.classes_, self._codes = np.unique(labels, return_inverse=True)
+        self.index_ = Index(curves, self.measure, **(self.options or {}))
+        return self
+
+    def kneighbors(
+        self, X: Curves | None = None, n_neighbors: SupportsIndex | None = None
+    ) -> tuple[Array, Places]:
+        """Find the nearest known curves.
+
+        Parameters
+        ----------
+        X : array_like, shape (q, n, d) or (q, n), or a sequence of curves, optional
+            As for :meth:`curvewise.Index.kneighbors`.
+        n_neighbors : int, optional
+            That of the classifier if not given.
+
+        Returns
+        -------
+        distances : ndarray, shape (q, n_neighbors)
+        indices : ndarray of int64, shape (q, n_neighbors)
+
+        Raises
+        ------
+        ValueError, TypeError
+            As for :meth:`curvewise.Index.kneighbors`.
+        """
+        check_is_fitted(self)
+        count = self.n_neighbors if n_neighbors is None else n_neighbors
+        if X is not None and not _is_list_of_curves(X):
+            X = list(validate_data(self, X, reset=False, dtype=np.float64))
+        return self.index_.kneighbors(X, count, workers=self.workers)
+
+    def predict_proba(self, X: Curves) -> Array:
+        """Return the share of each class in the votes.
+
+        Parameters
+        ----------
+        X : array_like, shape (q, n, d) or (q, n), or a sequence of curves
+            The curves that are asked for.
+
+        Returns
+        -------
+        ndarray, shape (q, number of classes)
+            Rows that add up to 1, in the order of ``classes_``.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As for :meth:`curvewise.Index.kneighbors`.
+        """
+        distances, indices = self.kneighbors(X)
+        votes = np.ones_like(distances)
+        if self.weights == "distance":
+            with np.errstate(divide="ignore"):
+                votes = 1.0 / distances
+            at_zero = np.isinf(votes)
+            votes = np.where(at_zero.any(axis=1, keepdims=True), at_zero, votes)
+        shares = np.zeros((len(indices), len(self.classes_)))
+        rows = np.arange(len(indices))
+        for column, voters in zip(votes.T, self._codes[indices].T, strict=True):
+            shares[rows, voters] += column
+        return np.asarray(shares / shares.sum(axis=1, keepdims=True))
+
+    def predict(self, X: Curves) -> npt.NDArray[Any]:
+        """Return the class with most votes.
+
+        Parameters
+        ----------
+        X : array_like, shape (q, n, d) or (q, n), or a sequence of curves
+            The curves that are asked for.
+
+        Returns
+        -------
+        ndarray, shape (q,)
+            Their classes.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As for :meth:`curvewise.Index.kneighbors`.
+        """
+        shares = self.predict_proba(X)
+        return np.asarray(self.classes_[np.argmax(shares, axis=1)])
+
+    def __sklearn_tags__(self) -> Any:
+        tags = super().__sklearn_tags__()
+        tags.input_tags.three_d_array = True
+        return tags
+
+
+def _is_list_of_curves(X: Any) -> bool:
+    """Return whether X is no table of rows: tables, and errors, are scikit-learn's to check."""
+    if isinstance(X, np.ndarray):
+        return X.ndim == 3 or (X.ndim == 1 and X.dtype == object)
+    return isinstance(X, list | tuple) and len(X) > 0 and np.ndim(X[0]) > 0

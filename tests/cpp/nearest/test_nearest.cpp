@@ -1,0 +1,232 @@
+// The index against all distances and a stable sort, for every measure; runs of a long curve and
+// the mean under dtw against what defines them; how a Control ends a search.
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "curves.hpp"
+#include "curvewise/curvewise.hpp"
+
+namespace {
+
+using namespace curvewise;
+using test::Curve;
+using test::Random;
+
+std::vector<CurveView> views_of(const std::vector<Curve>& curves) {
+    return {curves.begin(), curves.end()};
+}
+
+std::vector<Curve> random_curves(Random& random, std::size_t count, std::ptrdiff_t longest) {
+    std::vector<Curve> curves;
+    while (curves.size() < count) {
+        Curve curve = random.walk(2 + random.index(longest));
+        curve(0, 0) -= 1.0;  // a walk of two points may stand still
+        // Now and then one of the same distances as another.
+        curves.push_back(curves.size() % 5 == 4 ? curves[curves.size() - 3] : curve);
+    }
+    return curves;
+}
+
+std::vector<Measure> measures() {
+    DtwOptions symmetric2, window, open, squares;
+    symmetric2.step_pattern = StepPattern::symmetric2;
+    window.window = 5;
+    open.open_begin = open.open_end = true;
+    squares.ground.metric = Metric::sqeuclidean;
+    FrechetOptions chebyshev;
+    chebyshev.ground.metric = Metric::chebyshev;
+    std::vector<Measure> all{symmetric2, window, open, squares, chebyshev};
+    for_each_measure([&](const auto& defaults) { all.push_back(defaults); });
+    for (Measure& measure : all) {
+        if (auto* options = std::get_if<CurveLengthOptions>(&measure)) {
+            options->scale = LengthScale::range;
+        }
+    }
+    return all;
+}
+
+// By distance, then index.
+std::vector<Neighbor> sorted_row(const double* row, std::size_t count) {
+    std::vector<Neighbor> all;
+    for (std::size_t j = 0; j < count; ++j) all.push_back({static_cast<std::int64_t>(j), row[j]});
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Neighbor& a, const Neighbor& b) { return a.distance < b.distance; });
+    return all;
+}
+
+void neighbors_are_those_of_a_sorted_table() {
+    Random random(1);
+    for (const Measure& measure : measures()) {
+        const check::Note note("measure " + std::to_string(measure.index()));
+        for (const std::ptrdiff_t longest : {8, 70}) {
+            const std::vector<Curve> curves = random_curves(random, 30, longest);
+            const std::vector<Curve> queries = random_curves(random, 4, longest);
+            const std::vector<CurveView> C = views_of(curves), X = views_of(queries);
+            std::vector<double> table(X.size() * C.size());
+            cdist(X, C, measure, table.data());
+            Index index(std::vector<CurveView>(C.begin(), C.begin() + 7), measure);
+            index.add(std::vector<CurveView>(C.begin() + 7, C.end()));
+            CHECK_EQUAL(index.size(), C.size());
+            for (const std::size_t k : {std::size_t{1}, std::size_t{5}, C.size()}) {
+                for (const std::ptrdiff_t workers : {1, 3}) {
+                    std::vector<double> distances(X.size() * k);
+                    std::vector<std::int64_t> indices(X.size() * k);
+                    index.kneighbors(X, static_cast<std::ptrdiff_t>(k), distances.data(),
+                                     indices.data(), {workers});
+                    for (std::size_t i = 0; i < X.size(); ++i) {
+                        const auto row = sorted_row(table.data() + i * C.size(), C.size());
+                        for (std::size_t j = 0; j < k; ++j) {
+                            CHECK_EQUAL(indices[i * k + j], row[j].index);
+                            CHECK_EQUAL(distances[i * k + j], row[j].distance);
+                        }
+                    }
+                }
+            }
+            const double radius = table[3];
+            const auto within = index.radius_neighbors(X, radius);
+            for (std::size_t i = 0; i < X.size(); ++i) {
+                auto row = sorted_row(table.data() + i * C.size(), C.size());
+                row.erase(std::remove_if(row.begin(), row.end(),
+                                         [&](const Neighbor& n) { return n.distance > radius; }),
+                          row.end());
+                CHECK_EQUAL(within[i].size(), row.size());
+                for (std::size_t j = 0; j < row.size() && j < within[i].size(); ++j) {
+                    CHECK_EQUAL(within[i][j].index, row[j].index);
+                    CHECK_EQUAL(within[i][j].distance, row[j].distance);
+                }
+            }
+        }
+    }
+}
+
+void bounds_leave_most_pairs_out() {
+    // Groups that lie far apart: of 99 others, 9 are in the same.
+    Random random(2);
+    std::vector<Curve> curves;
+    for (int i = 0; i < 100; ++i) {
+        Curve curve = random.curve(100, 2);
+        for (std::ptrdiff_t k = 0; k < 100; ++k) curve(k, 0) += 50.0 * (i % 10);
+        curves.push_back(curve);
+    }
+    for (const Measure& measure : {Measure(DtwOptions{}), Measure(FrechetOptions{})}) {
+        const Index index(views_of(curves), measure);
+        SearchRecord record;
+        SearchOptions options;
+        options.record = &record;
+        std::vector<double> distances(100);
+        std::vector<std::int64_t> indices(100);
+        index.kneighbors(1, distances.data(), indices.data(), options);
+        CHECK_EQUAL(record.pairs, 100 * 99);
+        CHECK(record.computed <= 100 * 9);
+        for (std::size_t i = 0; i < 100; ++i) {
+            CHECK_EQUAL(indices[i] % 10, static_cast<std::int64_t>(i % 10));
+        }
+    }
+}
+
+void a_control_ends_a_search() {
+    Random random(3);
+    const std::vector<Curve> curves = random_curves(random, 40, 300);
+    const Index index(views_of(curves), DtwOptions{});
+    std::vector<double> distances(curves.size() * 30);
+    std::vector<std::int64_t> indices(curves.size() * 30);
+    for (const std::ptrdiff_t workers : {1, 2}) {
+        Control control;
+        control.stop();
+        CHECK_THROWS(index.kneighbors(30, distances.data(), indices.data(), {workers}, &control),
+                     Stopped, "stopped before the work was done");
+        Control counted;
+        index.kneighbors(30, distances.data(), indices.data(), {workers}, &counted);
+        CHECK_EQUAL(counted.done(), counted.total());
+    }
+}
+
+void refusals_name_the_curve() {
+    const Curve line{{0, 0}, {1, 1}}, solid{{0, 0, 0}};
+    const double infinity = std::numeric_limits<double>::infinity();
+    const Curve broken{{0, 0}, {1, infinity}};
+    Index index({line}, FrechetOptions{});
+    CHECK_THROWS(index.add({line, broken}), std::invalid_argument,
+                 "curves[1][1, 1] is inf; curves must be finite");
+    CHECK_EQUAL(index.size(), std::size_t{1});
+    CHECK_THROWS(index.radius_neighbors({solid}, 1.0), std::invalid_argument,
+                 "curve 0 of the index has shape (2, 2) and X[0] has shape (1, 3); both need the "
+                 "same number of coordinates");
+    double distance = 0.0;
+    std::int64_t place = 0;
+    CHECK_THROWS(index.kneighbors({line}, 2, &distance, &place), std::invalid_argument,
+                 "n_neighbors is 2; give a whole number from 1 to 1, the curves of the index");
+}
+
+void runs_are_those_of_open_ends() {
+    Random random(4);
+    DtwOptions open;
+    open.open_begin = open.open_end = true;
+    for (int i = 0; i < 200; ++i) {
+        const std::ptrdiff_t dim = 1 + random.index(3);
+        const Curve P = random.lattice_curve(1 + random.index(8), dim);
+        const Curve Q = random.lattice_curve(1 + random.index(40), dim);
+        const check::Note note(test::described(P, Q));
+        const std::vector<Subsequence> found = subsequences(P, Q, 6);
+        CHECK_EQUAL(found[0].distance, dtw(P, Q, open));
+        std::vector<int> used(static_cast<std::size_t>(Q.size()));
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            CHECK(k == 0 || found[k - 1].distance <= found[k].distance);
+            CHECK_EQUAL(dtw(P, Q.part(found[k].start, found[k].stop + 1)), found[k].distance);
+            for (std::ptrdiff_t j = found[k].start; j <= found[k].stop; ++j) {
+                CHECK_EQUAL(used[static_cast<std::size_t>(j)]++, 0);
+            }
+        }
+        FrechetOptions frechet_options;
+        for (const Subsequence& one : subsequences(P, Q, 3, frechet_options)) {
+            CHECK_EQUAL(frechet(P, Q.part(one.start, one.stop + 1)), one.distance);
+        }
+    }
+    DtwOptions window;
+    window.window = 3;
+    const Curve P{{0}, {1}};
+    CHECK_THROWS(subsequences(P, P, 1, window), std::invalid_argument,
+                 "open_begin and open_end cannot be combined with window");
+    CHECK_THROWS(subsequences(P, P, 0), std::invalid_argument, "k is 0; give a whole number >= 1");
+}
+
+void the_mean_lowers_the_sum() {
+    Random random(5);
+    const std::vector<Curve> curves = random_curves(random, 9, 40);
+    const std::vector<CurveView> C = views_of(curves);
+    const std::vector<double> weights{1, 2, 0, 1, 1, 3, 1, 1, 1};
+    DtwMeanOptions options;
+    const DtwMean mean = dtw_mean(C, weights, C[1], options);
+    CHECK(std::is_sorted(mean.costs.rbegin(), mean.costs.rend()));
+    CHECK(mean.costs.back() < mean.costs.front());
+    DtwOptions squares;
+    squares.ground.metric = Metric::sqeuclidean;
+    const CurveView points(mean.points.data(), curves[1].size(), 2);
+    double cost = 0.0;
+    for (std::size_t i = 0; i < C.size(); ++i) cost += weights[i] * dtw(points, C[i], squares);
+    CHECK_CLOSE(mean.costs.back(), cost, 1e-12);
+    options.workers = 3;
+    CHECK_EQUAL(dtw_mean(C, weights, C[1], options).points, mean.points);
+    Control control;
+    control.stop();
+    CHECK_THROWS(dtw_mean(C, weights, C[1], options, &control), Stopped,
+                 "stopped before the work was done");
+}
+
+}  // namespace
+
+int main() {
+    return check::run(
+        {{"neighbors are those of a sorted table", neighbors_are_those_of_a_sorted_table},
+         {"bounds leave most pairs out", bounds_leave_most_pairs_out},
+         {"a control ends a search", a_control_ends_a_search},
+         {"refusals name the curve", refusals_name_the_curve},
+         {"runs are those of open ends", runs_are_those_of_open_ends},
+         {"the mean lowers the sum", the_mean_lowers_the_sum}});
+}

@@ -1,0 +1,121 @@
+// The bounds of a search, of the discrete measures and of the continuous one: none is above the
+// value as it is computed, to the bit, they rise from level to level only as far as that, and a
+// sweep that leaves out what they show to be dead gives the value, or one that is above the cutoff.
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "curves.hpp"
+#include "curvewise/curvewise.hpp"
+#include "pairwise/batch.hpp"
+
+namespace {
+
+using namespace curvewise;
+using detail::CheckedCurve;
+using detail::Poller;
+using test::Curve;
+using test::Random;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Few points that are all near, many, in order or not, touching, equal, far.
+Curve some_curve(Random& random, std::ptrdiff_t dim) {
+    const std::ptrdiff_t n = 1 + random.index(random.index(2) == 0 ? 12 : 150);
+    Curve curve = random.index(3) == 0 ? random.lattice_curve(n, dim) : random.curve(n, dim);
+    for (std::ptrdiff_t i = 1; i < n && random.index(4) != 0; ++i) {
+        for (std::ptrdiff_t c = 0; c < dim; ++c) curve(i, c) += curve(i - 1, c);
+    }
+    const double offset = random.index(2) == 0 ? 0.0 : random.uniform(-30, 30);
+    for (std::ptrdiff_t i = 0; i < n; ++i) curve(i, 0) += offset;
+    return curve.times_power_of_two(static_cast<int>(random.index(2) * (random.index(9) - 4) * 10));
+}
+
+template <class Options>
+void bounds_hold(const Options& options, std::ptrdiff_t dim, Random& random) {
+    std::vector<Curve> curves;
+    for (int i = 0; i < 7; ++i) curves.push_back(some_curve(random, dim));
+    const auto measure = detail::batch_measure(options);
+    const auto targets = measure->make_targets();
+    for (const Curve& Q : curves) targets->add(CheckedCurve(Q, "Q"));
+    const auto memory = targets->make_memory();
+    Poller poller(nullptr);
+    for (const Curve& P : curves) {
+        const auto query = targets->query(CheckedCurve(P, "P"));
+        std::vector<double> quick(curves.size());
+        query->quick(quick.data());
+        for (std::size_t j = 0; j < curves.size(); ++j) {
+            const check::Note note(test::described(P, curves[j]));
+            const auto target = static_cast<std::ptrdiff_t>(j);
+            const double value = evaluate(options, P, curves[j]);
+            CHECK(quick[j] >= 0.0 && quick[j] <= value);
+            for (int level = 1; level < query->levels(); ++level) {
+                const double bound = query->refined(target, level);
+                CHECK(bound >= 0.0 && bound <= value);
+            }
+            for (const double cutoff : {value, infinity, 2.0 * value, value / 2, 0.0}) {
+                const double found = query->value(target, {cutoff, 1, poller, *memory});
+                CHECK_EQUAL(query->is_within(target, {cutoff, 1, poller, *memory}),
+                            value <= cutoff);
+                if (value <= cutoff) {
+                    CHECK_EQUAL(found, value);
+                } else {
+                    CHECK(found > cutoff);
+                }
+            }
+        }
+    }
+}
+
+void bounds_of_leashes_hold() {
+    Random random(12);
+    for (const std::ptrdiff_t dim : {1, 2, 3, 5}) {
+        bounds_hold(FrechetContinuousOptions{}, dim, random);
+    }
+}
+
+void bounds_of_every_metric_hold() {
+    Random random(11);
+    for (const Metric metric : {Metric::euclidean, Metric::sqeuclidean, Metric::cityblock,
+                                Metric::chebyshev, Metric::minkowski}) {
+        for (const std::ptrdiff_t dim : {1, 2, 3, 5}) {
+            const check::Note note("metric " + std::to_string(static_cast<int>(metric)));
+            FrechetOptions frechet_options;
+            frechet_options.ground = {metric, 3.0};
+            bounds_hold(frechet_options, dim, random);
+            DtwOptions options;
+            options.ground = {metric, 3.0};
+            bounds_hold(options, dim, random);
+            options.open_begin = true;
+            bounds_hold(options, dim, random);
+            options.open_end = true;
+            bounds_hold(options, dim, random);
+            options.open_begin = false;
+            bounds_hold(options, dim, random);
+            options.open_end = false;
+            options.step_pattern = StepPattern::symmetric2;
+            bounds_hold(options, dim, random);
+            options.normalize = true;
+            bounds_hold(options, dim, random);
+            options.window_fraction = 0.3;
+            bounds_hold(options, dim, random);
+            options.normalize = false;
+            options.window_fraction.reset();
+            for (const std::ptrdiff_t window : {1, 7, 40}) {
+                options.window = window;
+                bounds_hold(options, dim, random);
+                options.step_pattern = StepPattern::symmetric1;
+                bounds_hold(options, dim, random);
+            }
+        }
+    }
+}
+
+}  // namespace
+
+int main() {
+    return check::run({{"bounds of leashes hold", bounds_of_leashes_hold},
+                       {"bounds of every metric hold", bounds_of_every_metric_hold}});
+}

@@ -1,0 +1,236 @@
+"""Tests of different kinds in one call, and parameters that are logarithmic, tied or ordered."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from test_history import assert_same
+
+from curvewise import datasets
+from curvewise.calibration import Below, Case, Log, Tied, identify
+
+CYCLE = np.concatenate(
+    [np.linspace(a, b, 20, endpoint=False) for a, b in itertools.pairwise((0.0, 0.02, -0.02, 0.02))]
+)
+TENSION = np.linspace(0.0, 0.1, 40)
+TRUTH = {"E": 200e3, "yield": 300.0, "C": 80e3}
+BOUNDS = {"E": (150e3, 260e3), "yield": (150.0, 500.0), "C": (20e3, 200e3)}
+QUIET = {"method": "trust-region", "progress": False}
+
+
+def material(parameters, strain):
+    stress = datasets.kinematic_hardening(
+        strain,
+        youngs_modulus=parameters["E"],
+        yield_stress=parameters["yield"],
+        backstresses=((parameters["C"], 400.0), (5e3, 20.0)),
+    )
+    return np.column_stack((strain, stress))
+
+
+def cycle(parameters):
+    return material(parameters, CYCLE)
+
+
+def tension(parameters):
+    return material(parameters, TENSION)
+
+
+def strength(curve):
+    return curve[:, 1].max()
+
+
+def three_cases(cycle=cycle, tension=tension):
+    return [
+        Case("cycle", cycle, material(TRUTH, CYCLE), measure="dtw", weight=2.0),
+        Case("tension", tension, tension(TRUTH), measure="sum_of_squares", sigma=4.0),
+        Case("strength", tension, strength(tension(TRUTH)), response=strength, sigma=8.0),
+    ]
+
+
+def test_a_cycle_a_tension_test_and_a_strength_in_one_call():
+    runs = {"cycle": 0, "tension": 0}
+
+    def counted_cycle(p):
+        runs["cycle"] += 1
+        return cycle(p)
+
+    def counted_tension(p):
+        runs["tension"] += 1
+        return tension(p)
+
+    cases = three_cases(counted_cycle, counted_tension)
+    before = dict(runs)
+    found = identify(cases, bounds=BOUNDS, **QUIET)
+    assert {name: runs[name] - before[name] for name in runs} == dict.fromkeys(
+        runs, found.evaluations
+    )
+    for name, value in TRUTH.items():
+        assert found.parameters[name] == pytest.approx(value, rel=5e-3)
+    assert list(found.measures) == ["cycle", "tension", "strength"]
+    assert sum(found.measures.values()) == pytest.approx(found.value)
+    assert found.measure == "dtw + sum_of_squares + area"
+    assert "cycle" in str(found)
+    assert len(found.plot().axes) == 4
+    assert set(found.uncertainty(samples=20).standard_errors) == set(TRUTH)
+
+
+def test_cases_count_in_units_of_their_noise():
+    """A simulation that is off by sigma everywhere counts 1; squares n; a number its deviation."""
+    moved = material(TRUTH, TENSION) + np.array([0.0, 4.0])
+    start = dict(TRUTH)
+    for measure, expected in [("area", 1.0), ("dtw", 1.0), ("sum_of_squares", 40.0)]:
+        cases = [Case("t", tension, moved, measure=measure, sigma=4.0, weight=3.0)]
+        found = identify(cases, bounds=BOUNDS, start=start, max_evaluations=1, **QUIET)
+        assert found.value == pytest.approx(3.0 * expected, rel=1e-2), measure
+    numbers = [
+        ({"sigma": 4.0}, 2.0),
+        ({"sigma": 4.0, "measure": "sum_of_squares"}, 4.0),
+        ({}, 8.0 / (strength(tension(TRUTH)) + 8.0)),
+    ]
+    for keywords, expected in numbers:
+        case = Case("s", tension, strength(tension(TRUTH)) + 8.0, response=strength, **keywords)
+        found = identify([case], bounds=BOUNDS, start=start, max_evaluations=1, **QUIET)
+        assert found.value == pytest.approx(expected), keywords
+
+
+def test_a_case_that_fails_leaves_the_others():
+    def fragile(parameters):
+        if parameters["yield"] > 350.0:
+            raise ArithmeticError("no convergence")
+        return tension(parameters)
+
+    found = identify(three_cases(tension=fragile), bounds=BOUNDS, method="sdrm", progress=False)
+    assert found.failures
+    for _, message in found.failures:
+        assert "case 'tension': RuntimeError: ArithmeticError: no convergence" in message
+        assert "cycle" not in message
+    assert found.parameters["yield"] == pytest.approx(300.0, rel=1e-3)
+
+
+def test_cases_in_a_store_run_once(tmp_path):
+    keywords = {"bounds": BOUNDS, "store": tmp_path / "s.db", "version": "1", **QUIET}
+    first = identify(three_cases(), **keywords)
+    again = identify(three_cases(), **keywords)
+    assert first.runs == 2 * first.evaluations  # two models
+    assert again.runs == 0
+    assert_same(first, again)
+    history = {**keywords, "store": None, "history": tmp_path / "h.csv"}
+    identify(three_cases(), **history)
+    other = [*three_cases()[:2], Case("strength", tension, 500.0, response=strength, sigma=1.0)]
+    with pytest.raises(ValueError, match="the history of another search"):
+        identify(other, **history)
+
+
+@pytest.mark.parametrize(
+    ("cases", "message"),
+    [
+        ([Case("a", cycle, 1.0), Case("a", cycle, 2.0)], "two cases are called 'a'"),
+        ([Case("a", cycle, np.ones((3, 2)), measure="magic")], "case 'a': unknown measure 'magic'"),
+        ([Case("a", cycle, 1.0, weight=-1.0)], "case 'a': weight is -1.0"),
+        ([Case("a", cycle, 1.0, sigma=0.0)], "case 'a': sigma is 0.0"),
+        ([Case("a", cycle, np.inf)], "case 'a': the experiment is inf"),
+        ([Case("a", cycle, 1.0)], "its experiment is a number; give the case a response"),
+        (
+            [Case("a", lambda p: [cycle(p)] * 2, cycle(TRUTH))],
+            "case 'a': the model returned 2 curves; give a response",
+        ),
+    ],
+)
+def test_cases_that_are_wrong(cases, message):
+    with pytest.raises(ValueError, match=message):
+        identify(cases, bounds=BOUNDS, **QUIET)
+
+
+def test_what_belongs_to_a_case_is_not_given_beside_it():
+    with pytest.raises(ValueError, match="weights given beside cases; give them to each Case"):
+        identify(three_cases(), bounds=BOUNDS, weights=[1, 2, 3], **QUIET)
+    with pytest.raises(TypeError, match="identify needs bounds"):
+        identify(three_cases())
+
+
+# Parameters.
+
+
+def relaxation(parameters):
+    """Maxwell's model: the stress at constant strain, over six decades of time."""
+    time = np.linspace(-2.0, 4.0, 60)
+    stress = np.exp(-(10.0**time) * 100.0 / parameters["viscosity"])
+    return np.column_stack((time, stress))
+
+
+@pytest.mark.parametrize("viscosity", [3e0, 2e3, 4e5])
+def test_a_viscosity_over_six_decades(viscosity):
+    found = identify(
+        relaxation, relaxation({"viscosity": viscosity}), {"viscosity": Log(1.0, 1e6)}, **QUIET
+    )
+    assert found.parameters["viscosity"] == pytest.approx(viscosity, rel=0.01)
+    assert found.evaluations <= 100
+
+
+def two_backstresses(parameters):
+    stress = datasets.kinematic_hardening(
+        CYCLE,
+        youngs_modulus=parameters["E"],
+        backstresses=((parameters["C1"], parameters["gamma1"]), (parameters["C2"], 20.0)),
+    )
+    return np.column_stack((CYCLE, stress))
+
+
+@pytest.mark.parametrize("method", ["trust-region", "sdrm"])
+def test_ordered_fixed_and_tied_parameters(method):
+    """C1 > C2 at every run, E as it is, gamma1 from C1."""
+    runs = []
+
+    def model(parameters):
+        runs.append(parameters)
+        return two_backstresses(parameters)
+
+    bounds = {
+        "E": 200e3,
+        "C1": (1e3, 200e3),
+        "C2": Below("C1", 1e3, 200e3),
+        "gamma1": Tied(lambda p: p["C1"] / 200.0),
+    }
+    truth = {"E": 200e3, "C1": 80e3, "C2": 5e3, "gamma1": 400.0}
+    found = identify(model, two_backstresses(truth), bounds, method=method, progress=False)
+    assert all(run["C1"] > run["C2"] for run in runs)
+    assert all(run["E"] == 200e3 and run["gamma1"] == run["C1"] / 200.0 for run in runs)
+    assert found.parameters == pytest.approx(truth, rel=0.01)
+    assert list(found.parameters) == list(bounds)
+    assert found.history.dtype.names[1:3] == ("C1", "C2")
+    lines = {line.split()[0]: line for line in str(found).splitlines() if line}
+    assert lines["E"].endswith("fixed")
+    assert lines["gamma1"].endswith("tied")
+    found.uncertainty(samples=20)
+
+
+def test_a_start_among_ordered_and_logarithmic_parameters():
+    bounds = {"C1": Log(1e3, 200e3), "C2": Below("C1", 1e3, 50e3), "E": (2e5, 2e5)}
+    start = {"C1": 2e4, "C2": 3e3}
+
+    def model(parameters):
+        return two_backstresses({**parameters, "gamma1": 100.0})
+
+    keywords = {"bounds": bounds, "max_evaluations": 1, **QUIET}
+    found = identify(model, model({**start, "E": 2e5}), start=start, **keywords)
+    assert found.parameters == pytest.approx({**start, "E": 2e5}, rel=1e-12)
+    with pytest.raises(ValueError, match=r"start\['C2'\] is 30000.0; it must be below C1"):
+        identify(model, model({**start, "E": 2e5}), start={"C1": 2e4, "C2": 3e4}, **keywords)
+
+
+@pytest.mark.parametrize(
+    ("bounds", "message"),
+    [
+        ({"a": Log(0.0, 1.0)}, "a logarithm needs low above 0"),
+        ({"a": Log(1.0, 1.0)}, "low < high"),
+        ({"a": Below("b", 0.0, 1.0), "b": (0.0, 1.0)}, "a stays below 'b', which is no parameter"),
+        ({"b": (0.0, 1.0), "a": Below("b", 2.0, 3.0)}, "a cannot stay below b within their bounds"),
+        ({"a": 1.0}, "every parameter is fixed"),
+    ],
+)
+def test_bounds_that_are_wrong(bounds, message):
+    with pytest.raises(ValueError, match=message):
+        identify(cycle, cycle(TRUTH), bounds, **QUIET)

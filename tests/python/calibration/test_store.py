@@ -1,0 +1,348 @@
+"""The store of simulations: shared runs, what is another model, and processes that die."""
+
+from __future__ import annotations
+
+import functools
+import os
+import sqlite3
+import subprocess
+import sys
+import textwrap
+import time
+
+import numpy as np
+import pytest
+from test_history import assert_same
+
+from curvewise.calibration import (
+    CommandModel,
+    Objective,
+    SimulationStore,
+    cross_validate,
+    identify,
+    rescore,
+)
+
+X = np.linspace(0.0, 1.0, 25)
+BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
+QUICK = {
+    "method": "sdrm+de",
+    "progress": False,
+    "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}},
+}
+SDRM = {"progress": False, "method": "sdrm", "method_options": {"maxiter": 3}}
+LONG = {"progress": False, "method": "sdrm", "method_options": {"maxiter": 8}}
+
+
+def line(parameters):
+    return np.column_stack((X, parameters["a"] * X + parameters["b"]))
+
+
+def fragile_line(parameters):
+    if parameters["a"] > 8.0:
+        raise ValueError("too steep")
+    return None if parameters["a"] < 1.0 else line(parameters)
+
+
+EXPERIMENT = line({"a": 2.0, "b": 1.0})
+
+
+class Counted:
+    """A model that counts its runs; what it is, it says by itself."""
+
+    def __init__(self, model, identity="line"):
+        self.model, self.identity, self.runs = model, identity, 0
+
+    def __call__(self, parameters):
+        self.runs += 1
+        return self.model(parameters)
+
+
+def test_a_finished_search_runs_nothing_again(tmp_path):
+    for model in (line, fragile_line):
+        counted = Counted(model, model.__name__)
+        first = identify(counted, EXPERIMENT, BOUNDS, store=tmp_path / "s.db", **QUICK)
+        assert counted.runs == first.evaluations
+        again = identify(counted, EXPERIMENT, BOUNDS, store=tmp_path / "s.db", **QUICK)
+        assert counted.runs == first.evaluations
+        assert_same(first, again)
+        assert_same(first, identify(model, EXPERIMENT, BOUNDS, **QUICK))
+        assert np.array_equal(first.history.seconds, again.history.seconds)
+
+
+def test_runs_are_shared_by_measures_methods_and_weights(tmp_path):
+    """The first region is the same for all: five runs of it are made once."""
+    counted = Counted(line)
+    keywords = {**SDRM, "method_options": {"maxiter": 1}, "store": tmp_path / "s.db"}
+    identify(counted, EXPERIMENT, BOUNDS, measure="area", **keywords)
+    assert counted.runs == 5
+    identify(counted, EXPERIMENT, BOUNDS, measure="dtw", weights=[3.0], **keywords)
+    assert counted.runs == 5
+    keywords["method_options"] = {"sdrm": {"maxiter": 1}, "de": {"maxiter": 1, "popsize": 4}}
+    identify(counted, EXPERIMENT, BOUNDS, **keywords | {"method": "sdrm+de"})
+    assert counted.runs > 5
+    with SimulationStore(tmp_path / "s.db") as store:
+        assert len(store) == counted.runs
+
+
+def test_workers_fill_the_store_too(tmp_path):
+    keywords = {**QUICK, "store": tmp_path / "s.db", "version": "1"}
+    two = identify(fragile_line, EXPERIMENT, BOUNDS, workers=2, **keywords)
+    assert_same(two, identify(fragile_line, EXPERIMENT, BOUNDS, **keywords))
+
+
+def test_rescore_runs_nothing_and_gives_the_objective(tmp_path):
+    counted = Counted(fragile_line)
+    found = identify(counted, EXPERIMENT, BOUNDS, store=tmp_path / "s.db", **SDRM)
+    runs = counted.runs
+    again = rescore(tmp_path / "s.db", EXPERIMENT, "dtw", weights=[2.0], metric="cityblock")
+    assert counted.runs == runs
+    objective = Objective(EXPERIMENT, "dtw", weights=[2.0], metric="cityblock")
+    for row in again.history:
+        curve = None if row.failed else line({"a": row.a, "b": row.b})
+        assert row.value == objective(curve)
+    assert again.value == again.history.value.min() == objective(again.simulations[0])
+    assert len(again.failures) == again.history.failed.sum() == len(found.failures)
+    same = rescore(tmp_path / "s.db", EXPERIMENT, model=counted)
+    assert (same.value, same.parameters) == (found.value, found.parameters)
+
+
+def test_rescore_wants_to_know_which_model(tmp_path):
+    file = tmp_path / "s.db"
+    with pytest.raises(FileNotFoundError, match="there is no store"):
+        rescore(file, EXPERIMENT)
+    for version in ("1", "2"):
+        identify(line, EXPERIMENT, BOUNDS, store=file, version=version, **SDRM)
+    with pytest.raises(ValueError, match=r"runs of 2 models \(line, version 1; line, version 2\)"):
+        rescore(file, EXPERIMENT)
+    with pytest.raises(ValueError, match="has no runs of line, version 3; it has those of: line"):
+        rescore(file, EXPERIMENT, model=line, version="3")
+    one = rescore(file, EXPERIMENT, model=line, version="1")
+    assert one.value == rescore(file, EXPERIMENT, model="line, version 2").value
+
+
+# Another model.
+
+
+def read_curve(folder):
+    return np.loadtxt(folder / "out.txt")
+
+
+def command_model(folder, slope="<<a>>", read=read_curve, **keywords):
+    (folder / "deck.py").write_text(
+        f"open('out.txt', 'w').write('0 <<b>>\\n1 ' + str({slope} + <<b>>) + '\\n')"
+    )
+    command = [sys.executable, "-S", "deck.py"]
+    return CommandModel(
+        folder / "deck.py", command, read, parameters=["a", "b"], timeout=60, **keywords
+    )
+
+
+def test_an_edited_template_is_another_model(tmp_path):
+    """And so are another command, environment and reading function."""
+    file = tmp_path / "s.db"
+    keywords = {"method": "nelder-mead", "progress": False, "max_evaluations": 2, "store": file}
+    one = identify(command_model(tmp_path), EXPERIMENT, BOUNDS, **keywords)
+    with SimulationStore(file) as store:
+        assert len(store) == 2
+    same = command_model(tmp_path)
+    assert same.identity == command_model(tmp_path).identity
+    assert_same(one, identify(same, EXPERIMENT, BOUNDS, **keywords))
+    with SimulationStore(file) as store:
+        assert len(store) == 2
+    edited = command_model(tmp_path, slope="2 * <<a>>")
+    two = identify(edited, EXPERIMENT, BOUNDS, **keywords)
+    assert one.simulations[0][1, 1] != two.simulations[0][1, 1]
+    with SimulationStore(file) as store:
+        assert len(store) == 4
+        assert store.models() == [same.identity, edited.identity]
+
+    def twice(folder):
+        return 2.0 * read_curve(folder)
+
+    others = [
+        command_model(tmp_path, read=twice),
+        command_model(tmp_path, read=functools.partial(np.multiply, 2.0)),
+        command_model(tmp_path, environment={"THREADS": "1"}),
+    ]
+    identities = {model.identity for model in (same, edited, *others)}
+    assert len(identities) == 5
+
+
+def test_a_history_of_an_edited_template_is_refused(tmp_path):
+    keywords = {"method": "nelder-mead", "progress": False, "max_evaluations": 2}
+    keywords["history"] = tmp_path / "h.csv"
+    identify(command_model(tmp_path), EXPERIMENT, BOUNDS, **keywords)
+    identify(command_model(tmp_path), EXPERIMENT, BOUNDS, **keywords)
+    edited = command_model(tmp_path, slope="2 * <<a>>")
+    with pytest.raises(ValueError, match="the history of another search: its model is"):
+        identify(edited, EXPERIMENT, BOUNDS, **keywords)
+
+
+def with_source(source):
+    names = {"np": np, "X": X}
+    exec(source, names)
+    return names["model"]
+
+
+def test_a_function_needs_a_version_and_keeps_to_it(tmp_path):
+    keywords = {**SDRM, "store": tmp_path / "s.db"}
+    with pytest.raises(ValueError, match="which state of line its runs are of; give version='1'"):
+        identify(line, EXPERIMENT, BOUNDS, **keywords)
+    with pytest.raises(ValueError, match="version is 2; give a text"):
+        identify(line, EXPERIMENT, BOUNDS, version=2, **keywords)
+    keywords["version"] = "1"
+    source = "def model(p):\n    return np.column_stack((X, p['a'] * X + p['b']))\n"
+    identify(with_source(source), EXPERIMENT, BOUNDS, **keywords)
+    commented = source.replace("\n    r", "\n    '''A line.'''\n\n    # With a comment.\n    r")
+    identify(with_source(commented), EXPERIMENT, BOUNDS, **keywords)
+    for changed in (source.replace("* X", "* X * X"), source.replace("p['b']", "2 * p['b']")):
+        with pytest.raises(ValueError, match="model, version 1, whose code or data were others"):
+            identify(with_source(changed), EXPERIMENT, BOUNDS, **keywords)
+        identify(with_source(changed), EXPERIMENT, BOUNDS, **keywords | {"version": changed})
+
+
+def test_the_data_of_a_model_count(tmp_path):
+    def scaled(factor, parameters):
+        return factor * line(parameters)
+
+    keywords = {**SDRM, "store": tmp_path / "s.db", "version": "1"}
+    for factor in (np.array([1.0, 1.0]), np.array([1.0, 1.0])):
+        identify(functools.partial(scaled, factor), EXPERIMENT, BOUNDS, **keywords)
+    with pytest.raises(ValueError, match=r"partial of .*scaled, version 1, whose code or data"):
+        identify(functools.partial(scaled, np.array([1.0, 2.0])), EXPERIMENT, BOUNDS, **keywords)
+
+
+# Folds, views, failures, files.
+
+
+def test_folds_of_a_cross_validation_share_runs(tmp_path):
+    def loops(parameters):
+        return [line(parameters), line(parameters) ** 2, line(parameters)[:20]]
+
+    counted = Counted(loops)
+    experiments = loops({"a": 2.0, "b": 1.0})
+    keywords = {**SDRM, "store": tmp_path / "s.db"}
+    shared = cross_validate(counted, experiments, BOUNDS, **keywords)
+    asked = sum(fold.identification.evaluations for fold in shared.folds)
+    assert counted.runs <= asked - 2 * 5  # the first region of every fold is the same
+    alone = cross_validate(loops, experiments, BOUNDS, **SDRM)
+    assert str(shared) == str(alone)
+
+
+def test_the_history_beside_a_store_is_a_table(tmp_path):
+    import pandas as pd
+
+    counted = Counted(line)
+    keywords = {**SDRM, "store": tmp_path / "s.db", "history": tmp_path / "h.csv"}
+    found = identify(counted, EXPERIMENT, BOUNDS, **keywords)
+    table = pd.read_csv(tmp_path / "h.csv", comment="#")
+    assert table.value.to_numpy() == pytest.approx(found.history.value, rel=1e-15)
+    assert table.simulations.isna().all()  # the store has them
+    text = (tmp_path / "h.csv").read_bytes()
+    assert_same(found, identify(counted, EXPERIMENT, BOUNDS, **keywords))
+    assert counted.runs == found.evaluations
+    assert (tmp_path / "h.csv").read_bytes() == text
+    (tmp_path / "h.csv").unlink()
+    assert_same(found, identify(counted, EXPERIMENT, BOUNDS, **keywords))
+    assert counted.runs == found.evaluations
+    assert (tmp_path / "h.csv").read_bytes() == text
+
+
+def test_failures_are_kept_until_they_are_forgotten(tmp_path):
+    counted = Counted(fragile_line)
+    keywords = {**SDRM, "store": tmp_path / "s.db"}
+    found = identify(counted, EXPERIMENT, BOUNDS, **keywords)
+    raised = [message for _, message in found.failures if "too steep" in message]
+    assert raised
+    with SimulationStore(tmp_path / "s.db") as store:
+        assert {run.message for run in store.runs("line")} == {"", "ValueError: too steep"}
+        assert store.forget_failures() == len(raised)
+    runs = counted.runs
+    assert_same(found, identify(counted, EXPERIMENT, BOUNDS, **keywords))
+    assert counted.runs == runs + len(raised)
+
+
+def test_other_files_are_refused(tmp_path):
+    (tmp_path / "text.db").write_text("a,b\n" * 1000)
+    with pytest.raises(ValueError, match=r"text\.db is not a store; give the name of a file"):
+        SimulationStore(tmp_path / "text.db")
+    with sqlite3.connect(tmp_path / "other.db") as other:
+        other.execute("CREATE TABLE t (x)")
+    other.close()
+    with pytest.raises(ValueError, match=r"other\.db is not a store of this version"):
+        SimulationStore(tmp_path / "other.db")
+    with pytest.raises(OSError, match="cannot be opened"):
+        SimulationStore(tmp_path / "no" / "folder.db")
+
+
+# Processes.
+
+SCRIPT = """
+    import sys, time
+    sys.path.insert(0, {folder!r})
+    from test_store import BOUNDS, EXPERIMENT, LONG, line
+    from curvewise.calibration import identify
+
+    class Slow:
+        identity = "slow line"
+
+        def __call__(self, parameters):
+            time.sleep(0.01)
+            print("run", flush=True)
+            return line(parameters)
+
+    found = identify(Slow(), EXPERIMENT, BOUNDS, store=sys.argv[1], **LONG)
+    print(found.value.hex(), found.evaluations)
+"""
+
+
+def started(script, file):
+    return subprocess.Popen(
+        [sys.executable, str(script), str(file)], stdout=subprocess.PIPE, text=True
+    )
+
+
+def stored(file):
+    with SimulationStore(file) as store:
+        return len(store)
+
+
+@pytest.fixture
+def script(tmp_path):
+    file = tmp_path / "slow.py"
+    file.write_text(textwrap.dedent(SCRIPT).format(folder=os.path.dirname(__file__)))
+    return file
+
+
+def test_killed_and_resumed_is_as_if_it_had_run_through(tmp_path, script):
+    file = tmp_path / "s.db"
+    process = started(script, file)
+    deadline = time.monotonic() + 60
+    while process.poll() is None and process.stdout.readline():
+        if stored(file) > 9:
+            break
+        assert time.monotonic() < deadline
+    process.kill()  # SIGKILL
+    process.communicate()
+    saved = stored(file)
+    resumed = started(script, file)
+    out, _ = resumed.communicate(timeout=60)
+    *runs, result = out.splitlines()
+    whole = identify(line, EXPERIMENT, BOUNDS, **LONG)
+    assert result.split() == [whole.value.hex(), str(whole.evaluations)]
+    assert 9 < saved < whole.evaluations
+    assert len(runs) == whole.evaluations - saved
+    database = sqlite3.connect(file)
+    assert database.execute("PRAGMA integrity_check").fetchone() == ("ok",)
+    database.close()
+
+
+def test_two_processes_on_one_store(tmp_path, script):
+    file = tmp_path / "s.db"
+    both = [started(script, file) for _ in range(2)]
+    outputs = [process.communicate(timeout=60)[0].splitlines() for process in both]
+    whole = identify(line, EXPERIMENT, BOUNDS, **LONG)
+    for *_, result in outputs:
+        assert result.split() == [whole.value.hex(), str(whole.evaluations)]
+    assert stored(file) == whole.evaluations

@@ -1,0 +1,249 @@
+"""What the tests determine: against the formula of least squares, and where little is."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from curvewise import datasets
+from curvewise.calibration import identify, identify_each
+
+X = np.linspace(0.0, 1.0, 40)
+BOUNDS = {"a": (-10.0, 10.0), "b": (-20.0, 20.0), "c": (-20.0, 20.0)}
+TRUTH = {"a": 1.0, "b": -2.0, "c": 3.0}
+DESIGN = np.column_stack((np.ones_like(X), X, X**2))
+QUIET = {"progress": False, "method": "trust-region"}
+
+
+def parabola(p):
+    return np.column_stack((X, DESIGN @ [p["a"], p["b"], p["c"]]))
+
+
+def with_noise(curve, deviation, seed=0):
+    noisy = curve.copy()
+    noisy[:, 1] += np.random.default_rng(seed).normal(0.0, deviation, len(curve))
+    return noisy
+
+
+TEST = with_noise(parabola(TRUTH), 0.1)
+
+
+def linear_theory(test, sigma=None):
+    """Return the estimate, its covariance and the degrees of freedom, by the textbook."""
+    best, *_ = np.linalg.lstsq(DESIGN, test[:, 1], rcond=None)
+    residuals = test[:, 1] - DESIGN @ best
+    freedom = len(test) - 3
+    variance = residuals @ residuals / freedom if sigma is None else sigma**2
+    return best, variance * np.linalg.inv(DESIGN.T @ DESIGN), freedom
+
+
+@pytest.mark.parametrize("sigma", [None, 0.3])
+def test_a_linear_model_has_the_errors_of_least_squares(sigma):
+    found = identify(parabola, TEST, BOUNDS, measure="sum_of_squares", **QUIET)
+    uncertainty = found.uncertainty(sigma=sigma)
+    best, covariance, freedom = linear_theory(TEST, sigma)
+    errors = np.sqrt(np.diag(covariance))
+    assert list(uncertainty.standard_errors.values()) == pytest.approx(errors, rel=1e-3)
+    expected = covariance / np.outer(errors, errors)
+    assert uncertainty.correlations == pytest.approx(expected, abs=1e-3)
+    t = stats.norm.ppf(0.975) if sigma else stats.t(freedom).ppf(0.975)
+    for (low, high), b, e in zip(uncertainty.intervals.values(), best, errors, strict=True):
+        assert low == pytest.approx(b - t * e, abs=0.05 * e)
+        assert high == pytest.approx(b + t * e, abs=0.05 * e)
+    deviation = sigma or np.sqrt(covariance[0, 0] / np.linalg.inv(DESIGN.T @ DESIGN)[0, 0])
+    assert uncertainty.sigma == pytest.approx(deviation, rel=1e-3)
+    assert uncertainty.runs == 0
+
+
+def test_the_bootstrap_of_a_measure_is_near_least_squares():
+    """Area and dtw of a noisy parabola: alike in efficiency, never better than least squares."""
+    _, covariance, _ = linear_theory(TEST, 0.1)
+    least = np.sqrt(np.diag(covariance))
+    for measure in ("area", "dtw"):
+        found = identify(parabola, TEST, BOUNDS, measure=measure, **QUIET)
+        errors = found.uncertainty(sigma=0.1, samples=200).standard_errors
+        ratio = np.array(list(errors.values())) / least
+        assert (ratio > 0.85).all(), measure
+        assert (ratio < 2.5).all(), measure
+
+
+def test_the_same_seed_gives_the_same_and_another_another():
+    found = identify(parabola, TEST, BOUNDS, measure="area", **QUIET)
+    one, same, other = (
+        found.uncertainty(samples=30, seed=seed).standard_errors for seed in (1, 1, 2)
+    )
+    assert one == same
+    assert one != other
+
+
+def test_methods_that_keep_no_curves_take_two_runs_a_parameter():
+    runs = []
+
+    def counted(p):
+        runs.append(p)
+        return parabola(p)
+
+    found = identify(
+        counted, TEST, BOUNDS, measure="sum_of_squares", method="nelder-mead", progress=False
+    )
+    assert found.uncertainty_runs == 6
+    assert found.determined is None
+    assert "are the parameters determined? uncertainty() says, after 6 runs" in found.summary()
+    before = len(runs)
+    uncertainty = found.uncertainty()
+    assert len(runs) - before == uncertainty.runs == 6
+    errors = np.sqrt(np.diag(linear_theory(TEST)[1]))
+    assert list(uncertainty.standard_errors.values()) == pytest.approx(errors, rel=1e-3)
+
+
+def test_runs_that_fail_leave_differences_to_one_side():
+    def fragile(p):
+        if p["b"] > -2.0:
+            raise ArithmeticError("no convergence")
+        return parabola(p)
+
+    keywords = {"measure": "sum_of_squares", "method": "nelder-mead", "progress": False}
+    found = identify(fragile, TEST, BOUNDS, start={"a": 1.0, "b": -3.0, "c": 3.0}, **keywords)
+    errors = found.uncertainty().standard_errors
+    expected = np.sqrt(np.diag(linear_theory(TEST)[1]))
+    assert list(errors.values()) == pytest.approx(expected, rel=0.2)
+
+
+# What is determined.
+
+STRAIN = np.concatenate(
+    [np.linspace(a, b, 20, endpoint=False) for a, b in itertools.pairwise((0.0, 0.02, -0.02, 0.02))]
+)
+
+
+def hardening(p):
+    stress = datasets.kinematic_hardening(
+        STRAIN,
+        youngs_modulus=p["E"],
+        yield_stress=p["yield"],
+        backstresses=((p["C"], p.get("gamma", 400.0)), (p.get("C2", 5e3), p.get("gamma2", 20.0))),
+    )
+    return np.column_stack((STRAIN, stress))
+
+
+THREE = {"E": (150e3, 260e3), "yield": (150.0, 500.0), "C": (20e3, 200e3)}
+
+
+def test_three_parameters_of_a_loop_are_determined():
+    truth = {"E": 200e3, "yield": 300.0, "C": 80e3}
+    found = identify(hardening, with_noise(hardening(truth), 4.0), THREE, **QUIET)
+    assert found.determined == dict.fromkeys(THREE, True)
+    assert "\nconverged: " in found.summary()
+    uncertainty = found.uncertainty(samples=50)
+    assert uncertainty.determined == dict.fromkeys(THREE, True)
+    assert "all are determined" in str(uncertainty)
+    assert uncertainty.sensitivities.shape == (1, 3)
+    for name, (low, high) in uncertainty.intervals.items():
+        assert low <= truth[name] <= high
+
+
+def test_parameters_that_only_act_together_are_not_determined():
+    """Of two back stresses that are alike, a first branch says the sum; and seeds disagree."""
+
+    def alike(p):
+        return hardening({**p, "yield": 300.0})[:21]
+
+    bounds = {"E": (150e3, 260e3), "C": (20e3, 200e3), "C2": (20e3, 200e3)}
+    truth = {"E": 200e3, "C": 80e3, "C2": 60e3, "gamma": 400.0, "gamma2": 400.0}
+    test = with_noise(alike(truth), 2.0)
+
+    def model(p):
+        return alike({**p, "gamma": 400.0, "gamma2": 400.0})
+
+    for seed in (1, 2):
+        found = identify(model, test, bounds, seed=seed, **QUIET)
+        assert found.determined == {"E": True, "C": False, "C2": False}
+        assert "undetermined: C, C2 (the objective hardly notices" in found.summary()
+        assert "converged" not in found.summary()
+        uncertainty = found.uncertainty(samples=50)
+        assert uncertainty.determined == {"E": True, "C": False, "C2": False}
+        direction = uncertainty.weakest_direction
+        assert direction["C"] == pytest.approx(-direction["C2"], rel=0.02)
+        assert uncertainty.singular_values[-1] < 3e-3 * uncertainty.singular_values[0]
+        smaller, larger = sorted(("C", "C2"), key=lambda name: found.parameters[name])
+        assert f"{smaller} by 10 %" in uncertainty.in_words
+        assert f"{larger} by " in uncertainty.in_words
+
+
+def test_a_parameter_at_its_bound_is_not_determined():
+    found = identify(parabola, TEST, {**BOUNDS, "a": (1.5, 10.0)}, measure="area", **QUIET)
+    uncertainty = found.uncertainty(samples=30)
+    assert uncertainty.at_bounds == {"a": "lower"}
+    assert not uncertainty.determined["a"]
+    assert "at its lower bound" in str(uncertainty)
+
+
+def test_residuals_that_go_on_alike_widen_the_intervals():
+    """A wrong model: blocks of residuals, not single ones, are what may come differently."""
+    smooth = parabola(TRUTH)
+    smooth[:, 1] += 0.1 * np.sqrt(2.0) * np.sin(6.0 * np.pi * X)
+    rough = with_noise(parabola(TRUTH), 0.1)
+    errors = [
+        identify(parabola, test, BOUNDS, measure="area", **QUIET)
+        .uncertainty(samples=100)
+        .standard_errors["a"]
+        for test in (smooth, rough)
+    ]
+    assert errors[0] > 1.3 * errors[1]
+
+
+def test_pictures_and_errors():
+    found = identify(parabola, TEST, BOUNDS, measure="area", **QUIET)
+    figure = found.uncertainty(samples=20).plot()
+    titles = [ax.get_title() for ax in figure.axes]
+    assert titles[:2] == ["95 % intervals", "Correlations of the errors"]
+    assert "by 10 %" in figure.subfigs[1].get_suptitle()
+    for keywords, message in [
+        ({"level": 1.0}, "level is 1.0"),
+        ({"samples": 3}, "samples is 3; give at least 20"),
+        ({"sigma": -1.0}, "sigma is -1.0; give a finite deviation"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            found.uncertainty(**keywords)
+
+
+# Several measures.
+
+
+def test_several_measures_share_their_runs():
+    runs = []
+
+    def counted(p):
+        runs.append(p)
+        return hardening(p)
+
+    truth = {"E": 200e3, "yield": 300.0, "C": 80e3}
+    test = with_noise(hardening(truth), 4.0)
+    each = identify_each(counted, test, THREE, measures=["area", "dtw", "frechet"], progress=False)
+    assert len(runs) == each.runs == sum(found.runs for found in each.values())
+    assert list(each) == ["area", "dtw", "frechet"]
+    alone = {m: identify(hardening, test, THREE, measure=m, **QUIET) for m in each}
+    assert each.runs < 0.75 * sum(found.evaluations for found in alone.values())
+    for row, (measure, found) in enumerate(each.items()):
+        assert found.value <= 1.01 * alone[measure].value
+        assert each.optima[row, row] == found.value
+        assert each.optima[:, row].argmin() == row  # the best by its own measure
+    low, high = each.spread["C"]
+    assert low <= each["area"].parameters["C"] <= high
+    text = str(each)
+    for word in ("spread, % of bounds", "optimum of", f"{each.runs} runs of the model"):
+        assert word in text
+    assert [ax.get_title() for ax in each.plot().axes] == ["", "Parameters"]
+
+
+def test_several_measures_from_a_store_run_nothing_again(tmp_path):
+    keywords = {"measures": ["area", "dtw"], "progress": False, "store": tmp_path / "s.db"}
+    first = identify_each(parabola, TEST, BOUNDS, version="1", **keywords)
+    again = identify_each(parabola, TEST, BOUNDS, version="1", **keywords)
+    assert again.runs == 0
+    assert np.array_equal(first.optima, again.optima)
+    with pytest.raises(ValueError, match="give at least one, and none twice"):
+        identify_each(parabola, TEST, BOUNDS, measures=["area", "area"], progress=False)

@@ -1,0 +1,108 @@
+"""The mean under dtw against the reference, and what it promises; the medoid."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import curvewise
+from curvewise import reference
+
+
+def waves(count: int, dim: int = 2) -> list[np.ndarray]:
+    random = np.random.default_rng([count, dim])
+    curves = []
+    for n in random.integers(15, 30, count):
+        t = np.linspace(0, 6, n) ** random.uniform(0.9, 1.1)
+        curves.append(np.column_stack([np.sin(t + c) for c in range(dim)]))
+    return curves
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"window": 12},
+        {"window": 0.4},
+        {"weights": [1, 0, 2.5, 0.5, 3]},
+        {"iterations": 2, "tolerance": 0.0},
+        {"iterations": 0},
+    ],
+)
+@pytest.mark.parametrize("dim", [1, 3])
+def test_equal_to_the_reference(options, dim):
+    curves = waves(5, dim)
+    expected = reference.nearest.dtw_mean(curves, curves[2][::2], **options)
+    for workers in (1, 2, 3):
+        found = curvewise.dtw_mean(curves, initial=curves[2][::2], workers=workers, **options)
+        np.testing.assert_array_equal(found.curve, expected.curve)
+        np.testing.assert_array_equal(found.costs, expected.costs)
+        assert found.converged == expected.converged
+
+
+def test_the_cost_is_the_sum_of_the_distances_and_never_rises():
+    curves = waves(12)
+    mean = curvewise.dtw_mean(curves)
+    assert np.all(np.diff(mean.costs) <= 0)
+    distances = curvewise.cdist([mean.curve], curves, metric="sqeuclidean")
+    assert mean.costs[-1] == pytest.approx(distances.sum())
+    start = curvewise.medoid(curves, metric="sqeuclidean")
+    assert mean.costs[0] == pytest.approx(
+        curvewise.cdist([curves[start]], curves, metric="sqeuclidean").sum()
+    )
+    assert mean.converged
+
+
+def test_the_mean_of_one_curve_is_that_curve():
+    (curve,) = waves(1)
+    mean = curvewise.dtw_mean([curve])
+    np.testing.assert_array_equal(mean.curve, curve)
+    assert mean.costs.tolist() == [0.0, 0.0]
+    assert curvewise.dtw_mean([[1, 2, 3]]).curve.shape == (3,)
+
+
+def test_errors_of_the_mean():
+    curves = waves(3)
+    for options, message in [
+        ({"weights": [1, 2]}, "weights has 2 entries for 3 curves"),
+        ({"weights": [1, -2, 1]}, r"weights\[1\] is -2"),
+        ({"weights": [0, 0, 0]}, "all weights are 0"),
+        ({"weights": 3}, "weights has 0 array dimensions"),
+        ({"iterations": -1}, "iterations is -1; give a whole number >= 0"),
+        ({"tolerance": -1}, "tolerance is -1"),
+        ({"window": -1}, "window is -1"),
+        ({"window": 0, "initial": curves[0][:3]}, "window=0 admits no path between 3 and"),
+        ({"initial": [0, 1]}, r"initial has shape \(2,\) and curves\[0\]"),
+        ({"initial": [(0, np.nan)]}, r"initial\[0, 1\] is nan"),
+        ({"workers": 0}, "workers is 0"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            curvewise.dtw_mean(curves, **options)
+    with pytest.raises(ValueError, match="no curves; a mean needs at least 1"):
+        curvewise.dtw_mean([], initial=[1])
+
+
+def test_progress_of_the_mean():
+    calls: list[tuple[int, int]] = []
+    curves = waves(6) * 20
+    curvewise.dtw_mean(curves, iterations=3, progress=lambda *call: calls.append(call))
+    assert calls[-1][0] == calls[-1][1]
+    assert [done for done, _ in calls] == sorted(done for done, _ in calls)
+
+
+@pytest.mark.parametrize("measure", curvewise.available_measures())
+def test_the_medoid_has_the_smallest_sum(measure, monkeypatch):
+    curves = waves(9)
+    options = {"scale": "range"} if measure == "curve_length" else {}
+    table = curvewise.cdist(curves, measure=measure, **options)
+    expected = int(np.argmin(table.sum(axis=0)))
+    assert curvewise.medoid(curves, measure, **options) == expected
+    monkeypatch.setattr("curvewise.averages._BLOCK", 20)  # two curves at a time
+    assert curvewise.medoid(curves, measure, **options) == expected
+
+
+def test_the_medoid_of_nothing():
+    with pytest.raises(ValueError, match="no curves; a medoid needs at least 1"):
+        curvewise.medoid([])
+    with pytest.raises(ValueError, match=r"XA\[1\]\[0\] is nan"):
+        curvewise.medoid([[0], [np.nan]])
