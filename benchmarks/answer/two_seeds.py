@@ -18,10 +18,7 @@ sys.path.insert(0, str(HERE.parent / "paper"))
 
 import femu_calculix as femu  # noqa: E402 (a folder beside this one)
 
-from curvewise import (
-    datasets,
-    read_curve,
-)
+from curvewise import datasets, read_curve  # noqa: E402
 from curvewise.calibration import identify  # noqa: E402
 
 BOUNDS = {
