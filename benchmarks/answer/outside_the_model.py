@@ -20,9 +20,8 @@ sys.path.insert(0, str(HERE.parent / "paper"))
 import femu_calculix as femu  # noqa: E402 (a folder beside this one)
 from two_seeds import BOUNDS  # noqa: E402
 
-from curvewise import datasets  # noqa: E402
+from curvewise import datasets, read_curve  # noqa: E402
 from curvewise.calibration import identify  # noqa: E402
-from curvewise.csv_curves import read_curve  # noqa: E402
 
 
 def main() -> None:

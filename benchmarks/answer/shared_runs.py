@@ -23,8 +23,8 @@ sys.path.insert(0, str(HERE.parent / "paper"))
 import femu_calculix as femu  # noqa: E402 (a folder beside this one)
 from calculix_cube import CubeModel  # noqa: E402
 
+from curvewise import read_curve  # noqa: E402
 from curvewise.calibration import identify, identify_each, rescore  # noqa: E402
-from curvewise.csv_curves import read_curve  # noqa: E402
 
 
 def main() -> None:

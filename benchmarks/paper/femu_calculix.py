@@ -30,8 +30,8 @@ import numpy as np
 from calculix_cube import Array, CubeModel
 from matplotlib.figure import Figure
 
+from curvewise import read_curve
 from curvewise.calibration import Identification, identify
-from curvewise.csv_curves import read_curve
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]

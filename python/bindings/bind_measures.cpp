@@ -1,10 +1,12 @@
 // The measures of one pair: values, paths, tables, quadrilaterals, matches and residuals. Each
 // takes two arrays and a dict of options.
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "bind_topics.hpp"
+#include "curvewise/gradient.hpp"
 #include "interruptible.hpp"
 #include "numpy_view.hpp"
 #include "options.hpp"
@@ -111,6 +113,45 @@ void bind_array(py::module_& module, const char* name, Allocate allocate, Fill f
                });
 }
 
+// The value, and its derivative by Q in Q's shape.
+template <class Compute>
+py::tuple value_with_gradient(const CurveArray& Q, Compute compute) {
+    py::array_t<double> gradient(std::vector<py::ssize_t>(Q.shape(), Q.shape() + Q.ndim()));
+    double* const data = gradient.mutable_data();
+    const double value = compute(data);
+    return py::make_tuple(value, gradient);
+}
+
+template <class Options>
+py::tuple value_with_gradient(const CurveArray& P, const CurveArray& Q, const py::dict& given) {
+    const auto options = read_options<Options>(given);
+    return value_with_gradient(Q, [&](double* gradient) {
+        return computed(
+            P, Q, options,
+            [&](const CurveView& p, const CurveView& q, const Options& o, Control* control) {
+                return value_and_gradient(o, p, q, gradient, control);
+            });
+    });
+}
+
+// Of a measure by its name, which has a gradient.
+py::tuple gradient_by_name(const std::string& measure, const CurveArray& P, const CurveArray& Q,
+                           const py::dict& options) {
+    if (measure == AreaOptions::measure) return value_with_gradient<AreaOptions>(P, Q, options);
+    if (measure == FrechetOptions::measure) {
+        return value_with_gradient<FrechetOptions>(P, Q, options);
+    }
+    if (measure == DtwOptions::measure) return value_with_gradient<DtwOptions>(P, Q, options);
+    if (measure == CurveLengthOptions::measure) {
+        return value_with_gradient<CurveLengthOptions>(P, Q, options);
+    }
+    return value_with_gradient(Q, [&](double* gradient) {
+        const CurveView p = view(P), q = view(Q);
+        return unlocked(static_cast<double>(P.size()),
+                        [&] { return sum_of_squares_and_gradient(p, q, gradient); });
+    });
+}
+
 }  // namespace
 
 void bind_measures(py::module_& module) {
@@ -145,6 +186,7 @@ void bind_measures(py::module_& module) {
     };
     bind_array<CurveLengthOptions>(module, "curve_length_residuals", allocate_residuals,
                                    curve_length_residuals);
+    module.def("value_and_gradient", gradient_by_name);
     module.def("measures", measure_defaults);
     module.def("choices", option_choices);
     module.def("presets", preset_conditions);

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any
 from . import _environment as _environment  # looks before the compiled module is loaded
 
 # isort: split
-from . import _core, datasets
+from . import _core, curves, datasets
 from .averages import dtw_mean, medoid
 from .compare import Comparison, compare
+from .curve_files import read_curve
 from .embedding import get_include
 from .measures import (
     area,
@@ -39,6 +40,7 @@ from .measures import (
     pcm,
     pcm_match,
     sum_of_squares,
+    value_and_gradient,
 )
 from .nearest import Index
 from .pairwise import Prepared, available_measures, cdist, pdist
@@ -81,6 +83,7 @@ __all__ = [
     "compare",
     "curve_length",
     "curve_length_residuals",
+    "curves",
     "datasets",
     "dtw",
     "dtw_info",
@@ -102,9 +105,11 @@ __all__ = [
     "pcm",
     "pcm_match",
     "pdist",
+    "read_curve",
     "reference",
     "subsequence",
     "sum_of_squares",
+    "value_and_gradient",
 ]
 
 _LAZY = ("calibration", "compat", "dask", "plotting", "reference", "sklearn")

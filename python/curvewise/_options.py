@@ -13,6 +13,7 @@ from typing import Final, Literal, SupportsFloat, SupportsIndex, TypeAlias
 __all__ = [
     "Crossing",
     "Default",
+    "Differentiable",
     "LengthScale",
     "MeasureName",
     "Metric",
@@ -28,6 +29,7 @@ __all__ = [
 MeasureName: TypeAlias = Literal[
     "area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous"
 ]
+Differentiable: TypeAlias = Literal["area", "curve_length", "dtw", "frechet", "sum_of_squares"]
 WarpingName: TypeAlias = Literal["dtw", "frechet"]
 Preset: TypeAlias = Literal["scaled", "paper", "raw"]
 

@@ -24,7 +24,7 @@ from . import __version__, build_info
 from ._extras import extra
 from ._options import Crossing, Preset, Spacing, Window
 from .compare import PRESETS, Comparison, compare
-from .csv_curves import read_named_columns
+from .curve_files import read_named_columns
 from .datasets import hysteresis_pair
 from .embedding import get_cmake_dir, get_include
 from .measures import curve_length_residuals, normalize
@@ -129,7 +129,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(title="commands", metavar="command", required=True)
 
-    command = commands.add_parser("compare", help="compare the curves in two text files")
+    command = commands.add_parser("compare", help="compare the curves in two files")
     command.set_defaults(run=_compare, usage_error=command.error)
     command.add_argument("A", help="the reference, e.g. the experiment: one point per line")
     command.add_argument("B", help="the other curve, e.g. the simulation")
@@ -138,6 +138,12 @@ def _parser() -> argparse.ArgumentParser:
         nargs="+",
         metavar="COLUMN",
         help="names from the header, or numbers from 1; by default the first two",
+    )
+    command.add_argument(
+        "--columns-b",
+        nargs="+",
+        metavar="COLUMN",
+        help="those of B, where they are others than those of A",
     )
     command.add_argument(
         "--preset",
@@ -205,7 +211,8 @@ def _compare(arguments: argparse.Namespace) -> int:
     if arguments.plot:
         _require_matplotlib()
     files = [arguments.A, arguments.B]
-    (P, of_p), (Q, of_q) = (read_named_columns(file, arguments.columns) for file in files)
+    P, of_p = read_named_columns(arguments.A, arguments.columns)
+    Q, of_q = read_named_columns(arguments.B, arguments.columns_b or arguments.columns)
     given = {
         "area": {"spacing": arguments.spacing, "crossing": arguments.crossing},
         "dtw": {"window": arguments.window},

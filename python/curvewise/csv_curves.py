@@ -12,7 +12,6 @@ from __future__ import annotations
 import codecs
 import csv
 import math
-import operator
 import os
 import re
 from collections.abc import Sequence
@@ -22,7 +21,9 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["read_curve", "read_named_columns"]
+from .column_choice import choose_columns, column_name
+
+__all__ = ["read_csv_columns"]
 
 # Lines of nothing but separators, which spreadsheets append, and comments. Excel's error values
 # are no comments: '#N/A,200' is a bad point.
@@ -32,74 +33,15 @@ _BLANKS = None  # what str.split and numpy.loadtxt take as the separator "any ru
 _LAYOUT_LINES = 200
 
 
-def read_curve(
-    path: str | os.PathLike[str], columns: Sequence[str | int] | None = None
-) -> npt.NDArray[np.float64]:
-    r"""Read a curve from a text file, one point per line.
-
-    Separator
-        Semicolon, tab, comma or blanks, whichever turns the first 200 lines into numbers best.
-        Cells may be quoted. A file with numbers between tabs is never read as separated by
-        blanks, so that an empty cell stays one.
-    Decimal sign
-        A point; or a comma where the separator is a semicolon, a tab or blanks ("1,5;2,5").
-        Never both in one file: "1.234,5" is refused, and so is a comma that groups thousands
-        if any of the numbers read has a decimal point. ("1,5" on its own is two columns.)
-    Header
-        All lines before the first one that holds a number; the column names are the one of them
-        with the most cells, the first among equals. Names that blanks separate count only if
-        there are as many as columns.
-    Ignored
-        Empty lines (separators alone too), lines that begin with #, % or //, and columns that
-        are not asked for.
-    Encoding
-        UTF-8, UTF-16 with a byte order mark, else Latin-1. Lines end with CR, LF or CRLF.
-
-    Parameters
-    ----------
-    path : str or path-like
-        The file.
-    columns : sequence of str or int, optional
-        Names from the header, or numbers from 1 (as int or str), in the order wanted. By default
-        the first two columns, or the only one.
-
-    Returns
-    -------
-    ndarray, shape (n, d)
-        One row per point, one column per entry of `columns`, in the units of the file.
-
-    Raises
-    ------
-    ValueError
-        A cell is missing, surplus, not a number, nan or inf (with file, line and column); there
-        is no such column (lists those there are); no line holds a number; not a text file.
-    OSError
-        The file cannot be read.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from pathlib import Path
-    >>> from curvewise.csv_curves import read_curve
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder, "loop.csv")
-    ...     _ = path.write_text("time;strain;stress\n0;0;0\n1;0,001;199,5\n")
-    ...     read_curve(path, columns=["strain", "stress"])
-    array([[0.000e+00, 0.000e+00],
-           [1.000e-03, 1.995e+02]])
-    """
-    return read_named_columns(path, columns)[0]
-
-
-def read_named_columns(
+def read_csv_columns(
     path: str | os.PathLike[str], columns: Sequence[str | int] | None = None
 ) -> tuple[npt.NDArray[np.float64], list[str]]:
-    r"""Read a curve as :func:`read_curve` does, and say which columns it was read from.
+    r"""Read the columns of a text file, and say which they are.
 
     Parameters
     ----------
     path, columns
-        As for :func:`read_curve`.
+        As for :func:`curvewise.read_curve`.
 
     Returns
     -------
@@ -111,25 +53,25 @@ def read_named_columns(
     Raises
     ------
     ValueError, OSError
-        As for :func:`read_curve`.
+        As for :func:`curvewise.read_curve`.
 
     Examples
     --------
     >>> import tempfile
     >>> from pathlib import Path
-    >>> from curvewise.csv_curves import read_named_columns
+    >>> from curvewise.csv_curves import read_csv_columns
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = Path(folder, "loop.csv")
     ...     _ = path.write_text("time,strain,stress\n0,0,0\n1,0.001,199.5\n")
-    ...     read_named_columns(path, columns=["strain", 3])[1]
+    ...     read_csv_columns(path, columns=["strain", 3])[1]
     ['strain', 'stress']
     """
     table = _find_layout(os.fspath(path), _read_lines(path))
-    chosen = _choose_columns(table, columns)
+    chosen = choose_columns(table.file, table.names, table.width, columns)
     values = _parse_fast(table, chosen)
     if values is None or not np.isfinite(values).all():
         values = _parse_cell_by_cell(table, chosen)
-    return values, [table.name(column) for column in chosen]
+    return values, [column_name(table.names, column) for column in chosen]
 
 
 @dataclass(frozen=True)
@@ -149,10 +91,6 @@ class _Table:
     most: int
     """Cells that a line may have: those of the header or of the first line of numbers. One more,
     further down, may come of a decimal comma."""
-
-    def name(self, column: int) -> str:
-        """Return the name of a column, or its number as a user counts."""
-        return (self.names[column] if column < len(self.names) else "") or str(column + 1)
 
     def place(self, line: int, column: int) -> str:
         """Name a cell, given by indices, as a user counts."""
@@ -249,38 +187,6 @@ def _to_number(cell: str, separator: str | None) -> float | None:
         return float(cell if separator == "," else cell.replace(",", "."))
     except ValueError:
         return None
-
-
-def _choose_columns(table: _Table, columns: Sequence[str | int] | None) -> list[int]:
-    """Return the indices of the columns asked for."""
-    if columns is None:
-        return list(range(min(2, table.width)))
-    if isinstance(columns, str):
-        raise TypeError(f"columns is {columns!r}; give a list, even for one column")
-    if len(columns) == 0:
-        raise ValueError("columns is empty; name at least one column")
-    return [_find_column(table, column) for column in columns]
-
-
-def _find_column(table: _Table, column: str | int) -> int:
-    if isinstance(column, str) and column.strip() in filter(None, table.names):
-        name = column.strip()
-        if table.names.count(name) > 1:
-            raise ValueError(f"{table.file} has several columns {name!r}; give its number, from 1")
-        return table.names.index(name)
-    if isinstance(column, str) and not column.isdecimal():
-        names = ", ".join(filter(None, table.names))
-        there_are = f"its columns are {names}" if names else "it has no header"
-        raise ValueError(
-            f"{table.file} has no column {column!r}; {there_are}; "
-            f"by number, give 1 to {table.width}"
-        )
-    number = int(column) if isinstance(column, str) else operator.index(column)
-    if not 1 <= number <= table.width:
-        raise ValueError(
-            f"{table.file} has no column {column}; columns are numbered 1 to {table.width}"
-        )
-    return number - 1
 
 
 def _parse_fast(table: _Table, chosen: list[int]) -> npt.NDArray[np.float64] | None:

@@ -14,8 +14,7 @@ from matplotlib.figure import Figure
 
 import curvewise
 import curvewise.compat as similaritymeasures
-from curvewise import cli, datasets, plotting, reference, selfcheck
-from curvewise.csv_curves import read_curve
+from curvewise import cli, curves, datasets, plotting, read_curve, reference, selfcheck
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -77,6 +76,7 @@ chosen: int = curvewise.medoid([P, Q], "frechet", metric="chebyshev")
 
 residuals: FloatArray = curvewise.curve_length_residuals(P, Q, scale="range")
 number = curvewise.sum_of_squares(P, P) + curvewise.mse(P, P) + curvewise.mae(P, P)
+value_and_slope: tuple[float, FloatArray] = curvewise.value_and_gradient(P, Q, "area", spacing="x")
 scaled: list[FloatArray] = curvewise.normalize(P, Q, listed)
 
 comparison: curvewise.Comparison = curvewise.compare(P, Q, preset="paper", measures=["dtw"])
@@ -108,5 +108,13 @@ distance, cumulative = similaritymeasures.dtw(P, Q, metric="canberra")
 number = float(similaritymeasures.mae(P, P) + similaritymeasures.mse(P, P))
 
 curve: FloatArray = read_curve(Path("loop.csv"), columns=["strain", "stress"])
+curve = read_curve("loop.xlsx", sheet="data", factors=[0.01, 1])
+turns: npt.NDArray[np.int64] = curves.turning_points(P, column=-2, reversal=0.2)
+curve = curves.resample(P, [40, 80, 80], turns=turns)
+curve = curves.resample(listed, 5, by=[0.0, 1.0])
+curve = curves.resample(P, 5, by=np.arange(241.0))
+curve = curves.trim(P, 0, 0.01, by=0)
+curve = curves.smooth(P, 9, order=3, turns=turns, columns=[1])
+curve = curves.engineering_to_true(curves.shift_to_origin(P, elastic=(50, 250)))
 all_equal: bool = selfcheck.run(sys.stdout)
 status: int = cli.main(["info"])

@@ -6,6 +6,7 @@
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"
 #include "curvewise/dtw_mean.hpp"
+#include "curvewise/gradient.hpp"
 #include "curvewise/measure.hpp"  // and all measures
 #include "curvewise/nearest.hpp"
 #include "curvewise/options.hpp"

@@ -27,6 +27,8 @@ class BoxSide {
                                           : range_.shrink(b) - range_.shrink(a)) /
                extent_;
     }
+    // The derivative of scaled().
+    double slope() const noexcept { return range_.shrink(1.0 / extent_); }
 
    private:
     RangeScale range_;

@@ -9,8 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "curves/arc_gradient.hpp"
 #include "curves/arc_length.hpp"
 #include "curves/range_scale.hpp"
+#include "curvewise/gradient.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
 
@@ -68,12 +70,13 @@ struct Coordinate {
     std::vector<double> p;
     std::vector<double> q;
     const char* name;
+    RangeScale range = RangeScale(1.0);
 
     Coordinate(const CurveView& P, const CurveView& Q, std::ptrdiff_t c, Poller& poller)
         : p(values(P, c, poller)), q(values(Q, c, poller)), name(c == 0 ? "x" : "y") {
         const double largest = largest_magnitude(p);
         if (RangeScale(std::max(largest, largest_magnitude(q))).is_identity()) return;
-        const RangeScale range = RangeScale::to_unity(largest);
+        range = RangeScale::to_unity(largest);
         for (double& value : p) value = range.shrink(value);
         for (double& value : q) value = range.shrink(value);
     }
@@ -140,6 +143,33 @@ void write_residuals(const Coordinate& x, const std::vector<Place>& places, doub
     }
 }
 
+// The first of the points whose coordinate has the largest magnitude.
+std::ptrdiff_t largest_of(const CurveView& curve, std::ptrdiff_t c) noexcept {
+    std::ptrdiff_t largest = 0;
+    for (std::ptrdiff_t i = 1; i < curve.size(); ++i) {
+        if (std::abs(curve(i, c)) > std::abs(curve(largest, c))) largest = i;
+    }
+    return largest;
+}
+
+// Adds the derivatives by Q's points that its arc lengths hand on, which are taken after dividing
+// by its largest |x| and |y|: these move too.
+void add_arc_gradient(const CurveView& Q, const detail::ArcGradient& by_arc, double* gradient) {
+    for (std::ptrdiff_t c = 0; c < 2; ++c) {
+        const std::ptrdiff_t largest = largest_of(Q, c);
+        const double divisor = Q(largest, c);
+        if (divisor == 0.0) continue;
+        by_arc.for_each_segment([&](std::size_t segment, double length, double by_length) {
+            const auto k = static_cast<std::ptrdiff_t>(segment);
+            const double step = (Q(k, c) - Q(k - 1, c)) / std::abs(divisor);
+            const double slope = by_length * step / length / std::abs(divisor);
+            gradient[2 * k + c] += slope;
+            gradient[2 * (k - 1) + c] -= slope;
+            gradient[2 * largest + c] -= slope * step * std::copysign(1.0, divisor);
+        });
+    }
+}
+
 class CurveLengthMeasure : public detail::LinearMeasure {
    public:
     struct Side {
@@ -191,6 +221,37 @@ class CurveLengthMeasure : public detail::LinearMeasure {
         }
     }
 
+    // The value, and its derivative by Q.
+    double with_gradient(const PreparedP& P, const PreparedQ& Q, double* gradient,
+                         const detail::Call<Memory>& call) const {
+        const double value = (*this)(P, Q, call);
+        const CurveView& q = Q.checked.curve;
+        std::fill_n(gradient, static_cast<std::size_t>(2 * q.size()), 0.0);
+        if (value == 0.0) return value;
+        const std::vector<Place> places =
+            corresponding_places(P.arc_lengths, Q.arc_lengths, call.poller);
+        detail::ArcGradient by_arc(Q.arc_lengths);
+        for (std::ptrdiff_t c = 0; c < 2; ++c) {
+            const Coordinate x(P.checked.curve, q, c, call.poller);
+            const double scale = coordinate_scale(x, options_.scale, P.checked.name, call.poller);
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                call.poller.poll_in_loop(i);
+                const auto [k, fraction] = places[i];
+                const double edge = x.q[k + 1] - x.q[k];
+                const double relative = (x.q[k] + fraction * edge - x.p[i]) / std::abs(scale);
+                const double residual = std::log1p(std::abs(relative));
+                const double slope = std::copysign(residual, relative) / value /
+                                     (1.0 + std::abs(relative)) / std::abs(scale);
+                const std::ptrdiff_t at = 2 * static_cast<std::ptrdiff_t>(k) + c;
+                gradient[at] += x.range.shrink((1.0 - fraction) * slope);
+                gradient[at + 2] += x.range.shrink(fraction * slope);
+                by_arc.add(k, fraction, P.arc_lengths[i] / P.arc_lengths.back(), slope * edge);
+            }
+        }
+        add_arc_gradient(q, by_arc, gradient);
+        return value;
+    }
+
    private:
     CurveLengthOptions options_;
 };
@@ -208,6 +269,15 @@ void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
     detail::with_pair(measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
         measure.residuals(p, q, out, call);
     });
+}
+
+double value_and_gradient(const CurveLengthOptions& options, const CurveView& P, const CurveView& Q,
+                          double* gradient, Control* control) {
+    const CurveLengthMeasure measure(options);
+    return detail::with_pair(measure, P, Q, control,
+                             [&](const auto& p, const auto& q, const auto& call) {
+                                 return measure.with_gradient(p, q, gradient, call);
+                             });
 }
 
 std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(

@@ -41,6 +41,7 @@ class CommonBox {
         }
         return points;
     }
+    std::array<double, 2> slopes() const noexcept { return {sides_[0].slope(), sides_[1].slope()}; }
 
    private:
     static BoxSide side(const CurveView& P, const CurveView& Q, std::ptrdiff_t c) noexcept {
@@ -169,26 +170,64 @@ std::vector<double> merged(const std::vector<double>& a, const std::vector<doubl
     return result;
 }
 
-// The points of a curve at places along the path.
-Polyline points_at(const std::vector<double>& places, const Side& curve,
-                   const std::vector<double>& samples, const Route& route) {
-    Polyline points;
-    points.reserve(places.size());
+// Calls visit(place, position, at) for places along the path, `position` and `at` being where they
+// are on a curve.
+template <class Visit>
+void for_each_position(const std::vector<double>& places, const Side& curve,
+                       const std::vector<double>& samples, const Route& route, Visit visit) {
     ArcPosition at(curve.positions);
     std::size_t step = 0;
     for (const double place : places) {
         while (step + 2 < route.places.size() && route.places[step + 1] <= place) ++step;
         const double slope =
             (samples[step + 1] - samples[step]) / (route.places[step + 1] - route.places[step]);
-        at.move_to(samples[step] + slope * (place - route.places[step]));
-        points.push_back(at.point_on(curve.points));
+        const double position = samples[step] + slope * (place - route.places[step]);
+        at.move_to(position);
+        visit(place, position, at);
     }
+}
+
+// The points of a curve at places along the path.
+Polyline points_at(const std::vector<double>& places, const Side& curve,
+                   const std::vector<double>& samples, const Route& route) {
+    Polyline points;
+    points.reserve(places.size());
+    for_each_position(places, curve, samples, route,
+                      [&](double /*place*/, double /*position*/, const ArcPosition& at) {
+                          points.push_back(at.point_on(curve.points));
+                      });
     return points;
+}
+
+// The same on Q, in full; `of_vertices` are the places of those of Q's vertices that lie between
+// samples, in their order.
+std::vector<PlacesOnQ::Place> places_on_q(const std::vector<double>& places, const Side& q,
+                                          const std::vector<double>& of_vertices,
+                                          const Route& route) {
+    std::vector<std::size_t> vertices;  // of `of_vertices`
+    for (std::size_t k = 0; k < q.positions.size(); ++k) {
+        if (q.positions[k] != std::floor(q.positions[k])) vertices.push_back(k);
+    }
+    std::vector<PlacesOnQ::Place> found;
+    found.reserve(places.size());
+    std::size_t next = 0;
+    for_each_position(
+        places, q, route.j, route, [&](double place, double position, const ArcPosition& at) {
+            while (next < vertices.size() && of_vertices[next] < place) ++next;
+            if (next < vertices.size() && of_vertices[next] == place) {
+                found.push_back({true, vertices[next], 0.0, 0.0});
+            } else {
+                found.push_back(
+                    {false, at.segment(), at.fraction(), position / q.positions.back()});
+            }
+        });
+    return found;
 }
 
 }  // namespace
 
-Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, Poller& poller) {
+Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, Poller& poller,
+               PlacesOnQ* on_q) {
     const CommonBox box(P, Q);
     const Polyline scaled_p = box.scaled(P, poller);
     const std::size_t pieces = count_pieces(scaled_p);
@@ -203,7 +242,8 @@ Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, 
     }
     std::vector<double> places = merged(route.places, cuts);
     places = merged(places, places_of_vertices(p, route.i, route));
-    places = merged(places, places_of_vertices(q, route.j, route));
+    const std::vector<double> of_q = places_of_vertices(q, route.j, route);
+    places = merged(places, of_q);
     places.erase(std::unique(places.begin(), places.end()), places.end());
     poller.poll_in_loop(0);
 
@@ -211,6 +251,9 @@ Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, 
     result.ends.reserve(pieces);
     for (std::size_t i = 0; result.ends.size() < pieces; ++i) {
         if (places[i] == cuts[result.ends.size()]) result.ends.push_back(i);
+    }
+    if (on_q != nullptr) {
+        *on_q = {places_on_q(places, q, of_q, route), box.scaled(Q, poller), box.slopes()};
     }
     return result;
 }

@@ -15,6 +15,7 @@
 // widths and heights of its box P travels.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -33,8 +34,22 @@ struct Matching {
     std::vector<std::size_t> ends;
 };
 
+// Where the vertices of a matching's B lie on Q, for derivatives.
+struct PlacesOnQ {
+    struct Place {
+        bool is_vertex;  // of Q itself, that at the beginning of the segment
+        std::size_t segment;
+        double fraction;
+        double share;  // of Q's length, before it
+    };
+    std::vector<Place> places;
+    Polyline scaled;               // Q, as its length is measured
+    std::array<double, 2> slopes;  // of that scaling
+};
+
 // P and Q with a vertex at every vertex of the other, and at every end of a piece. Coordinates come
-// out in `range`. Throws Stopped where the poller says so.
-Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, Poller& poller);
+// out in `range`. Throws Stopped where the poller says so. `on_q`, if given, is filled in.
+Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, Poller& poller,
+               PlacesOnQ* on_q = nullptr);
 
 }  // namespace curvewise::detail

@@ -6,6 +6,7 @@
 #include "curves/box.hpp"
 #include "curves/checks.hpp"
 #include "curves/range_scale.hpp"
+#include "curvewise/gradient.hpp"
 
 namespace curvewise {
 namespace {
@@ -40,6 +41,17 @@ double entries(const CurveView& P) noexcept { return static_cast<double>(P.size(
 
 double sum_of_squares(const CurveView& P, const CurveView& Q, Control* control) {
     return sum_of(P, Q, "sum_of_squares", 1.0, 2, control, square);
+}
+
+double sum_of_squares_and_gradient(const CurveView& P, const CurveView& Q, double* gradient,
+                                   Control* control) {
+    const double value = sum_of_squares(P, Q, control);
+    for (std::ptrdiff_t i = 0; i < Q.size(); ++i) {
+        for (std::ptrdiff_t c = 0; c < Q.dim(); ++c) {
+            gradient[i * Q.dim() + c] = 2.0 * (Q(i, c) - P(i, c));
+        }
+    }
+    return value;
 }
 
 double mse(const CurveView& P, const CurveView& Q, Control* control) {

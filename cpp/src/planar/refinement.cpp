@@ -39,8 +39,6 @@ struct Part {
     }
 };
 
-using Cut = std::pair<std::size_t, double>;  // segment, fraction of it
-
 std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacing spacing,
                                 Poller& poller) {
     std::vector<Part> parts;
@@ -72,10 +70,9 @@ std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacin
     return cuts;
 }
 
-Polyline refined(const Polyline& curve, std::size_t size, Spacing spacing, Poller& poller) {
-    const std::vector<Cut> cuts = bisection_cuts(curve, size - curve.size(), spacing, poller);
+Polyline refined(const Polyline& curve, const std::vector<Cut>& cuts, Poller& poller) {
     Polyline result;
-    result.reserve(size);
+    result.reserve(curve.size() + cuts.size());
     auto cut = cuts.begin();
     for (std::size_t i = 0; i < curve.size(); ++i) {
         poller.poll_in_loop(i);
@@ -118,7 +115,7 @@ FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q, std::vecto
                                 std::vector<double> lengths_q, Poller& poller) {
     RelativeWalk along_p(P, std::move(lengths_p));
     RelativeWalk along_q(Q, std::move(lengths_q));
-    FacingCurves result{{P.front()}, {Q.front()}};
+    FacingCurves result{{P.front()}, {Q.front()}, {}};
     result.A.reserve(P.size() + Q.size());
     result.B.reserve(P.size() + Q.size());
     while (!along_p.at_end() || !along_q.at_end()) {
@@ -142,8 +139,12 @@ FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& rang
                                   box_scaled_arc_lengths(Q, box, poller), poller);
     }
     if (A.size() < B.size()) std::swap(A, B);
-    if (A.size() > B.size()) B = refined(B, A.size(), spacing, poller);
-    return {std::move(A), std::move(B)};
+    std::vector<Cut> cuts;
+    if (A.size() > B.size()) {
+        cuts = bisection_cuts(B, A.size() - B.size(), spacing, poller);
+        B = refined(B, cuts, poller);
+    }
+    return {std::move(A), std::move(B), std::move(cuts)};
 }
 
 }  // namespace curvewise::detail

@@ -2,6 +2,10 @@
 // other: the first half of Algorithm 1 of Jekel et al. (2018).
 #pragma once
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 #include "curves/polyline.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/area.hpp"
@@ -9,9 +13,12 @@
 
 namespace curvewise::detail {
 
+using Cut = std::pair<std::size_t, double>;  // segment, fraction of it
+
 struct FacingCurves {
     Polyline A;
     Polyline B;
+    std::vector<Cut> cuts;  // of B, in its order; none for `arc_length`
 };
 
 // For `distance` and `x`, A is the curve with more points (P if equal) and B the other, refined:

@@ -19,6 +19,7 @@ from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_info, dtw_path, dtw_table
 from .frechet import frechet, frechet_info, frechet_path, frechet_table
 from .frechet_continuous import frechet_continuous, frechet_continuous_path, frechet_within
+from .gradient import value_and_gradient
 from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, normalize, sum_of_squares
 
@@ -50,4 +51,5 @@ __all__ = [
     "pcm",
     "pcm_match",
     "sum_of_squares",
+    "value_and_gradient",
 ]

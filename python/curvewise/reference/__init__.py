@@ -29,6 +29,7 @@ from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_path, dtw_table
 from .frechet import frechet, frechet_path, frechet_table
 from .frechet_continuous import frechet_continuous, frechet_continuous_path, frechet_within
+from .gradient import value_and_gradient
 from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, sum_of_squares
 from .scaling import normalize
@@ -53,6 +54,7 @@ __all__ = [
     "pcm",
     "pcm_match",
     "sum_of_squares",
+    "value_and_gradient",
 ]
 
 for _name in __all__:

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 import curvewise
-from curvewise import cli
-from curvewise.csv_curves import read_curve
+from curvewise import cli, read_curve
 
 MEASURES = ["area", "pcm", "frechet", "dtw", "curve_length"]
 USAGE = 2

@@ -10,8 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from curvewise import csv_curves
-from curvewise.csv_curves import read_curve
+from curvewise import csv_curves, read_curve
 
 POINTS = [[0.0, 0.0], [0.001, 199.5], [-0.0005, -1e-05]]
 

@@ -1,0 +1,51 @@
+"""What the functions of this package ask of a curve and of its turning points."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+
+from .._curves import Array, CurveLike, as_curve
+
+__all__ = ["Turns", "branch_slices", "check_column", "checked_curve"]
+
+Turns = Sequence[int] | npt.NDArray[np.int64]
+"""Indices of turning points, as `turning_points` returns them."""
+
+
+def checked_curve(curve: CurveLike, least: int) -> Array:
+    """Return a curve as an array of shape (n, d), finite, with at least so many points."""
+    array = as_curve(curve, "curve")
+    if array.ndim == 1:
+        array = array[:, np.newaxis]
+    if array.shape[0] < least or array.shape[1] == 0:
+        raise ValueError(f"curve has shape {array.shape}; at least {least} points are needed")
+    if not np.isfinite(array).all():
+        i, c = np.argwhere(~np.isfinite(array))[0]
+        raise ValueError(f"curve[{i}, {c}] is {array[i, c]}; curves must be finite")
+    return array
+
+
+def check_column(curve: Array, column: int) -> int:
+    """Return the index of a column from 0; negative ones count from the end, as numpy's do."""
+    index, d = operator.index(column), int(curve.shape[1])
+    if not -d <= index < d:
+        raise ValueError(f"column is {column}; the curve has columns 0 to {d - 1}")
+    return index % d
+
+
+def branch_slices(turns: Turns, n: int) -> list[slice]:
+    """Return the branches between turning points; neighbours share the point they meet at."""
+    array = np.asarray(turns)
+    if array.size == 0:
+        return [slice(0, n)]
+    if array.ndim != 1 or array.dtype.kind not in "iu":
+        raise TypeError("turns must be whole numbers, as turning_points(curve) returns them")
+    ends = [0, *array.tolist(), n - 1]
+    if any(a >= b for a, b in pairwise(ends)):
+        raise ValueError(f"turns is {array.tolist()}; they must ascend, from 1 to {n - 2}")
+    return [slice(a, b + 1) for a, b in pairwise(ends)]

@@ -1,0 +1,213 @@
+"""Other points on the same curve, and a part of it. Linear interpolation between the points.
+
+Places along a curve are arc lengths, or the values of a column or of a time. O(n + count) time and
+memory; numpy alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from .._curves import Array, CurveLike
+from .checks import Turns, branch_slices, check_column, checked_curve
+
+__all__ = ["Along", "resample", "trim"]
+
+Along = Literal["arc_length"] | int | npt.NDArray[np.float64] | Sequence[float]
+"""What measures places along a curve: "arc_length", a column's index, or n values (a time)."""
+
+
+def resample(
+    curve: CurveLike,
+    count: int | Sequence[int],
+    *,
+    by: Along = "arc_length",
+    turns: Turns = (),
+) -> Array:
+    """Put evenly spaced points on a curve, branch by branch.
+
+    Two curves resampled alike, with `turns` and the same `count`, have their branches at the same
+    indices, which is what `sum_of_squares`, `mse`, `mae` and the default of `area` ask for.
+
+    Parameters
+    ----------
+    curve : array_like, shape (n, d) or (n,)
+        The curve.
+    count : int or sequence of int
+        Points in each branch, both of its ends included; at least 2. A sequence has a number for
+        every branch. Without `turns` the curve is one branch.
+    by : "arc_length", int or array_like of shape (n,), default "arc_length"
+        Along what the points are evenly spaced: the arc length, each coordinate divided by its
+        range; a column's values, by its index from 0 (negative: from the end); or values given for
+        the points, such as their times. A column or a time must not turn back within a branch.
+    turns : sequence of int, optional
+        Indices of the turning points, at which branches meet: what `turning_points` returns. They
+        and the ends stay as they are, to the bit; without them turns are cut off.
+
+    Returns
+    -------
+    ndarray, shape (k, d)
+        The points, each turning point once: k is the sum of the branches' counts minus the number
+        of turns. Shape (k, 1) for a curve of shape (n,).
+
+    Raises
+    ------
+    TypeError, ValueError
+        No curve of at least two finite points; `count` below 2, or not one per branch; `turns`
+        that do not ascend; no such column; values to space by that turn back, or that do not
+        change at all within a branch.
+
+    Notes
+    -----
+    O(n + count) time and memory. Noise is length: smooth a noisy test before resampling by arc
+    length. Where a column or time stands still, the last of the points there counts.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> from curvewise.curves import resample, turning_points
+    >>> loops = curvewise.datasets.hysteresis_pair()
+    >>> P, Q = (resample(loop, [40, 80, 80], turns=turning_points(loop)) for loop in loops)
+    >>> P.shape, Q.shape
+    ((198, 2), (198, 2))
+    """
+    points = checked_curve(curve, 2)
+    branches = branch_slices(turns, len(points))
+    pieces = []
+    for k, (branch, number) in enumerate(zip(branches, _counts(count, len(branches)), strict=True)):
+        places = _places(points, by, branch, f"branch {k}")
+        at = np.linspace(places[0], places[-1], number)
+        piece = _interpolated(at, places, points[branch])
+        piece[0], piece[-1] = points[branch][[0, -1]]
+        pieces.append(piece if k == 0 else piece[1:])
+    return np.concatenate(pieces)
+
+
+def trim(
+    curve: CurveLike,
+    start: float | None = None,
+    stop: float | None = None,
+    *,
+    by: int | npt.NDArray[np.float64] | Sequence[float] = 0,
+) -> Array:
+    """Cut off what comes before and after two values of a column, or of a time.
+
+    Parameters
+    ----------
+    curve : array_like, shape (n, d) or (n,)
+        The curve.
+    start, stop : float, optional
+        The result begins where the column first has the value `start`, and ends where from there
+        on it first has the value `stop`; `stop` may be below `start`. By default the curve's own
+        ends.
+    by : int or array_like of shape (n,), default 0
+        The column, by its index from 0, or values given for the points, such as their times. They
+        may turn back: of a loop, ``trim(loop, 0.0, 0.02)`` is the first loading.
+
+    Returns
+    -------
+    ndarray, shape (k, d)
+        The points between, and the two ends, interpolated where they lie between points. Shape
+        (k, 1) for a curve of shape (n,).
+
+    Raises
+    ------
+    TypeError, ValueError
+        No curve of at least two finite points; no such column; a value that is never reached.
+
+    Notes
+    -----
+    O(n) time and memory.
+
+    Examples
+    --------
+    >>> from curvewise.curves import trim
+    >>> trim([[0, 0], [1, 10], [2, 20], [1, 5]], 0.5, 2)
+    array([[ 0.5,  5. ],
+           [ 1. , 10. ],
+           [ 2. , 20. ]])
+    """
+    points = checked_curve(curve, 2)
+    x = _values(points, by)
+    first = 0.0 if start is None else _first_place(x, start, 0.0, "start")
+    last = len(x) - 1.0 if stop is None else _first_place(x, stop, first, "stop")
+    between = np.arange(int(np.floor(first)) + 1, int(np.ceil(last)))
+    places = np.concatenate(([first], between, [last])) if last > first else np.array([first])
+    return _interpolated(places, np.arange(len(x), dtype=np.float64), points)
+
+
+def _counts(count: int | Sequence[int], branches: int) -> list[int]:
+    counts = np.asarray(count)
+    if counts.dtype.kind not in "iu":
+        raise TypeError(f"count is {count!r}; give a whole number, or one for every branch")
+    if counts.ndim > 0 and counts.shape != (branches,):
+        raise ValueError(f"count has shape {counts.shape}; there are {branches} branches")
+    if (counts < 2).any():
+        raise ValueError(f"count is {count!r}; a branch needs at least 2 points")
+    return [int(number) for number in np.broadcast_to(counts, branches)]
+
+
+def _values(points: Array, by: int | npt.NDArray[np.float64] | Sequence[float]) -> Array:
+    """Return the values of a column, or those given for the points."""
+    if isinstance(by, int | np.integer):
+        return points[:, check_column(points, int(by))]
+    values = np.asarray(by, dtype=np.float64)
+    if values.shape != (len(points),):
+        raise ValueError(
+            f"by has shape {values.shape}; give one value for each of the {len(points)} points"
+        )
+    if not np.isfinite(values).all():
+        raise ValueError(f"by[{int(np.argmin(np.isfinite(values)))}] is not finite")
+    return values
+
+
+def _places(points: Array, by: Along, branch: slice, name: str) -> Array:
+    """Return ascending values along a branch."""
+    if isinstance(by, str):
+        if by != "arc_length":
+            raise ValueError(f"unknown by {by!r}; choose 'arc_length', a column or values")
+        extent = np.ptp(points, axis=0)
+        steps = np.diff(points[branch] / np.where(extent > 0.0, extent, 1.0), axis=0)
+        places = np.concatenate(([0.0], np.cumsum(np.sqrt((steps**2).sum(axis=1)))))
+    else:
+        places = _values(points, by)[branch]
+        if places[-1] < places[0]:
+            places = -places
+        back = np.flatnonzero(np.diff(places) < 0.0)
+        if back.size:
+            raise ValueError(
+                f"what to space by turns back in {name}, after point {branch.start + back[0]}; "
+                "give all turns, smooth it first, or use by='arc_length'"
+            )
+    if not places[-1] > places[0]:
+        raise ValueError(f"what to space by is constant in {name}")
+    return places
+
+
+def _interpolated(at: Array, places: Array, points: Array) -> Array:
+    return np.column_stack([np.interp(at, places, column) for column in points.T])
+
+
+def _first_place(x: Array, value: float, begin: float, name: str) -> float:
+    """Return where x first has a value, as an index and a fraction, from `begin` on."""
+    k = int(begin)
+    tail = x[k:].copy()
+    tail[0] += (begin - k) * (x[min(k + 1, len(x) - 1)] - x[k])
+    below, above = tail <= value, tail >= value
+    hits = np.flatnonzero(below & above)
+    crossed = np.flatnonzero((below[:-1] & above[1:]) | (above[:-1] & below[1:]))
+    if not hits.size and not crossed.size:
+        raise ValueError(
+            f"{name} is {value}, which is never reached; from there on the values are "
+            f"{tail.min():.6g} to {tail.max():.6g}"
+        )
+    if hits.size and (not crossed.size or hits[0] <= crossed[0]):
+        return max(begin, float(k + hits[0]))
+    i = int(crossed[0])
+    fraction = (value - tail[i]) / (tail[i + 1] - tail[i])
+    left = begin if i == 0 else float(k + i)
+    return left + float(fraction) * (k + i + 1 - left)
