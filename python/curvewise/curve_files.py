@@ -88,7 +88,7 @@ def read_curve(
 
     Notes
     -----
-    O(size) time and memory: about 2 s for 10^6 points of text (quoted: 5 s), 20 s of a workbook.
+    O(size) time and memory: about 2 s for 10^6 points of text (quoted: 5 s), more of a workbook.
     .xls needs xlrd and .ods odfpy, beside pandas.
 
     Examples

@@ -85,7 +85,7 @@ def cdist(
     those of its blocks. A cluster warns of a graph above 10 MB
     (``distributed.admin.large-graph-warning-threshold``); here that is the curves themselves, which
     are sent once. The bar of ``dask.diagnostics.ProgressBar`` or the cluster's dashboard shows the
-    progress. Ctrl-C, and cancelling a task, end the blocks that have begun, within 0.2 s.
+    progress. Ctrl-C ends the blocks that have begun within 0.2 s, cancelling a task within 1 s.
 
     Examples
     --------
