@@ -18,7 +18,6 @@ import argparse
 import itertools
 import json
 import logging
-import sys
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
@@ -26,15 +25,12 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
+from paper_problems import cube, femu, problems
+
+from curvewise import datasets
+from curvewise.calibration import identify
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "paper"))
-
-import calculix_cube as cube  # noqa: E402 (a folder beside this one)
-from problems import HardeningModel, hardening_bounds, test_loops  # noqa: E402
-
-from curvewise import datasets  # noqa: E402
-from curvewise.calibration import identify  # noqa: E402
 
 METHODS = ("sdrm", "trust-region, 1 start", "trust-region", "nelder-mead", "de", "sdrm+de")
 LIMIT = {"nelder-mead": 2000, "de": 4000, "sdrm+de": 4000}
@@ -69,22 +65,18 @@ def seven(p):
 def problem(name: str, seed: int):
     """Return model, tests and bounds."""
     if name == "9":
-        return HardeningModel.of_the_paper(), test_loops(), hardening_bounds()
+        return (
+            problems.HardeningModel.of_the_paper(),
+            problems.test_loops(),
+            problems.hardening_bounds(),
+        )
     if name == "3":
         truth = {"E": 200e3, "yield": 300.0, "C": 80e3}
         bounds = {"E": (150e3, 260e3), "yield": (150.0, 500.0), "C": (20e3, 200e3)}
         model: Callable = three
     else:
         truth = {"E": 175e3, "yield": 350, "Q": 400, "g": 150, "H": 1e3, "R": 0.3, "b": 20}
-        bounds = {
-            "E": (150e3, 220e3),
-            "yield": (200.0, 600.0),
-            "Q": (100.0, 600.0),
-            "g": (20.0, 600.0),
-            "H": (0.0, 3000.0),
-            "R": (-0.4, 1.0),
-            "b": (1.0, 100.0),
-        }
+        bounds = femu.BOUNDS
         model = seven
     random = np.random.default_rng(seed)
     tests = [

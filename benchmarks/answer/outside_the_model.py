@@ -8,20 +8,14 @@ is taken off.
 from __future__ import annotations
 
 import argparse
-import sys
 import time
-from pathlib import Path
 
 import numpy as np
+from paper_problems import femu
+from two_seeds import BOUNDS
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "paper"))
-
-import femu_calculix as femu  # noqa: E402 (a folder beside this one)
-from two_seeds import BOUNDS  # noqa: E402
-
-from curvewise import datasets, read_curve  # noqa: E402
-from curvewise.calibration import identify  # noqa: E402
+from curvewise import datasets, read_curve
+from curvewise.calibration import identify
 
 
 def main() -> None:

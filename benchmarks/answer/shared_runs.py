@@ -11,20 +11,16 @@ from __future__ import annotations
 import argparse
 import json
 import logging
-import sys
 import time
 from pathlib import Path
 
 import numpy as np
+from paper_problems import cube, femu
+
+from curvewise import read_curve
+from curvewise.calibration import identify, identify_each, rescore
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "paper"))
-
-import femu_calculix as femu  # noqa: E402 (a folder beside this one)
-from calculix_cube import CubeModel  # noqa: E402
-
-from curvewise import read_curve  # noqa: E402
-from curvewise.calibration import identify, identify_each, rescore  # noqa: E402
 
 
 def main() -> None:
@@ -38,7 +34,7 @@ def main() -> None:
     logging.getLogger("curvewise.calibration").setLevel(logging.ERROR)
     samples = [femu.sampled(read_curve(femu.DATA / name), 200) for name in femu.TESTS]
     tests, paths = [test for test, _ in samples], [path for _, path in samples]
-    model = CubeModel(paths, femu.ROOT / "build" / "paper" / "femu_runs")
+    model = cube.CubeModel(paths, femu.ROOT / "build" / "paper" / "femu_runs")
     shared = {"preset": "paper", "workers": options.workers}
     before = json.loads((HERE.parent / "paper" / "femu_calculix.json").read_text())["measures"]
 

@@ -8,18 +8,12 @@ summary has to say "undetermined", not "converged". Prints both and what the unc
 from __future__ import annotations
 
 import argparse
-import sys
-from pathlib import Path
 
 import numpy as np
+from paper_problems import femu
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "paper"))
-
-import femu_calculix as femu  # noqa: E402 (a folder beside this one)
-
-from curvewise import datasets, read_curve  # noqa: E402
-from curvewise.calibration import identify  # noqa: E402
+from curvewise import datasets, read_curve
+from curvewise.calibration import identify
 
 BOUNDS = {
     "E": (150e3, 230e3),

@@ -1,10 +1,10 @@
 #include "warping/dtw_pruned.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 #include "curves/range_scale.hpp"
+#include "runtime/stopwatch.hpp"
 #include "warping/cost_sums.hpp"
 #include "warping/least_distances.hpp"
 #include "warping/sweep.hpp"
@@ -23,20 +23,6 @@ constexpr std::ptrdiff_t expected_pruning = 16;
 
 // Where more of a coarse table is live, the full sweep of the fine one is expected to be as fast.
 constexpr double most_live_share = 0.6;
-
-class Stopwatch {
-   public:
-    double lap() {
-        const Clock::time_point now = Clock::now();
-        const double seconds = std::chrono::duration<double>(now - start_).count();
-        start_ = now;
-        return seconds;
-    }
-
-   private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point start_ = Clock::now();
-};
 
 // What is done before the work that the caller counts.
 class Uncounted {

@@ -1,10 +1,10 @@
 #include "warping/frechet_pruned.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <type_traits>
 
+#include "runtime/stopwatch.hpp"
 #include "warping/block_recursion.hpp"
 #include "warping/block_values.hpp"
 #include "warping/coarse_table.hpp"
@@ -29,20 +29,6 @@ constexpr double small_share = 0.02;
 constexpr double risked_share = 0.25;
 constexpr double worthwhile_share = 0.8;
 constexpr double hopeless_share = 1.2;
-
-class Stopwatch {
-   public:
-    double lap() {
-        const Clock::time_point now = Clock::now();
-        const double seconds = std::chrono::duration<double>(now - start_).count();
-        start_ = now;
-        return seconds;
-    }
-
-   private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point start_ = Clock::now();
-};
 
 // One point of every `step`, in the order in which the curve is stored.
 PackedCurve decimated(const PackedCurve& curve, std::ptrdiff_t step, Poller& poller) {

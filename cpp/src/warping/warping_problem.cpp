@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "curves/checks.hpp"
+#include "runtime/stopwatch.hpp"
 #include "runtime/workers.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/dtw_pruned.hpp"
@@ -126,7 +127,7 @@ double WarpingProblem::last_value(const SweepProblem& problem) const {
 }
 
 WarpingInfo WarpingProblem::info() {
-    const Clock::time_point start = Clock::now();
+    Stopwatch all;
     WarpingInfo info;
     std::optional<double> value;
     if (prune_) value = is_frechet() ? frechet_with_info(info) : dtw_with_info(info);
@@ -136,15 +137,15 @@ WarpingInfo WarpingProblem::info() {
             const ColumnRange columns = sweep_.columns.columns(i);
             info.cells_swept += columns.last - columns.first + 1;
         }
-        const Clock::time_point before = Clock::now();
+        Stopwatch sweep;
         value = last_value(sweep_);
-        info.phases.push_back({"full sweep", seconds_since(before)});
+        info.phases.push_back({"full sweep", sweep.lap()});
     }
     info.value = restore(*value);
     info.share =
         static_cast<double>(info.cells_swept) /
         (static_cast<double>(sweep_.curves.rows()) * static_cast<double>(sweep_.curves.columns()));
-    info.phases.push_back({"all", seconds_since(start)});
+    info.phases.push_back({"all", all.lap()});
     return info;
 }
 

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -77,11 +76,6 @@ class WarpingProblem {
     void write_table(double* out) const;
 
    private:
-    using Clock = std::chrono::steady_clock;
-    static double seconds_since(Clock::time_point start) {
-        return std::chrono::duration<double>(Clock::now() - start).count();
-    }
-
     std::optional<double> frechet_with_info(WarpingInfo& info) const;
     std::optional<double> dtw_with_info(WarpingInfo& info) const;
     double restore(double value) const noexcept {
