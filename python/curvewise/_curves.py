@@ -32,7 +32,7 @@ CurveLike: TypeAlias = npt.ArrayLike
 """Anything ``numpy.asarray`` turns into a real array of shape (n, d) or (n,)."""
 
 _FLOAT64 = np.dtype(np.float64)
-# What is taken for x and y in rows. The binding has the same two numbers (bind_measures.cpp).
+# What is taken for x and y in rows. The binding has the same two numbers (numpy_view.hpp).
 _FEW_POINTS, _MANY_COORDINATES = 3, 10
 _MAY_HOLD_MASKED = (np.ma.MaskedArray, list, tuple)
 

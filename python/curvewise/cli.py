@@ -248,11 +248,15 @@ def _compare(arguments: argparse.Namespace) -> int:
         if (chosen := {name: value for name, value in values.items() if value is not None})
     }
     try:
-        comparison = compare(
-            P, Q, preset=arguments.preset, measures=arguments.measures, options=options
-        )
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always", UserWarning)
+            comparison = compare(
+                P, Q, preset=arguments.preset, measures=arguments.measures, options=options
+            )
     except ValueError as error:
         raise ValueError(f"{error} (P is {files[0]}, Q is {files[1]})") from error
+    for words in dict.fromkeys(str(warning.message) for warning in said):
+        print("curvewise:", words, file=sys.stderr)
     if arguments.output:
         numbers = _residuals(comparison) if arguments.residuals else comparison.values.values()
         _write_numbers(numbers, arguments.output)
