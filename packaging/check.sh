@@ -21,6 +21,7 @@ fail() {
 sha() { sha256sum "$@" | cut -d' ' -f1; }
 
 version=$(sed -n 's/.*version\[\] = "\(.*\)".*/\1/p' cpp/include/curvewise/version.hpp)
+grep -q "^## $version" CHANGELOG.md || fail "CHANGELOG.md has no section $version"
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH PIP_DISABLE_PIP_VERSION_CHECK=1
 export CCACHE_DISABLE=1 # A second build out of a cache would show nothing.
