@@ -63,7 +63,8 @@ def read_curve(
         Names from the header, or numbers from 1 (as int or str), in the order wanted. By default
         the first two columns, or the only one.
     sheet : str or int, optional
-        The sheet of a workbook, by its name, or by its number from 1. By default the first.
+        The sheet of a workbook, by its name, or by its number from 1 (as int or str). By default
+        the first.
     factors : sequence of float, one per column, optional
         What the columns are multiplied by, to change units: ``[0.01, 1e-6]`` for per cent and Pa
         where the other curve has fractions and MPa.
@@ -86,6 +87,11 @@ def read_curve(
     OSError
         The file cannot be read.
 
+    Warns
+    -----
+    TimeColumnWarning
+        `columns` is not given, the first column is time by its name, and there are three or more.
+
     Notes
     -----
     O(size) time and memory: about 2 s for 10^6 points of text (quoted: 5 s), more of a workbook.
@@ -105,18 +111,7 @@ def read_curve(
     array([[0.000e+00, 0.000e+00],
            [1.000e-03, 1.995e+02]])
     """
-    values = read_named_columns(path, columns, sheet=sheet)[0]
-    if factors is None:
-        return values
-    given = np.asarray(factors, dtype=np.float64)
-    if given.shape != values.shape[1:]:
-        raise ValueError(
-            f"factors has shape {given.shape}; {os.fspath(path)} gives {values.shape[1]} columns, "
-            "and each needs one"
-        )
-    if not (np.isfinite(given).all() and given.all()):
-        raise ValueError(f"factors is {given.tolist()}; each must be finite and not 0")
-    return values * given
+    return read_named_columns(path, columns, sheet=sheet, factors=factors)[0]
 
 
 def read_named_columns(
@@ -124,12 +119,13 @@ def read_named_columns(
     columns: Sequence[str | int] | None = None,
     *,
     sheet: str | int | None = None,
+    factors: Sequence[float] | None = None,
 ) -> tuple[Array, list[str]]:
     r"""Read a curve as :func:`read_curve` does, and say which columns it was read from.
 
     Parameters
     ----------
-    path, columns, sheet
+    path, columns, sheet, factors
         As for :func:`read_curve`.
 
     Returns
@@ -155,6 +151,23 @@ def read_named_columns(
     ...     read_named_columns(path, columns=["strain", 3])[1]
     ['strain', 'stress']
     """
+    values, names = _read_columns(path, columns, sheet)
+    if factors is None:
+        return values, names
+    given = np.asarray(factors, dtype=np.float64)
+    if given.shape != values.shape[1:]:
+        raise ValueError(
+            f"factors has shape {given.shape}; {os.fspath(path)} gives {values.shape[1]} columns, "
+            "and each needs one"
+        )
+    if not (np.isfinite(given).all() and given.all()):
+        raise ValueError(f"factors is {given.tolist()}; each must be finite and not 0")
+    return values * given, names
+
+
+def _read_columns(
+    path: str | os.PathLike[str], columns: Sequence[str | int] | None, sheet: str | int | None
+) -> tuple[Array, list[str]]:
     kind = Path(path).suffix.lower()
     if kind in _WORKBOOKS:
         from .excel_curves import read_sheet_columns
