@@ -18,7 +18,7 @@ VARIANTS = {"python": list(PYTHONS), "c_stdlib": ["sysroot"]}
 
 
 def main() -> None:
-    """Print each platform's requirements; fail where a recipe has another version than asked for."""
+    """Print each platform's requirements; fail where a Python or the version is missing."""
     recipe = Stage0Recipe.from_file(Path(__file__).with_name("recipe.yaml"))
     version = os.environ["CURVEWISE_VERSION"]
     for platform in PLATFORMS:
