@@ -7,6 +7,7 @@ error is no terminal, as in a batch job, the bar gives way to a line for every b
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 import time
 from typing import TYPE_CHECKING, Any
@@ -86,13 +87,13 @@ class _Reported:
 
     def __init__(self) -> None:
         self._begin = time.monotonic()
+        self._best = math.inf
 
     def __call__(self, progress: Progress) -> None:
         seconds = time.monotonic() - self._begin
-        best = ", ".join(f"{name} {value:.5g}" for name, value in progress.parameters.items())
-        print(
-            f"{seconds:8.0f} s  {progress.evaluations:5d} evaluated, best {progress.value:.5g}: "
-            f"{best}",
-            file=sys.stderr,
-            flush=True,
-        )
+        line = f"{seconds:8.0f} s  {progress.evaluations:5d} evaluated, best {progress.value:.5g}"
+        if progress.value < self._best:
+            self._best = progress.value
+            values = (f"{name} {value:.5g}" for name, value in progress.parameters.items())
+            line += f": {', '.join(values)}"
+        print(line, file=sys.stderr, flush=True)

@@ -151,7 +151,7 @@ class CurveSource:
         return np.column_stack(histories)
 
     def _single(self, value: Array) -> Array:
-        if value.ndim:
+        if value.size != 1:
             raise ValueError(
                 f"{self.formulas[0].text!r} gives {value.size} numbers; one is wanted: use max, "
                 "min, mean, sum, first or last"

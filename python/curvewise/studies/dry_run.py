@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import shutil
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -128,7 +129,7 @@ class DryRun:
             "",
             f"objective: {values}",
             f"{self.seconds:.2g} s a run; the study takes at least {self.runs} runs{at_a_time}: "
-            f"{duration(self.least_seconds)}, and probably several times that",
+            f"{duration(self.least_seconds)}, and often several times that",
         ]
         return "\n".join(lines)
 
@@ -142,15 +143,18 @@ def duration(seconds: float) -> str:
     return f"{seconds / 3600:.1f} h"
 
 
-def least_runs(method: str, parameters: int, options: dict[str, Any]) -> int:
+def least_runs(
+    method: str, parameters: int, options: Mapping[str, Any], *, has_start: bool
+) -> int:
     """Return how many runs a method takes at least: its first designs, and one step.
 
     With other options than the defaults it is a guess all the same.
     """
     k = parameters
+    starts = 1 if has_start else int(options.get("starts", 3))
     design = 1 << math.ceil(math.log2(k + 1))  # of two levels
     least = {
-        "trust-region": 2 * k + 2,
+        "trust-region": starts * (2 * k + 2),
         "sdrm": 14 * (design + 1),
         "de": 2 * max(5, int(options.get("popsize", 15)) * k),
         "nelder-mead": 2 * k + 10,
@@ -190,7 +194,9 @@ def dry_run(study: Study) -> DryRun:
         values[name] = score.value
     search = study.search.search
     method = str(search.get("method", "trust-region"))
-    runs = least_runs(method, len(space.names), dict(search.get("method_options", {})))
+    runs = least_runs(
+        method, len(space.names), search.get("method_options", {}), has_start=bool(start)
+    )
     limit = search.get("max_evaluations", runs)
     workers = int(search.get("workers", 1))
     return DryRun(

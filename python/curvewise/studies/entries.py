@@ -79,4 +79,4 @@ class SearchEntry:
     search: Mapping[str, Any] = field(default_factory=dict)
     start: Mapping[str, float] = field(default_factory=dict)
     store: Path = Path("study.db")
-    uncertainty: bool = True
+    uncertainty: int = 1000  # how often the noise is drawn; 0 for none

@@ -37,6 +37,7 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "abs": np.abs,
     "exp": np.exp,
     "expm1": np.expm1,
+    "ln": np.log,
     "log": np.log,
     "log10": np.log10,
     "log1p": np.log1p,

@@ -131,6 +131,7 @@ def _parameters(source: Source, given: Any) -> tuple[dict[str, Any], dict[str, f
             bounds[parameter] = _bounds(source, parameter, value, list(bounds), start)
         except ValueError as error:
             source.problem((*path, parameter), str(error))
+            bounds[parameter] = (0.0, 1.0)  # for what is checked beside it
             continue
         _check_parameter(source, bounds, parameter)
     if len(source.problems) == problems:
@@ -182,7 +183,7 @@ def _check_parameter(source: Source, bounds: dict[str, Any], parameter: str) -> 
     except ValueError as error:
         message = str(error).replace(f"bounds[{parameter!r}] ", "")
         source.problem(("parameters", parameter), message)
-        del bounds[parameter]
+        bounds[parameter] = (0.0, 1.0)
 
 
 def _complete_start(

@@ -101,6 +101,7 @@ def _values(table: Table, parameters: tuple[str, ...]) -> list[DeckValue]:
     for name in list(table.raw("values") or {}):
         given = inner.raw(name)
         known = [*parameters, *(value.name for value in found)]
+        formula = Formula("0")  # for what is checked beside a formula that is none
         try:
             if keys.name(name) in known:
                 raise ValueError("is a parameter, too; call one of them differently")
@@ -108,7 +109,6 @@ def _values(table: Table, parameters: tuple[str, ...]) -> list[DeckValue]:
             _check_uses(formula, known)
         except ValueError as error:
             inner.problem(name, str(error))
-            continue
         found.append(DeckValue(name, formula))
     return found
 

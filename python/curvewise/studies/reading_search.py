@@ -16,6 +16,8 @@ from .toml_source import Source
 
 __all__ = ["read_search"]
 
+_SAMPLES, _FEWEST_SAMPLES = 1000, 20
+
 
 def read_search(
     source: Source, values: Any, start: Mapping[str, float], store: Path
@@ -48,7 +50,7 @@ def read_search(
     path = table.take("store", lambda value: source.folder / keys.text(value), store)
     if not path.parent.is_dir():
         table.problem("store", f"is in {path.parent}, and there is no such folder; make it")
-    uncertainty = table.take("uncertainty", keys.flag, True)
+    uncertainty = table.take("uncertainty", _samples, _SAMPLES)
     table.refuse_unknown()
     return SearchEntry(
         measures,
@@ -67,6 +69,17 @@ def _measures(value: Any) -> tuple[str, ...]:
     if len(set(names)) != len(names):
         raise ValueError(f"is {list(names)}; give each measure once")
     return names
+
+
+def _samples(value: Any) -> int:
+    """Read how often the noise is drawn: true for the usual number, false for not at all."""
+    if isinstance(value, bool):
+        return _SAMPLES if value else 0
+    if keys.whole(value) < _FEWEST_SAMPLES:
+        raise ValueError(
+            f"is {value}; give true, false, or the number of samples, {_FEWEST_SAMPLES} or more"
+        )
+    return int(value)
 
 
 def _workers(value: Any) -> int:

@@ -37,7 +37,7 @@ def read_test(
     if (path is None) == (number is None) and len(source.problems) == problems:
         table.problem("", "needs a file with a curve, or a number, and not both")
     name = table.take("name", keys.text, path.stem if path else f"test {index + 1}")
-    measured = _source(table, str(path), "columns") if path else None
+    measured = _source(table, str(path), "columns") if number is None else None
     output_table = Table(source, ("tests", index, "output"), table.raw("output") or {})
     output = _output(output_table)
     model = table.take("model", keys.choice(tuple(models)), next(iter(models), ""))
@@ -61,7 +61,7 @@ def read_test(
         return None
     experiment: Array | float | None
     axes: tuple[str, ...] = ("number",)
-    if measured is None:
+    if measured is None or path is None:
         experiment = number
     else:
         experiment, axes = _read_curve(table, measured)

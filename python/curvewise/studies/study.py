@@ -226,7 +226,8 @@ class Study:
         found = self._searched(progress, callback)
         uncertainties = {}
         if self.search.uncertainty:
-            uncertainties = {name: one.uncertainty() for name, one in found[0].items()}
+            samples = self.search.uncertainty
+            uncertainties = {n: one.uncertainty(samples=samples) for n, one in found[0].items()}
         results = Found(found[0], uncertainties, found[1])
         write_results(self, results)
         return results

@@ -71,7 +71,7 @@ class Source:
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path)
         self.folder = self.path.parent.resolve()
-        self.problems: list[str] = []
+        self._found: list[tuple[int, str]] = []
         content = self.path.read_bytes()
         try:
             text = content.decode("utf-8-sig").replace("\r\n", "\n")
@@ -97,7 +97,8 @@ class Source:
 
     def problem(self, path: KeyPath, message: str) -> None:
         """Note that something is wrong with a key."""
-        self.problems.append(f"{self.path}, line {self.line(path)}: {dotted(path)} {message}")
+        line = self.line(path)
+        self._found.append((line, f"{self.path}, line {line}: {dotted(path)} {message}"))
 
     def resolved(self, value: Any) -> Path:
         """Return a path, with ~ and variables filled in, from the file's own folder on.
@@ -113,6 +114,11 @@ class Source:
         if missing := re.search(r"\$\{?(\w+)", text):
             raise ValueError(f"is {value!r}, and no variable {missing[1]} is set; set it")
         return self.folder / text
+
+    @property
+    def problems(self) -> list[str]:
+        """What is wrong, in the order of the lines."""
+        return [text for _, text in sorted(self._found, key=lambda problem: problem[0])]
 
     def raise_problems(self) -> None:
         """Raise StudyError if there are any."""
