@@ -59,7 +59,7 @@ def _identify(arguments: argparse.Namespace) -> int:
 def _run(study: Study) -> int:
     title = f"{study.title}: " if study.title else ""
     known = study.stored_runs()
-    held = f"; {study.search.store.name} holds {known} runs, which are looked up" if known else ""
+    held = f"; {study.search.store.name} holds {_runs(known)}, looked up" if known else ""
     print(
         f"{title}{len(study.tests)} test{'s' if len(study.tests) > 1 else ''}, "
         f"{len(study.bounds)} parameters, {' and '.join(study.search.measures)}{held}",
@@ -73,13 +73,17 @@ def _run(study: Study) -> int:
         )
     except KeyboardInterrupt:
         print(
-            f"\ncurvewise: interrupted; {study.stored_runs()} runs are in {study.search.store}. "
+            f"\ncurvewise: interrupted; {_runs(study.stored_runs())} in {study.search.store}. "
             f"The same command goes on from there: curvewise identify {study.path}",
             file=sys.stderr,
         )
         return 130
     print(f"\n{found}\n\nresults: {study.results}")
     return 0
+
+
+def _runs(count: int) -> str:
+    return "1 run" if count == 1 else f"{count} runs"
 
 
 class _Reported:

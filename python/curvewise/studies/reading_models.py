@@ -126,7 +126,7 @@ def _tables(table: Table, parameters: tuple[str, ...]) -> list[DeckTable]:
         points = inner.take("points", keys.numbers, (), required="a list of numbers, one a line")
         texts = inner.take("line", keys.texts, (), required="a list of formulas")
         format_ = inner.take("format", _number_format, ".8g")
-        separator = inner.take("separator", keys.text, ", ")
+        separator = inner.take("separator", _separator, ", ")
         inner.refuse_unknown()
         line = []
         for text in texts:
@@ -140,6 +140,12 @@ def _tables(table: Table, parameters: tuple[str, ...]) -> list[DeckTable]:
         if len(table.source.problems) == problems:
             found.append(DeckTable(name, over, points, tuple(line), format_, separator))
     return found
+
+
+def _separator(value: Any) -> str:
+    if not isinstance(value, str):
+        raise ValueError(f"is {value!r}; give a text, or nothing in quotes")
+    return value
 
 
 def _number_format(value: Any) -> str:

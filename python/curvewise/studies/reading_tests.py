@@ -40,6 +40,7 @@ def read_test(
     measured = _source(table, str(path), "columns") if number is None else None
     output_table = Table(source, ("tests", index, "output"), table.raw("output") or {})
     output = _output(output_table)
+    named = table.take("axes", keys.texts, ())
     model = table.take("model", keys.choice(tuple(models)), next(iter(models), ""))
     if len(models) > 1 and "model" not in table:
         table.problem("", f"needs a model: one of {', '.join(models)}")
@@ -67,8 +68,10 @@ def read_test(
         experiment, axes = _read_curve(table, measured)
     if experiment is None:
         return None
+    if named and len(named) != len(axes):
+        table.problem("axes", f"has {len(named)} names for {len(axes)} coordinates")
     given = {key: value for key, value in own.items() if value is not None}
-    return TestEntry(name, experiment, axes, str(path or ""), output, model, weight, given)
+    return TestEntry(name, experiment, named or axes, str(path or ""), output, model, weight, given)
 
 
 def _read_curve(table: Table, measured: CurveSource) -> tuple[Array | None, tuple[str, ...]]:
