@@ -19,11 +19,11 @@ __all__ = ["read_ls_dyna_elout", "read_ls_dyna_nodout"]
 
 _TIME = re.compile(r"\(\s*at time\s*([-+.\dEe]+)\s*\)")
 _NUMBER = re.compile(r"[-+]?\d\.\d+(?:[Ee][-+]?\d+|[-+]\d{3})")
+_NODE = re.compile(r"\s*(\d+)(\s.*)")
 _ELEMENT = re.compile(r"\s*(\d+)\s*-\s*\d+\s*$")
 _POINT = re.compile(r"\s*(\d+)\s*-?\s*(?:\d+\s+)?([a-zA-Z]+)?")
 _STRESSES = ("sig-xx", "sig-yy", "sig-zz", "sig-xy", "sig-yz", "sig-zx")
 _STRAINS = ("eps-xx", "eps-yy", "eps-zz", "eps-xy", "eps-yz", "eps-zx")
-_NODE_WIDTH = 9
 
 
 def read_ls_dyna_nodout(path: str | os.PathLike[str]) -> SolverOutput:
@@ -80,10 +80,10 @@ def read_ls_dyna_nodout(path: str | os.PathLike[str]) -> SolverOutput:
             columns = line.split()[2:]
             variable = "rotations" if columns[0].startswith("x-rot") else "translations"
             rows, count = output.add(variable, "", columns, time), len(columns)
-        elif rows is not None and line[:_NODE_WIDTH].strip().isdigit():
-            values = [as_number(text, place) for text in _NUMBER.findall(line[_NODE_WIDTH:])]
+        elif rows is not None and (row := _NODE.match(line)):
+            values = [as_number(text, place) for text in _NUMBER.findall(row[2])]
             if len(values) == count:  # a run that was killed ends in the middle of a line
-                rows[Row(int(line[:_NODE_WIDTH]))] = values
+                rows[Row(int(row[1]))] = values
         else:
             rows = None
     return output

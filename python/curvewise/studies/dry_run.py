@@ -143,9 +143,7 @@ def duration(seconds: float) -> str:
     return f"{seconds / 3600:.1f} h"
 
 
-def least_runs(
-    method: str, parameters: int, options: Mapping[str, Any], *, has_start: bool
-) -> int:
+def least_runs(method: str, parameters: int, options: Mapping[str, Any], *, has_start: bool) -> int:
     """Return how many runs a method takes at least: its first designs, and one step.
 
     With other options than the defaults it is a guess all the same.

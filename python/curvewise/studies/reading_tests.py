@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from .._curves import Array
 from ..calibration import MEASURES
 from ..measures.registry import PRESETS
@@ -41,6 +43,7 @@ def read_test(
     output_table = Table(source, ("tests", index, "output"), table.raw("output") or {})
     output = _output(output_table)
     named = table.take("axes", keys.texts, ())
+    every = table.take("every", keys.at_least(1), 1)
     model = table.take("model", keys.choice(tuple(models)), next(iter(models), ""))
     if len(models) > 1 and "model" not in table:
         table.problem("", f"needs a model: one of {', '.join(models)}")
@@ -65,7 +68,7 @@ def read_test(
     if measured is None or path is None:
         experiment = number
     else:
-        experiment, axes = _read_curve(table, measured)
+        experiment, axes = _read_curve(table, measured, every)
     if experiment is None:
         return None
     if named and len(named) != len(axes):
@@ -74,10 +77,14 @@ def read_test(
     return TestEntry(name, experiment, named or axes, str(path or ""), output, model, weight, given)
 
 
-def _read_curve(table: Table, measured: CurveSource) -> tuple[Array | None, tuple[str, ...]]:
+def _read_curve(
+    table: Table, measured: CurveSource, every: int
+) -> tuple[Array | None, tuple[str, ...]]:
     """Return the measured curve; what is wrong with its file is a problem of the key at fault."""
     try:
-        return measured.read(Path()), measured.axes(Path())
+        curve = measured.read(Path())
+        kept = np.unique([*range(0, len(curve), every), len(curve) - 1])  # the last one, too
+        return curve[kept], measured.axes(Path())
     except OSError as error:
         table.problem("file", f"{measured.file}: {error.strerror or error}")
     except ValueError as error:

@@ -81,7 +81,10 @@ NOISE = np.random.default_rng(3).normal(0.0, 0.1, STRAIN.size)
 
 
 def study_file(folder: Path, text: str = STUDY, wait: str = "") -> Path:
-    rows = [f"{100.0 * e!r};{1e6 * s!r}" for e, s in zip(STRAIN.tolist(), measured().tolist(), strict=True)]
+    rows = [
+        f"{100.0 * e!r};{1e6 * s!r}"
+        for e, s in zip(STRAIN.tolist(), measured().tolist(), strict=True)
+    ]
     lines = ["Machine 7", "Strain [%];Stress [Pa]", *rows]
     (folder / "test.csv").write_text("\n".join(lines))
     (folder / "deck.py").write_text(DECK.replace("{wait}", wait))
@@ -211,9 +214,11 @@ def test_a_test_may_be_a_number(tmp_path: Path) -> None:
     assert list(found.measures) == ["tension", "strength"]
 
 
-TWO_MODELS = STUDY.replace("[tests.output]", 'model = "bar"\n[tests.output]').replace(
-    "[model]", "[models.bar]"
-) + f"""
+TWO_MODELS = (
+    STUDY.replace("[tests.output]", 'model = "bar"\n[tests.output]').replace(
+        "[model]", "[models.bar]"
+    )
+    + f"""
 [models.half]
 command = ['{sys.executable}', "-I", "-S", "half.py"]
 templates = ["half.py"]
@@ -222,6 +227,7 @@ timeout = 60
 half = "E / two"
 two = "2"
 """
+)
 
 
 def test_a_value_is_made_of_those_before_it(tmp_path: Path) -> None:
