@@ -7,7 +7,8 @@ writes every history of the database (``*OUTPUT, HISTORY``), or those of the var
 columns of one CSV file: the time, then one column for each variable and place, called "RF2 NODE
 TOP.1". All steps follow one another. Not imported by curvewise: Abaqus up to 2023 runs Python 2.7,
 so this is written for both: types stand in comments, and Abaqus' modules are imported where they
-are needed. Written from Abaqus' scripting reference; it has not been run, as there is no Abaqus where curvewise is made.
+are needed. Written from Abaqus' scripting reference; it has not been run, as there is no Abaqus
+where curvewise is made.
 Cost: linear in what is written.
 """
 
