@@ -65,6 +65,8 @@ def _run(study: Study) -> int:
         f"{len(study.bounds)} parameters, {' and '.join(study.search.measures)}{held}",
         flush=True,
     )
+    if len(study.tests) > 1:
+        print(", ".join(f"curve {i}: {test.name}" for i, test in enumerate(study.tests)))
     is_terminal = sys.stderr.isatty()
     try:
         found = study.run(

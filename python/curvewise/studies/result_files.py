@@ -58,7 +58,11 @@ def write_results(study: Study, found: Found) -> None:
             if not test.is_number:
                 _write_curve(folder / f"simulation_{_file_name(test.name)}{ending}.csv", curve)
     drawn = found.several or next(iter(found.identifications.values()))
-    drawn.plot().savefig(folder / "loops.png", dpi=120)
+    figure = drawn.plot()
+    for ax, test in zip(figure.axes, study.tests, strict=False):  # the loops come first
+        if not test.is_number:
+            ax.set(title=test.name, xlabel=test.axes[0], ylabel=test.axes[-1])
+    figure.savefig(folder / "loops.png", dpi=120)
 
 
 def _contents(study: Study, found: Found) -> dict[str, Any]:
