@@ -39,11 +39,16 @@ def read_test(
     if (path is None) == (number is None) and len(source.problems) == problems:
         table.problem("", "needs a file with a curve, or a number, and not both")
     name = table.take("name", keys.text, path.stem if path else f"test {index + 1}")
-    measured = _source(table, str(path), "columns") if number is None else None
+    experiment: Array | float | None = number
+    axes: tuple[str, ...] = ("number",)
+    every = table.take("every", keys.at_least(1), 1)
+    if number is None:
+        measured = _source(table, str(path), "columns")
+        if len(source.problems) == problems:
+            experiment, axes = _read_curve(table, measured, every)
     output_table = Table(source, ("tests", index, "output"), table.raw("output") or {})
     output = _output(output_table)
     named = table.take("axes", keys.texts, ())
-    every = table.take("every", keys.at_least(1), 1)
     model = table.take("model", keys.choice(tuple(models)), next(iter(models), ""))
     if len(models) > 1 and "model" not in table:
         table.problem("", f"needs a model: one of {', '.join(models)}")
@@ -61,18 +66,10 @@ def read_test(
         output_table.problem("", "gives a curve, and the test is a number; give value, a formula")
     if number is None and output is not None and output.is_number:
         output_table.problem("value", "gives a number, and the test is a curve; give x and y")
-    if len(source.problems) > problems or output is None:
-        return None
-    experiment: Array | float | None
-    axes: tuple[str, ...] = ("number",)
-    if measured is None or path is None:
-        experiment = number
-    else:
-        experiment, axes = _read_curve(table, measured, every)
-    if experiment is None:
-        return None
     if named and len(named) != len(axes):
         table.problem("axes", f"has {len(named)} names for {len(axes)} coordinates")
+    if len(source.problems) > problems or output is None or experiment is None:
+        return None
     given = {key: value for key, value in own.items() if value is not None}
     return TestEntry(name, experiment, named or axes, str(path or ""), output, model, weight, given)
 

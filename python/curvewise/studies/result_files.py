@@ -40,7 +40,6 @@ _COLUMNS = (
 def write_results(study: Study, found: Found) -> None:
     """Write everything into the study's folder for results."""
     folder = study.results
-    folder.mkdir(parents=True, exist_ok=True)
     contents = _contents(study, found)
     (folder / "result.toml").write_text(_toml(contents), encoding="utf-8")
     (folder / "result.json").write_text(

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -26,14 +27,17 @@ from ..calibration import (
     identify_each,
 )
 from ..calibration.cases import CaseObjective
+from ..calibration.command_model import LOG
+from ..calibration.deck_templates import read_templates
 from ..calibration.model_identity import model_identity
-from ..calibration.running import Plan
+from ..plotting import drawing
+from .compatibility import check_together
 from .dry_run import DryRun, dry_run
 from .entries import ModelEntry, SearchEntry, TestEntry
 from .reading import Contents, read_contents
 from .result_files import write_results
 from .study_model import OutputReader, Picked, StudyModel
-from .toml_source import KeyPath, Source
+from .toml_source import Source
 
 __all__ = ["Found", "Study"]
 
@@ -125,7 +129,6 @@ class Study:
     bounds: Mapping[str, Any]
     search: SearchEntry
     results: Path
-    _source: Source = field(repr=False)
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Study:
@@ -148,7 +151,7 @@ class Study:
         OSError
             The file cannot be read.
         ImportError
-            scipy, or with Python 3.10 tomli, is missing: ``pip install "curvewise[calibration]"``.
+            With Python 3.10 tomli is missing: ``pip install "curvewise[calibration]"``.
 
         Notes
         -----
@@ -160,8 +163,8 @@ class Study:
         """
         source = Source(path)
         contents: Contents = read_contents(source)
-        study = cls(source.path, *contents, _source=source)
-        study._check_together()
+        study = cls(source.path, *contents)
+        check_together(study, source)
         source.raise_problems()
         return study
 
@@ -211,6 +214,8 @@ class Study:
         ------
         RuntimeError
             No run of the first batch has succeeded; the message has the first reason.
+        ImportError
+            scipy, tqdm or matplotlib is missing: ``pip install "curvewise[calibration,plot]"``.
         KeyboardInterrupt
             Ctrl-C, after the solvers have been stopped. The store holds what was finished.
 
@@ -223,6 +228,9 @@ class Study:
         --------
         As for the class.
         """
+        with drawing.matplotlib_required():  # before the work rather than after it
+            import_module("matplotlib.figure")
+        self.results.mkdir(parents=True, exist_ok=True)
         found = self._searched(progress, callback)
         uncertainties = {}
         if self.search.uncertainty:
@@ -334,64 +342,9 @@ class Study:
         found = identify(model, tests, self.bounds, measure=measure, callback=callback, **keywords)
         return {measure: found}, None
 
-    def _check_together(self) -> None:
-        """Note what is wrong only when tests, measures and method come together."""
-        source = self._source
-        if self.has_cases and len(self.search.measures) > 1:
-            named = [i for i, test in enumerate(self.tests) if test.own or test.is_number]
-            at: KeyPath = ("tests", named[0]) if named else ("search", "measures")
-            source.problem(
-                at,
-                "has settings of its own, or is simulated by a model of its own, and [search] has "
-                "several measures; give one measure, and run the study once for each",
-            )
-            return
-        if self.has_cases and "failure_value" in self.search.objective:
-            source.problem(("search", "failure_value"), "does not go with tests of their own kinds")
-        models: dict[str, StudyModel] = {}
-        try:
-            models = self.study_models()
-        except (OSError, ValueError) as error:
-            source.problem(("model",) if "" in self.models else ("models",), str(error))
-            return
-        settings = self.search.search
-        for measure in self.search.measures:
-            key = "measures" if len(self.search.measures) > 1 else "measure"
-            try:
-                self.objective(models, measure)
-            except (TypeError, ValueError) as error:
-                self._place_objective_error(key, str(error))
-            plan = Plan(
-                settings.get("method", "trust-region"),
-                settings.get("method_options", {}),
-                0,
-                None,
-                False,
-                None,
-                None,
-                settings.get("max_evaluations"),
-            )
-            try:
-                plan.check("" if self.has_cases and measure == "sum_of_squares" else measure)
-            except ValueError as error:
-                where = "method_options" if "option" in str(error) else "method"
-                source.problem(("search", where), f"does not go together: {error}")
-
-    def _place_objective_error(self, key: str, message: str) -> None:
-        """Note what an objective refuses, at the test or the key that it is about."""
-        for i, test in enumerate(self.tests):
-            if f"case {test.name!r}" in message or f"experiments[{i}]" in message:
-                self._source.problem(("tests", i), f"cannot be compared: {message}")
-                return
-        at = "options" if "option" in message else key
-        self._source.problem(("search", at), f"does not go with the tests: {message}")
-
 
 def _placeholders(entry: ModelEntry, known: tuple[str, ...]) -> list[str]:
     """Return the names that the templates have placeholders of."""
-    from ..calibration.command_model import LOG
-    from ..calibration.deck_templates import read_templates
-
     used = {
         p.name for template in read_templates(entry.templates, LOG) for p in template.placeholders
     }

@@ -144,10 +144,12 @@ def _syntax_error(path: Path, message: str, text: str) -> str:
     hint = ""
     line = lines[number - 1] if number <= len(lines) else ""
     value = line.partition("=")[2].strip()
-    if re.fullmatch(r"[A-Za-z_./][\w./\\ -]*", value) and value not in ("true", "false"):
-        hint = f'; text stands in quotes: "{value}"'
+    if re.match(r"[A-Za-z_./~$(]", value) and not re.match(r"(true|false)\b", value):
+        hint = f'; texts and formulas stand in quotes: "{value}"'
     elif "\\" in line and '"' in line:
         hint = "; a path with \\ stands in single quotes: '...'"
+    elif re.search(r"(?<!\d)\.\d|\d\.(?!\d)", value):
+        hint = "; a number has digits on both sides of its point: 0.5, 1.0e5"
     elif re.search(r"\d,\d", value) and "[" not in value:
         hint = "; numbers have a decimal point"
     return f"{path}, line {number}: {message}{hint}"

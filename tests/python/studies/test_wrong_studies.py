@@ -152,7 +152,18 @@ WRONG = {
     "a text without quotes": (
         'name = "line"',
         "name = line",
-        'study.toml, line 4: Invalid value; text stands in quotes: "line"',
+        'study.toml, line 4: Invalid value; texts and formulas stand in quotes: "line"',
+    ),
+    "a formula without quotes": (
+        'file = "out.csv"',
+        'file = "out.csv"\ny = F * (1 + u)',
+        'study.toml, line 10: Invalid value; texts and formulas stand in quotes: "F * (1 + u)"',
+    ),
+    "a number as Fortran has it": (
+        "b = [-5, 5]",
+        "b = [1.e5, 2.e5]",
+        "study.toml, line 18: Unclosed array; a number has digits on both sides of its point: "
+        "0.5, 1.0e5",
     ),
     "a comma as the decimal sign": (
         "b = [-5, 5]",
