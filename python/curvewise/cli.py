@@ -31,6 +31,7 @@ from .compare import PRESETS, Comparison, compare
 from .curve_files import read_named_columns
 from .datasets import hysteresis_pair
 from .embedding import get_cmake_dir, get_include
+from .identify_command import add_identify
 from .measures import curve_length_residuals, normalize
 from .measures.registry import MEASURES
 
@@ -176,6 +177,8 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="write to the --output file the terms of curve_length, for least squares, instead",
     )
+
+    add_identify(commands)
 
     command = commands.add_parser("demo", help="compare the built-in hysteresis loops")
     command.set_defaults(run=_demo)
