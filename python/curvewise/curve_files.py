@@ -14,6 +14,7 @@ import numpy as np
 
 from ._curves import Array
 from .csv_curves import read_csv_columns
+from .named_curve import NamedCurve
 
 __all__ = ["read_curve", "read_named_columns"]
 
@@ -72,7 +73,7 @@ def read_curve(
     -------
     ndarray, shape (n, d)
         One row per point, one column per entry of `columns`, in the units of the file times
-        `factors`.
+        `factors`. It remembers the names of its columns, which pictures write on their axes.
 
     Raises
     ------
@@ -105,7 +106,7 @@ def read_curve(
     array([[0.000e+00, 0.000e+00],
            [1.000e-03, 1.995e+02]])
     """
-    values = read_named_columns(path, columns, sheet=sheet)[0]
+    values, names = read_named_columns(path, columns, sheet=sheet)
     if factors is None:
         return values
     given = np.asarray(factors, dtype=np.float64)
@@ -116,7 +117,11 @@ def read_curve(
         )
     if not (np.isfinite(given).all() and given.all()):
         raise ValueError(f"factors is {given.tolist()}; each must be finite and not 0")
-    return values * given
+    changed = [
+        name if factor == 1.0 else f"{name} × {factor:.10g}"
+        for name, factor in zip(_titles(names), given.tolist(), strict=True)
+    ]
+    return NamedCurve(values * given, changed)
 
 
 def read_named_columns(
@@ -155,6 +160,19 @@ def read_named_columns(
     ...     read_named_columns(path, columns=["strain", 3])[1]
     ['strain', 'stress']
     """
+    values, names = _read(path, columns, sheet)
+    return NamedCurve(values, _titles(names)), names
+
+
+def _titles(names: list[str]) -> list[str]:
+    """Return what pictures call the columns: those that have a number for a name, "column 2"."""
+    return [f"column {name}" if name.isdecimal() else name for name in names]
+
+
+def _read(
+    path: str | os.PathLike[str], columns: Sequence[str | int] | None, sheet: str | int | None
+) -> tuple[Array, list[str]]:
+    """Return the columns and their names, by the kind of the file."""
     kind = Path(path).suffix.lower()
     if kind in _WORKBOOKS:
         from .excel_curves import read_sheet_columns

@@ -27,7 +27,7 @@ from .loop_selection import Selection
 from .model_pool import Model
 from .objective import Objective
 from .parameters import Bounds, Space
-from .pictures import loops_and_convergence
+from .pictures import axes_of, loops_and_convergence, titles_of
 from .running import Ended, Plan, run_search
 from .sensitivity import design_runs, indifferent, optimum_surfaces
 from .store import StorePath
@@ -35,7 +35,7 @@ from .study import Study, models_of
 from .uncertainty import Uncertainty, determined_by, uncertainty_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from ..plotting.picture import Picture
 
 __all__ = ["Identification", "identification_of", "identify"]
 
@@ -257,16 +257,35 @@ class Identification:
     def _unit(self) -> Array:
         return self.study.space.unit_of(self.parameters)
 
-    def plot(self) -> Figure:
+    def plot(self, *, names: Sequence[str] | None = None) -> Picture:
         """Return a matplotlib Figure of the loops and of the convergence.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            What the coordinates are called on the axes; by default what the experiments' columns
+            were called, else x and y.
 
         Raises
         ------
         ImportError
             matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        ValueError
+            Another number of names than of coordinates.
         """
-        objective = f"{self.measure} ({self.preset})"
-        return loops_and_convergence(self.experiments, self.simulations, self.history, objective)
+        return loops_and_convergence(
+            self.experiments,
+            self.simulations,
+            self.history,
+            f"{self.measure} ({self.preset})",
+            axes_of(self.study.objective, names),
+            titles_of(self.study.objective),
+        )
+
+    def _repr_html_(self) -> str:
+        from .in_notebooks import identification_html
+
+        return identification_html(self)
 
 
 def identify(
