@@ -28,6 +28,8 @@ from .model_pool import Model
 from .objective import Objective
 from .parameters import Bounds, Space
 from .pictures import axes_of, loops_and_convergence, titles_of
+from .recorder import Recorder
+from .report.ending import write_down
 from .running import Ended, Plan, run_search
 from .sensitivity import design_runs, indifferent, optimum_surfaces
 from .store import StorePath
@@ -72,8 +74,9 @@ class Identification:
         As asked for.
     runs : int
         How many runs of the model were made for it; the others were looked up.
-    study, kept
-        What was searched, and the runs whose curves are known: for what comes after the search.
+    study, kept, recorder
+        What was searched, the runs whose curves are known, and what writes the search down: for
+        what comes after the search.
     condition : Condition or None
         Whether the measure is computed on scaled curves, and its options, the preset's included;
         None for "sum_of_squares" and for a function.
@@ -98,6 +101,7 @@ class Identification:
     kept: tuple[tuple[Array, Evaluation], ...] = field(repr=False)
     part: Part
     condition: Condition | None = field(repr=False)
+    recorder: Recorder = field(repr=False)
 
     @property
     def deviations(self) -> tuple[Deviation | None, ...]:
@@ -252,6 +256,57 @@ class Identification:
         return uncertainty_of(
             optimum, sigma=sigma, level=level, samples=samples, seed=seed, runs=runs
         )
+
+    def report(
+        self, path: str | os.PathLike[str], *, uncertainty: Uncertainty | None = None
+    ) -> None:
+        """Write the identification down as one page of HTML, which opens without a network.
+
+        Tests and simulations to zoom into, residuals by branch, convergence, parameters with
+        intervals and correlations, the weakest directions, failures, versions, and the settings to
+        repeat it. ``curvewise report study.db`` makes the same file of the store, bit for bit.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; what is there is replaced.
+        uncertainty : Uncertainty, optional
+            What the page says of the parameters. By default what :meth:`uncertainty` gives, unless
+            it takes runs of the model (`uncertainty_runs`): then the page is without intervals.
+
+        Raises
+        ------
+        ImportError
+            plotly is not installed: ``pip install "curvewise[report]"``.
+        ValueError
+            As :meth:`uncertainty`.
+        OSError
+            The file cannot be written.
+
+        Notes
+        -----
+        Some 2 MB, of which plotly.js is most, and at most 5 MB: of many or long curves every k-th
+        point is drawn. Time: that of `uncertainty`, and of a warping path for every loop.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import numpy as np
+        >>> from curvewise.calibration import identify
+        >>> x = np.linspace(0, 1, 20)
+        >>> def line(p):
+        ...     return np.column_stack((x, p["slope"] * x))
+        >>> found = identify(line, line({"slope": 2.0}), {"slope": (0, 10)}, progress=False)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     found.report(Path(folder, "report.html"))
+        ...     Path(folder, "report.html").stat().st_size < 5e6
+        True
+        """
+        from .report import write_report
+        from .report.ending import record_of
+
+        write_report(path, [record_of(self, uncertainty)])
 
     @property
     def _unit(self) -> Array:
@@ -481,7 +536,7 @@ def identification_of(study: Study, plan: Plan, ended: Ended) -> Identification:
     """Return what a search has found."""
     evaluations, objective = ended.evaluations, study.objective
     done, best = evaluations.done, evaluations.best
-    return Identification(
+    found = Identification(
         parameters=study.space.dictionary(best.point),
         value=best.value,
         measures=_measures(objective, ended.simulations, best.value),
@@ -501,7 +556,10 @@ def identification_of(study: Study, plan: Plan, ended: Ended) -> Identification:
         kept=evaluations.kept,
         part=objective.part,
         condition=objective.condition,
+        recorder=ended.recorder,
     )
+    write_down(found)
+    return found
 
 
 def _measures(objective: Objective, simulations: Any, value: float) -> dict[str, float]:

@@ -258,6 +258,11 @@ class Objective:
         return self.measure == "sum_of_squares" and self._has_residuals
 
     @property
+    def has_function(self) -> bool:
+        """Whether the measure is a function of the user's."""
+        return callable(self._measure)
+
+    @property
     def names(self) -> list[tuple[str, ...]]:
         """What the columns of every experiment are called; empty where that is not known."""
         return [loop.names for loop in self._loops]
