@@ -41,7 +41,7 @@ class Ending:
 
     Attributes
     ----------
-    converged, message, runs, parameters, value, measures
+    converged, message, parameters, value, measures
         As those of an :class:`Identification`.
     deviations : list of (mean, largest, height), or None, for each loop
         See :class:`curvewise.deviations.Deviation`.
@@ -57,7 +57,6 @@ class Ending:
 
     converged: bool
     message: str
-    runs: int
     parameters: dict[str, float]
     value: float
     measures: dict[str, float]

@@ -9,6 +9,7 @@ others a fraction of it with the methods that begin from what is known ("trust-r
 from __future__ import annotations
 
 import math
+import os
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack
@@ -151,6 +152,24 @@ class SeveralMeasures(Mapping[str, Identification]):
         figure.legend(handles, labels, loc="outside upper left", ncols=len(labels), frameon=False)
         self._draw_parameters(panels[count - 1])
         return figure
+
+    def report(self, path: str | os.PathLike[str]) -> None:
+        """Write all identifications down as one page of HTML; see :meth:`Identification.report`.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; what is there is replaced.
+
+        Raises
+        ------
+        ImportError, ValueError, OSError
+            As :meth:`Identification.report`.
+        """
+        from .report import write_report
+        from .report.ending import record_of
+
+        write_report(path, [record_of(one, None) for one in self._found.values()])
 
     def _draw_parameters(self, ax: Any) -> None:
         """Draw every parameter within its bounds, a row each."""

@@ -54,7 +54,6 @@ def _ending(found: Identification) -> Ending:
     ending = Ending(
         converged=bool(found.converged),
         message=found.message,
-        runs=found.runs,
         parameters=dict(found.parameters),
         value=float(found.value),
         measures={name: float(value) for name, value in found.measures.items()},

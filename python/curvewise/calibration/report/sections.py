@@ -24,17 +24,26 @@ AddFigure = Callable[[Figure, str], str]
 _MOST_FAILURES = 100  # in the table; the others are counted
 
 
-def table(header: Sequence[str], rows: Sequence[Sequence[str]], *, texts: int = 1) -> str:
-    """Return a table of HTML; the first columns are texts, the others numbers, to the right."""
-    lines = ["<div class=table><table><thead>", _row(header, "th", texts), "</thead><tbody>"]
-    lines += [_row(row, "td", texts) for row in rows]
+def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Return a table of HTML; columns of numbers are set to the right."""
+    are_numbers = [all(map(_is_number, column)) for column in zip(*rows, strict=True)]
+    lines = ['<div class="table"><table><thead>', _row(header, "th", are_numbers)]
+    lines += ["</thead><tbody>", *(_row(row, "td", are_numbers) for row in rows)]
     return "\n".join([*lines, "</tbody></table></div>"])
 
 
-def _row(cells: Sequence[str], tag: str, texts: int) -> str:
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell or "0")
+    except ValueError:
+        return False
+    return True
+
+
+def _row(cells: Sequence[str], tag: str, are_numbers: Sequence[bool]) -> str:
     made = [
-        f"<{tag}{' class=number' if i >= texts else ''}>{html.escape(cell)}</{tag}>"
-        for i, cell in enumerate(cells)
+        f"<{tag}{' class=number' if right else ''}>{html.escape(cell)}</{tag}>"
+        for cell, right in zip(cells, are_numbers, strict=True)
     ]
     return f"<tr>{''.join(made)}</tr>"
 
@@ -72,7 +81,7 @@ def overview(records: dict[int, SearchRecord]) -> str:
             ]
         )
     header = ["search", "measure", "method", *names, "evaluations", "value"]
-    return table(header, rows, texts=3)
+    return table(header, rows)
 
 
 def sections_of(record: SearchRecord, add: AddFigure, most: int) -> list[tuple[str, str]]:
@@ -148,7 +157,7 @@ def _parameters_section(
             for name, value in record.ending.measures.items()
         ]
         parts += [
-            "<h3>The optimum under every measure</h3>",
+            "<h4>The optimum under every measure</h4>",
             table(["measure", f"value (preset {record.settings['preset']})", ""], measures),
         ]
     return "\n".join(parts)
@@ -184,7 +193,7 @@ def _tests(record: SearchRecord, add: AddFigure, most: int) -> str:
         ]
         if rows:
             header = ["loop", "mean deviation, in units of y", "largest"]
-            parts += [f"<h3>As {record.settings['measure']} sees it</h3>", table(header, rows)]
+            parts += [f"<h4>As {record.settings['measure']} sees it</h4>", table(header, rows)]
     if not record.curves:
         parts.append(_paragraph("The simulated curves at the best point are not known."))
     return "\n".join(parts)
@@ -211,7 +220,7 @@ def _residuals(record: SearchRecord, add: AddFigure, most: int) -> str:
             '<div class="figures">',
             *drawn,
             "</div>",
-            table(header, rows, texts=2),
+            table(header, rows),
         ]
     )
 
@@ -221,12 +230,11 @@ def _convergence(record: SearchRecord, add: AddFigure) -> str:
         return _paragraph("Nothing has been evaluated yet.")
     objective = f"{record.settings['measure']} ({record.settings['preset']})"
     seconds = sum(one.seconds for one in record.evaluations)
-    ended = "" if record.ending is None else f", {record.ending.runs} of them by this search itself"
     best = record.best
     assert best is not None
     text = (
-        f"{len(record.evaluations)} parameter sets, for which the model ran {seconds:.3g} s in all"
-        f"{ended}. Best value {best.value:.6g}, at evaluation {best.number}."
+        f"{len(record.evaluations)} parameter sets, for which the model ran {seconds:.3g} s in all. "
+        f"Best value {best.value:.6g}, at evaluation {best.number}."
     )
     figure = figures.convergence(record.evaluations, objective)
     return f'{_paragraph(text)}<div class="figures wide">{add(figure, "Convergence")}</div>'
@@ -237,7 +245,8 @@ def _weakest(
 ) -> str:
     if summary is None:
         return _paragraph(reason)
-    names, parts = record.names, [_paragraph(summary["in_words"].capitalize() + ".")]
+    names, in_words = record.names, summary["in_words"]
+    parts = [_paragraph(f"{in_words[:1].upper()}{in_words[1:]}.")]
     parts.append('<div class="figures">')
     forth, back = moved_curves(summary)
     for i, (title, axes, test, simulation) in enumerate(_loops(record)):
@@ -259,7 +268,7 @@ def _weakest(
     singular = ", ".join(f"{100 * value:.3g}" for value in summary["singular_values"])
     parts += [
         table(header, changes),
-        "<h3>How far each loop moves as a parameter goes through its bounds, % of the loop</h3>",
+        "<h4>How far each loop moves as a parameter goes through its bounds, % of the loop</h4>",
         table(["loop", *names], sensitivities),
         _paragraph(f"The same for combinations of parameters, strongest to weakest: {singular} %."),
     ]
@@ -280,7 +289,7 @@ def _failures(record: SearchRecord) -> str:
         ]
         for one in failed[:_MOST_FAILURES]
     ]
-    made = table(["evaluation", "parameters", "why"], rows, texts=3)
+    made = table(["evaluation", "parameters", "why"], rows)
     more = len(failed) - len(rows)
     return made + (_paragraph(f"And {more} more.") if more else "")
 
@@ -300,7 +309,7 @@ def _settings(record: SearchRecord) -> str:
         [
             f"<pre>{html.escape(code_to_repeat(record))}</pre>",
             table(["test", "points", "columns", "weight"], tests),
-            table(["", ""], rows, texts=2),
+            table(["", ""], rows),
         ]
     )
 
