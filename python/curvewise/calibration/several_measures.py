@@ -140,7 +140,9 @@ class SeveralMeasures(Mapping[str, Identification]):
             ax.remove()
         for i, experiment in enumerate(first.experiments):
             ax = panels[i]
-            ax.plot(*drawn(experiment), ".", color=drawing.FILL_COLOUR, markersize=3, label="experiment")
+            ax.plot(
+                *drawn(experiment), ".", color=drawing.FILL_COLOUR, markersize=3, label="experiment"
+            )
             for colour, (measure, one) in zip(
                 seriesseries_colours(len(self)), self._found.items(), strict=True
             ):

@@ -86,9 +86,7 @@ def _heading(record: SearchRecord, number: int, several: bool) -> str:
     return f"Search {number}: {text}" if several else text
 
 
-def _search(
-    record: SearchRecord, prefix: str, heading: str, add: AddFigure, most: int
-) -> str:
+def _search(record: SearchRecord, prefix: str, heading: str, add: AddFigure, most: int) -> str:
     sections = sections_of(record, add, most)
     parts = [
         f'<section id="{prefix}"><h2>{html.escape(heading)}</h2>',

@@ -18,7 +18,11 @@ def code_to_repeat(record: SearchRecord) -> str:
     that follow from others by a function stand as comments.
     """
     settings, details = record.settings, record.details
-    lines = ["from curvewise.calibration import Below, Case, Log, identify", "", "found = identify("]
+    lines = [
+        "from curvewise.calibration import Below, Case, Log, identify",
+        "",
+        "found = identify(",
+    ]
     if details["cases"] is None:
         lines += ["    model,", "    experiments,"]
     else:

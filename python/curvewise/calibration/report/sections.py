@@ -201,9 +201,7 @@ def _tests(record: SearchRecord, add: AddFigure, most: int) -> str:
 
 def _residuals(record: SearchRecord, add: AddFigure, most: int) -> str:
     drawn, rows = [], []
-    for (title, axes, test, simulation), y in zip(
-        _loops(record), record.details["y"], strict=True
-    ):
+    for (title, axes, test, simulation), y in zip(_loops(record), record.details["y"], strict=True):
         if simulation is None or test.size == 1 or len(test) < 2:
             continue
         branches = branches_of(test, simulation, y)
