@@ -58,6 +58,7 @@ class NamedCurve(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     column_names: tuple[str, ...]
 
     def __new__(cls, values: Array, names: Sequence[str]) -> NamedCurve:
+        """Make a view of the values, with names."""
         if values.ndim != 2 or values.shape[1] != len(names):
             raise ValueError(f"there are {len(names)} names for an array of shape {values.shape}")
         named = values.view(cls)

@@ -30,11 +30,12 @@ __all__ = [
 Curves: TypeAlias = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None
 
 
+@dataclass(frozen=True, repr=False)
 class _Record:
-    """A dataclass that does not print its arrays."""
+    """A record that does not print its arrays."""
 
     def __repr__(self) -> str:
-        names = [one.name for one in fields(type(self)) if one.repr]
+        names = [one.name for one in fields(self) if one.repr]
         return _printed(self, [(name, getattr(self, name)) for name in names])
 
 

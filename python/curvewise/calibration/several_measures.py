@@ -144,14 +144,14 @@ class SeveralMeasures(Mapping[str, Identification]):
                 *drawn(experiment), ".", color=drawing.FILL_COLOUR, markersize=3, label="experiment"
             )
             for colour, (measure, one) in zip(
-                seriesseries_colours(len(self)), self._found.items(), strict=True
+                series_colours(len(self)), self._found.items(), strict=True
             ):
                 ax.plot(*drawn(one.simulations[i]), color=colour, linewidth=1.1, label=measure)
             drawing.label_axes(ax, *labels(axes[i]))
             if count > 2:
                 ax.set_title(titles[i])
-        handles, labels = panels[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper left", ncols=len(labels), frameon=False)
+        handles, texts = panels[0].get_legend_handles_labels()
+        figure.legend(handles, texts, loc="outside upper left", ncols=len(texts), frameon=False)
         self._draw_parameters(panels[count - 1])
         return figure
 
@@ -178,7 +178,7 @@ class SeveralMeasures(Mapping[str, Identification]):
         bounds = next(iter(self._found.values())).bounds
         rows = range(len(bounds))
         ax.hlines(rows, 0.0, 1.0, color=GROUND_COLOUR, linewidth=4, zorder=0)
-        for colour, one in zip(_colours(len(self)), self._found.values(), strict=True):
+        for colour, one in zip(series_colours(len(self)), self._found.values(), strict=True):
             units = one.study.space.unit_of(one.parameters)
             ax.plot(units, rows, "o", color=colour, markersize=5, markerfacecolor="none")
         ax.set_yticks(list(rows), list(bounds))

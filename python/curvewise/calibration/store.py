@@ -27,8 +27,8 @@ import numpy as np
 
 from .._curves import Array
 from .curve_list import as_points, curve_list
-from .model_identity import ModelIdentity
 from .history import Evaluation
+from .model_identity import ModelIdentity
 from .model_pool import Outcome
 from .search_table import SearchTable
 

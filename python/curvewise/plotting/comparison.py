@@ -68,7 +68,8 @@ def plot_comparison(comparison: Comparison, *, names: Sequence[str] | None = Non
     figure = drawing.new_figure(layout="constrained")
     main, others = drawing.panels(figure, dim, len(comparison.values))
     main.set_title(f"Preset: {comparison.preset}")
-    handles = list(drawing.draw_curves(main, *(curve[:, :2] for curve in drawn), axes))
+    P, Q = (curve[:, :2] for curve in drawn)
+    handles = list(drawing.draw_curves(main, P, Q, axes))
     for ax, (name, value) in zip(others, comparison.values.items(), strict=True):
         ax.set_title(f"{MEASURES[name].title}: {value:.4g}")
         accent = _draw_measure(comparison, name, ax, axes)

@@ -7,6 +7,7 @@ a tenth of its range. Cost: a warping path.
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -58,5 +59,5 @@ def branches_of(experiment: Array, simulation: Array, y: int) -> list[Branch]:
     ends = [0, *turns.tolist(), len(x) - 1]
     return [
         Branch(f"branch {k + 1}", x[first : end + 1], residual[first : end + 1])
-        for k, (first, end) in enumerate(zip(ends[:-1], ends[1:], strict=True))
+        for k, (first, end) in enumerate(pairwise(ends))
     ]

@@ -128,7 +128,7 @@ _PAGE = """<!DOCTYPE html>
 <body>
 <noscript><p class="state">Figures need JavaScript; the tables do not.</p></noscript>
 <p class="state" id="no-figures" hidden>
-This browser is too old to draw the figures (it has no DecompressionStream); the tables are complete.
+This browser has no DecompressionStream, and draws no figures; the tables are complete.
 </p>
 {body}
 <script type="application/json" id="figures">{figures}</script>

@@ -8,7 +8,12 @@ from ..search_record import SearchRecord
 
 __all__ = ["code_to_repeat"]
 
-_DEFAULTS = {"min_coverage": 0.5, "start": None, "method_options": {}, "max_evaluations": None}
+_DEFAULTS: dict[str, Any] = {
+    "min_coverage": 0.5,
+    "start": None,
+    "method_options": {},
+    "max_evaluations": None,
+}
 
 
 def code_to_repeat(record: SearchRecord) -> str:

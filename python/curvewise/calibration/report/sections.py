@@ -231,7 +231,7 @@ def _convergence(record: SearchRecord, add: AddFigure) -> str:
     best = record.best
     assert best is not None
     text = (
-        f"{len(record.evaluations)} parameter sets, for which the model ran {seconds:.3g} s in all. "
+        f"{len(record.evaluations)} parameter sets, which took the model {seconds:.3g} s. "
         f"Best value {best.value:.6g}, at evaluation {best.number}."
     )
     figure = figures.convergence(record.evaluations, objective)

@@ -85,14 +85,18 @@ def _optimum(
     record: SearchRecord, simulations: tuple[Array, ...], unit: Array, slopes: Array
 ) -> Optimum:
     """Return the optimum of a search, made again of what was written down."""
-    study = Study((), _no_model, _objective(record), space_of(record))
+    study = Study((), _assemble_nothing, _objective(record), space_of(record))
     responses = Responses(simulations)
     base = responses.vector(simulations)
     return Optimum(study, unit, responses, Surfaces(unit, base, slopes))
 
 
-def _no_model(outcomes: list[Outcome]) -> Outcome:
-    raise RuntimeError("a report runs no model")  # nothing asks it to: runs are looked up before
+def _assemble_nothing(outcomes: list[Outcome]) -> Outcome:
+    raise RuntimeError("a report assembles no runs")  # nothing asks it to: surfaces are there
+
+
+def _no_model(parameters: dict[str, Any]) -> Any:
+    raise RuntimeError("a report runs no model")  # likewise
 
 
 def _objective(record: SearchRecord) -> Objective:
