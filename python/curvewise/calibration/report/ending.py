@@ -31,9 +31,10 @@ def write_down(found: Identification) -> None:
 def record_of(found: Identification, uncertainty: Uncertainty | None) -> SearchRecord:
     """Return what is written down of a search, with its uncertainty, as its files give it."""
     recorder = found.recorder
-    if uncertainty is None and _has_curves(found) and found.uncertainty_runs == 0:
-        uncertainty = found.uncertainty()
     ending = recorder.ending or _ending(found)
+    is_open = uncertainty is None and ending.uncertainty is None
+    if is_open and _has_curves(found) and not found.uncertainty_runs:
+        uncertainty = found.uncertainty()
     if uncertainty is not None:
         ending = replace(ending, uncertainty=summary_of(uncertainty))
     recorder.end(ending)

@@ -13,6 +13,7 @@ import html
 import json
 import os
 from collections.abc import Sequence
+from functools import lru_cache
 from importlib import import_module, resources
 from pathlib import Path
 
@@ -111,6 +112,11 @@ def _plotly() -> str:
     """Return plotly.js as gzip in base64; the same text for the same plotly."""
     with extra("report", "a report needs plotly, which is not installed"):
         source: str = import_module("plotly.offline").get_plotlyjs()
+    return _packed(source)
+
+
+@lru_cache(maxsize=1)  # half a second, for every page of the same plotly
+def _packed(source: str) -> str:
     return base64.b64encode(gzip.compress(source.encode("utf-8"), 9, mtime=0)).decode("ascii")
 
 
