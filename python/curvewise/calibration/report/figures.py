@@ -277,7 +277,13 @@ def _layout(x: str, y: str, *, title: str = "") -> dict[str, Any]:
         "xaxis": {**axis, "title": {"text": html.escape(x, quote=False)}},
         "yaxis": {**axis, "title": {"text": html.escape(y, quote=False)}},
         "margin": {"l": 70, "r": 20, "t": 70 if title else 45, "b": 55},
-        "legend": {"orientation": "h", "x": 0, "y": 1.0, "yanchor": "bottom"},
+        "legend": {
+            "orientation": "h",
+            "x": 0,
+            "y": 1.0,
+            "yanchor": "bottom",
+            "bgcolor": "rgba(0,0,0,0)",
+        },
         "hovermode": "closest",
         "paper_bgcolor": "#FFFFFF",
         "plot_bgcolor": "#FFFFFF",
@@ -285,5 +291,7 @@ def _layout(x: str, y: str, *, title: str = "") -> dict[str, Any]:
         "height": 420,
     }
     if title:
-        layout["title"] = {"text": html.escape(title, quote=False), "font": {"size": 15}, "y": 0.97}
+        text = html.escape(title, quote=False)
+        # To the left, out of the way of the buttons.
+        layout["title"] = {"text": text, "font": {"size": 15}, "x": 0.02, "y": 0.97}
     return layout
