@@ -70,10 +70,13 @@ class SearchTable:
         self._unwritten.append((*row, evaluation.seconds, evaluation.message))
 
     def write(self) -> None:
-        """Write what has been noted; within a transaction."""
+        """Write what has been noted; within a transaction, after which `committed` is called."""
         self._database.executemany(
             "INSERT OR REPLACE INTO evaluations VALUES (?, ?, ?, ?, ?, ?, ?)", self._unwritten
         )
+
+    def committed(self) -> None:
+        """Forget what has been written."""
         self._unwritten.clear()
 
     @property

@@ -244,6 +244,7 @@ class SimulationStore:
         self.searches.write()
         self._database.execute("COMMIT")
         self._unwritten.clear()
+        self.searches.committed()
         self._written = time.monotonic()
 
 
