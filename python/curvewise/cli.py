@@ -34,6 +34,7 @@ from .embedding import get_cmake_dir, get_include
 from .identify_command import add_identify
 from .measures import curve_length_residuals, normalize
 from .measures.registry import MEASURES
+from .report_command import add_report
 
 __all__ = ["main"]
 
@@ -183,6 +184,8 @@ def _parser() -> argparse.ArgumentParser:
     command = commands.add_parser("demo", help="compare the built-in hysteresis loops")
     command.set_defaults(run=_demo)
     command.add_argument("--output", metavar="FILE", default="curvewise_demo.png")
+
+    add_report(commands)
 
     command = commands.add_parser("selfcheck", help="check every kernel on this machine")
     command.set_defaults(run=_selfcheck)

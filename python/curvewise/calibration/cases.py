@@ -235,6 +235,7 @@ class _Number:
     residual_count = 1
     scale = 1.0
     y = 0
+    names: tuple[str, ...] = ()
 
     def __init__(self, case: Case) -> None:
         self.experiment = np.array(case.experiment, dtype=np.float64).reshape(1, 1)

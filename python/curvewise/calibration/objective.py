@@ -20,6 +20,7 @@ from .._docstrings import filled, listed
 from .._options import Preset
 from ..measures import normalize, registry
 from ..measures.registry import PRESETS
+from ..named_curve import known_names
 from ..reference.scaling import box
 from ..results import PcmMatch
 from .common_x import check_common_x, y_column
@@ -257,6 +258,16 @@ class Objective:
         return self.measure == "sum_of_squares" and self._has_residuals
 
     @property
+    def has_function(self) -> bool:
+        """Whether the measure is a function of the user's."""
+        return callable(self._measure)
+
+    @property
+    def names(self) -> list[tuple[str, ...]]:
+        """What the columns of every experiment are called; empty where that is not known."""
+        return [loop.names for loop in self._loops]
+
+    @property
     def extents(self) -> list[Array]:
         """The extent of every experiment in each coordinate, of a number the number itself."""
         return [loop.extent for loop in self._loops]
@@ -342,6 +353,7 @@ class Loop:
     ) -> None:
         self.experiment = as_points(experiment, name).copy()
         self._columns = column_names(experiment)
+        self.names = known_names(experiment)
         self._name = "the experiment" if name == "P" else name
         self._min_coverage = 0.0 if part == "simulation" else min_coverage
         try:

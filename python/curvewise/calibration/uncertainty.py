@@ -34,7 +34,7 @@ from .quasi_newton import quasi_newton
 from .sensitivity import Optimum, indifferent
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from ..plotting.picture import Picture
 
 __all__ = ["Uncertainty", "determined_by", "uncertainty_of"]
 
@@ -163,8 +163,13 @@ class Uncertainty:
         lines.append(f"weakest direction: {self.in_words}")
         return "\n".join(lines)
 
-    def plot(self) -> Figure:
+    def plot(self, *, names: Sequence[str] | None = None) -> Picture:
         """Return a matplotlib Figure: intervals, correlations, and the weakest direction.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            As for :meth:`Identification.plot`.
 
         Raises
         ------
@@ -173,7 +178,12 @@ class Uncertainty:
         """
         from .uncertainty_picture import intervals_correlations_direction
 
-        return intervals_correlations_direction(self)
+        return intervals_correlations_direction(self, names)
+
+    def _repr_html_(self) -> str:
+        from .in_notebooks import uncertainty_html
+
+        return uncertainty_html(self)
 
 
 def uncertainty_of(
