@@ -1,0 +1,174 @@
+"""How far the parameters spread with the noise: by linear theory, or by a bootstrap.
+
+For a sum of squares the slopes of the residuals say it (the linear theory of least squares, with
+Student's t). For every other measure the tests are made anew many times, as the fitted curves plus
+noise, and the parameters are identified from each on the response surfaces around the optimum,
+which takes no run of the model: a bootstrap, with its basic interval. Cost: two evaluations of the
+residuals a parameter, or `samples` minimisations of the measure of some 30 k evaluations each.
+
+B. Efron, R. J. Tibshirani, "An introduction to the bootstrap", Chapman & Hall (1993).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from .._curves import Array
+from ._extra import required
+from .noise import Noise, block_length, drawn
+from .quasi_newton import quasi_newton
+from .sensitivity import Optimum
+
+__all__ = ["Spread", "best_covariance", "bootstrapped_spread", "linear_spread"]
+
+# Of a minimisation on the surfaces: differences, in standard errors, and the gain that is not worth
+# another step, in parts of what a standard error costs.
+_DIFFERENCE, _ENOUGH = 0.05, 0.002
+_FLATTEST = 1e-3  # directions that the loops notice less than this, relative to the best, are alike
+
+
+class Spread(NamedTuple):
+    """Of the parameters, in their own units."""
+
+    errors: Array
+    bias: Array  # by how much noise alone moves the parameters in the mean
+    intervals: list[tuple[float, float]]
+    correlations: Array
+
+
+def linear_spread(optimum: Optimum, noise: Noise, level: float, differential: Array) -> Spread:
+    """Return what the linear theory of least squares gives."""
+    objective = optimum.study.objective
+    residuals = objective.residuals(optimum.curves(optimum.unit))
+    step = 1e-4
+    jacobian = np.column_stack(
+        [
+            objective.residuals(optimum.curves(optimum.unit + step * axis))
+            - objective.residuals(optimum.curves(optimum.unit - step * axis))
+            for axis in np.eye(optimum.unit.size)
+        ]
+    ) / (2.0 * step)
+    # With a given sigma in units of y; else of the residuals themselves, one deviation a loop.
+    ends = np.cumsum(objective.residual_counts)
+    parts = np.split(residuals, ends[:-1])
+    inflation = residuals.size / max(1, residuals.size - optimum.unit.size)
+    if noise.residuals is None:
+        scale = objective.residual_factors * noise.sigma
+    else:
+        scale = np.sqrt([inflation * float(np.mean(part**2)) for part in parts])
+    spread = np.concatenate([np.full(p.size, s) for p, s in zip(parts, scale, strict=True)])
+    inverse = np.linalg.pinv(jacobian)
+    covariance = (inverse * spread**2) @ inverse.T
+    covariance = differential @ covariance @ differential.T
+    errors = np.sqrt(np.diag(covariance))
+    stats = required("scipy.stats")
+    quantile = stats.norm if noise.residuals is None else stats.t(noise.freedom)
+    width = float(quantile.ppf((1.0 + level) / 2.0)) * errors
+    point = optimum.study.space.point(optimum.unit)
+    intervals = [(p - w, p + w) for p, w in zip(point, width.tolist(), strict=True)]
+    return Spread(errors, np.zeros_like(errors), intervals, _correlation(covariance))
+
+
+def best_covariance(optimum: Optimum, noise: Noise) -> Array:
+    """Return what the best use of the noisy points could do, in the unit cube.
+
+    The inverse of the information of all points; n points whose noise is alike in blocks count as
+    n / (length of a block).
+    """
+    k = optimum.unit.size
+    information = np.zeros((k, k))
+    columns = [optimum.responses.curves(column) for column in optimum.surfaces.slopes.T]
+    for i, sigma in enumerate(noise.sigma):
+        y = optimum.study.objective.y_columns[i]
+        slopes = np.column_stack([column[i][:, y] for column in columns])
+        length = 1 if noise.residuals is None else block_length(noise.residuals[i])
+        count = len(noise.fitted[i]) / length
+        information += count / max(sigma, 1e-300) ** 2 * (slopes.T @ slopes) / len(slopes)
+    values, directions = np.linalg.eigh(information)
+    # What no point notices is as uncertain as the bounds are wide, and no more.
+    variances = 1.0 / np.maximum(values, 1.0)
+    covariance: Array = (directions * variances) @ directions.T
+    return covariance
+
+
+def bootstrapped_spread(
+    optimum: Optimum, noise: Noise, level: float, samples: int, seed: int
+) -> Spread:
+    """Return the spread of the parameters that other noise would have given."""
+    random = np.random.default_rng(seed)
+    space = optimum.study.space
+    ys = optimum.study.objective.y_columns
+    lengths = [block_length(residuals) for residuals in noise.residuals or ()]
+    steps = _natural_steps(optimum, noise.sigma)
+    points = np.empty((samples, optimum.unit.size))
+    for i in range(samples):
+        tests = []
+        for loop, fitted in enumerate(noise.fitted):
+            test = fitted.copy()
+            test[:, ys[loop]] += drawn(noise, loop, lengths, random)
+            tests.append(test)
+        points[i] = space.point(_reminimised(optimum, tests, steps))
+    covariance = np.atleast_2d(np.cov(points.T))
+    tail = 100.0 * (1.0 - level) / 2.0
+    low, high = np.percentile(points, [tail, 100.0 - tail], axis=0)
+    # The mirror image of the percentiles about the optimum, which allows for a bias of the measure.
+    # Samples that end at a bound may all be on one side of the optimum: it is inside all the same.
+    # With curve_length, where bias matters, doing it all again from the optimum less the bias made
+    # the intervals hold the truth less often, not more.
+    point = np.array(space.point(optimum.unit))
+    bias = points.mean(axis=0) - point
+    low, high = np.minimum(2.0 * point - high, point), np.maximum(2.0 * point - low, point)
+    limits = zip(low.tolist(), high.tolist(), space.bounds.values(), strict=True)
+    intervals = [(max(a, first), min(b, last)) for a, b, (first, last) in limits]
+    return Spread(np.sqrt(np.diag(covariance)), bias, intervals, _correlation(covariance))
+
+
+def _correlation(covariance: Array) -> Array:
+    errors = np.sqrt(np.diag(covariance))
+    errors = np.where(errors > 0, errors, 1.0)
+    correlation: Array = covariance / np.outer(errors, errors)
+    return correlation
+
+
+def _reminimised(optimum: Optimum, tests: list[Array], steps: Array) -> Array:
+    """Return where on the surfaces the objective of other tests is lowest.
+
+    The search is in coordinates in which all directions count alike: of `steps`.
+    """
+    objective = optimum.study.objective.of_other_tests(tests)
+
+    def place(z: Array) -> Array:
+        moved: Array = np.clip(optimum.unit + steps @ z, 0.0, 1.0)
+        return moved
+
+    start = np.zeros(optimum.unit.size)
+    lowest = objective.predicted(optimum.curves(optimum.unit)).value or 1.0
+    count = sum(map(len, tests))
+    best = quasi_newton(
+        lambda z: objective.predicted(optimum.curves(place(z))).value / lowest,
+        start,
+        count * np.eye(start.size),  # a standard error raises the value by 1 / (2 n) of itself
+        difference=_DIFFERENCE,
+        enough=_ENOUGH / count,
+        maxiter=10 + 5 * start.size,
+    )
+    return place(best)
+
+
+def _natural_steps(optimum: Optimum, sigma: Array) -> Array:
+    """Return steps, as columns, that the loops notice alike: about one standard error each."""
+    slopes = optimum.scaled_slopes()
+    _, values, directions = np.linalg.svd(slopes, full_matrices=False)
+    experiments = optimum.study.objective.experiments
+    objective = optimum.study.objective
+    heights = np.array(
+        [extent[y] for extent, y in zip(objective.extents, objective.y_columns, strict=True)]
+    )
+    count = sum(map(len, experiments))
+    noise = max(float(np.mean(sigma / heights)), 1e-9) / math.sqrt(count)
+    sizes = noise / np.maximum(values, _FLATTEST * values[0])
+    steps: Array = directions.T * np.minimum(sizes, 0.25)
+    return steps
