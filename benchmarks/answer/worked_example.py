@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import argparse
 import io
+import itertools
 import os
 from collections.abc import Mapping, Sequence
 from contextlib import redirect_stdout
@@ -24,7 +25,13 @@ from matplotlib.figure import Figure
 from paper_problems import cube
 
 from curvewise import read_curve
-from curvewise.calibration import Case, Identification, identify, identify_each
+from curvewise.calibration import (
+    Case,
+    Identification,
+    Uncertainty,
+    identify,
+    identify_each,
+)
 from curvewise.curves import resample, smooth, turning_points
 
 HERE = Path(__file__).resolve().parent
@@ -41,9 +48,19 @@ BOUNDS = {
     "R": (-0.4, 1.0),
     "b": (1.0, 100.0),
 }
+# What an engineer would say before: a modulus of steel, and the knee of the first loading.
+GUESS = {"E": 190e3, "yield": 400.0, "Q": 300.0, "g": 200.0, "H": 500.0, "R": 0.2, "b": 20.0}
 MEASURES = ("area", "dtw", "frechet")
-INCREMENTS = 60  # of the solver, for each test
-POINTS = 80  # of each branch of a prepared test
+INCREMENTS = 24  # of the solver, in each branch
+POINTS = 50  # of each branch of a prepared test
+# Tests that could be made: the strains at which they turn and end.
+TESTS_TO_COME = {
+    "3 % as before": (0.0, 0.03, -0.03, 0.03),
+    "6 % as before": (0.0, 0.06, -0.06, 0.06),
+    "tension to 15 %": (0.0, 0.15),
+    "five cycles of 1 %": (0.0, *(0.01, -0.01) * 5),
+    "five cycles of 3 %": (0.0, *(0.03, -0.03) * 5),
+}
 WINDOWS = ((50, 150), (50, 250), (150, 350), (50, 400))  # MPa after the start of a branch
 
 
@@ -71,8 +88,9 @@ def main() -> None:
     draw_tests(raw, tests).savefig(images / "worked_tests.png", dpi=90)
     say("The elastic slopes of the tests", slopes_table(raw))
 
-    model = cube.CubeModel([path_of(test) for test in raw], options.scratch / "runs")
+    model = cube.CubeModel([path_of(corners_of(test)) for test in raw], options.scratch / "runs")
     search = {"store": options.scratch / "dp780.db", "workers": options.workers, "progress": False}
+    search["start"] = GUESS
     small = Case("3 %", model, tests[0], response=lambda curves: curves[0])
     one = identify([small], bounds=BOUNDS, **search)
     say("One test", one, "", one.uncertainty(samples=options.samples))
@@ -84,8 +102,12 @@ def main() -> None:
     say("What both determine, by area", both["area"], "", uncertainty)
     uncertainty.plot().savefig(images / "worked_uncertainty.png", dpi=80)
 
+    moves = moves_of(TESTS_TO_COME, uncertainty, options.scratch / "runs")
+    say("A test that would notice the weakest direction", moves)
+
     fixed = {**BOUNDS, **fixed_parameters(raw)}
-    fewer = identify(model, tests, fixed, start=inside(both["area"].parameters, fixed), **search)
+    start = inside(both["area"].parameters, fixed)
+    fewer = identify(model, tests, fixed, **search | {"start": start})
     say("E and H fixed", fewer, "", fewer.uncertainty(samples=options.samples))
     say("The price of fixing", price(both["area"], fewer))
     (text / "worked_example.txt").write_text(written.getvalue())
@@ -98,14 +120,19 @@ def prepared(test: np.ndarray) -> np.ndarray:
     return resample(smoothed, POINTS, turns=turns)
 
 
-def path_of(test: np.ndarray) -> np.ndarray:
-    """Return the strains for the finite element: from 0 through the turning points of the test."""
-    corners = np.array([0.0, *test[turning_points(test), 0], test[-1, 0]])
-    lengths = np.abs(np.diff(corners))
-    path = [np.zeros(1)]
-    for i, count in enumerate(np.rint(INCREMENTS * lengths / lengths.sum()).astype(int)):
-        path.append(np.linspace(corners[i], corners[i + 1], count + 1)[1:])
-    return np.concatenate(path)
+def path_of(corners: Sequence[float]) -> np.ndarray:
+    """Return the strains for the finite element: through the corners, with short steps after each.
+
+    A step as long as the elastic range would make a chord of the unloading, of the solver's own.
+    """
+    steps = np.linspace(0.0, 1.0, INCREMENTS + 1)[1:] ** 2
+    ends = itertools.pairwise(corners)
+    return np.concatenate([[corners[0]], *(start + (end - start) * steps for start, end in ends)])
+
+
+def corners_of(test: np.ndarray) -> list[float]:
+    """Return the strains at which a test begins, turns and ends."""
+    return [0.0, *test[turning_points(test), 0], test[-1, 0]]
 
 
 def elastic_slopes(test: np.ndarray) -> np.ndarray:
@@ -151,6 +178,18 @@ def price(free: Identification, fixed: Identification) -> str:
         means = [deviation.mean for deviation in found.deviations if deviation is not None]
         away = ", ".join(f"{mean:.1f} MPa" for mean in means)
         lines.append(f"{name:<20}  area {found.value:.5f}, mean deviation {away}")
+    return "\n".join(lines)
+
+
+def moves_of(tests: Mapping[str, Sequence[float]], uncertainty: Uncertainty, scratch: Path) -> str:
+    """Return by how much tests that nobody has made would move along the weakest direction."""
+    best = uncertainty.parameters
+    moved = {name: best[name] + uncertainty.weakest_direction.get(name, 0.0) for name in best}
+    model = cube.CubeModel([path_of(corners) for corners in tests.values()], scratch)
+    lines = []
+    for name, one, two in zip(tests, model(best), model(moved), strict=True):
+        heights = (two - one)[:, 1] / np.ptp(one[:, 1])
+        lines.append(f"{name:<28}  moves by {100 * float(np.sqrt(np.mean(heights**2))):.2g} %")
     return "\n".join(lines)
 
 

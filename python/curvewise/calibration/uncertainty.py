@@ -29,6 +29,8 @@ __all__ = ["Uncertainty", "uncertainty_of"]
 
 # A bias of less than this many standard errors does not matter (Efron & Tibshirani, section 10.3).
 _HARMLESS_BIAS = 0.25
+# Measures that go by arc length, which noise adds to.
+_OF_LENGTH = ("curve_length", "pcm")
 # As in an identification's summary.
 _AT_BOUND = 1e-3
 
@@ -149,9 +151,13 @@ class Uncertainty:
         lines.append(f"weakest direction: {self.in_words}")
         if moved := self._biased():
             lines.append(
-                f"{self.measure} is biased by noise: it moves {moved}; intervals allow for that in "
-                "part only: filter the test (curvewise.curves.smooth), or take another measure"
+                f"noise like this moves {moved} in the mean; intervals allow for it in part only"
             )
+            if self.measure in _OF_LENGTH:
+                lines.append(
+                    f"{self.measure} takes noise for length: filter the test "
+                    "(curvewise.curves.smooth), or take another measure"
+                )
         return "\n".join(lines)
 
     def _biased(self) -> str:
