@@ -193,6 +193,8 @@ def main() -> None:
     ]
     done = counted(options.records, options.sets, options.samples, options.minutes)
     for case, rows in zip(CASES, done, strict=True):
+        if not rows:
+            continue
         noise = "given" if case.known else "residuals"
         table = np.array(rows)
         for i, name in enumerate(PROBLEMS[case.problem][1]):

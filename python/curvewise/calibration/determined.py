@@ -12,7 +12,7 @@ from .._curves import Array
 from .noise import noise_of
 from .parameters import Space
 from .sensitivity import Optimum
-from .spread import best_covariance
+from .spread import linear_covariance
 
 __all__ = ["determined_by", "is_narrow"]
 
@@ -28,7 +28,7 @@ def determined_by(optimum: Optimum, reach: Array) -> dict[str, bool]:
     space = optimum.study.space
     differential = space.differential(optimum.unit)
     noise = noise_of(optimum, None)
-    covariance = differential @ best_covariance(optimum, noise) @ differential.T
+    covariance = differential @ linear_covariance(optimum, noise) @ differential.T
     changes = np.maximum(np.abs(differential) @ reach, 2.0 * np.sqrt(np.diag(covariance)))
     point = space.point(optimum.unit)
     return {name: _small(space, i, changes[i], point[i]) for i, name in enumerate(space.names)}

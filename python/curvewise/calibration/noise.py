@@ -21,7 +21,7 @@ from .._curves import Array
 from .fitted_points import fitted_points
 from .sensitivity import Optimum
 
-__all__ = ["Noise", "block_length", "drawn", "noise_of"]
+__all__ = ["Noise", "autocorrelation", "block_length", "drawn", "noise_of"]
 
 # Residuals with a smaller autocorrelation from point to point are drawn one by one.
 _INDEPENDENT = 0.2
@@ -68,16 +68,21 @@ def noise_of(optimum: Optimum, sigma: float | Sequence[float] | None) -> Noise:
     return Noise(fitted, residuals, deviations, freedom)
 
 
-def block_length(residuals: Array) -> int:
-    """Return Carlstein's length for the autocorrelation of neighbours; 1 if there is none."""
+def autocorrelation(residuals: Array) -> float:
+    """Return the correlation of neighbours, at most 0.97; 0 if it is negligible."""
     if residuals.size < 4:
-        return 1
+        return 0.0
     centred = residuals - residuals.mean()
     square = float(centred @ centred)
     rho = float(centred[1:] @ centred[:-1]) / square if square > 0 else 0.0
-    if rho < _INDEPENDENT:
+    return min(rho, 0.97) if rho >= _INDEPENDENT else 0.0
+
+
+def block_length(residuals: Array) -> int:
+    """Return Carlstein's length for the autocorrelation of neighbours; 1 if there is none."""
+    rho = autocorrelation(residuals)
+    if rho == 0.0:
         return 1
-    rho = min(rho, 0.97)
     length = float(((2.0 * rho / (1.0 - rho**2)) ** 2 * len(residuals)) ** (1.0 / 3.0))
     return max(1, min(round(length), len(residuals) // 4))
 

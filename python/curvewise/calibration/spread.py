@@ -18,11 +18,11 @@ import numpy as np
 
 from .._curves import Array
 from ._extra import required
-from .noise import Noise, block_length, drawn
+from .noise import Noise, autocorrelation, block_length, drawn
 from .quasi_newton import quasi_newton
 from .sensitivity import Optimum
 
-__all__ = ["Spread", "best_covariance", "bootstrapped_spread", "linear_spread"]
+__all__ = ["Spread", "bootstrapped_spread", "linear_covariance", "linear_spread"]
 
 # Of a minimisation on the surfaces: differences, in standard errors, and the gain that is not worth
 # another step, in parts of what a standard error costs.
@@ -72,26 +72,40 @@ def linear_spread(optimum: Optimum, noise: Noise, level: float, differential: Ar
     return Spread(errors, np.zeros_like(errors), intervals, _correlation(covariance))
 
 
-def best_covariance(optimum: Optimum, noise: Noise) -> Array:
-    """Return what the best use of the noisy points could do, in the unit cube.
+def linear_covariance(optimum: Optimum, noise: Noise) -> Array:
+    """Return the covariance of least squares on the points themselves, in the unit cube.
 
-    The inverse of the information of all points; n points whose noise is alike in blocks count as
-    n / (length of a block).
+    Whatever the measure: an estimate that takes no bootstrap. Noise whose neighbours are alike is
+    that of an autoregression of the first order, so that fewer points than there are count.
     """
     k = optimum.unit.size
-    information = np.zeros((k, k))
+    information, scatter = np.zeros((k, k)), np.zeros((k, k))
     columns = [optimum.responses.curves(column) for column in optimum.surfaces.slopes.T]
     for i, sigma in enumerate(noise.sigma):
         y = optimum.study.objective.y_columns[i]
-        slopes = np.column_stack([column[i][:, y] for column in columns])
-        length = 1 if noise.residuals is None else block_length(noise.residuals[i])
-        count = len(noise.fitted[i]) / length
-        information += count / max(sigma, 1e-300) ** 2 * (slopes.T @ slopes) / len(slopes)
-    values, directions = np.linalg.eigh(information)
+        count = len(noise.fitted[i])
+        places = np.linspace(0.0, len(columns[0][i]) - 1.0, count)
+        at = np.arange(len(columns[0][i]))
+        slopes = np.column_stack([np.interp(places, at, column[i][:, y]) for column in columns])
+        slopes /= max(sigma, 1e-300)
+        rho = 0.0 if noise.residuals is None else autocorrelation(noise.residuals[i])
+        information += slopes.T @ slopes
+        scatter += slopes.T @ _correlated(slopes, rho)
     # What no point notices is as uncertain as the bounds are wide, and no more.
-    variances = 1.0 / np.maximum(values, 1.0)
-    covariance: Array = (directions * variances) @ directions.T
+    inverse = np.linalg.inv(information + np.eye(k))
+    covariance: Array = inverse @ (scatter + np.eye(k)) @ inverse
     return covariance
+
+
+def _correlated(columns: Array, rho: float) -> Array:
+    """Return R @ columns with R[i, j] = rho ** |i - j|, by a walk there and a walk back."""
+    if rho == 0.0:
+        return columns
+    lfilter = required("scipy.signal").lfilter
+    there = lfilter([1.0], [1.0, -rho], columns, axis=0)
+    back = lfilter([1.0], [1.0, -rho], columns[::-1], axis=0)[::-1]
+    correlated: Array = there + back - columns
+    return correlated
 
 
 def bootstrapped_spread(

@@ -63,8 +63,9 @@ class Uncertainty:
     unnoticed : dict of str to float
         By how much each parameter may change, others with it, before the objective rises by 1 %.
     determined : dict of str to bool
-        Whether interval and `unnoticed` are both within 10 % of the bounds' range and 20 % of the
-        value (or 2 % of the range), and the parameter is not at a bound.
+        Whether half the interval, twice the error by linear theory and `unnoticed` are all within
+        10 % of the bounds' range and 20 % of the value (or 2 % of the range), and the parameter is
+        not at a bound.
     at_bounds : dict of str to str
         "lower" or "upper", for the parameters that are at a bound.
     sigma : ndarray, shape (loops,)
