@@ -202,7 +202,8 @@ def draw_tests(raw: Sequence[np.ndarray], tests: Sequence[np.ndarray]) -> Figure
         left.plot(*points.T, ".", color="k", markersize=2.5)
     left.plot([], [], ".", color="k", label=f"{len(tests[0])} points, as compared")
     left.set(xlabel="true strain", ylabel="true stress, MPa", title="The tests")
-    left.legend(frameon=False, loc="lower right", fontsize=8)
+    left.set(ylim=(-1600, 1100))
+    left.legend(frameon=False, loc="lower center", fontsize=8)
     for test, colour in zip(raw, ("#0072B2", "#D55E00"), strict=True):
         first = turning_points(test)[0]
         branch = test[first : first + 170]
@@ -213,7 +214,7 @@ def draw_tests(raw: Sequence[np.ndarray], tests: Sequence[np.ndarray]) -> Figure
         right.plot((0, limit / modulus), (0, limit), style, color="#909090", label=f"{modulus} GPa")
     right.set(xlabel="strain since the first turn, 10⁻³", ylabel="stress since the turn, MPa")
     right.set_title("Unloading: which slope is the modulus?")
-    right.set(xlim=(0, 6), ylim=(0, limit))
+    right.set(xlim=(0, 4.5), ylim=(0, limit))
     right.legend(frameon=False, loc="lower right")
     return figure
 
