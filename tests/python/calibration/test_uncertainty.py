@@ -183,15 +183,14 @@ def test_a_parameter_at_its_bound_is_not_determined():
 
 
 def test_draws_that_end_at_a_bound_make_up_no_limit():
-    """Half of the draws of a end at its bound: the other limit is what it is without the bound."""
+    """Half of the draws of a end at its bound; their mirror image would be 0.2 errors away."""
     free = identify(parabola, TEST, BOUNDS, measure="dtw", **QUIET)
-    expected = free.uncertainty(samples=60)
-    best, error = free.parameters["a"], expected.standard_errors["a"]
+    best, error = free.parameters["a"], free.uncertainty(samples=40).standard_errors["a"]
     bounds = {**BOUNDS, "a": (-10.0, best + 0.2 * error)}
     found = identify(parabola, TEST, bounds, measure="dtw", start=free.parameters, **QUIET)
-    low, high = found.uncertainty(samples=60).intervals["a"]
+    low, high = found.uncertainty(samples=40).intervals["a"]
     assert high == bounds["a"][1]
-    assert low == pytest.approx(expected.intervals["a"][0], abs=0.7 * error)
+    assert low < best - 0.7 * error
 
 
 def test_residuals_that_go_on_alike_widen_the_intervals():
