@@ -20,6 +20,7 @@ from ..deviations import Deviation, deviation
 from ..measures.registry import Condition, default_measures
 from .cases import Case, CaseObjective, Cases
 from .curve_list import points_of
+from .determined import determined_by
 from .evaluations import Progress
 from .history import Evaluation, as_records
 from .loop_measure import Measure, Part
@@ -34,7 +35,7 @@ from .running import Ended, Plan, run_search
 from .sensitivity import design_runs, indifferent, optimum_surfaces
 from .store import StorePath
 from .study import Study, models_of
-from .uncertainty import Uncertainty, determined_by, uncertainty_of
+from .uncertainty import Uncertainty, uncertainty_of
 
 if TYPE_CHECKING:
     from ..plotting.picture import Picture
@@ -489,13 +490,15 @@ def identify(
         history,
         max_evaluations,
     )
-    plan.check(measure)
+    cases = _cases_of(model)
+    for one in (measure,) if cases is None else (case.measure for case in cases.cases):
+        plan.check(one)
     if bounds is None:
         raise TypeError("identify needs bounds: a dict of name: (low, high)")
     space = Space(bounds)
     if start is not None:
         space.unit(start)
-    if (cases := _cases_of(model)) is not None:
+    if cases is not None:
         changed = {**options, "experiments": experiments, "weights": weights}
         if given := [name for name, value in changed.items() if value is not None]:
             raise ValueError(f"{', '.join(given)} given beside cases; give them to each Case")

@@ -72,7 +72,9 @@ class Objective:
         that returns a float; where it raises ValueError the simulation has failed.
         "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
         the experiment's x, which must not turn back. Of loops that have a third column, such as
-        time or the step, ``over=2`` compares y at the same time instead.
+        time or the step, ``over=2`` compares y at the same time instead; of a model that is driven
+        by the experiment's own x, as a material point by the measured strains,
+        ``over="points"`` compares y point by point.
     preset : {"scaled", "paper", "raw"}
         As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
         that loops, and x and y, count alike, and takes area with ``spacing="matched"``, which

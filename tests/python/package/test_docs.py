@@ -38,3 +38,14 @@ def test_the_python_of_a_page_runs(
             missing.append(error.name)
     if missing:
         pytest.skip(f"all but the blocks with {', '.join(missing)}, which are not installed")
+
+
+def test_the_worked_example_shows_its_script() -> None:
+    """Its code needs a solver and data: it stands in the script that was run, line by line."""
+    page = (ROOT / "docs" / "worked_example.md").read_text(encoding="utf-8")
+    script = (ROOT / "benchmarks" / "answer" / "worked_example.py").read_text(encoding="utf-8")
+    printed = (ROOT / "benchmarks" / "answer" / "worked_example.txt").read_text(encoding="utf-8")
+    known = {line.strip() for line in (script + printed).splitlines()}
+    shown = [line.strip() for line in page.splitlines() if line.startswith("    ")]
+    assert len(shown) > 20
+    assert [line for line in shown if line not in known] == []
