@@ -12,13 +12,13 @@ from typing import Any, Literal, TypeAlias
 
 from .._curves import Array
 from .._options import Preset
-from ..measures import dtw, pcm_match
+from ..measures import dtw, pcm_match, value_and_gradient
 from ..measures.registry import MEASURES, PRESETS, Condition
 from ..pairwise import Prepared
 from ..results import PcmMatch
-from .common_x import differences, squared_differences
+from .common_x import differences, squared_differences, squared_differences_and_gradient
 
-__all__ = ["Measure", "Part", "check_part", "condition_of", "functions", "measure_name"]
+__all__ = ["Measure", "Part", "check_part", "condition_of", "functions", "gradient_of", "measure_name"]
 
 Measure: TypeAlias = str | Callable[..., float]
 Part: TypeAlias = Literal["experiment", "simulation"]
@@ -41,6 +41,29 @@ def functions(
     if part == "simulation":  # the curve that is matched to a part of the other comes first
         return partial(_dtw_of_simulation, P, options), residuals
     return Prepared(P, info.name, **options), residuals
+
+
+def gradient_of(
+    measure: Measure, P: Array, options: dict[str, Any], part: Part
+) -> Callable[[Array], tuple[float, Array]] | None:
+    """Return the measure with its derivative by Q, as a function of Q; None where there is none.
+
+    That of frechet is 0 except at one point, and of no use to whoever wants to go down.
+    """
+    if measure == "sum_of_squares":
+        return partial(squared_differences_and_gradient, P, **options)
+    differentiable = measure in ("curve_length", "dtw") or (
+        measure == "area" and options.get("spacing") != "arc_length"
+    )
+    if not differentiable or part == "simulation":
+        return None
+    return partial(_value_and_gradient, P, measure, options)
+
+
+def _value_and_gradient(
+    P: Array, measure: Any, options: dict[str, Any], Q: Array
+) -> tuple[float, Array]:
+    return value_and_gradient(P, Q, measure, **options)
 
 
 def _called(function: Callable[..., float], P: Array, options: dict[str, Any], Q: Array) -> float:
