@@ -141,6 +141,11 @@ class Evaluations:
         assert self._best is not None
         return self._units[self._best]
 
+    def settle(self, unit: Array) -> None:
+        """Take a point that was evaluated for the best, where a method has a rule of its own."""
+        self._best = self._space.point(unit)
+        self._best_simulations = self._done[self._best].simulations
+
     def stage(self, name: str) -> None:
         """Show the name of a stage of the search beside the progress."""
         self._bar.set_description(name)

@@ -32,7 +32,9 @@ from .loop_measure import (
     functions,
     gradient_of,
     measure_name,
+    unknown_options_explained,
 )
+from .near_names import meant
 from .surfaces import thinned_rows
 
 __all__ = ["LEAST_SQUARES", "MEASURES", "FailedSimulationError", "Loop", "Objective", "Score"]
@@ -155,9 +157,15 @@ class Objective:
         **options: Any,
     ) -> None:
         if not callable(measure) and measure not in MEASURES:
-            raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(MEASURES)}")
+            raise ValueError(
+                f"unknown measure {measure!r}; choose from {', '.join(MEASURES)}"
+                f"{meant([measure], MEASURES)}"
+            )
         if preset not in PRESETS:
-            raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
+            raise ValueError(
+                f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}"
+                f"{meant([preset], PRESETS)}"
+            )
         if not 0.0 <= min_coverage <= 1.0:
             raise ValueError(f"min_coverage is {min_coverage}; it must be from 0 to 1")
         self.measure = measure_name(measure)
@@ -175,10 +183,11 @@ class Objective:
         check_part(part, measure, options)
         curves = curve_list(experiments)
         names = ["P"] if len(curves) == 1 else [f"experiments[{i}]" for i in range(len(curves))]
-        self._loops = [
-            Loop(curve, name, measure, condition.scaled, options, part, min_coverage)
-            for curve, name in zip(curves, names, strict=True)
-        ]
+        with unknown_options_explained(measure, self.options):
+            self._loops = [
+                Loop(curve, name, measure, condition.scaled, options, part, min_coverage)
+                for curve, name in zip(curves, names, strict=True)
+            ]
         self.experiments = tuple(loop.experiment for loop in self._loops)
         self.weights = _checked_weights(weights, len(self._loops))
         self.scales = np.array([loop.scale for loop in self._loops])

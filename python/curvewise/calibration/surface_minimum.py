@@ -91,12 +91,13 @@ class SurfaceMinimum:
         low, high = region
         width = high - low
         start = (centre - low) / np.where(width > 0, width, 1.0)
-        coarse = self._thinned or self._exact
-        best = self._minimised(coarse, surfaces, region, start, thoroughly)
         if self._thinned is not None:
+            best = self._minimised(self._thinned, surfaces, region, start, thoroughly)
             value = self._exact.on(surfaces, region)
-            best = self._polished(surfaces, region, best if value(best) < value(start) else start)
-        return low + best * width
+            if value(best) < value(start):
+                return low + self._polished(surfaces, region, best) * width
+        # Without thinned curves, or where they mislead: noise has a length, which pcm measures.
+        return low + self._minimised(self._exact, surfaces, region, start, thoroughly) * width
 
     def value(self, surfaces: Surfaces, point: Array) -> float:
         """Return the objective that surfaces predict at a point, with all points."""

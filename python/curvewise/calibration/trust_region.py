@@ -206,9 +206,7 @@ class _Search:
             np.clip(self.centre - radius, 0.0, 1.0),
             np.clip(self.centre + radius, 0.0, 1.0),
         )
-        best = self._minimum.lowest(
-            self._surfaces, self.centre, region, thoroughly=self.is_fresh
-        )
+        best = self._minimum.lowest(self._surfaces, self.centre, region, thoroughly=self.is_fresh)
         return best, self.value - self._minimum.value(self._surfaces, best)
 
     def step(self, candidate: Array) -> float:
