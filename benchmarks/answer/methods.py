@@ -1,11 +1,12 @@
 """Runs to within 1 % of the best value: which method is the default for expensive models.
 
 Material points with 3, 7 and 9 parameters, each as a test with noise of its own for every seed (the
-nine parameters: the paper's five loops as they are), measure area, its default. The best value of a data set is
-the best that any search has found there. A search that never comes within 1 % of it has failed;
-the table has the median of the runs of those that do, with the failures counted as infinite.
-"trust-region" makes three searches, one after the other; beside it stands the first of them alone.
-"sdrm+de" was the default before. "gauss-newton" and "gaussian-process" are of candidates.py.
+nine parameters: the paper's five loops as they are), measure area, in its default. The best value
+of a data set is the best that any search has found there. A search that never comes within 1 % of
+it has failed; the table has the median of the runs of those that do, with the failures counted as
+infinite. "trust-region" makes three searches, one after the other; beside it stands the first of
+them alone. "sdrm+de" was the default before. "gauss-newton" and "gaussian-process" are of
+candidates.py.
 
     python benchmarks/answer/methods.py --seeds 10
 

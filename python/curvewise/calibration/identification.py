@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from inspect import signature
 from typing import TYPE_CHECKING, Any
 
@@ -254,6 +254,23 @@ class Identification:
             optimum, sigma=sigma, level=level, samples=samples, seed=seed, runs=runs
         )
 
+    def followed_by(self, later: Identification) -> Identification:
+        """Return a later search of the same study as the continuation of this one."""
+        best = later if later.value <= self.value else self
+        count = len(self.history)
+        history = np.concatenate([self.history, later.history])
+        history["evaluation"] = np.arange(1, len(history) + 1)
+        failures = [(count + number, message) for number, message in later.failures]
+        return replace(
+            best,
+            history=history.view(np.recarray),
+            failures=(*self.failures, *failures),
+            converged=later.converged,
+            message=later.message,
+            runs=self.runs + later.runs,
+            kept=later.kept,
+        )
+
     @property
     def _unit(self) -> Array:
         return self.study.space.unit_of(self.parameters)
@@ -360,9 +377,10 @@ def identify(
         fatol, ...). "least_squares": diff_step (of the derivatives, as a fraction of the bounds'
         range, 1e-6; 1e-4 to 1e-3 for a solver that prints seven digits) and those of
         `scipy.optimize.least_squares`, e.g. loss and f_scale for a robust sum, of which the result
-        is then the minimum (residuals are in units of the experiment's height). "trust-region": initial_range
-        (0.5), diff_step (0.02), tol (1e-3), gain (1e-3: the least that is worth going on for),
-        maxiter. "sdrm+de": a mapping for each, ``{"sdrm": {...}, "de": {...}}``.
+        is then the minimum (residuals are in units of the experiment's height). "trust-region":
+        starts (3, where none is given), initial_range (0.5), diff_step (0.02), tol (1e-3), gain
+        (1e-3: the least that is worth going on for), maxiter.
+        "sdrm+de": a mapping for each, ``{"sdrm": {...}, "de": {...}}``.
 
     Returns
     -------

@@ -17,6 +17,7 @@ from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from .._curves import Array
 
@@ -106,7 +107,9 @@ def _round(function: _Counted, place: _Place, length: float, negligible: float) 
     return function.best
 
 
-def _searched(function: _Counted, place: _Place, direction: Array, free: Array) -> _Place | None:
+def _searched(
+    function: _Counted, place: _Place, direction: Array, free: npt.NDArray[np.bool_]
+) -> _Place | None:
     """Return a place along a direction that meets Wolfe's weak conditions, or the last tried.
 
     None where nothing along it is lower.

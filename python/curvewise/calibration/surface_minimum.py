@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -25,7 +24,7 @@ from ._extra import required
 from .nelder_mead import nelder_mead
 from .nonsmooth_descent import nonsmooth_descent
 from .objective import Objective
-from .surfaces import Responses, Surfaces
+from .surfaces import Responses, Rows, Surfaces
 
 __all__ = ["SurfaceMinimum"]
 
@@ -162,7 +161,7 @@ class _Predicted:
         self,
         objective: Objective,
         responses: Responses,
-        rows: list[Array] | None,
+        rows: list[Rows] | None,
         thinking: Callable[[], None],
     ) -> None:
         self._objective, self._thinking = objective, thinking
@@ -197,7 +196,7 @@ class _Predicted:
 
     def _in_box(self, surfaces: Surfaces, region: tuple[Array, Array]) -> tuple[Array, Array]:
         low, high = region
-        base: Any = surfaces.at(low)
+        base = surfaces.at(low)
         slopes = surfaces.slopes * (high - low)
         if self._places is not None:
             base, slopes = base[self._places], slopes[self._places]

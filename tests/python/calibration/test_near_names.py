@@ -59,14 +59,14 @@ def test_the_near_name_is_offered(keywords, error, message):
 
 
 def test_nothing_is_offered_where_nothing_is_near():
-    with pytest.raises(ValueError, match="choose from .*least_squares$"):
+    with pytest.raises(ValueError, match=r"choose from .*least_squares$"):
         identify(line, EXPERIMENT, {"a": (0, 10)}, method="magic")
-    with pytest.raises(TypeError, match="it has spacing, crossing, squared$"):
+    with pytest.raises(TypeError, match=r"it has spacing, crossing, squared$"):
         Objective(EXPERIMENT, "area", wibble=1)
 
 
 def test_of_several_measures_too():
-    with pytest.raises(ValueError, match="unknown measure 'dwt'.*did you mean 'dtw'"):
+    with pytest.raises(ValueError, match=r"unknown measure 'dwt'.*did you mean 'dtw'"):
         identify_each(line, EXPERIMENT, {"a": (0, 10)}, measures=["area", "dwt"])
 
 
