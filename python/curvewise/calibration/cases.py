@@ -236,6 +236,7 @@ class _Number:
     scale = 1.0
     y = 0
     names: tuple[str, ...] = ()
+    has_gradient = True
 
     def __init__(self, case: Case) -> None:
         self.experiment = np.array(case.experiment, dtype=np.float64).reshape(1, 1)
@@ -251,6 +252,13 @@ class _Number:
         """Return the difference, or its square, in units of sigma or of the number."""
         difference = float(self.residuals(simulation)[0])
         return difference**2 if self._is_squared else abs(difference)
+
+    def value_and_gradient(self, simulation: Any) -> tuple[float, Array]:
+        """Return the value and its derivative by the number."""
+        difference = float(self.residuals(simulation)[0])
+        if self._is_squared:
+            return difference**2, np.array([[2.0 * difference / self._unit]])
+        return abs(difference), np.array([[np.sign(difference) / self._unit]])
 
     def residuals(self, simulation: Any) -> Array:
         """Return the difference."""
