@@ -193,7 +193,8 @@ def _warn_of_time(P: Array, Q: Array, names: Sequence[Any], measures: Sequence[s
         rising = (np.diff(P, axis=0) > 0).all(axis=0) & (np.diff(Q, axis=0) > 0).all(axis=0)
         times = [int(i) for i in np.flatnonzero(rising)] if rising.sum() == 1 else []
     if times:
-        column = repr(names[times[0]]) if names else f"{times[0] + 1} of {P.shape[1]}"
+        by_name = bool(names) and is_time(names[times[0]])
+        column = repr(names[times[0]]) if by_name else f"{times[0] + 1} of {P.shape[1]}"
         warn(
             f"column {column} counts as a coordinate, and looks like time; leave it out of P and Q,"
             f" or say measures={list(measures)} if it shall count"
