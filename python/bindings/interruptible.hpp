@@ -51,6 +51,9 @@ class PythonControl {
 // lock: to release it costs something, too.
 inline constexpr double steps_worth_unlocking = 5e3;
 
+// Calls of fewer are over before a report is due.
+inline constexpr double steps_worth_watching = 5e5;
+
 // Calls function(), without the interpreter's lock where that is worth its cost.
 template <class Function>
 auto unlocked(double steps, Function function) {
@@ -63,8 +66,7 @@ auto unlocked(double steps, Function function) {
 // handled on the main thread, where Python delivers them.
 template <class Function>
 auto interruptible(double steps, const py::object& progress, Function function) {
-    constexpr double worth_watching = 5e5;  // less is over before a report is due
-    if (progress.is_none() && steps < worth_watching) {
+    if (progress.is_none() && steps < steps_worth_watching) {
         return unlocked(steps, [&] { return function(nullptr); });
     }
     PythonControl python(progress);

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ._curves import Array, CurveLike, as_curves
+from ._curves import Array, CurveLike, as_curves, copy_of
 from ._docstrings import filled
 from ._options import Preset
 from .deviations import Deviation, deviation
@@ -143,7 +143,7 @@ def compare(
     >>> print(curvewise.compare(P, Q, measures=["area"]).deviations["area"])
     mean 54.09 (4 %), largest 99.3 (7.3 %)
     """
-    P, Q = (curve.copy() for curve in as_curves(P, Q))
+    P, Q = (copy_of(curve) for curve in as_curves(P, Q))
     if not isinstance(preset, str) or preset not in PRESETS:
         raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
     if measures is None:
