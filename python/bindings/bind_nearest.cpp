@@ -43,7 +43,8 @@ class BoundIndex {
         const Curves added(curves);
         // It may have to wait for searches, however few the curves are.
         const double work = std::max(reading(added), steps_worth_watching);
-        interruptible(work, py::none(), [&](Control* control) { index_.add(added.views, control); });
+        interruptible(work, py::none(),
+                      [&](Control* control) { index_.add(added.views, control); });
         note_longest(added);
     }
     std::size_t size() const {

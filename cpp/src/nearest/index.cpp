@@ -15,6 +15,7 @@
 #include "curvewise/nearest.hpp"
 #include "nearest/neighbor_search.hpp"
 #include "pairwise/batch.hpp"
+#include "runtime/room.hpp"
 #include "runtime/workers.hpp"
 
 namespace curvewise {
@@ -141,8 +142,10 @@ class Index::State {
         }
         poller.finish();  // the last that may throw Stopped
         for (const OwnedCurve& curve : owned) sizes_.insert(curve.view().size());
-        curves_.insert(curves_.end(), std::make_move_iterator(owned.begin()),
-                       std::make_move_iterator(owned.end()));
+        detail::make_room(curves_, owned.size());
+        targets_->make_room(*added);
+        // Nothing fails from here on.
+        detail::move_behind(curves_, owned);
         targets_->take(*added);
     }
 
