@@ -48,7 +48,7 @@ class BoundIndex {
         note_longest(added);
     }
     std::size_t size() const {
-        const py::gil_scoped_release unlocked;
+        const WithoutLock unlocked;
         return index_.size();
     }
     py::list curves() const {
@@ -127,7 +127,7 @@ class BoundIndex {
     }
 
     std::vector<CurveView> views() const {
-        const py::gil_scoped_release unlocked;
+        const WithoutLock unlocked;
         return index_.curves();
     }
 

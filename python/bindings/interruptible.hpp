@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 
 #include "curvewise/control.hpp"
+#include "interpreter_lock.hpp"
 
 namespace curvewise::bindings {
 
@@ -33,13 +34,15 @@ class PythonControl {
 
     // Whether to go on.
     bool report(std::int64_t done, std::int64_t total) {
-        const py::gil_scoped_acquire lock;
-        if (handles_signals_ && PyErr_CheckSignals() != 0) return false;
-        if (progress_.is_none()) return true;
-        PyObject* const result = PyObject_CallFunction(
-            progress_.ptr(), "LL", static_cast<long long>(done), static_cast<long long>(total));
-        Py_XDECREF(result);
-        return result != nullptr;
+        const WithLock lock;
+        return or_stand_still([&] {
+            if (handles_signals_ && PyErr_CheckSignals() != 0) return false;
+            if (progress_.is_none()) return true;
+            PyObject* const result = PyObject_CallFunction(
+                progress_.ptr(), "LL", static_cast<long long>(done), static_cast<long long>(total));
+            Py_XDECREF(result);
+            return result != nullptr;
+        });
     }
 
     const py::object& progress_;
@@ -58,7 +61,7 @@ inline constexpr double steps_worth_watching = 5e5;
 template <class Function>
 auto unlocked(double steps, Function function) {
     if (steps < steps_worth_unlocking) return function();
-    const py::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     return function();
 }
 
@@ -71,7 +74,7 @@ auto interruptible(double steps, const py::object& progress, Function function) 
     }
     PythonControl python(progress);
     try {
-        const py::gil_scoped_release unlocked;
+        const WithoutLock unlocked;
         return function(python.control());
     } catch (const Stopped&) {
         throw py::error_already_set();
