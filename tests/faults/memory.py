@@ -3,7 +3,7 @@
 A call must raise MemoryError, or return what it returns otherwise; nothing else may come, and a
 short call after it is right. Linux only: RLIMIT_AS is not kept elsewhere.
 
-    python tests/faults/memory.py [--limits 40]
+    python tests/faults/memory.py [--limits 40] [--points 200000]
 """
 
 from __future__ import annotations
@@ -20,8 +20,6 @@ import numpy as np
 
 import curvewise
 
-POINTS = 200_000
-
 # Otherwise glibc keeps what is freed, and room for threads; the next call needs none of the system's.
 GIVEN_BACK = {
     "MALLOC_ARENA_MAX": "1",
@@ -34,8 +32,8 @@ def walk(n: int, seed: int, dim: int = 2) -> np.ndarray:
     return np.random.default_rng(seed).normal(size=(n, dim)).cumsum(axis=0)
 
 
-def calls() -> dict[str, Callable[[], object]]:
-    P, Q = walk(POINTS, 1), walk(POINTS, 1) + 0.01
+def calls(points: int) -> dict[str, Callable[[], object]]:
+    P, Q = walk(points, 1), walk(points, 1) + 0.01
     few, some = walk(300, 3), walk(2_000, 4)
     many = [walk(20_000, seed)[: 50 + seed] for seed in range(40)]
     index = curvewise.Index(many)
@@ -50,8 +48,8 @@ def calls() -> dict[str, Callable[[], object]]:
         ).sum(),
         "dtw": lambda: curvewise.dtw(P, few),
         "dtw, pruned": lambda: curvewise.dtw(P, Q),
-        "dtw, 3 workers": lambda: curvewise.dtw(some, P[:20_000], workers=3, prune=False),
-        "dtw_path": lambda: curvewise.dtw_path(few, P[:20_000]).path[1234],
+        "dtw, 3 workers": lambda: curvewise.dtw(some, P[:10_000], workers=3, prune=False),
+        "dtw_path": lambda: curvewise.dtw_path(few, P[:10_000]).path[1234],
         "dtw_table": lambda: curvewise.dtw_table(some, some[:1_000])[-1, -1],
         "frechet_path": lambda: curvewise.frechet_path(P, Q).path[1234],
         "frechet_continuous": lambda: curvewise.frechet_continuous(P, Q),
@@ -66,7 +64,7 @@ def calls() -> dict[str, Callable[[], object]]:
         "Prepared": lambda: curvewise.Prepared(P, "frechet")(few),
         "Index": lambda: len(curvewise.Index([P, Q])),
         "kneighbors, 2 workers": lambda: index.kneighbors(n_neighbors=3, workers=2)[0].sum(),
-        "subsequence": lambda: curvewise.subsequence(few, P[:20_000], k=2)[1].start,
+        "subsequence": lambda: curvewise.subsequence(few, P[:10_000], k=2)[1].start,
         "dtw_mean": lambda: curvewise.dtw_mean(many[:5], iterations=2).costs[-1],
         "compare": lambda: curvewise.compare(P[:5_000], Q[:5_000]).to_dict()["dtw"],
     }
@@ -96,11 +94,13 @@ def main() -> int:
         os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | GIVEN_BACK)
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--limits", type=int, default=40)
-    limits = parser.parse_args().limits
+    parser.add_argument("--points", type=int, default=200_000)
+    arguments = parser.parse_args()
+    limits = arguments.limits
     P, Q = walk(100, 8), walk(90, 9)
     expected = curvewise.dtw(P, Q), curvewise.area(P, Q)
     tried = refused = wrong = 0
-    for name, call in calls().items():
+    for name, call in calls(arguments.points).items():
         value = call()
         refusals = 0
         # From 0 to 64 MB, most of them small.

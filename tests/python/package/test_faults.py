@@ -13,7 +13,7 @@ import pytest
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "faults"
 RUNS = {
-    "memory": ["memory.py", "--limits", "2"],
+    "memory": ["memory.py", "--limits", "2", "--points", "10000"],
     "disks": ["disks.py", "--times", "1"],
     "endings": ["endings.py", "--times", "1", "--only", "exit"],
 }
