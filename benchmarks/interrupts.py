@@ -43,6 +43,8 @@ def latency(call: Callable[[], object], delay: float) -> float | None:
         timer.start()
         is_begun = True
         call()
+        if sent and time.perf_counter() - sent[0] > LIMIT:
+            return time.perf_counter() - sent[0]  # it went on to its end
         timer.cancel()
         timer.join()  # the signal may come here
     except KeyboardInterrupt:
