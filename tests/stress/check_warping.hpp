@@ -382,7 +382,7 @@ void check_subsequences(Choices& choices, const Judge& judge, const Options& opt
     const textbook::Rules rules = rules_of(options, P.size(), Q.size());
     std::vector<Piece> pieces{{0, Q.size()}};
     const auto found = curvewise::subsequences(P, Q, choices.between(1, 3), options);
-    // Of runs, the library scales both curves once by all of Q.
+    // The library scales once, by all of Q, and a run by itself may be scaled otherwise.
     if (textbook::range_exponent(P, Q) != 0) return;
     for (const curvewise::Subsequence& run : found) {
         double best = infinity;
@@ -392,7 +392,8 @@ void check_subsequences(Choices& choices, const Judge& judge, const Options& opt
                 double ending_here = infinity;
                 for (std::ptrdiff_t first = piece.begin; first <= last; ++first) {
                     ending_here = std::min(
-                        ending_here, textbook::value(P, Q.part(first, last + 1), rules));
+                        ending_here,
+                        textbook::unscaled_value(P, Q.part(first, last + 1), rules));
                 }
                 if (ending_here < best || (ending_here == best && last < stop)) {
                     best = ending_here;
@@ -413,8 +414,9 @@ void check_subsequences(Choices& choices, const Judge& judge, const Options& opt
             left.push_back({run.stop + 1, piece.end});
         }
         pieces = std::move(left);
-        const double own = textbook::value(P, Q.part(run.start, run.stop + 1), rules);
-        judge.value("distance from the run", own, best, with);
+        judge.value("distance from the run",
+                    textbook::unscaled_value(P, Q.part(run.start, run.stop + 1), rules), best,
+                    with);
     }
 }
 
@@ -474,7 +476,7 @@ inline std::ptrdiff_t check_large(Choices& choices, Record& record) {
     const auto check = [&](const char* measure, auto options) {
         const Judge judge(record, measure, options.ground);
         const double value =
-            textbook::value_of_large(P, Q, rules_of(options, P.size(), Q.size())) /
+            textbook::unscaled_value(P, Q, rules_of(options, P.size(), Q.size())) /
             divisor(options, P.size(), Q.size());
         judge.value("value of a large pair", single(options, P, Q), value, with);
         options.cutoff = any_cutoff(choices, value);

@@ -18,6 +18,7 @@
 #include <string>
 
 #include "check_continuous.hpp"
+#include "check_more.hpp"
 #include "check_planar.hpp"
 #include "check_warping.hpp"
 #include "choices.hpp"
@@ -36,7 +37,8 @@ struct Run {
     Record record;
 };
 
-// Half of the rounds are the sweeps', whose code differs from level to level.
+// Most rounds are the sweeps', whose code differs from level to level. A round of the continuous
+// distance, whose extremes take numbers of thousands of bits, takes as long as a hundred of them.
 void play(Run& run) {
     stress::RandomChoices choices(run.seed, run.round);
     run.record.begin("--seed " + std::to_string(run.seed) + " --round " +
@@ -46,15 +48,19 @@ void play(Run& run) {
         run.pairs_of[part] += pairs;
     };
     try {
+        const std::uint64_t place = run.round % 32;
         if (run.round % 4096 == 0) {
             count("dtw and frechet, large", stress::check_large(choices, run.record));
-        } else if (run.round % 8 < 4) {
-            count("dtw and frechet", stress::check_warping(choices, run.record));
-        } else if (run.round % 8 < 6) {
+        } else if (place == 1) {
             count("frechet_continuous", stress::check_continuous(choices, run.record));
-        } else {
+        } else if (place < 6) {
             count("area, pcm, curve_length, pointwise",
                   stress::check_planar(choices, run.record));
+        } else if (place < 10) {
+            count("means, gradients, compare, stopping",
+                  stress::check_more(choices, run.record));
+        } else {
+            count("dtw and frechet", stress::check_warping(choices, run.record));
         }
     } catch (const std::exception& error) {
         run.record.is_true("no exception", false, {}, error.what());

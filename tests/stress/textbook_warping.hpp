@@ -197,8 +197,8 @@ inline double value(const Curve& P, const Curve& Q, const Rules& rules) {
     return answer(P, Q, rules).value;
 }
 
-// The value alone, row by row, for tables that would not fit into the caches.
-inline double value_of_large(const Curve& P, const Curve& Q, const Rules& rules) {
+// The value alone, row by row, for tables that would not fit into the caches; not scaled.
+inline double unscaled_value(const Curve& P, const Curve& Q, const Rules& rules) {
     std::vector<double> above(static_cast<std::size_t>(Q.size()), infinity), row = above;
     for (std::ptrdiff_t i = 0; i < P.size(); ++i, std::swap(above, row)) {
         for (std::ptrdiff_t j = 0; j < Q.size(); ++j) {
