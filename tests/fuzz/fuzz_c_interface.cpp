@@ -27,14 +27,15 @@ void require(bool holds, const char* what) {
 class AnyCurve {
    public:
     explicit AnyCurve(Choices& choices) {
-        const std::ptrdiff_t n = choices.one_in(16) ? choices.between(-1, 0) : choices.between(1, 9);
+        const std::ptrdiff_t n =
+            choices.one_in(16) ? choices.between(-1, 0) : choices.between(1, 9);
         const std::ptrdiff_t dim = choices.one_in(8) ? choices.between(-1, 4) : 2;
         const std::ptrdiff_t gap = choices.index(3);
         const auto count = static_cast<std::size_t>(n > 0 && dim > 0 ? n * (dim + gap) : 1);
         const bool is_small = !choices.one_in(3);
         for (std::size_t k = 0; k < count; ++k) {
-            const double value = is_small ? static_cast<double>(choices.between(-4, 4)) / 2
-                                          : choices.any_double();
+            const double value =
+                is_small ? static_cast<double>(choices.between(-4, 4)) / 2 : choices.any_double();
             numbers_.push_back(value);
         }
         curve_ = {numbers_.data(), n, dim, dim + gap, 1};
@@ -166,9 +167,9 @@ void check_normalize(Choices& choices) {
     const AnyCurve P(choices), C(choices);
     std::vector<double> out(64, untouched);
     curvewise_error error;
-    check_status(curvewise_normalize(P.get(), C.get(), choices.one_in(16) ? nullptr : out.data(),
-                                     &error),
-                 error);
+    check_status(
+        curvewise_normalize(P.get(), C.get(), choices.one_in(16) ? nullptr : out.data(), &error),
+        error);
 }
 
 void check_batch(Choices& choices) {

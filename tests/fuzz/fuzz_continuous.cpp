@@ -1,4 +1,5 @@
-// Frechet_continuous, its bounds, decisions and matchings: against the textbook (tests/stress/check_continuous.hpp).
+// Frechet_continuous, its bounds, decisions and matchings: against the textbook
+// (tests/stress/check_continuous.hpp).
 #include "check_continuous.hpp"
 #include "fuzz_target.hpp"
 

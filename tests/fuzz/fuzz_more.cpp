@@ -1,4 +1,5 @@
-// Means, gradients, compare, and calls that are stopped: against the textbook (tests/stress/check_more.hpp).
+// Means, gradients, compare, and calls that are stopped: against the textbook
+// (tests/stress/check_more.hpp).
 #include "check_more.hpp"
 #include "fuzz_target.hpp"
 

@@ -1,4 +1,5 @@
-// Area, pcm, curve_length and the pointwise measures: against the textbook (tests/stress/check_planar.hpp).
+// Area, pcm, curve_length and the pointwise measures: against the textbook
+// (tests/stress/check_planar.hpp).
 #include "check_planar.hpp"
 #include "fuzz_target.hpp"
 

@@ -3,9 +3,9 @@
     python tests/fuzz/fuzz_read_curve.py --seconds 60
 
 With atheris (pip install atheris) libFuzzer steers by the coverage of the reader; without it bytes
-are changed at random. Every input is read twice: by numpy's parser where the reader takes that short
-cut, and cell by cell, which decides; both must give the same numbers to the last bit. Seeds stand in
-corpus/read_curve. Ends with 1, and the bytes in crash-*, where anything was wrong.
+are changed at random. Every input is read twice: by numpy's parser where the reader takes that
+short cut, and cell by cell, which decides; both must give the same numbers to the last bit. Seeds
+stand in corpus/read_curve. Ends with 1, and the bytes in crash-*, where anything was wrong.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ WORDS += ("\u0661\u0662".encode(), "\u2028".encode(), b"\x0c", b"\x1c", b"\xa0",
 COLUMNS = (None, [1], [2, 1], ["strain", "stress"], [1, 2, 3])
 
 
-class Wrong(Exception):
+class ReadingError(Exception):
     """What was read is not what it should be."""
 
 
@@ -51,15 +51,15 @@ def check(data: bytes, path: Path) -> None:
     except ValueError as error:
         text = str(error)
         if "\n" in text or path.name not in text:
-            raise Wrong(f"a message of one line that names the file: {text!r}") from error
+            raise ReadingError(f"a message of one line that names the file: {text!r}") from error
         return
     if curve.ndim != 2 or curve.dtype != np.float64 or not np.isfinite(curve).all():
-        raise Wrong(f"{curve.shape} numbers of {curve.dtype}")
+        raise ReadingError(f"{curve.shape} numbers of {curve.dtype}")
     table = csv_curves._find_layout(str(path), csv_curves._read_lines(path))
     chosen = csv_curves.choose_columns(table.file, table.names, table.width, columns)
     slowly = csv_curves._parse_cell_by_cell(table, chosen)
     if slowly.shape != curve.shape or slowly.tobytes() != curve.tobytes():
-        raise Wrong(f"numpy's parser reads {curve.tolist()}, cell by cell {slowly.tolist()}")
+        raise ReadingError(f"numpy's parser reads {curve.tolist()}, cell by cell {slowly.tolist()}")
 
 
 def changed(data: bytes, choices: random.Random) -> bytes:

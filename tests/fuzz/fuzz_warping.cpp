@@ -1,4 +1,5 @@
-// Dtw and frechet, by every way there is to them: against the textbook (tests/stress/check_warping.hpp).
+// Dtw and frechet, by every way there is to them: against the textbook
+// (tests/stress/check_warping.hpp).
 #include "check_warping.hpp"
 #include "fuzz_target.hpp"
 

@@ -43,14 +43,13 @@ class ContinuousCheck {
         const int high = compare_with_root(bounds.high, square);
         // The least double that is not below the root, and the largest that is not above it.
         record_.is_true("frechet_continuous in whole numbers",
-                        low <= 0 && high >= 0 && (low == 0) == (high == 0) &&
-                            bounds.high == value_,
+                        low <= 0 && high >= 0 && (low == 0) == (high == 0) && bounds.high == value_,
                         with_, Record::both(bounds.low, bounds.high));
         const int k = static_cast<int>(choices_.between(-1000, 900));
-        record_.same("frechet_continuous times a power of two",
-                     curvewise::frechet_continuous(P_.times_power_of_two(k),
-                                                   Q_.times_power_of_two(k)),
-                     std::ldexp(value_, k), with_);
+        record_.same(
+            "frechet_continuous times a power of two",
+            curvewise::frechet_continuous(P_.times_power_of_two(k), Q_.times_power_of_two(k)),
+            std::ldexp(value_, k), with_);
         Curve p = P_, q = Q_;
         const double far = std::ldexp(1.0, static_cast<int>(choices_.between(3, 49)));
         for (Curve* curve : {&p, &q}) {
@@ -76,8 +75,7 @@ class ContinuousCheck {
         if (value_ == 0.0) return;
         const Real below = std::nextafter(value_, 0.0);
         record_.is_true("frechet_continuous not longer, in 113 bits",
-                        !is_long_enough(textbook::RealRule(below * (1 - a_little)), P_, Q_),
-                        with_);
+                        !is_long_enough(textbook::RealRule(below * (1 - a_little)), P_, Q_), with_);
     }
 
     void check_bounds() const {
@@ -122,12 +120,11 @@ class ContinuousCheck {
 
     void check_matching() const {
         const curvewise::Matching found = curvewise::frechet_continuous_path(P_, Q_);
-        bool holds = found.distance >= value_ &&
-                     found.distance <= value_ * (1.0 + 1e-12) + 1e-13 &&
-                     found.parameters.front() == std::array<double, 2>{0.0, 0.0} &&
-                     found.parameters.back() ==
-                         std::array<double, 2>{static_cast<double>(P_.size() - 1),
-                                               static_cast<double>(Q_.size() - 1)};
+        bool holds =
+            found.distance >= value_ && found.distance <= value_ * (1.0 + 1e-12) + 1e-13 &&
+            found.parameters.front() == std::array<double, 2>{0.0, 0.0} &&
+            found.parameters.back() == std::array<double, 2>{static_cast<double>(P_.size() - 1),
+                                                             static_cast<double>(Q_.size() - 1)};
         for (std::size_t k = 1; k < found.parameters.size(); ++k) {
             for (std::size_t side = 0; side < 2; ++side) {
                 const double from = found.parameters[k - 1][side];

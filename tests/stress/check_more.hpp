@@ -1,7 +1,7 @@
-// What is made of the measures: the mean of curves under dtw, round by round against its definition;
-// the gradients of dtw and frechet against the textbook's path; compare against the measures that it
-// names; decisions of the discrete Fréchet distance; and calls that are stopped, which either throw
-// Stopped or return what they would have returned.
+// What is made of the measures: the mean of curves under dtw, round by round against its
+// definition; the gradients of dtw and frechet against the textbook's path; compare against the
+// measures that it names; decisions of the discrete Fréchet distance; and calls that are stopped,
+// which either throw Stopped or return what they would have returned.
 #pragma once
 
 #include <chrono>
@@ -154,11 +154,9 @@ class MoreChecks {
         const double value = textbook::value(P, Q, rules);
         if (value < 1e-150) return;  // Squares vanish.
         record_.is_true("frechet_within, discrete",
-                        curvewise::frechet_within(P, Q, value * (1.0 + rounding), false),
-                        with_);
+                        curvewise::frechet_within(P, Q, value * (1.0 + rounding), false), with_);
         record_.is_true("frechet_within less, discrete",
-                        !curvewise::frechet_within(P, Q, value * (1.0 - rounding), false),
-                        with_);
+                        !curvewise::frechet_within(P, Q, value * (1.0 - rounding), false), with_);
     }
 
     void check_stopping() {

@@ -1,6 +1,6 @@
 // area, pcm, curve_length and the pointwise measures against the textbook (textbook_planar.hpp), to
-// a stated tolerance: 1e-12 of the value, or, where the curves nearly coincide and the value is what
-// is left of larger numbers, of the largest that it could be (box_size and its like below). On
+// a stated tolerance: 1e-12 of the value, or, where the curves nearly coincide and the value is
+// what is left of larger numbers, of the largest that it could be (box_size and its like below). On
 // curves of any kind: no nan, no failure, the same bits by every way.
 #pragma once
 
@@ -63,7 +63,8 @@ class PlanarCheck {
         return size;
     }
 
-    // Of any curves: a number, the same through C, in a batch, and by the function for all measures.
+    // Of any curves: a number, the same through C, in a batch, and by the function for all
+    // measures.
     template <class Options>
     double check_ways(const char* name, const Options& options) {
         const double value = curvewise::evaluate(options, P_, Q_);
@@ -71,8 +72,7 @@ class PlanarCheck {
         double out[2] = {-1.0, -1.0};
         const curvewise::BatchOptions batch{any_workers(choices_), any_cutoff(choices_, value)};
         curvewise::cdist({P_}, {Q_, Q_}, options, out, batch);
-        record_.same(std::string(name) + ", cdist", out[1], cut(value, batch.cutoff),
-                     with_);
+        record_.same(std::string(name) + ", cdist", out[1], cut(value, batch.cutoff), with_);
         const curvewise::Prepared prepared(P_, options);
         record_.same(std::string(name) + ", Prepared", prepared(Q_), value, with_);
         return value;
@@ -162,9 +162,9 @@ class PlanarCheck {
     void check_curve_length() {
         curvewise::CurveLengthOptions options;
         options.scale = static_cast<curvewise::LengthScale>(choices_.index(3));
-        const textbook::LengthAnswer expected =
-            is_tame_ ? textbook::curve_length(P_, Q_, options.scale)
-                     : textbook::LengthAnswer{std::nullopt, 0};
+        const textbook::LengthAnswer expected = is_tame_
+                                                    ? textbook::curve_length(P_, Q_, options.scale)
+                                                    : textbook::LengthAnswer{std::nullopt, 0};
         double value = 0.0;
         try {
             value = check_ways("curve_length", options);
@@ -188,8 +188,7 @@ class PlanarCheck {
         record_.close("curve_length_residuals", std::sqrt(sum), value, tolerance * value, with_);
         std::vector<double> gradient(Q_.values().size());
         record_.same("curve_length with its gradient",
-                     curvewise::value_and_gradient(options, P_, Q_, gradient.data()), value,
-                     with_);
+                     curvewise::value_and_gradient(options, P_, Q_, gradient.data()), value, with_);
     }
 
     void check_normalize() {
@@ -207,8 +206,7 @@ class PlanarCheck {
     void check_pointwise() {
         const double squares = curvewise::sum_of_squares(P_, Q_);
         const double mse = curvewise::mse(P_, Q_), mae = curvewise::mae(P_, Q_);
-        record_.is_true("pointwise are numbers", squares >= 0.0 && mse >= 0.0 && mae >= 0.0,
-                        with_);
+        record_.is_true("pointwise are numbers", squares >= 0.0 && mse >= 0.0 && mae >= 0.0, with_);
         std::vector<double> gradient(Q_.values().size());
         record_.same("sum_of_squares with its gradient",
                      curvewise::sum_of_squares_and_gradient(P_, Q_, gradient.data()), squares,

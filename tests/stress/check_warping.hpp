@@ -73,8 +73,7 @@ inline FrechetOptions any_frechet_options(Choices& choices) {
 inline textbook::Rules rules_of(const DtwOptions& options, std::ptrdiff_t n, std::ptrdiff_t m) {
     textbook::Rules rules;
     rules.ground = options.ground;
-    rules.diagonal_weight =
-        options.step_pattern == curvewise::StepPattern::symmetric2 ? 2.0 : 1.0;
+    rules.diagonal_weight = options.step_pattern == curvewise::StepPattern::symmetric2 ? 2.0 : 1.0;
     rules.window = options.window;
     if (options.window_fraction) {
         rules.window = static_cast<std::ptrdiff_t>(*options.window_fraction *
@@ -115,8 +114,7 @@ inline double single(const FrechetOptions& options, const Curve& P, const Curve&
 inline curvewise::Alignment aligned(const DtwOptions& options, const Curve& P, const Curve& Q) {
     return curvewise::dtw_path(P, Q, options);
 }
-inline curvewise::Alignment aligned(const FrechetOptions& options, const Curve& P,
-                                    const Curve& Q) {
+inline curvewise::Alignment aligned(const FrechetOptions& options, const Curve& P, const Curve& Q) {
     return curvewise::frechet_path(P, Q, options);
 }
 inline curvewise::WarpingInfo info(const DtwOptions& options, const Curve& P, const Curve& Q) {
@@ -154,8 +152,8 @@ inline int call_c(const DtwOptions& options, const curvewise_curve& P, const cur
     return curvewise_dtw(&P, &Q, &given, value, nullptr);
 }
 
-inline int call_c(const FrechetOptions& options, const curvewise_curve& P,
-                  const curvewise_curve& Q, double* value) {
+inline int call_c(const FrechetOptions& options, const curvewise_curve& P, const curvewise_curve& Q,
+                  double* value) {
     const curvewise_frechet_options given = {static_cast<int>(options.ground.metric),
                                              options.ground.p, options.workers,
                                              options.prune ? 1 : 0, options.cutoff};
@@ -215,10 +213,13 @@ void check_pair(Choices& choices, const Judge& judge, Options options, const Cur
     const textbook::Answer expected = textbook::answer(P, Q, rules);
     const double value = expected.value / divisor(options, P.size(), Q.size());
     judge.value("value", single(options, P, Q), value, with);
-    judge.value("value through C", [&] {
-        double found = -1.0;
-        return call_c(options, as_c(P), as_c(Q), &found) == CURVEWISE_OK ? found : -1.0;
-    }(), value, with);
+    judge.value(
+        "value through C",
+        [&] {
+            double found = -1.0;
+            return call_c(options, as_c(P), as_c(Q), &found) == CURVEWISE_OK ? found : -1.0;
+        }(),
+        value, with);
     const curvewise::Alignment alignment = aligned(options, P, Q);
     judge.value("value of the path", alignment.distance, expected.value, with);
     if (judge.is_exact()) judge.holds("path", alignment.path == expected.path, with);
@@ -255,8 +256,8 @@ class BatchCheck {
             }
         }
         batch_.workers = any_workers(choices);
-        const auto any = static_cast<std::size_t>(
-            choices.index(static_cast<std::ptrdiff_t>(expected_.size())));
+        const auto any =
+            static_cast<std::size_t>(choices.index(static_cast<std::ptrdiff_t>(expected_.size())));
         if (judge.is_exact()) batch_.cutoff = any_cutoff(choices, expected_[any]);
     }
 
@@ -281,8 +282,8 @@ class BatchCheck {
     }
 
     void check_prepared() {
-        const auto i = static_cast<std::size_t>(
-            choices_.index(static_cast<std::ptrdiff_t>(XA_.size())));
+        const auto i =
+            static_cast<std::size_t>(choices_.index(static_cast<std::ptrdiff_t>(XA_.size())));
         const curvewise::Prepared prepared(a_[i], options_);
         std::vector<double> out(XB_.size(), -1.0);
         prepared(b_, out.data(), batch_);
@@ -315,8 +316,8 @@ class BatchCheck {
     // By a table and a stable sort.
     void check_index() {
         const curvewise::Index index(b_, options_);
-        const auto count = static_cast<std::size_t>(
-            choices_.between(1, static_cast<std::ptrdiff_t>(XB_.size())));
+        const auto count =
+            static_cast<std::size_t>(choices_.between(1, static_cast<std::ptrdiff_t>(XB_.size())));
         std::vector<double> distances(XA_.size() * count);
         std::vector<std::int64_t> places(XA_.size() * count);
         curvewise::SearchOptions search;
@@ -392,8 +393,7 @@ void check_subsequences(Choices& choices, const Judge& judge, const Options& opt
                 double ending_here = infinity;
                 for (std::ptrdiff_t first = piece.begin; first <= last; ++first) {
                     ending_here = std::min(
-                        ending_here,
-                        textbook::unscaled_value(P, Q.part(first, last + 1), rules));
+                        ending_here, textbook::unscaled_value(P, Q.part(first, last + 1), rules));
                 }
                 if (ending_here < best || (ending_here == best && last < stop)) {
                     best = ending_here;
@@ -475,9 +475,8 @@ inline std::ptrdiff_t check_large(Choices& choices, Record& record) {
     while (!textbook::is_exact(frechet.ground)) frechet.ground = {};
     const auto check = [&](const char* measure, auto options) {
         const Judge judge(record, measure, options.ground);
-        const double value =
-            textbook::unscaled_value(P, Q, rules_of(options, P.size(), Q.size())) /
-            divisor(options, P.size(), Q.size());
+        const double value = textbook::unscaled_value(P, Q, rules_of(options, P.size(), Q.size())) /
+                             divisor(options, P.size(), Q.size());
         judge.value("value of a large pair", single(options, P, Q), value, with);
         options.cutoff = any_cutoff(choices, value);
         judge.value("value of a large pair with a cutoff", single(options, P, Q),

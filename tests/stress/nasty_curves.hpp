@@ -22,14 +22,14 @@ using test::Curve;
 
 // How the coordinates of a pair are drawn.
 enum class Kind {
-    lattice,      // -3, ..., 3: most distances are equal to others
-    real,         // -1 to 1
-    offset,       // eighths beside a large number
-    zeros,        // 0, -0, the smallest and some other numbers, all tiny
-    extremes,     // any magnitude from the smallest to the largest double
-    raw,          // any finite bit pattern
-    walk,         // short steps
-    loop          // a circle or an eight, run through several times
+    lattice,   // -3, ..., 3: most distances are equal to others
+    real,      // -1 to 1
+    offset,    // eighths beside a large number
+    zeros,     // 0, -0, the smallest and some other numbers, all tiny
+    extremes,  // any magnitude from the smallest to the largest double
+    raw,       // any finite bit pattern
+    walk,      // short steps
+    loop       // a circle or an eight, run through several times
 };
 constexpr int kinds = 8;
 
@@ -82,7 +82,8 @@ class NastyCurves {
     double coordinate(const Curve& curve, std::ptrdiff_t i, std::ptrdiff_t c, double turns,
                       double growth) {
         constexpr double tiny = std::numeric_limits<double>::denorm_min();
-        constexpr double small[] = {0.0, -0.0, tiny, -tiny, 3 * tiny, 0x1p-1022, -0x1p-1022, 0x1p-530};
+        constexpr double small[] = {0.0,      -0.0,      tiny,       -tiny,
+                                    3 * tiny, 0x1p-1022, -0x1p-1022, 0x1p-530};
         switch (kind_) {
             case Kind::lattice:
                 return static_cast<double>(choices_.between(-3, 3));
@@ -163,9 +164,8 @@ class NastyCurves {
             for (std::ptrdiff_t c = 0; c < dim_; ++c) {
                 const double value =
                     std::abs(curve(i, c)) < 0x1p1000 ? size * curve(i, c) : curve(i, c);
-                result(j, c) = noise > 0.0 && is_tame(kind_)
-                                   ? value + choices_.uniform(-noise, noise)
-                                   : value;
+                result(j, c) =
+                    noise > 0.0 && is_tame(kind_) ? value + choices_.uniform(-noise, noise) : value;
             }
         }
         return result;

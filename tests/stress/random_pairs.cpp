@@ -54,11 +54,9 @@ void play(Run& run) {
         } else if (place == 1) {
             count("frechet_continuous", stress::check_continuous(choices, run.record));
         } else if (place < 6) {
-            count("area, pcm, curve_length, pointwise",
-                  stress::check_planar(choices, run.record));
+            count("area, pcm, curve_length, pointwise", stress::check_planar(choices, run.record));
         } else if (place < 10) {
-            count("means, gradients, compare, stopping",
-                  stress::check_more(choices, run.record));
+            count("means, gradients, compare, stopping", stress::check_more(choices, run.record));
         } else {
             count("dtw and frechet", stress::check_warping(choices, run.record));
         }

@@ -205,7 +205,9 @@ def main() -> int:
         print(f"{count:10} skipped  {what}")
     wrong = sum(record.wrong.values())
     level = _core.build_info()["active"]
-    print(f"level {level}: {record.next} pairs, {sum(record.compared.values())} comparisons, {wrong} wrong")
+    print(
+        f"level {level}: {record.next} pairs, {sum(record.compared.values())} comparisons, {wrong} wrong"
+    )
     return 1 if wrong else 0
 
 

@@ -1,9 +1,9 @@
-// The continuous Fréchet distance as Alt & Godau (1995) have it: the smallest of all critical values
-// for which a path leads through the free space. With coordinates that are small whole numbers
-// every critical value is the root of a quotient of whole numbers, and every decision is made in
-// 128 bits, exactly. For other coordinates there is the decision alone, with 113 bits instead of 53.
-// The library does neither: it searches between doubles. Time O((n^2 m + n m^2) log n + n m log n)
-// for curves of n and m points.
+// The continuous Fréchet distance as Alt & Godau (1995) have it: the smallest of all critical
+// values for which a path leads through the free space. With coordinates that are small whole
+// numbers every critical value is the root of a quotient of whole numbers, and every decision is
+// made in 128 bits, exactly. For other coordinates there is the decision alone, with 113 bits
+// instead of 53. The library does neither: it searches between doubles. Time O((n^2 m + n m^2) log
+// n + n m log n) for curves of n and m points.
 #pragma once
 
 #include <algorithm>
@@ -79,8 +79,7 @@ class ExactRule {
             if (!is_within(edges, i, points, j)) return std::nullopt;
             return Part{{0, 0, 0}, {0, 0, 0}};
         }
-        const Wide c =
-            b * of.along * of.along - of.length * (b * of.distance - square_.numerator);
+        const Wide c = b * of.along * of.along - of.length * (b * of.distance - square_.numerator);
         if (c < 0) return std::nullopt;
         const Position start{0, 0, 0}, end{b * of.length, 0, 0};
         Position low{b * of.along, b * c, -1}, high{b * of.along, b * c, 1};
@@ -217,14 +216,14 @@ inline std::vector<Ratio> critical_squares(const Curve& P, const Curve& Q) {
                 // The foot of the perpendicular: |w|^2 - (u.w)^2 / |u|^2.
                 squares.push_back({of.distance * of.length - of.along * of.along, of.length});
                 for (std::ptrdiff_t k = 0; k < j; ++k) {
-                    // Where the edge is as far from the one vertex as from the other, t = s / (2 r):
-                    // |w - t u|^2 = w.w - 2 t u.w + t^2 u.u.
+                    // Where the edge is as far from the one vertex as from the other, t = s / (2
+                    // r): |w - t u|^2 = w.w - 2 t u.w + t^2 u.u.
                     const Products<Wide> other(edges, i, points, k);
                     const Wide s = of.distance - other.distance, r = of.along - other.along;
                     if (r == 0) continue;
-                    squares.push_back({4 * r * r * of.distance - 4 * r * s * of.along +
-                                           s * s * of.length,
-                                       4 * r * r});
+                    squares.push_back(
+                        {4 * r * r * of.distance - 4 * r * s * of.along + s * s * of.length,
+                         4 * r * r});
                 }
             }
         }
@@ -257,8 +256,8 @@ inline int compare_with_root(double x, const Ratio& square) {
     const auto k = static_cast<Wide>(std::ldexp(std::frexp(x, &exponent), 53));
     exponent -= 53;
     // Far from it, whole numbers would overflow, and doubles are good enough.
-    const double ratio = x * x * static_cast<double>(square.denominator) /
-                         static_cast<double>(square.numerator);
+    const double ratio =
+        x * x * static_cast<double>(square.denominator) / static_cast<double>(square.numerator);
     if (ratio < 0.5 || ratio > 2.0) return ratio < 1.0 ? -1 : 1;
     const Wide left = k * k * square.denominator;
     const Wide right = square.numerator << (-2 * exponent);

@@ -48,8 +48,8 @@ inline Points bisected(const Points& curve, std::size_t count, curvewise::Spacin
     std::vector<Part> parts;
     for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
         const double dx = curve[i + 1].x - curve[i].x, dy = curve[i + 1].y - curve[i].y;
-        const double length = spacing == curvewise::Spacing::x ? std::abs(dx)
-                                                               : std::sqrt(dx * dx + dy * dy);
+        const double length =
+            spacing == curvewise::Spacing::x ? std::abs(dx) : std::sqrt(dx * dx + dy * dy);
         parts.push_back({i, 0.0, 1.0, to_34_bits(length)});
     }
     for (std::size_t k = 0; k < count; ++k) {
@@ -240,8 +240,7 @@ inline PcmAnswer pcm(const Curve& P, const Curve& Q, std::ptrdiff_t offsets, Lon
         Long sum = 0, before = 0;
         for (std::size_t i = 0; i < shorter.points.size(); ++i) {
             const auto q = longer.at(std::min(shorter.lengths[i] + o, T));
-            const Long d =
-                std::hypot(q[0] - shorter.points[i][0], q[1] - shorter.points[i][1]);
+            const Long d = std::hypot(q[0] - shorter.points[i][0], q[1] - shorter.points[i][1]);
             if (i > 0) sum += (before + d) / 2 * (shorter.lengths[i] - shorter.lengths[i - 1]);
             before = d;
         }
@@ -295,8 +294,7 @@ inline LengthAnswer curve_length(const Curve& P, const Curve& Q, curvewise::Leng
         condition = std::max(condition, largest / std::abs(divisor));
         for (std::ptrdiff_t i = 0; i < P.size(); ++i) {
             const Long s = p.lengths[static_cast<std::size_t>(i)] / p.lengths.back();
-            const auto [k, t] = q.place(i + 1 < P.size() ? s * q.lengths.back()
-                                                         : q.lengths.back());
+            const auto [k, t] = q.place(i + 1 < P.size() ? s * q.lengths.back() : q.lengths.back());
             const auto at = static_cast<std::ptrdiff_t>(k);
             const Long there = Q(at, c) + t * (static_cast<Long>(Q(at + 1, c)) - Q(at, c));
             const Long r = std::log1p(std::abs((there - P(i, c)) / divisor));

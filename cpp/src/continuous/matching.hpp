@@ -32,8 +32,8 @@ class LeashMeasure {
         : diagram_(diagram), radius_(radius), poller_(poller) {}
 
     // The least double that is not below the radius nor below the leash of any row. Rows that the
-    // radius is too short for are first moved by a unit in the last place, if that helps; except for
-    // those at vertices of both curves, before and behind which walks are on different edges.
+    // radius is too short for are first moved by a unit in the last place, if that helps; except
+    // for those at vertices of both curves, before and behind which walks are on different edges.
     double longest(MatchedParameters& matched) const {
         double longest = radius_.given();
         for (std::size_t k = 1; k + 1 < matched.size(); ++k) {

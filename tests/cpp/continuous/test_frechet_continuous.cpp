@@ -213,8 +213,8 @@ void longer_curves() {
     }
 }
 
-// Curves that differ in their last bits: the leash is shorter than a parameter can be told, and rows
-// may not be moved off a vertex to where the walk is on another edge.
+// Curves that differ in their last bits: the leash is shorter than a parameter can be told, and
+// rows may not be moved off a vertex to where the walk is on another edge.
 void curves_that_nearly_coincide() {
     const Curve P{{-0.0453304722905159, 0.030887983553111564},
                   {-0.065635706065222621, 0.10309095648117364},
