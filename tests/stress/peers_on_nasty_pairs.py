@@ -28,15 +28,16 @@ import curvewise
 
 Call = Callable[[Array, Array], float]
 
+GOOD = np.array([[0.0, 0], [1, 1], [2, 0]])
 BAD = {
-    "a nan in Q": (np.array([[0.0, 0], [1, 1], [2, 0]]), np.array([[0.0, 0], [1, np.nan], [2, 0]])),
-    "all of Q nan": (np.array([[0.0, 0], [1, 1], [2, 0]]), np.full((3, 2), np.nan)),
+    "a nan in Q": (GOOD, np.array([[0.0, 0], [1, np.nan], [2, 0]])),
+    "all of Q nan": (GOOD, np.full((3, 2), np.nan)),
     "an infinity": (
         np.array([[0.0, 0], [1, 1], [2, 0]]),
         np.array([[0.0, 0], [np.inf, 1], [2, 0]]),
     ),
-    "no points": (np.array([[0.0, 0], [1, 1], [2, 0]]), np.empty((0, 2))),
-    "x, y and z": (np.array([[0.0, 0], [1, 1], [2, 0]]), np.array([[0.0, 0, 5], [1, 1, 9]])),
+    "no points": (GOOD, np.empty((0, 2))),
+    "x, y and z": (GOOD, np.array([[0.0, 0, 5], [1, 1, 9]])),
 }
 
 

@@ -4,9 +4,9 @@
 
 dtw and frechet, their paths and tables, and both ends of frechet_continuous to the last bit; the
 other measures to 1e-12 of the value, or, where curves nearly coincide and the value is what is left
-of larger numbers, of the largest that it could be; and every refusal in the same words. A run can be
-stopped, and goes on from its state. The reference takes milliseconds a pair, so this is the small
-run; random_pairs.cpp is the large one. Ends with 1 where anything was wrong.
+of larger numbers, of the largest that it could be; and every refusal in the same words. A run can
+be stopped, and goes on from its state. The reference takes milliseconds a pair, so this is the
+small run; random_pairs.cpp is the large one. Ends with 1 where anything was wrong.
 """
 
 from __future__ import annotations
@@ -205,9 +205,8 @@ def main() -> int:
         print(f"{count:10} skipped  {what}")
     wrong = sum(record.wrong.values())
     level = _core.build_info()["active"]
-    print(
-        f"level {level}: {record.next} pairs, {sum(record.compared.values())} comparisons, {wrong} wrong"
-    )
+    compared = sum(record.compared.values())
+    print(f"level {level}: {record.next} pairs, {compared} comparisons, {wrong} wrong")
     return 1 if wrong else 0
 
 
