@@ -4,7 +4,7 @@
     python tests/mutation/mutate.py --only pruned    # those whose description or file says so
 
 Works on a copy of the sources in build/mutants, so nothing here is touched; builds no more than the
-tests that a mutant names, at -O1, and ends each at its first failure. A mutant that does not
+tests that a mutant names, and ends at the first that fails. A mutant that does not
 compile, or whose text is not there exactly once, is an error of the list. Ends with 1 where one
 survives. Needs Python 3.11, CMake and Ninja; ccache is used if CMAKE_CXX_COMPILER_LAUNCHER says so.
 """
@@ -41,7 +41,7 @@ def copy_sources() -> None:
 
 def configure() -> None:
     """Configure the copy."""
-    options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1"]
+    options = ["-DCMAKE_BUILD_TYPE=Release"]
     options += ["-DCURVEWISE_BUILD_TESTS=ON", "-DCURVEWISE_INSTALL=OFF"]
     subprocess.run(
         ["cmake", "-S", COPY, "-B", COPY / "build", "-G", "Ninja", *options],
