@@ -380,7 +380,11 @@ void check_subsequences(Choices& choices, const Judge& judge, const Options& opt
     struct Piece {
         std::ptrdiff_t begin, end;
     };
-    const textbook::Rules rules = rules_of(options, P.size(), Q.size());
+    textbook::Rules rules = rules_of(options, P.size(), Q.size());
+    // Which of two runs is the better is decided by squares, of which fewer are equal.
+    const bool by_squares = rules.largest && textbook::is_euclidean(rules.ground) && P.dim() > 1;
+    if (by_squares) rules.ground = {curvewise::Metric::sqeuclidean};
+    const auto distance = [&](double value) { return by_squares ? std::sqrt(value) : value; };
     std::vector<Piece> pieces{{0, Q.size()}};
     const auto found = curvewise::subsequences(P, Q, choices.between(1, 3), options);
     // The library scales once, by all of Q, and a run by itself may be scaled otherwise.
@@ -401,7 +405,7 @@ void check_subsequences(Choices& choices, const Judge& judge, const Options& opt
                 }
             }
         }
-        judge.value("distance of a run", run.distance, best, with);
+        judge.value("distance of a run", run.distance, distance(best), with);
         judge.holds("stop of a run", run.stop == stop, with);
         std::vector<Piece> left;
         for (const Piece& piece : pieces) {

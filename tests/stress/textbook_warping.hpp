@@ -42,6 +42,11 @@ inline bool is_exact(const GroundDistance& ground) {
            std::isinf(ground.p);
 }
 
+inline bool is_euclidean(const GroundDistance& ground) {
+    return ground.metric == Metric::euclidean ||
+           (ground.metric == Metric::minkowski && ground.p == 2.0);
+}
+
 inline double largest_coordinate(const Curve& curve) {
     double largest = 0.0;
     for (const double x : curve.values()) largest = std::max(largest, std::abs(x));
@@ -175,10 +180,7 @@ inline Answer answer(const Curve& P, const Curve& Q, const Rules& rules) {
     Table t = filled(p, q, rules);
     Answer found;
     found.value = t.cost(t.n - 1, end_of(t, rules));
-    const GroundDistance& ground = rules.ground;
-    const bool is_euclidean = ground.metric == Metric::euclidean ||
-                              (ground.metric == Metric::minkowski && ground.p == 2.0);
-    if (rules.largest && is_euclidean && P.dim() > 1) {
+    if (rules.largest && is_euclidean(rules.ground) && P.dim() > 1) {
         Rules squared = rules;
         squared.ground = {Metric::sqeuclidean};
         Table of_squares = filled(p, q, squared);
