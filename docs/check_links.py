@@ -1,8 +1,9 @@
-"""Follow every link of the built site: python docs/check_links.py build/site
+"""Follow every link of the built site: ``python docs/check_links.py build/site``.
 
-Each link, picture, script and style sheet of each page must lead to a file of the site, and each anchor
-to an element that has its id. Addresses of other servers are counted and listed by --list; `sphinx-build
--b linkcheck` asks those servers. Exit status 1 if a link is broken. Takes a few seconds.
+Each link, picture, script and style sheet of a page must lead to a file of the site, and each
+anchor to an element that has its id. Addresses of other servers are counted, and listed by --list;
+``sphinx-build -b linkcheck`` asks those servers. Exit status 1 if a link is broken. Takes a few
+seconds.
 """
 
 from __future__ import annotations
@@ -45,7 +46,8 @@ def read(page: Path) -> _Page:
 
 def check(site: Path) -> tuple[int, list[str], set[str]]:
     """Return the number of links within the site, what is wrong with them, and the others."""
-    pages = {page: read(page) for page in sorted(site.rglob("*.html"))}
+    written = [page for page in sorted(site.rglob("*.html")) if "_static" not in page.parts]
+    pages = {page: read(page) for page in written}
     internal, broken, external = 0, [], set()
     for page, parsed in pages.items():
         for line, link in parsed.links:

@@ -93,6 +93,8 @@ sphinx_gallery_conf = {
     "min_reported_time": 5,
     "remove_config_comments": True,
     "copyfile_regex": "",
+    "show_signature": False,
+    "write_computation_times": False,
 }
 
 html_theme = "pydata_sphinx_theme"
@@ -103,7 +105,11 @@ html_static_path = ["_static"]
 html_css_files = ["curvewise.css"]
 html_show_sourcelink = False
 html_theme_options = {
-    "logo": {"image_light": "_static/curvewise.svg", "text": "curvewise"},
+    "logo": {
+        "image_light": "_static/curvewise.svg",
+        "image_dark": "_static/curvewise.svg",
+        "text": "curvewise",
+    },
     "header_links_before_dropdown": 7,
     "show_toc_level": 2,
     "show_nav_level": 1,
@@ -111,6 +117,7 @@ html_theme_options = {
     "footer_start": ["copyright"],
     "footer_end": ["sphinx-version"],
 }
+html_context = {"default_mode": "auto"}
 html_sidebars = {"index": [], "getting_started": []}
 
 # "sphinx-build -b linkcheck" asks these servers; publishers' refuse what is no browser.
