@@ -93,6 +93,7 @@ sphinx_gallery_conf = {
     "min_reported_time": 5,
     "remove_config_comments": True,
     "copyfile_regex": "",
+    "image_scrapers": ("matplotlib", "figures.plain_figures"),
     "show_signature": False,
     "write_computation_times": False,
 }
@@ -112,7 +113,7 @@ html_theme_options = {
     },
     "header_links_before_dropdown": 7,
     "show_toc_level": 2,
-    "show_nav_level": 1,
+    "navigation_depth": 2,  # of a module's forty functions its own page has the list
     "navigation_with_keys": False,
     "footer_start": ["copyright"],
     "footer_end": ["sphinx-version"],
