@@ -1,8 +1,8 @@
 """Pictures for the gallery that do not come from pyplot.
 
-The package's own plots are plain figures of matplotlib, so that no window or memory is kept for them.
-sphinx-gallery looks for figures of pyplot only; this takes the others, by the names that an example
-gives them.
+The package's own plots are plain figures of matplotlib, so that no window or memory is kept for
+them. sphinx-gallery looks for figures of pyplot only; this takes the others, by the names that an
+example gives them.
 """
 
 from __future__ import annotations
