@@ -64,7 +64,8 @@ py::tuple as_tuple(AreaQuads&& found) {
 py::tuple as_tuple(PcmMatch&& match) {
     const auto count = static_cast<py::ssize_t>(match.points.size());
     return py::make_tuple(match.value, match.offset, match.coverage, match.maps_p ? "P" : "Q",
-                          owning_array<double>(std::move(match.points), {count, py::ssize_t{2}}));
+                          owning_array<double>(std::move(match.points), {count, py::ssize_t{2}}),
+                          match.tolerance);
 }
 
 py::tuple as_tuple(WarpingInfo&& info) {
@@ -148,8 +149,9 @@ py::tuple gradient_by_name(const std::string& measure, const CurveArray& P, cons
     }
     return value_with_gradient(Q, [&](double* gradient) {
         const CurveView p = view(P), q = view(Q);
-        return unlocked(static_cast<double>(P.size()),
-                        [&] { return sum_of_squares_and_gradient(p, q, gradient); });
+        return interruptible(static_cast<double>(P.size()), py::none(), [&](Control* control) {
+            return sum_of_squares_and_gradient(p, q, gradient, control);
+        });
     });
 }
 

@@ -24,6 +24,7 @@ __all__ = [
     "as_curves",
     "check_column_names",
     "column_names",
+    "copy_of",
     "warn_if_transposed",
 ]
 
@@ -32,6 +33,7 @@ CurveLike: TypeAlias = npt.ArrayLike
 """Anything ``numpy.asarray`` turns into a real array of shape (n, d) or (n,)."""
 
 _FLOAT64 = np.dtype(np.float64)
+_ROWS_AT_ONCE = 2**20
 # What is taken for x and y in rows. The binding has the same two numbers (numpy_view.hpp).
 _FEW_POINTS, _MANY_COORDINATES = 3, 10
 _MAY_HOLD_MASKED = (np.ma.MaskedArray, list, tuple)
@@ -112,7 +114,15 @@ def _has_masked(curve: Any, depth: int = 2) -> bool:
 
 
 def _aligned(array: Array) -> Array:
-    return array if array.flags.aligned else array.copy()
+    return array if array.flags.aligned else copy_of(array)
+
+
+def copy_of(curve: Array) -> Array:
+    """Return a copy, made piece by piece: Ctrl-C is heard between them, and inside numpy it is not."""
+    copy = np.empty(curve.shape)
+    for first in range(0, len(curve), _ROWS_AT_ONCE):
+        copy[first : first + _ROWS_AT_ONCE] = curve[first : first + _ROWS_AT_ONCE]
+    return copy
 
 
 def as_curves(P: Any, Q: Any) -> tuple[Array, Array]:

@@ -133,8 +133,11 @@ def _advice_on_columns(frame: Any) -> str:
 
 
 def column_names(curve: Any) -> list[Any]:
-    """Return the names of a table's columns; nothing for anything else."""
-    if type(curve) is np.ndarray:
+    """Return the names of a table's columns; nothing for anything else, nor for an array.
+
+    An array that knows what its columns are called (named_curve.py) does so for pictures alone.
+    """
+    if isinstance(curve, np.ndarray):
         return []
     names = getattr(curve, "column_names", None)  # pyarrow: its columns are the values
     return list(getattr(curve, "columns", []) if names is None else names)

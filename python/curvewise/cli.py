@@ -31,8 +31,10 @@ from .compare import PRESETS, Comparison, compare
 from .curve_files import read_named_columns
 from .datasets import hysteresis_pair
 from .embedding import get_cmake_dir, get_include
+from .identify_command import add_identify
 from .measures import curve_length_residuals, normalize
 from .measures.registry import MEASURES
+from .report_command import add_report
 
 __all__ = ["main"]
 
@@ -177,9 +179,13 @@ def _parser() -> argparse.ArgumentParser:
         help="write to the --output file the terms of curve_length, for least squares, instead",
     )
 
+    add_identify(commands)
+
     command = commands.add_parser("demo", help="compare the built-in hysteresis loops")
     command.set_defaults(run=_demo)
     command.add_argument("--output", metavar="FILE", default="curvewise_demo.png")
+
+    add_report(commands)
 
     command = commands.add_parser("selfcheck", help="check every kernel on this machine")
     command.set_defaults(run=_selfcheck)

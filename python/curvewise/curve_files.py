@@ -14,6 +14,7 @@ import numpy as np
 
 from ._curves import Array
 from .csv_curves import read_csv_columns
+from .named_curve import NamedCurve
 
 __all__ = ["read_curve", "read_named_columns"]
 
@@ -73,7 +74,7 @@ def read_curve(
     -------
     ndarray, shape (n, d)
         One row per point, one column per entry of `columns`, in the units of the file times
-        `factors`.
+        `factors`. It remembers the names of its columns, which pictures write on their axes.
 
     Raises
     ------
@@ -151,9 +152,10 @@ def read_named_columns(
     ...     read_named_columns(path, columns=["strain", 3])[1]
     ['strain', 'stress']
     """
-    values, names = _read_columns(path, columns, sheet)
+    values, names = _read(path, columns, sheet)
+    titles = _titles(names)
     if factors is None:
-        return values, names
+        return NamedCurve(values, titles), names
     given = np.asarray(factors, dtype=np.float64)
     if given.shape != values.shape[1:]:
         raise ValueError(
@@ -162,12 +164,22 @@ def read_named_columns(
         )
     if not (np.isfinite(given).all() and given.all()):
         raise ValueError(f"factors is {given.tolist()}; each must be finite and not 0")
-    return values * given, names
+    changed = [
+        name if factor == 1.0 else f"{name} × {factor:.10g}"
+        for name, factor in zip(titles, given.tolist(), strict=True)
+    ]
+    return NamedCurve(values * given, changed), names
 
 
-def _read_columns(
+def _titles(names: list[str]) -> list[str]:
+    """Return what pictures call the columns: those that have a number for a name, "column 2"."""
+    return [f"column {name}" if name.isdecimal() else name for name in names]
+
+
+def _read(
     path: str | os.PathLike[str], columns: Sequence[str | int] | None, sheet: str | int | None
 ) -> tuple[Array, list[str]]:
+    """Return the columns and their names, by the kind of the file."""
     kind = Path(path).suffix.lower()
     if kind in _WORKBOOKS:
         from .excel_curves import read_sheet_columns

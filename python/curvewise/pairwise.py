@@ -21,6 +21,7 @@ from ._curves import (
     as_curve_list,
     check_column_names,
     column_names,
+    copy_of,
     warn_if_transposed,
 )
 from ._docstrings import filled, listed
@@ -245,7 +246,7 @@ class Prepared:
     """
 
     def __init__(self, P: CurveLike, measure: MeasureName = "dtw", **options: Any) -> None:
-        self._curve = as_curve(P, "P").copy()
+        self._curve = copy_of(as_curve(P, "P"))
         warn_if_transposed(self._curve, "P")
         self._columns = column_names(P)
         self._measure = _check_names(measure, options)
@@ -343,7 +344,7 @@ def _checked_out(out: Array | None, shape: tuple[int, ...], name: str) -> Array:
 
 def _apart(curves: list[Array], out: Array) -> list[Array]:
     """Return the curves, copied where writing to `out` might change them."""
-    return [curve.copy() if np.may_share_memory(curve, out) else curve for curve in curves]
+    return [copy_of(curve) if np.may_share_memory(curve, out) else curve for curve in curves]
 
 
 def _checked_cutoff(cutoff: SupportsFloat | None) -> float:
