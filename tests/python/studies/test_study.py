@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -21,6 +22,7 @@ import pytest
 from curvewise.calibration import SimulationStore, identify
 from curvewise.cli import main
 from curvewise.studies import Study, StudyError
+from curvewise.studies.keys import Table
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -322,19 +324,26 @@ def _until(folder: Path, runs: int, how: signal.Signals) -> tuple[int, str]:
         return process.returncode, output.decode()
 
 
-EXAMPLES = sorted((Path(__file__).resolve().parents[3] / "examples" / "studies").iterdir())
+ROOT = Path(__file__).resolve().parents[3]
+EXAMPLES = sorted(path.parent for path in (ROOT / "examples" / "studies").glob("*/study.toml"))
+PAGE = ROOT / "docs" / "study.md"
 
 
-@pytest.mark.parametrize("folder", EXAMPLES, ids=lambda folder: folder.name)
-def test_the_examples_are_right(
-    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """With programs in the place of solvers that are not here; only CalculiX's are run."""
+@pytest.fixture
+def solvers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Programs in the place of solvers that are not here, which fail when they are run."""
     for program in ("ccx", "abaqus", "ls-dyna"):
         if shutil.which(program) is None:
             (tmp_path / program).write_text("#!/bin/sh\nexit 1\n")
             (tmp_path / program).chmod(0o755)
     monkeypatch.setenv("PATH", f"{os.environ['PATH']}{os.pathsep}{tmp_path}")
+
+
+@posix
+@pytest.mark.usefixtures("solvers")
+@pytest.mark.parametrize("folder", EXAMPLES, ids=lambda folder: folder.name)
+def test_the_examples_are_right(folder: Path, tmp_path: Path) -> None:
+    """Those of CalculiX are run once, where it is."""
     if "CURVEWISE_DATA" in (folder / "study.toml").read_text():
         data = os.environ.get("CURVEWISE_DATA", "")
         if not Path(data, "loops").is_dir():
@@ -342,3 +351,35 @@ def test_the_examples_are_right(
     study = Study.read(shutil.copytree(folder, tmp_path / folder.name) / "study.toml")
     if folder.name.endswith("calculix") and shutil.which("ccx"):
         assert all(len(read.simulation) > 20 for read in study.check().read)
+
+
+@posix
+@pytest.mark.usefixtures("solvers")
+def test_the_study_of_the_page_is_right(tmp_path: Path) -> None:
+    (block,) = re.findall(r"^```toml\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+    folder = shutil.copytree(ROOT / "examples" / "studies" / "tension_calculix", tmp_path / "study")
+    (folder / "study.toml").write_text(block)
+    assert Study.read(folder / "study.toml").title == "tension test"
+
+
+def test_the_page_has_every_key(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    taken: set[str] = set()
+    raw = Table.raw
+
+    def noted(table: Table, key: str) -> Any:
+        taken.add(key)
+        return raw(table, key)
+
+    def noted_take(table: Table, key: str, *arguments: Any, **keywords: Any) -> Any:
+        taken.add(key)
+        return take(table, key, *arguments, **keywords)
+
+    take = Table.take
+    monkeypatch.setattr(Table, "raw", noted)
+    monkeypatch.setattr(Table, "take", noted_take)
+    Study.read(study_file(tmp_path, CASES + "[results]\nfolder = 'out'\n"))
+    page = PAGE.read_text()
+    own = {"E", "sy", "e", "s", "f"}  # names that the study gives itself
+    keys = taken - own
+    assert len(keys) > 40
+    assert [key for key in sorted(keys) if not re.search(rf"\b{key}\b", page)] == []
