@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from curvewise.calibration import SimulationStore, identify
+from curvewise.calibration import identify
 from curvewise.cli import main
 from curvewise.studies import Study, StudyError
 from curvewise.studies.keys import Table
@@ -276,21 +276,32 @@ def test_another_formula_is_another_model(tmp_path: Path) -> None:
 posix = pytest.mark.skipif(os.name != "posix", reason="signals are POSIX's")
 
 
+# A solver that says when it begins, and waits where more runs have begun than there may be.
+HELD = """\
+import os, time
+with open({folder!r} + "/begun", "a") as file:
+    file.write(".")
+while os.path.getsize({folder!r} + "/begun") > int(open({folder!r} + "/allowed").read()):
+    time.sleep(0.01)
+"""
+
+
 @posix
 def test_a_study_that_is_interrupted_and_killed_ends_with_the_same_bits(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     folders = [tmp_path / "straight", tmp_path / "interrupted"]
-    slow = "import time\ntime.sleep(0.03)\n"
     for folder in folders:
         folder.mkdir()
-        study_file(folder, wait=slow)
+        (folder / "allowed").write_text("1000")
+        study_file(folder, wait=HELD.replace("{folder!r}", repr(str(folder))))
     straight, interrupted = folders
     Study.read(straight / "study.toml").run(progress=False)
-    for number, how in ((2, signal.SIGINT), (6, signal.SIGKILL)):
-        code, text = _until(interrupted, number, how)
+    for runs, how in ((3, signal.SIGINT), (4, signal.SIGKILL)):
+        code, text = stopped(interrupted, runs, how)
         assert code == (130 if how == signal.SIGINT else -9)
         if how == signal.SIGINT:
+            assert "3 runs in " in text
             assert "The same command goes on from there: curvewise identify study.toml" in text
     assert main(["identify", str(interrupted / "study.toml")]) == 0
     assert "study.db holds" in capsys.readouterr().out
@@ -299,15 +310,11 @@ def test_a_study_that_is_interrupted_and_killed_ends_with_the_same_bits(
         assert one.read_bytes() == other.read_bytes(), name
 
 
-def stored(path: Path) -> int:
-    if not path.exists():
-        return 0
-    with SimulationStore(path) as store:
-        return len(store)
-
-
-def _until(folder: Path, runs: int, how: signal.Signals) -> tuple[int, str]:
-    """Run the study until its store has so many runs, and send a signal."""
+def stopped(folder: Path, runs: int, how: signal.Signals) -> tuple[int, str]:
+    """Run the study, and send a signal while it waits for the run after so many more."""
+    begun = folder / "begun"
+    before = begun.stat().st_size if begun.exists() else 0
+    (folder / "allowed").write_text(f"{before + runs}")
     code = (  # what a shell starts in the background ignores SIGINT, and so do its children
         "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
         "from curvewise.cli import main; sys.exit(main(['identify', 'study.toml']))"
@@ -315,13 +322,17 @@ def _until(folder: Path, runs: int, how: signal.Signals) -> tuple[int, str]:
     with subprocess.Popen(
         [sys.executable, "-c", code], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
     ) as process:
-        deadline = time.monotonic() + 60
-        while process.poll() is None and stored(folder / "study.db") < runs:
+        deadline = time.monotonic() + 120
+        while not begun.exists() or begun.stat().st_size <= before + runs:
+            assert process.poll() is None, process.communicate()
             assert time.monotonic() < deadline, "waited in vain"
-            time.sleep(0.05)
+            time.sleep(0.02)
         process.send_signal(how)
+        if how == signal.SIGKILL:  # its solver goes on: let it end
+            (folder / "allowed").write_text("1000")
         output, _ = process.communicate(timeout=60)
-        return process.returncode, output.decode()
+    (folder / "allowed").write_text("1000")
+    return process.returncode, output.decode()
 
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -342,12 +353,15 @@ def solvers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @posix
 @pytest.mark.usefixtures("solvers")
 @pytest.mark.parametrize("folder", EXAMPLES, ids=lambda folder: folder.name)
-def test_the_examples_are_right(folder: Path, tmp_path: Path) -> None:
+def test_the_examples_are_right(
+    folder: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    request: pytest.FixtureRequest,
+) -> None:
     """Those of CalculiX are run once, where it is."""
     if "CURVEWISE_DATA" in (folder / "study.toml").read_text():
-        data = os.environ.get("CURVEWISE_DATA", "")
-        if not Path(data, "loops").is_dir():
-            pytest.skip("CURVEWISE_DATA does not name the folder with the tests")
+        monkeypatch.setenv("CURVEWISE_DATA", str(request.getfixturevalue("data_dir")))
     study = Study.read(shutil.copytree(folder, tmp_path / folder.name) / "study.toml")
     if folder.name.endswith("calculix") and shutil.which("ccx"):
         assert all(len(read.simulation) > 20 for read in study.check().read)
