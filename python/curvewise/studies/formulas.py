@@ -23,6 +23,7 @@ _TOKEN = re.compile(
     r"|(?P<sign>\*\*|[-+*/^(),]))"
 )
 _DEEPEST = 100  # brackets within brackets
+_LONGEST = 500  # characters: what is longer, a search would not like to evaluate either
 
 
 def _largest(*columns: Any) -> Any:
@@ -88,6 +89,11 @@ class Formula:
     """
 
     def __init__(self, text: str) -> None:
+        if len(text) > _LONGEST:
+            raise ValueError(
+                f"begins with {text[:30]!r} and has {len(text)} characters; make values of its "
+                f"parts, a formula has at most {_LONGEST}"
+            )
         self.text = text
         self._tree = _Parser(text).tree()
         self.names = tuple(dict.fromkeys(_names(self._tree)))
@@ -205,9 +211,14 @@ class _Parser:
 
 
 def _names(tree: _Tree) -> list[str]:
-    if tree[0] == "name":
-        return [] if tree[1] in _CONSTANTS else [tree[1]]
-    return [name for part in tree[1:] if isinstance(part, tuple) for name in _names(part)]
+    """Return the names in a formula, from left to right."""
+    found, pending = [], [tree]
+    while pending:
+        node = pending.pop()
+        if node[0] == "name" and node[1] not in _CONSTANTS:
+            found.append(node[1])
+        pending += [part for part in reversed(node[1:]) if isinstance(part, tuple)]
+    return found
 
 
 def _value(tree: _Tree, values: Mapping[str, Any]) -> Any:

@@ -19,8 +19,10 @@ __all__ = [
     "at_least",
     "choice",
     "flag",
+    "fraction",
     "mapping",
     "name",
+    "not_negative",
     "number",
     "numbers",
     "positive",
@@ -137,6 +139,20 @@ def positive(value: Any) -> float:
     """Read a number above 0."""
     if number(value) <= 0:
         raise ValueError(f"is {value!r}; give a number above 0")
+    return float(value)
+
+
+def not_negative(value: Any) -> float:
+    """Read a number that is 0 or above."""
+    if number(value) < 0:
+        raise ValueError(f"is {value!r}; give a number that is not negative")
+    return float(value)
+
+
+def fraction(value: Any) -> float:
+    """Read a number from 0 to 1."""
+    if not 0 <= number(value) <= 1:
+        raise ValueError(f"is {value!r}; give a number from 0 to 1")
     return float(value)
 
 

@@ -31,7 +31,7 @@ def read_search(
     objective: dict[str, tuple[Callable[[Any], Any], Any]] = {
         "preset": (keys.choice(tuple(PRESETS)), None),
         "part": (keys.choice(("experiment", "simulation")), None),
-        "min_coverage": (keys.number, None),
+        "min_coverage": (keys.fraction, None),
         "failure_value": (keys.positive, None),
         "options": (keys.mapping, None),
     }

@@ -52,13 +52,13 @@ def read_test(
     model = table.take("model", keys.choice(tuple(models)), next(iter(models), ""))
     if len(models) > 1 and "model" not in table:
         table.problem("", f"needs a model: one of {', '.join(models)}")
-    weight = table.take("weight", keys.number, 1.0)
+    weight = table.take("weight", keys.not_negative, 1.0)
     own = {
         "sigma": table.take("sigma", keys.positive, None),
         "measure": table.take("measure", keys.choice(MEASURES), None),
         "preset": table.take("preset", keys.choice(tuple(PRESETS)), None),
         "part": table.take("part", keys.choice(("experiment", "simulation")), None),
-        "min_coverage": table.take("min_coverage", keys.number, None),
+        "min_coverage": table.take("min_coverage", keys.fraction, None),
         "options": table.take("options", keys.mapping, None),
     }
     table.refuse_unknown()

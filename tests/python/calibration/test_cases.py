@@ -30,6 +30,20 @@ def material(parameters, strain):
     return np.column_stack((strain, stress))
 
 
+def test_a_response_picks_among_curves_of_different_lengths():
+    x = np.linspace(0.0, 1.0, 20)
+
+    def both(p):
+        return [np.column_stack((x, p["a"] * x)), np.column_stack((x[:7], p["b"] * x[:7]))]
+
+    cases = [
+        Case(f"curve {i}", both, curve, response=lambda curves, i=i: curves[i])
+        for i, curve in enumerate(both({"a": 2.0, "b": 3.0}))
+    ]
+    found = identify(cases, bounds={"a": (0, 10), "b": (0, 10)}, **QUIET)
+    assert (found.parameters["a"], found.parameters["b"]) == pytest.approx((2.0, 3.0), rel=1e-3)
+
+
 def cycle(parameters):
     return material(parameters, CYCLE)
 

@@ -71,11 +71,18 @@ def test_columns_give_columns_and_numbers() -> None:
         ("__import__(a)", "there is no function '__import__'"),
         ("log(a, b)", "log has one argument, not 2"),
         ("(" * 200 + "a", "more than 100 brackets"),
+        ("a + " * 200 + "a", "has 801 characters; make values of its parts"),
     ],
 )
 def test_what_is_no_formula_is_refused(text: str, message: str) -> None:
     with pytest.raises(ValueError, match=re.escape(message)):
         Formula(text)
+
+
+def test_the_longest_formulas_are_evaluated() -> None:
+    assert float(Formula("a" + "+a" * 249)(VALUES)) == 250 * VALUES["a"]
+    assert float(Formula("-" * 498 + "1")(VALUES)) == 1.0
+    assert float(Formula("(" * 99 + "1" + ")" * 99)(VALUES)) == 1.0
 
 
 @pytest.mark.parametrize("text", ["log(b)", "1 / (a - a)", "exp(1000 * a)"])

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -18,9 +19,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from curvewise.calibration import SimulationStore, identify
+from curvewise.calibration import identify
 from curvewise.cli import main
 from curvewise.studies import Study, StudyError
+from curvewise.studies.keys import Table
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -274,21 +276,32 @@ def test_another_formula_is_another_model(tmp_path: Path) -> None:
 posix = pytest.mark.skipif(os.name != "posix", reason="signals are POSIX's")
 
 
+# A solver that says when it begins, and waits where more runs have begun than there may be.
+HELD = """\
+import os, time
+with open({folder!r} + "/begun", "a") as file:
+    file.write(".")
+while os.path.getsize({folder!r} + "/begun") > int(open({folder!r} + "/allowed").read()):
+    time.sleep(0.01)
+"""
+
+
 @posix
 def test_a_study_that_is_interrupted_and_killed_ends_with_the_same_bits(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     folders = [tmp_path / "straight", tmp_path / "interrupted"]
-    slow = "import time\ntime.sleep(0.03)\n"
     for folder in folders:
         folder.mkdir()
-        study_file(folder, wait=slow)
+        (folder / "allowed").write_text("1000")
+        study_file(folder, wait=HELD.replace("{folder!r}", repr(str(folder))))
     straight, interrupted = folders
     Study.read(straight / "study.toml").run(progress=False)
-    for number, how in ((2, signal.SIGINT), (6, signal.SIGKILL)):
-        code, text = _until(interrupted, number, how)
+    for runs, how in ((3, signal.SIGINT), (4, signal.SIGKILL)):
+        code, text = stopped(interrupted, runs, how)
         assert code == (130 if how == signal.SIGINT else -9)
         if how == signal.SIGINT:
+            assert "3 runs in " in text
             assert "The same command goes on from there: curvewise identify study.toml" in text
     assert main(["identify", str(interrupted / "study.toml")]) == 0
     assert "study.db holds" in capsys.readouterr().out
@@ -297,15 +310,11 @@ def test_a_study_that_is_interrupted_and_killed_ends_with_the_same_bits(
         assert one.read_bytes() == other.read_bytes(), name
 
 
-def stored(path: Path) -> int:
-    if not path.exists():
-        return 0
-    with SimulationStore(path) as store:
-        return len(store)
-
-
-def _until(folder: Path, runs: int, how: signal.Signals) -> tuple[int, str]:
-    """Run the study until its store has so many runs, and send a signal."""
+def stopped(folder: Path, runs: int, how: signal.Signals) -> tuple[int, str]:
+    """Run the study, and send a signal while it waits for the run after so many more."""
+    begun = folder / "begun"
+    before = begun.stat().st_size if begun.exists() else 0
+    (folder / "allowed").write_text(f"{before + runs}")
     code = (  # what a shell starts in the background ignores SIGINT, and so do its children
         "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
         "from curvewise.cli import main; sys.exit(main(['identify', 'study.toml']))"
@@ -313,32 +322,78 @@ def _until(folder: Path, runs: int, how: signal.Signals) -> tuple[int, str]:
     with subprocess.Popen(
         [sys.executable, "-c", code], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
     ) as process:
-        deadline = time.monotonic() + 60
-        while process.poll() is None and stored(folder / "study.db") < runs:
+        deadline = time.monotonic() + 120
+        while not begun.exists() or begun.stat().st_size <= before + runs:
+            assert process.poll() is None, process.communicate()
             assert time.monotonic() < deadline, "waited in vain"
-            time.sleep(0.05)
+            time.sleep(0.02)
         process.send_signal(how)
+        if how == signal.SIGKILL:  # its solver goes on: let it end
+            (folder / "allowed").write_text("1000")
         output, _ = process.communicate(timeout=60)
-        return process.returncode, output.decode()
+    (folder / "allowed").write_text("1000")
+    return process.returncode, output.decode()
 
 
-EXAMPLES = sorted((Path(__file__).resolve().parents[3] / "examples" / "studies").iterdir())
+ROOT = Path(__file__).resolve().parents[3]
+EXAMPLES = sorted(path.parent for path in (ROOT / "examples" / "studies").glob("*/study.toml"))
+PAGE = ROOT / "docs" / "study.md"
 
 
-@pytest.mark.parametrize("folder", EXAMPLES, ids=lambda folder: folder.name)
-def test_the_examples_are_right(
-    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """With programs in the place of solvers that are not here; only CalculiX's are run."""
+@pytest.fixture
+def solvers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Programs in the place of solvers that are not here, which fail when they are run."""
     for program in ("ccx", "abaqus", "ls-dyna"):
         if shutil.which(program) is None:
             (tmp_path / program).write_text("#!/bin/sh\nexit 1\n")
             (tmp_path / program).chmod(0o755)
     monkeypatch.setenv("PATH", f"{os.environ['PATH']}{os.pathsep}{tmp_path}")
+
+
+@posix
+@pytest.mark.usefixtures("solvers")
+@pytest.mark.parametrize("folder", EXAMPLES, ids=lambda folder: folder.name)
+def test_the_examples_are_right(
+    folder: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    request: pytest.FixtureRequest,
+) -> None:
+    """Those of CalculiX are run once, where it is."""
     if "CURVEWISE_DATA" in (folder / "study.toml").read_text():
-        data = os.environ.get("CURVEWISE_DATA", "")
-        if not Path(data, "loops").is_dir():
-            pytest.skip("CURVEWISE_DATA does not name the folder with the tests")
+        monkeypatch.setenv("CURVEWISE_DATA", str(request.getfixturevalue("data_dir")))
     study = Study.read(shutil.copytree(folder, tmp_path / folder.name) / "study.toml")
     if folder.name.endswith("calculix") and shutil.which("ccx"):
         assert all(len(read.simulation) > 20 for read in study.check().read)
+
+
+@posix
+@pytest.mark.usefixtures("solvers")
+def test_the_study_of_the_page_is_right(tmp_path: Path) -> None:
+    (block,) = re.findall(r"^```toml\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+    folder = shutil.copytree(ROOT / "examples" / "studies" / "tension_calculix", tmp_path / "study")
+    (folder / "study.toml").write_text(block)
+    assert Study.read(folder / "study.toml").title == "tension test"
+
+
+def test_the_page_has_every_key(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    taken: set[str] = set()
+    raw = Table.raw
+
+    def noted(table: Table, key: str) -> Any:
+        taken.add(key)
+        return raw(table, key)
+
+    def noted_take(table: Table, key: str, *arguments: Any, **keywords: Any) -> Any:
+        taken.add(key)
+        return take(table, key, *arguments, **keywords)
+
+    take = Table.take
+    monkeypatch.setattr(Table, "raw", noted)
+    monkeypatch.setattr(Table, "take", noted_take)
+    Study.read(study_file(tmp_path, CASES + "[results]\nfolder = 'out'\n"))
+    page = PAGE.read_text()
+    own = {"E", "sy", "e", "s", "f"}  # names that the study gives itself
+    keys = taken - own
+    assert len(keys) > 40
+    assert [key for key in sorted(keys) if not re.search(rf"\b{key}\b", page)] == []
