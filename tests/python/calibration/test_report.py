@@ -7,6 +7,7 @@ import shutil
 import sqlite3
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -142,6 +143,30 @@ def test_an_interrupted_search_has_a_page(tmp_path):
     (record,) = records_of(tmp_path / "s.db").values()  # it takes the place of its former self
     assert record.ending is not None
     assert len(record.evaluations) == again.evaluations
+
+
+def test_a_page_of_nothing_but_failures(tmp_path):
+    def failing(parameters):
+        raise ValueError("no licence")
+
+    with pytest.raises(RuntimeError, match="no licence"):
+        identify(failing, experiments(), BOUNDS, store=tmp_path / "s.db", version="1", **QUICK)
+    (record,) = records_of(tmp_path / "s.db").values()
+    assert page([record]).count("no licence") == len(record.evaluations) > 0
+    assert "Nothing has been evaluated yet" in page([replace(record, evaluations=())])
+
+
+def test_a_result_is_not_lost_where_its_history_is(tmp_path, caplog):
+    file = tmp_path / "h.csv"
+
+    def deleting(progress):
+        file.unlink(missing_ok=True)
+
+    found = identify(line, experiments()[0], BOUNDS, history=file, callback=deleting, **QUICK)
+    assert found.converged
+    assert "how the search ended could not be written down" in caplog.text
+    with pytest.raises(OSError, match=r"h\.csv"):
+        found.report(tmp_path / "x.html")
 
 
 def test_several_searches_of_a_store_on_one_page(tmp_path, capsys):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import logging
+import sqlite3
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,14 +20,25 @@ if TYPE_CHECKING:
 
 __all__ = ["record_of", "write_down"]
 
+_log = logging.getLogger("curvewise.calibration")
+
 # Slopes with more numbers than this (16 MB) are not written down.
 _MOST_SLOPES = 2_000_000
 
 
 def write_down(found: Identification) -> None:
-    """Write how a search ended into its store and its history, if it has any."""
-    if found.recorder.has_file:
-        found.recorder.end(_ending(found))
+    """Write how a search ended into its store and its history, if it has any.
+
+    A file that has gone, or a disk that is full, is no reason to lose what was found: it is logged,
+    and `found.report()` tries again and says so.
+    """
+    if not found.recorder.has_file:
+        return
+    ending = _ending(found)
+    try:
+        found.recorder.end(ending)
+    except (OSError, sqlite3.Error) as error:
+        _log.warning("how the search ended could not be written down: %s", error)
 
 
 def record_of(found: Identification, uncertainty: Uncertainty | None) -> SearchRecord:

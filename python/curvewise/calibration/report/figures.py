@@ -150,43 +150,9 @@ def intervals(space: Space, parameters: dict[str, float], summary: dict[str, Any
     ]
     for good, colour in ((True, P_COLOUR), (False, Q_COLOUR)):
         chosen = [name for name in names if summary["determined"][name] == good]
-        if not chosen:
-            continue
-        label = "determined" if good else "not determined"
-        ends: list[float | None] = []
-        for name in chosen:
-            low, high = (place_between(space, name, end) for end in summary["intervals"][name])
-            ends += [_rounded(low), _rounded(high), None]
-        rows = [part for name in chosen for part in (name, name, None)]
-        traces.append(
-            {
-                "type": "scatter",
-                "x": ends,
-                "y": rows,
-                "mode": "lines",
-                "line": {"color": colour, "width": 3},
-                "hoverinfo": "skip",
-                "legendgroup": label,
-                "showlegend": False,
-            }
-        )
-        traces.append(
-            {
-                "type": "scatter",
-                "x": [_rounded(place_between(space, name, parameters[name])) for name in chosen],
-                "y": chosen,
-                "mode": "markers",
-                "marker": {"color": colour, "size": 10},
-                "legendgroup": label,
-                "name": label,
-                "text": [
-                    f"{name} = {parameters[name]:.5g}, "
-                    f"{summary['intervals'][name][0]:.5g} to {summary['intervals'][name][1]:.5g}"
-                    for name in chosen
-                ],
-                "hovertemplate": "%{text}<extra></extra>",
-            }
-        )
+        if chosen:
+            label = "determined" if good else "not determined"
+            traces += _interval_traces(space, chosen, parameters, summary, label, colour)
     layout = _layout("place between the bounds", "")
     layout["xaxis"]["range"] = [-0.03, 1.03]
     layout["yaxis"] |= {
@@ -197,6 +163,46 @@ def intervals(space: Space, parameters: dict[str, float], summary: dict[str, Any
     }
     layout["height"] = 130 + 34 * len(names)
     return {"data": traces, "layout": layout}
+
+
+def _interval_traces(
+    space: Space,
+    names: Sequence[str],
+    parameters: dict[str, float],
+    summary: dict[str, Any],
+    label: str,
+    colour: str,
+) -> list[dict[str, Any]]:
+    """Return the intervals of some parameters as lines, and their values as dots."""
+    ends: list[float | None] = []
+    texts = []
+    for name in names:
+        low, high = summary["intervals"][name]
+        ends += [_rounded(place_between(space, name, end)) for end in (low, high)]
+        ends.append(None)
+        texts.append(html.escape(f"{name} = {parameters[name]:.5g}, {low:.5g} to {high:.5g}"))
+    line = {
+        "type": "scatter",
+        "x": ends,
+        "y": [part for name in names for part in (name, name, None)],
+        "mode": "lines",
+        "line": {"color": colour, "width": 3},
+        "hoverinfo": "skip",
+        "legendgroup": label,
+        "showlegend": False,
+    }
+    dots = {
+        "type": "scatter",
+        "x": [_rounded(place_between(space, name, parameters[name])) for name in names],
+        "y": list(names),
+        "mode": "markers",
+        "marker": {"color": colour, "size": 10},
+        "legendgroup": label,
+        "name": label,
+        "text": texts,
+        "hovertemplate": "%{text}<extra></extra>",
+    }
+    return [line, dots]
 
 
 def correlations(names: Sequence[str], table: Sequence[Sequence[float]]) -> Figure:

@@ -26,7 +26,8 @@ _MOST_FAILURES = 100  # in the table; the others are counted
 
 def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Return a table of HTML; columns of numbers are set to the right."""
-    are_numbers = [all(map(_is_number, column)) for column in zip(*rows, strict=True)]
+    columns = zip(*rows, strict=True) if rows else [[""] for _ in header]
+    are_numbers = [all(map(_is_number, column)) for column in columns]
     lines = ['<div class="table"><table><thead>', _row(header, "th", are_numbers)]
     lines += ["</thead><tbody>", *(_row(row, "td", are_numbers) for row in rows)]
     return "\n".join([*lines, "</tbody></table></div>"])
