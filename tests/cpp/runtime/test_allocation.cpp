@@ -236,7 +236,8 @@ void nearest() {
 }
 
 void long_calls() {
-    const auto [P, Q] = long_pair();
+    const Pair pair = long_pair();
+    const auto &P = pair.P, &Q = pair.Q;  // names of a binding are not for lambdas to capture
     for (const std::ptrdiff_t workers : {1, 3}) {
         const std::string with = ", " + std::to_string(workers) + " workers";
         DtwOptions dtw_options;

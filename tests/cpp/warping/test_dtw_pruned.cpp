@@ -195,7 +195,8 @@ void large_pairs() {
 void least_distances_are_bounds() {
     Random random(3);
     for (std::ptrdiff_t k = 0; k < pairs; ++k) {
-        const auto [P, Q] = test::any_pair(random);
+        const test::Pair pair = test::any_pair(random);
+        const Curve &P = pair.P, &Q = pair.Q;
         const Metric metric = metrics[random.index(4)];
         const check::Note note(test::described(P, Q));
         const PackedCurve p(P, RangeScale(1.0), PointOrder::forward, unpolled);

@@ -241,6 +241,15 @@ void turn_in_a_free_block() {
     Comparison(Q, P).run_values(Metric::chebyshev);
 }
 
+// The only way leads into a free block from above, and out of it below, further to the right.
+void through_a_free_block() {
+    constexpr double wall = 2.0;
+    const Rooms rooms = {{1, wall, wall}, {1, 1, 1}, {wall, wall, 1}};
+    const auto [P, Q] = curves_of(rooms, {64, 64, 64}, {21, 19, 24});
+    Comparison(P, Q).run_values(Metric::chebyshev);
+    Comparison(Q, P).run_values(Metric::chebyshev);
+}
+
 void mazes() {
     Random random(4);
     for (std::ptrdiff_t k = 0; k < pairs; ++k) {
@@ -270,5 +279,6 @@ int main(int argc, char** argv) {
                        {"bounds that are met", bounds_that_are_met},
                        {"mazes", mazes},
                        {"turn in a free block", turn_in_a_free_block},
+                       {"through a free block", through_a_free_block},
                        {"sizes around a block", sizes_around_a_block}});
 }
