@@ -48,7 +48,7 @@ _YIELDING = np.array([0.0, *np.geomspace(6e-4, 0.03, 6)])
 _LAYERS = range(len(_YIELDING))
 # Accumulated plastic strains of the table of isotropic hardening; ccx extends it as a constant.
 _ISOTROPIC = np.array([0.0, *np.geomspace(1e-3, 1.0, 30)])
-_TIMEOUT = 60.0
+_TIMEOUT = 300.0  # seconds, of a run that takes less than one: machines are busy
 
 
 class Layers(NamedTuple):

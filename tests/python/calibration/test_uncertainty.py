@@ -184,7 +184,7 @@ def test_a_parameter_at_its_bound_is_not_determined():
 
 def test_draws_that_end_at_a_bound_make_up_no_limit():
     """Half of the draws of a end at its bound; their mirror image would be 0.2 errors away."""
-    free = identify(parabola, TEST, BOUNDS, measure="dtw", **QUIET)
+    free = identify(parabola, TEST, BOUNDS, measure="dtw", start=TRUTH, **QUIET)
     best, error = free.parameters["a"], free.uncertainty(samples=40).standard_errors["a"]
     bounds = {**BOUNDS, "a": (-10.0, best + 0.2 * error)}
     found = identify(parabola, TEST, bounds, measure="dtw", start=free.parameters, **QUIET)
