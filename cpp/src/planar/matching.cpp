@@ -4,7 +4,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -56,13 +55,14 @@ double on_grid(double x) noexcept { return std::nearbyint(x * grid); }
 
 // How far a coordinate travels, to and fro, without small reversals. In units of the grid, for no
 // rounding error may decide how many pieces there are.
-double travel_of(const Polyline& points, double Point::*coordinate) {
+double travel_of(const Polyline& points, double Point::*coordinate, Poller& poller) {
     constexpr double least = least_reversal * grid;
     double total = 0.0;
     double low = on_grid(points.front().*coordinate), high = low, turn = low;
     std::optional<bool> rises;  // not known until it has travelled far enough
-    for (const Point& point : points) {
-        const double value = on_grid(point.*coordinate);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        poller.poll_in_loop(i);
+        const double value = on_grid(points[i].*coordinate);
         low = std::min(low, value);
         high = std::max(high, value);
         if (rises != false && value <= high - least) {
@@ -83,8 +83,9 @@ double travel_of(const Polyline& points, double Point::*coordinate) {
     return total + std::abs(last - turn) + std::abs(end - last);
 }
 
-std::size_t count_pieces(const Polyline& scaled) {
-    const double travel = (travel_of(scaled, &Point::x) + travel_of(scaled, &Point::y)) / grid;
+std::size_t count_pieces(const Polyline& scaled, Poller& poller) {
+    const double travel =
+        (travel_of(scaled, &Point::x, poller) + travel_of(scaled, &Point::y, poller)) / grid;
     return static_cast<std::size_t>(std::max(1.0, std::ceil(pieces_per_side * travel)));
 }
 
@@ -94,6 +95,7 @@ std::vector<double> positions_of(const Polyline& scaled, std::size_t samples, Po
     const double length = positions.back();
     const auto last = static_cast<double>(samples);
     for (std::size_t i = 0; i < positions.size(); ++i) {
+        poller.poll_in_loop(i);
         positions[i] = length > 0.0 ? positions[i] / length * last
                                     : last * static_cast<double>(i) /
                                           static_cast<double>(positions.size() - 1);
@@ -150,11 +152,13 @@ Route warping_path(const Side& P, const Side& Q, Poller& poller) {
 // The places along the path of a curve's vertices between its samples, of which the path's cells
 // have the numbers `samples`.
 std::vector<double> places_of_vertices(const Side& curve, const std::vector<double>& samples,
-                                       const Route& route) {
+                                       const Route& route, Poller& poller) {
     std::vector<double> places;
     places.reserve(curve.positions.size());
     std::size_t step = 0;
-    for (const double position : curve.positions) {
+    for (std::size_t k = 0; k < curve.positions.size(); ++k) {
+        poller.poll_in_loop(k);
+        const double position = curve.positions[k];
         if (position == std::floor(position)) continue;
         while (samples[step + 1] < position) ++step;
         places.push_back(route.places[step] + (position - samples[step]) *
@@ -163,10 +167,17 @@ std::vector<double> places_of_vertices(const Side& curve, const std::vector<doub
     return places;
 }
 
-std::vector<double> merged(const std::vector<double>& a, const std::vector<double>& b) {
+// Both, in ascending order, each place once.
+std::vector<double> merged(const std::vector<double>& a, const std::vector<double>& b,
+                           Poller& poller) {
     std::vector<double> result;
     result.reserve(a.size() + b.size());
-    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+    for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
+        poller.poll_in_loop(i + j);
+        const bool takes_a = j == b.size() || (i < a.size() && a[i] <= b[j]);
+        const double place = takes_a ? a[i++] : b[j++];
+        if (result.empty() || result.back() != place) result.push_back(place);
+    }
     return result;
 }
 
@@ -174,10 +185,13 @@ std::vector<double> merged(const std::vector<double>& a, const std::vector<doubl
 // are on a curve.
 template <class Visit>
 void for_each_position(const std::vector<double>& places, const Side& curve,
-                       const std::vector<double>& samples, const Route& route, Visit visit) {
+                       const std::vector<double>& samples, const Route& route, Poller& poller,
+                       Visit visit) {
     ArcPosition at(curve.positions);
     std::size_t step = 0;
-    for (const double place : places) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        poller.poll_in_loop(k);
+        const double place = places[k];
         while (step + 2 < route.places.size() && route.places[step + 1] <= place) ++step;
         const double slope =
             (samples[step + 1] - samples[step]) / (route.places[step + 1] - route.places[step]);
@@ -189,10 +203,10 @@ void for_each_position(const std::vector<double>& places, const Side& curve,
 
 // The points of a curve at places along the path.
 Polyline points_at(const std::vector<double>& places, const Side& curve,
-                   const std::vector<double>& samples, const Route& route) {
+                   const std::vector<double>& samples, const Route& route, Poller& poller) {
     Polyline points;
     points.reserve(places.size());
-    for_each_position(places, curve, samples, route,
+    for_each_position(places, curve, samples, route, poller,
                       [&](double /*place*/, double /*position*/, const ArcPosition& at) {
                           points.push_back(at.point_on(curve.points));
                       });
@@ -203,24 +217,25 @@ Polyline points_at(const std::vector<double>& places, const Side& curve,
 // samples, in their order.
 std::vector<PlacesOnQ::Place> places_on_q(const std::vector<double>& places, const Side& q,
                                           const std::vector<double>& of_vertices,
-                                          const Route& route) {
+                                          const Route& route, Poller& poller) {
     std::vector<std::size_t> vertices;  // of `of_vertices`
     for (std::size_t k = 0; k < q.positions.size(); ++k) {
+        poller.poll_in_loop(k);
         if (q.positions[k] != std::floor(q.positions[k])) vertices.push_back(k);
     }
     std::vector<PlacesOnQ::Place> found;
     found.reserve(places.size());
     std::size_t next = 0;
-    for_each_position(
-        places, q, route.j, route, [&](double place, double position, const ArcPosition& at) {
-            while (next < vertices.size() && of_vertices[next] < place) ++next;
-            if (next < vertices.size() && of_vertices[next] == place) {
-                found.push_back({true, vertices[next], 0.0, 0.0});
-            } else {
-                found.push_back(
-                    {false, at.segment(), at.fraction(), position / q.positions.back()});
-            }
-        });
+    for_each_position(places, q, route.j, route, poller,
+                      [&](double place, double position, const ArcPosition& at) {
+                          while (next < vertices.size() && of_vertices[next] < place) ++next;
+                          if (next < vertices.size() && of_vertices[next] == place) {
+                              found.push_back({true, vertices[next], 0.0, 0.0});
+                          } else {
+                              found.push_back({false, at.segment(), at.fraction(),
+                                               position / q.positions.back()});
+                          }
+                      });
     return found;
 }
 
@@ -230,7 +245,7 @@ Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, 
                PlacesOnQ* on_q) {
     const CommonBox box(P, Q);
     const Polyline scaled_p = box.scaled(P, poller);
-    const std::size_t pieces = count_pieces(scaled_p);
+    const std::size_t pieces = count_pieces(scaled_p, poller);
     const Side p(P, range, scaled_p, samples_per_piece * pieces, poller);
     const Side q(Q, range, box.scaled(Q, poller), samples_per_piece * pieces, poller);
     poller.poll_in_loop(0);
@@ -240,20 +255,20 @@ Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, 
     for (std::size_t k = 0; k < pieces; ++k) {
         cuts[k] = static_cast<double>(2 * samples_per_piece * (k + 1));
     }
-    std::vector<double> places = merged(route.places, cuts);
-    places = merged(places, places_of_vertices(p, route.i, route));
-    const std::vector<double> of_q = places_of_vertices(q, route.j, route);
-    places = merged(places, of_q);
-    places.erase(std::unique(places.begin(), places.end()), places.end());
-    poller.poll_in_loop(0);
+    std::vector<double> places = merged(route.places, cuts, poller);
+    places = merged(places, places_of_vertices(p, route.i, route, poller), poller);
+    const std::vector<double> of_q = places_of_vertices(q, route.j, route, poller);
+    places = merged(places, of_q, poller);
 
-    Matching result{points_at(places, p, route.i, route), points_at(places, q, route.j, route), {}};
+    Matching result{points_at(places, p, route.i, route, poller),
+                    points_at(places, q, route.j, route, poller),
+                    {}};
     result.ends.reserve(pieces);
     for (std::size_t i = 0; result.ends.size() < pieces; ++i) {
         if (places[i] == cuts[result.ends.size()]) result.ends.push_back(i);
     }
     if (on_q != nullptr) {
-        *on_q = {places_on_q(places, q, of_q, route), box.scaled(Q, poller), box.slopes()};
+        *on_q = {places_on_q(places, q, of_q, route, poller), box.scaled(Q, poller), box.slopes()};
     }
     return result;
 }

@@ -193,7 +193,10 @@ class SimulationStore:
         ValueError
             The store has runs under this identity and another fingerprint.
         """
-        self._database.execute("INSERT OR IGNORE INTO models VALUES (?, ?)", model)
+        try:
+            self._database.execute("INSERT OR IGNORE INTO models VALUES (?, ?)", model)
+        except sqlite3.Error as error:
+            raise self._unwritable(error) from error
         (stored,) = self._database.execute(
             "SELECT fingerprint FROM models WHERE identity = ?", (model.text,)
         ).fetchone()
@@ -248,14 +251,17 @@ class SimulationStore:
             if self._database.in_transaction:
                 self._database.execute("ROLLBACK")
             if isinstance(error, sqlite3.Error):
-                raise OSError(
-                    f"the store {self.path} cannot be written: {error}; what it held before is "
-                    "whole, and a search that is started again goes on from there"
-                ) from error
+                raise self._unwritable(error) from error
             raise
         self._unwritten.clear()
         self.searches.committed()
         self._written = time.monotonic()
+
+    def _unwritable(self, error: sqlite3.Error) -> OSError:
+        return OSError(
+            f"the store {self.path} cannot be written: {error}; what it held before is whole, and "
+            "a search that is started again goes on from there"
+        )
 
 
 def _key(parameters: Mapping[str, Any]) -> str:
