@@ -7,7 +7,7 @@ thinned to some hundreds first. And only from what that has found does the exact
 points, go on, for a few evaluations. What comes out is never worse than the centre, by the exact
 measure.
 
-Cost: some 50 to 100 evaluations of the measure on thinned curves and 15 on all points; for measures
+Cost: some 50 to 100 evaluations of the measure on thinned curves and 10 on all points; for measures
 without a gradient (pcm, frechet, whose gradient is that of one point alone, and functions)
 differences and a simplex search take their place, some 50 k evaluations for k parameters.
 """
@@ -29,8 +29,9 @@ from .surfaces import Responses, Rows, Surfaces
 __all__ = ["SurfaceMinimum"]
 
 _MOST_POINTS = 400  # of thinned curves; those of up to half as many again are taken as they are
-_THINNED, _EXACT = 150, 15  # evaluations with a gradient
-_SIMPLEX, _EXACT_SIMPLEX = 40, 5  # evaluations without one, for each parameter
+_MOST, _POLISHING = 150, 8  # evaluations with a gradient, and those after thinned curves
+# Without one, for each parameter; and those after thinned curves.
+_SIMPLEX, _POLISHING_SIMPLEX = 40, 5
 _OF_NEGLIGIBLE = 1e-4
 
 
@@ -125,17 +126,19 @@ class SurfaceMinimum:
             nonsmooth_descent,
             predicted.with_gradient_on(surfaces, region),
             negligible=self._negligible,
-            most=_THINNED,
+            most=_MOST,
         )
         best = descend(start)
-        return descend(self._simplex(function, best, _SIMPLEX)) if thoroughly else best
+        if not thoroughly:
+            return best
+        return descend(self._simplex(function, best, _SIMPLEX))
 
     def _polished(self, surfaces: Surfaces, region: tuple[Array, Array], start: Array) -> Array:
         """Go on from where thinned curves have led, with all points, for a few evaluations."""
         if not self._exact.has_gradient:
-            return self._simplex(self._exact.on(surfaces, region), start, _EXACT_SIMPLEX)
+            return self._simplex(self._exact.on(surfaces, region), start, _POLISHING_SIMPLEX)
         function = self._exact.with_gradient_on(surfaces, region)
-        return nonsmooth_descent(function, start, negligible=self._negligible, most=_EXACT)
+        return nonsmooth_descent(function, start, negligible=self._negligible, most=_POLISHING)
 
     def _simplex(self, function: Callable[[Array], float], start: Array, evaluations: int) -> Array:
         k = start.size

@@ -258,6 +258,8 @@ def test_several_measures_share_their_runs():
     assert each.runs < 0.75 * sum(found.evaluations for found in alone.values())
     for row, (measure, found) in enumerate(each.items()):
         assert found.value <= 1.01 * alone[measure].value
+        assert found.value == found.history.value.min()  # of all rounds
+        assert found.history.evaluation.tolist() == list(range(1, found.evaluations + 1))
         assert each.optima[row, row] == found.value
         assert each.optima[:, row].argmin() == row  # the best by its own measure
     low, high = each.spread["C"]
