@@ -15,7 +15,14 @@ import numpy as np
 
 from .._curves import Array
 
-__all__ = ["Over", "check_common_x", "differences", "squared_differences", "y_column"]
+__all__ = [
+    "Over",
+    "check_common_x",
+    "differences",
+    "squared_differences",
+    "squared_differences_and_gradient",
+    "y_column",
+]
 
 Over: TypeAlias = int | Literal["points"]
 
@@ -107,3 +114,29 @@ def _point_by_point(P: Array, Q: Array) -> Array:
 def squared_differences(P: Array, Q: Array, *, over: Over = 0) -> float:
     """Return the sum of the squared differences."""
     return float(np.sum(differences(P, Q, over=over) ** 2))
+
+
+def squared_differences_and_gradient(P: Array, Q: Array, *, over: Over = 0) -> tuple[float, Array]:
+    """Return the sum of the squared differences and its derivative by every coordinate of Q."""
+    difference = differences(P, Q, over=over)
+    if over == "points":
+        slopes = np.zeros_like(Q)
+        slopes[:, y_column(over)] = 2.0 * difference
+        return float(difference @ difference), slopes
+    is_reversed = Q[0, over] > Q[-1, over]
+    rows = np.arange(len(Q))[::-1] if is_reversed else np.arange(len(Q))
+    x, y = Q[rows, over], Q[rows, y_column(over)]
+    gradient = np.zeros_like(Q)
+    if len(Q) == 1:
+        gradient[0, y_column(over)] = 2.0 * difference.sum()
+        return float(difference @ difference), gradient
+    wanted = P[:, over]
+    before = np.clip(np.searchsorted(x, wanted, side="right") - 1, 0, len(x) - 2)
+    length = x[before + 1] - x[before]
+    length = np.where(length > 0, length, 1.0)
+    share = np.clip((wanted - x[before]) / length, 0.0, 1.0)
+    slope = (y[before + 1] - y[before]) / length
+    for place, part in ((before, 1.0 - share), (before + 1, share)):
+        np.add.at(gradient[:, y_column(over)], rows[place], 2.0 * difference * part)
+        np.add.at(gradient[:, over], rows[place], -2.0 * difference * part * slope)
+    return float(difference @ difference), gradient

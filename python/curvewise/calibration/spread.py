@@ -87,7 +87,8 @@ def linear_covariance(optimum: Optimum, noise: Noise) -> Array:
         places = np.linspace(0.0, len(columns[0][i]) - 1.0, count)
         at = np.arange(len(columns[0][i]))
         slopes = np.column_stack([np.interp(places, at, column[i][:, y]) for column in columns])
-        slopes /= max(sigma, 1e-300)
+        # A test that is fitted to the last digit has no noise that could be divided by.
+        slopes /= max(sigma, 1e-12 * float(np.abs(slopes).max()), 1e-150)
         rho = 0.0 if noise.residuals is None else autocorrelation(noise.residuals[i])
         information += slopes.T @ slopes
         scatter += slopes.T @ _correlated(slopes, rho)

@@ -23,7 +23,7 @@ from .sensitivity import Optimum, indifferent
 from .spread import bootstrapped_spread, linear_spread
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from ..plotting.picture import Picture
 
 __all__ = ["Uncertainty", "uncertainty_of"]
 
@@ -169,8 +169,13 @@ class Uncertainty:
             if abs(self.bias[name]) > _HARMLESS_BIAS * error
         )
 
-    def plot(self) -> Figure:
+    def plot(self, *, names: Sequence[str] | None = None) -> Picture:
         """Return a matplotlib Figure: intervals, correlations, and the weakest direction.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            As for :meth:`Identification.plot`.
 
         Raises
         ------
@@ -179,7 +184,12 @@ class Uncertainty:
         """
         from .uncertainty_picture import intervals_correlations_direction
 
-        return intervals_correlations_direction(self)
+        return intervals_correlations_direction(self, names)
+
+    def _repr_html_(self) -> str:
+        from .in_notebooks import uncertainty_html
+
+        return uncertainty_html(self)
 
 
 def uncertainty_of(
