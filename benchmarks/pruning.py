@@ -19,36 +19,23 @@ import timing  # before numpy: it sets the number of threads
 # isort: split
 import argparse
 import functools
-import importlib
 import itertools
 import json
-import math
 import multiprocessing
-import os
 import time
-from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
+from pruning_curves import LOOPS, MATERIALS, MODERATE, NOISE, WALKS, data_dir, pair, read
+from pruning_peers import peers
 from timing import Array
 
 import curvewise
 
 MEASURES = ("frechet", "dtw")
-LOOPS = (
-    "dp780_tct_6pct",
-    "eddq_tct_5pct",
-    "tr1180_tct_3pct",
-    "resslab_cyclic_2pct",
-    "resslab_random_protocol",
-)
-PEER_BYTES = 3 << 30
 PACKAGES = ("dtaidistance", "fastdtw", "tsdistances", "traj-dist-rs")
-MODERATE, WALKS, NOISE, MATERIALS = "moderate", "walks", "noise", "two materials"
 COLOURS = {
     "similar": "#0072B2",
     MODERATE: "#009E73",
@@ -101,57 +88,6 @@ def main() -> None:
         print_results(f"{part} ({took:.0f} s)", results)
         timing.write_json(file, content)
     draw(content, arguments.output / "pruning.png")
-
-
-def data_dir() -> Path:
-    """Return the folder of the data."""
-    root = Path(__file__).resolve().parents[1]
-    folder = Path(os.environ.get("CURVEWISE_DATA", root.parent / "shared" / "data"))
-    if not (folder / "loops").is_dir():
-        raise SystemExit(
-            f"no loops in {folder}: set CURVEWISE_DATA to the folder that holds loops/"
-        )
-    return folder
-
-
-@functools.cache
-def read(file: Path) -> Array:
-    """Read a curve, with or without a line of names."""
-    has_names = (
-        not file.read_text("utf-8").partition(",")[0].lstrip("-").startswith(tuple("0123456789"))
-    )
-    return np.loadtxt(file, delimiter=",", skiprows=int(has_names))
-
-
-def loop(name: str) -> Array:
-    """Return a test by its name."""
-    return read(data_dir() / "loops" / f"{name}.csv")
-
-
-def resampled(curve: Array, count: int) -> Array:
-    """Take `count` points along the index, linearly between points."""
-    index = np.linspace(0.0, len(curve) - 1.0, count)
-    return np.column_stack([np.interp(index, np.arange(len(curve)), x) for x in curve.T])
-
-
-def pair(curves: str, n: int) -> tuple[Array, Array]:
-    """Make a pair: a loop's name for similar curves, or one of the other sorts."""
-    random = np.random.Generator(np.random.PCG64(n))
-    m = round(0.9 * n)
-    if curves in (WALKS, NOISE):
-        points = [random.normal(size=(count, 2)) for count in (n, m)]
-        P, Q = (np.cumsum(p, axis=0) if curves == WALKS else p for p in points)
-        return P, Q
-    names = {
-        MODERATE: ("dp780_tct_3pct", "dp780_tct_6pct"),
-        MATERIALS: ("eddq_tct_5pct", "tr1180_tct_3pct"),
-    }
-    if curves in names:
-        first, second = map(loop, names[curves])
-        P, Q = curvewise.normalize(first, second)
-        return resampled(P, n), resampled(Q, m)
-    P, Q = curvewise.normalize(loop(curves), 1.03 * loop(curves))
-    return resampled(P, n), resampled(Q, m) + random.normal(0.0, 0.001, (m, 2))
 
 
 def rounds(seconds: float) -> int:
@@ -324,119 +260,6 @@ def compute_all(name: str, pairs: Sequence[tuple[Array, Array]], prune: bool) ->
         function(P, Q, prune=prune)
 
 
-@dataclass(frozen=True)
-class Peer:
-    """Another package's call, and curvewise's for the same definition."""
-
-    package: str
-    module: str
-    measure: str
-    call: Callable[[Any, Any, Any], Any]
-    dim: int = 2
-    metric: str = "euclidean"
-    as_lists: bool = False
-
-
-# fastdtw gives an approximation; tsdistances has one dimension and squares.
-PEERS = (
-    Peer(
-        "dtaidistance",
-        "dtaidistance.dtw_ndim",
-        "dtw",
-        lambda m, P, Q: m.distance_fast(P, Q, inner_dist="euclidean", use_pruning=True),
-    ),
-    Peer(
-        "fastdtw",
-        "fastdtw",
-        "dtw",
-        lambda m, P, Q: m.fastdtw(P, Q, radius=1, dist=math.dist)[0],
-        as_lists=True,
-    ),
-    Peer(
-        "tsdistances",
-        "tsdistances",
-        "dtw",
-        lambda m, P, Q: m.dtw_distance(P, Q, par=False),
-        dim=1,
-        metric="sqeuclidean",
-    ),
-    Peer("traj-dist-rs", "traj_dist_rs", "dtw", lambda m, P, Q: m.dtw(P, Q, "euclidean").distance),
-    Peer(
-        "traj-dist-rs",
-        "traj_dist_rs",
-        "frechet",
-        lambda m, P, Q: m.discret_frechet(P, Q, "euclidean").distance,
-    ),
-)
-
-
-def peers(effort: Effort) -> list[dict[str, Any]]:
-    """Time every package at growing n, as long as the next call is expected to be short enough.
-
-    Each has a process with little memory, which ends where the package keeps a whole table.
-    """
-    results = []
-    context = multiprocessing.get_context("spawn")
-    for k, peer in enumerate(PEERS):
-        try:
-            importlib.import_module(peer.module)
-        except ImportError as error:
-            print(f"skipped: {peer.package} ({error})")
-            continue
-        n, previous, result = 1000, 0.0, None
-        with ProcessPoolExecutor(1, context, initializer=limit_memory) as process:
-            # The first call compiles and loads.
-            process.submit(measure_peer, k, 100).result()
-            while result is None or growing(previous, result) <= effort.peer_seconds:
-                previous = result["peer_seconds"] if result else 0.0
-                try:
-                    result = process.submit(measure_peer, k, n).result()
-                except (BrokenProcessPool, MemoryError):
-                    print(f"{peer.package}, {peer.measure}: no memory for n = {n}")
-                    break
-                results.append(result)
-                n *= 2
-    return results
-
-
-def limit_memory() -> None:
-    """Let this process have so much memory, where the system can limit it."""
-    import resource
-
-    resource.setrlimit(resource.RLIMIT_AS, (PEER_BYTES, PEER_BYTES))
-
-
-def growing(previous: float, result: dict[str, Any]) -> float:
-    """Return the seconds that a call of twice the points is expected to take."""
-    seconds: float = result["peer_seconds"]
-    return seconds * (min(max(seconds / previous, 2.0), 4.0) if previous else 4.0)
-
-
-def measure_peer(which: int, n: int) -> dict[str, Any]:
-    """Time a package and curvewise once each on a pair of similar curves."""
-    peer = PEERS[which]
-    module = importlib.import_module(peer.module)
-    P, Q = (c if peer.dim == 2 else c[:, 1].copy() for c in pair(LOOPS[0], n))
-    given = [c.tolist() if peer.as_lists else c for c in (P, Q)]
-    start = time.perf_counter()
-    value = float(peer.call(module, *given))
-    middle = time.perf_counter()
-    exact = getattr(curvewise, peer.measure)(P, Q, metric=peer.metric)
-    end = time.perf_counter()
-    return {
-        "curves": LOOPS[0],
-        "package": peer.package,
-        "measure": peer.measure,
-        "dim": peer.dim,
-        "metric": peer.metric,
-        "n": n,
-        "m": len(Q),
-        "peer_seconds": middle - start,
-        "seconds": end - middle,
-        "relative_error": value / exact - 1.0,
-    }
-
-
 PARTS = {
     "similar": similar,
     "million": million,
@@ -444,7 +267,7 @@ PARTS = {
     "paths": paths,
     "files": files,
     "growth": growth,
-    "peers": peers,
+    "peers": lambda effort: peers(effort.peer_seconds),
 }
 
 
@@ -510,7 +333,7 @@ def draw(content: dict[str, Any], file: Path) -> None:
         panel.legend(fontsize=8, loc="upper left")
     panels[0].set_ylabel("seconds per call from Python, one thread")
     machine = next(iter(content.values()))["machine"]
-    figure.suptitle(f"curvewise {machine['commit']}, {machine['cpu']}", fontsize=9)
+    figure.suptitle(machine["cpu"], fontsize=9)
     file.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(file, dpi=130)
     print(f"written: {file}")

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pruning
+from pruning_curves import MODERATE, pair
 from timing import Array
 
 import curvewise
@@ -27,7 +27,7 @@ LIVE = "#E69F00"
 
 def main() -> None:
     """Classify both tables and draw them."""
-    P, Q = pruning.pair(pruning.MODERATE, POINTS)
+    P, Q = pair(MODERATE, POINTS)
     distance = np.sqrt(((P[:, None] - Q[None]) ** 2).sum(axis=2))
     answer = curvewise.frechet(P, Q)
     kinds = np.full(distance.shape, -1)

@@ -1,6 +1,6 @@
 """What the tests share: the golden data, who runs what, and what is said before it begins.
 
-The whole suite runs in as many processes as there are cores (pytest-xdist). The tests of a file
+The whole suite runs in one process more than there are cores (pytest-xdist). The tests of a file
 stay together, in one process and in their order, so that a fixture of a file is made once; files
 whose tests take seconds each are shared out test by test, and the longest begin first. A run of
 named files or tests is one process, as are `pytest -n 0` and `pytest --pdb`.
@@ -25,7 +25,6 @@ DATA = Path(os.environ.get("CURVEWISE_DATA", ROOT.parent / "shared" / "data"))
 LONGEST_FIRST = (
     "embedding/test_cpp.py",
     "package/test_cli.py::test_selfcheck_passes_on_this_machine",
-    "embedding/test_embed.py::test_add_subdirectory_leaks_nothing",
     "embedding/",
     "calibration/",
 )
@@ -65,10 +64,13 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
-    """Answer `-n auto`: a process for each core for the whole suite, none for a part of it."""
+    """Answer `-n auto`: a process for each core for the whole suite, none for a part of it.
+
+    And one more: some tests wait, for solvers and signals.
+    """
     whole = config.args == config.getini("testpaths")
     cores = min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1, 8)
-    return cores if whole and cores > 1 else 0
+    return cores + 1 if whole and cores > 1 else 0
 
 
 def pytest_report_header(config: pytest.Config) -> list[str]:
@@ -76,7 +78,7 @@ def pytest_report_header(config: pytest.Config) -> list[str]:
     lines = []
     if config.args == config.getini("testpaths"):
         lines.append(
-            "curvewise: some 4200 tests; they also build the C++ library three times, its own "
+            "curvewise: some 4200 tests; they also build the C++ library twice, its own "
             "tests, and programs that use it"
         )
         lines.append(

@@ -107,7 +107,8 @@ class WarpingMeasure::Bounds {
    public:
     static constexpr int levels = detail::PairBounds::levels;
     void keep(const PreparedQ& Q) { kept_.keep(Q.checked, Q.packed, PointOrder::reversed); }
-    void take(Bounds& others) { kept_.take(others.kept_); }
+    void make_room(const Bounds& others) { kept_.make_room(others.kept_); }
+    void take(Bounds& others) noexcept { kept_.take(others.kept_); }
 
     class Query {
        public:

@@ -1,10 +1,11 @@
 """What the tests that embed curvewise share: the C++ library, built once a kind and session.
 
 The static library is built together with the C++ tests, as `cmake -DCURVEWISE_BUILD_TESTS=ON` does
-it. The shared one is built inside a project that fetches it (the third way of docs/embedding.md),
-which also shows that `CURVEWISE_INSTALL=ON` installs it from there. Both are installed, moved, and
-their build folders removed, so that what is installed can depend on neither. Where pytest-xdist
-runs several processes, the first that asks builds and the others wait.
+it. The shared one is built inside a project that fetches it (the third way of docs/embedding.md)
+and has other flags: its bits must not depend on them, and `CURVEWISE_INSTALL=ON` installs it from
+there. Both are installed, moved, and their build folders removed, so that what is installed can
+depend on neither. Where pytest-xdist runs several processes, the first that asks builds and the
+others wait.
 """
 
 from __future__ import annotations
@@ -80,10 +81,16 @@ def _build_static(work: Path) -> tuple[str, int]:
 
 
 def _build_shared(work: Path) -> tuple[str, int]:
-    """Build and run the page's program in a project that fetches the library."""
+    """Build and run the page's program in a project of other flags that fetches the library."""
     folder = write_page(work / "tool", "main.cpp", "fetch_content/CMakeLists.txt")
     (work / "curvewise").symlink_to(ROOT)
-    options = ["-DBUILD_SHARED_LIBS=ON", "-DCMAKE_BUILD_TYPE=Release", "-DCURVEWISE_INSTALL=ON"]
+    options = [
+        "-DBUILD_SHARED_LIBS=ON",
+        "-DCURVEWISE_INSTALL=ON",
+        f"-DCMAKE_PROJECT_tool_INCLUDE={ROOT / 'tests/python/embedding/other_flags.cmake'}",
+        "-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON",
+        "-DCMAKE_UNITY_BUILD=ON",
+    ]
     build(folder, work / "build", *OPTIONS, *options)
     return output(work / "build" / "tool"), 0
 

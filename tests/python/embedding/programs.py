@@ -71,8 +71,8 @@ def numbers(text: str) -> dict[str, float]:
     return {name: float(value) for name, value in re.findall(r"^(\w+) +(\S+)$", text, re.M)}
 
 
-def build(source: Path, folder: Path, *options: str) -> None:
-    """Configure and build a CMake project with ninja."""
+def build(source: Path, folder: Path, *options: str, target: str = "all") -> None:
+    """Configure a CMake project and build it, or a target of it, with ninja."""
     output(
         tool("cmake"),
         "-G=Ninja",
@@ -81,7 +81,7 @@ def build(source: Path, folder: Path, *options: str) -> None:
         f"-S={source}",
         f"-B={folder}",
     )
-    output(tool("cmake"), "--build", folder)
+    output(tool("cmake"), "--build", folder, "--target", target)
 
 
 def write_page(folder: Path, *names: str) -> Path:
