@@ -1,15 +1,23 @@
 // Whole numbers of any size: against 64-bit ones where those suffice, and by the laws of a ring
-// where they do not.
+// where they do not. And the comparisons that are made with them, against roots in long double, of
+// numbers that are far enough apart for it.
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
 
 #include "check.hpp"
+#include "continuous/exact_signs.hpp"
 #include "continuous/integer.hpp"
+#include "curves.hpp"
 
 namespace {
 
+using curvewise::detail::ExactSigns;
 using curvewise::detail::Integer;
+using curvewise::detail::Reach;
+using test::Curve;
 
 int sign_of(std::int64_t x) { return x < 0 ? -1 : x > 0 ? 1 : 0; }
 
@@ -59,8 +67,59 @@ void large_numbers() {
     }
 }
 
+// What of the edge from edge(0) to edge(1) is within a radius of a point: A, the root of R, and D.
+struct Part {
+    long double middle = 0, half = 0, length = 0;
+    bool exists;
+    Part(const Curve& edge, const Curve& points, const Reach& z) {
+        long double square = 0;
+        for (std::ptrdiff_t c = 0; c < edge.dim(); ++c) {
+            const long double u = edge(1, c) - edge(0, c), w = points(z.index, c) - edge(0, c);
+            length += u * u;
+            middle += u * w;
+            square += w * w;
+        }
+        const long double r = z.radius;
+        const long double rest = middle * middle - length * (square - r * r);
+        exists = rest >= 0;
+        half = exists ? std::sqrt(rest) : 0;
+    }
+};
+
+int sign_of_real(long double x) { return std::abs(x) < 1e-9L ? 0 : x < 0 ? -1 : 1; }
+
+void signs_of_roots() {
+    test::Random random(3);
+    int compared = 0;
+    for (int k = 0; k < 4000; ++k) {
+        const std::ptrdiff_t dim = 1 + random.index(3);
+        const auto coordinates = [&](std::ptrdiff_t count) {
+            std::vector<double> values;
+            for (std::ptrdiff_t i = 0; i < count * dim; ++i) {
+                values.push_back(static_cast<double>(random.index(17) - 8));
+            }
+            return Curve(values, dim);
+        };
+        const Curve edge = coordinates(2), points = coordinates(2);
+        const auto radius = [&] { return 0.25 * static_cast<double>(1 + random.index(40)); };
+        const Reach one{0, radius()}, other{1, radius()};
+        const Part first(edge, points, one), second(edge, points, other);
+        const ExactSigns exact(edge, points);
+        if (!first.exists || !second.exists || first.length == 0) continue;
+        ++compared;
+        const long double low = first.middle - first.half,
+                          low_of_other = second.middle - second.half;
+        CHECK_EQUAL(exact.low_to_low(0, one, other), sign_of_real(low - low_of_other));
+        CHECK_EQUAL(exact.low_to_high(0, one, other),
+                    sign_of_real(low - (second.middle + second.half)));
+    }
+    CHECK(compared > 1000);
+}
+
 }  // namespace
 
 int main() {
-    return check::run({{"small numbers", small_numbers}, {"large numbers", large_numbers}});
+    return check::run({{"small numbers", small_numbers},
+                       {"large numbers", large_numbers},
+                       {"signs of roots", signs_of_roots}});
 }

@@ -130,6 +130,18 @@ void bounds_leave_most_pairs_out() {
     }
 }
 
+// The second curve has the smaller bound and is computed first; the first one, whose bound is no
+// smaller than the distance that was found, is as near and comes before it.
+void a_bound_that_is_the_distance_is_looked_at() {
+    const Curve query{{0, 0}}, first{{5, 0}}, second{{0, 0}, {3, 4}, {0, 0}};
+    const Index index({first, second}, FrechetOptions{});
+    double distance = 0.0;
+    std::int64_t place = -1;
+    index.kneighbors({query}, 1, &distance, &place);
+    CHECK_EQUAL(distance, 5.0);
+    CHECK_EQUAL(place, 0);
+}
+
 void a_control_ends_a_search() {
     Random random(3);
     const std::vector<Curve> curves = random_curves(random, 40, 300);
@@ -225,6 +237,7 @@ int main() {
     return check::run(
         {{"neighbors are those of a sorted table", neighbors_are_those_of_a_sorted_table},
          {"bounds leave most pairs out", bounds_leave_most_pairs_out},
+         {"a bound that is the distance is looked at", a_bound_that_is_the_distance_is_looked_at},
          {"a control ends a search", a_control_ends_a_search},
          {"refusals name the curve", refusals_name_the_curve},
          {"runs are those of open ends", runs_are_those_of_open_ends},
