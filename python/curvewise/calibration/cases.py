@@ -17,9 +17,10 @@ import numpy as np
 from .._curves import Array
 from .._options import Preset
 from .curve_list import as_points, curve_list, points_of
+from .loop import FailedSimulationError, Loop
 from .loop_measure import Measure, Part, check_part, condition_of, measure_name
 from .model_pool import Model, Outcome
-from .objective import LEAST_SQUARES, MEASURES, FailedSimulationError, Loop, Objective
+from .objective import LEAST_SQUARES, MEASURES, Objective
 
 __all__ = ["Case", "CaseObjective", "Cases"]
 
@@ -236,7 +237,7 @@ class _Number:
     scale = 1.0
     y = 0
     names: tuple[str, ...] = ()
-    has_gradient = True
+    has_gradient = can_be_thinned = True
 
     def __init__(self, case: Case) -> None:
         self.experiment = np.array(case.experiment, dtype=np.float64).reshape(1, 1)

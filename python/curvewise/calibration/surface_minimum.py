@@ -63,10 +63,12 @@ class SurfaceMinimum:
         self._random = random
         # Of squares the root counts, and a step on the surfaces costs little.
         self._negligible = _OF_NEGLIGIBLE * negligible
-        rows = responses.thinned_rows(_MOST_POINTS)
-        thinned = objective.thinned(_MOST_POINTS)
         self._exact = _Predicted(objective, responses, None, thinking)
         self._thinned: _Predicted | None = None
+        if not objective.can_be_thinned:
+            return
+        rows = responses.thinned_rows(_MOST_POINTS)
+        thinned = objective.thinned(_MOST_POINTS)
         if thinned is not None or rows is not None:
             self._thinned = _Predicted(thinned or objective, responses, rows, thinking)
 
