@@ -171,7 +171,9 @@ def main() -> int:
                 kills += count
             failures += filter(None, wrong)
             same = wrong.count("")
-            print(f"{what}: {kills} times, of {len(wrong)} searches; {same} ended with the same bits")
+            print(
+                f"{what}: {kills} times, of {len(wrong)} searches; {same} ended with the same bits"
+            )
         wrong = [two_on_one_store(searches, f"two-{k}", rng) for k in range(arguments.times)]
         failures += filter(None, wrong)
         print(f"two processes on one store: {len(wrong)} times, {wrong.count('')} right")
