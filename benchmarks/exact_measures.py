@@ -2,8 +2,8 @@
 
 Written from the definitions (the paper's Algorithm 1, partial curve mapping, OF2), not from the
 library. Only what is decided on rounded numbers by definition is rounded: lengths to 34 bits,
-before the longest segment is sought, and the samples that `spacing="matched"` aligns, to 30 bits. O(n²)
-and slow: for curves of some thirty points.
+before the longest segment is sought, and the samples that `spacing="matched"` aligns, to 30 bits.
+O(n²) and slow: for curves of some thirty points.
 """
 
 from __future__ import annotations

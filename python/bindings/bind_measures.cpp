@@ -18,6 +18,7 @@ namespace {
 template <class Options, class Compute>
 auto computed(const CurveArray& P, const CurveArray& Q, const Options& options, Compute compute) {
     const CurveView p = view(P), q = view(Q);
+    if (few_points_of_many_coordinates(p, q)) warn_if_transposed(P);
     const double work = options.work(static_cast<double>(p.size()), static_cast<double>(q.size()),
                                      static_cast<double>(p.dim()));
     // The curves are read before the work that the measure knows of.

@@ -22,8 +22,10 @@ from ._curves import (
     check_column_names,
     column_names,
     copy_of,
+    warn_if_transposed,
 )
 from ._docstrings import filled, listed
+from ._foreign_curves import is_curve_of_another_package
 from ._options import Default, MeasureName, Metric
 from ._progress import Report, reporting
 from .measures.registry import MEASURES
@@ -245,6 +247,7 @@ class Prepared:
 
     def __init__(self, P: CurveLike, measure: MeasureName = "dtw", **options: Any) -> None:
         self._curve = copy_of(as_curve(P, "P"))
+        warn_if_transposed(self._curve, "P")
         self._columns = column_names(P)
         self._measure = _check_names(measure, options)
         self._options = options
@@ -291,7 +294,9 @@ class Prepared:
 
     def _is_list(self, Q: Any) -> bool:
         if isinstance(Q, list | tuple):
-            return len(Q) == 0 or np.ndim(Q[0]) == self._curve.ndim
+            if len(Q) == 0 or is_curve_of_another_package(Q[0]):
+                return True
+            return bool(np.ndim(Q[0]) == self._curve.ndim)
         return np.ndim(Q) == 3
 
 

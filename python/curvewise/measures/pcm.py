@@ -8,6 +8,7 @@ from __future__ import annotations
 from .. import _core
 from .._curves import CurveLike, as_curves
 from .._options import Default, Offsets
+from ..named_curve import copied
 from ..results import PcmMatch
 
 __all__ = ["pcm", "pcm_match"]
@@ -100,5 +101,6 @@ def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets)
     >>> match.mapped, match.coverage
     ('Q', 0.25)
     """
-    P, Q = as_curves(P, Q)
-    return PcmMatch(*_core.pcm_match(P, Q, {"offsets": offsets}))
+    p, q = as_curves(P, Q)
+    found = _core.pcm_match(p, q, {"offsets": offsets})
+    return PcmMatch(*found, (copied(P, p), copied(Q, q)))
