@@ -14,11 +14,11 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 
+import exact_measures
 import numpy as np
 from mpmath import mpf
 
 import curvewise
-import exact_measures
 
 Pair = tuple[np.ndarray, np.ndarray]
 Rng = np.random.Generator

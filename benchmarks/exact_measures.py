@@ -1,9 +1,9 @@
-"""The plane measures in numbers of as many bits as it takes (mpmath): what accuracy.py compares with.
+"""The plane measures in numbers of as many bits as it takes (mpmath), for accuracy.py.
 
 Written from the definitions (the paper's Algorithm 1, partial curve mapping, OF2), not from the
-library. Only what is decided on rounded numbers by definition is rounded: lengths to 34 bits, before
-the longest segment is sought, and the samples that `spacing="matched"` aligns, to 30 bits. O(n²)
-and slow: for curves of some thirty points.
+library. Only what is decided on rounded numbers by definition is rounded: lengths to 34 bits,
+before the longest segment is sought, and the samples that `spacing="matched"` aligns, to 30 bits.
+O(n²) and slow: for curves of some thirty points.
 """
 
 from __future__ import annotations

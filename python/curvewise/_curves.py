@@ -118,7 +118,7 @@ def _aligned(array: Array) -> Array:
 
 
 def copy_of(curve: Array) -> Array:
-    """Return a copy, made piece by piece: Ctrl-C is heard between them, and inside numpy it is not."""
+    """Return a copy, made in pieces: Ctrl-C is heard between them, and never inside numpy."""
     copy = np.empty(curve.shape)
     for first in range(0, len(curve), _ROWS_AT_ONCE):
         copy[first : first + _ROWS_AT_ONCE] = curve[first : first + _ROWS_AT_ONCE]

@@ -20,7 +20,7 @@ import numpy as np
 
 import curvewise
 
-# Otherwise glibc keeps what is freed, and room for threads; the next call needs none of the system's.
+# Otherwise glibc keeps what is freed, and room for threads, for the next call.
 GIVEN_BACK = {
     "MALLOC_ARENA_MAX": "1",
     "MALLOC_MMAP_THRESHOLD_": "8192",

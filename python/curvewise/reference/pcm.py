@@ -98,7 +98,7 @@ def _tolerance(roles: _Roles, value: float, offsets: Any) -> float:
     if offsets == 1:
         return S * slack
     if offsets != "continuous":
-        return S * (0.5 * slack / (offsets - 1))
+        return S * (0.5 * slack / float(offsets - 1))
     at_grid = S * (0.5 * slack / (_GRID - 1))
     return min(_OFFSET_TOLERANCE * max(S, 0.1 * value), at_grid)
 
