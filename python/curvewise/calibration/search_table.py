@@ -12,23 +12,27 @@ import hashlib
 import json
 import sqlite3
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from .history import Evaluation
 from .search_record import Ending, SearchRecord, as_json
+from .transaction import writing
 
 __all__ = ["SearchTable"]
 
-_TABLES = """
+_SEARCHES = """
 CREATE TABLE IF NOT EXISTS searches (
     number INTEGER PRIMARY KEY, key TEXT NOT NULL UNIQUE,
     settings TEXT NOT NULL, details TEXT NOT NULL, ending TEXT NOT NULL
-);
+)
+"""
+_EVALUATIONS = """
 CREATE TABLE IF NOT EXISTS evaluations (
     search INTEGER NOT NULL, number INTEGER NOT NULL, point TEXT NOT NULL, value REAL NOT NULL,
     failed INTEGER NOT NULL, seconds REAL NOT NULL, message TEXT NOT NULL,
     PRIMARY KEY (search, number)
-) WITHOUT ROWID;
+) WITHOUT ROWID
 """
 
 
@@ -39,28 +43,31 @@ class SearchTable:
     ----------
     database : sqlite3.Connection
         That of the store.
+    path : Path
+        Its file, for messages.
     """
 
-    def __init__(self, database: sqlite3.Connection) -> None:
+    def __init__(self, database: sqlite3.Connection, path: Path) -> None:
         self._database = database
+        self._path = path
         self._unwritten: list[tuple[Any, ...]] = []
 
     def begin(self, settings: Mapping[str, Any], details: Mapping[str, Any]) -> int:
         """Make a search known, without evaluations or ending, and return its number."""
         text = as_json(settings)
         key = hashlib.sha256(as_json(json.loads(text)).encode()).hexdigest()
-        self._database.executescript(f"BEGIN IMMEDIATE; {_TABLES} COMMIT;")
-        self._database.execute("BEGIN IMMEDIATE")
-        self._database.execute(
-            "INSERT INTO searches (key, settings, details, ending) VALUES (?, ?, ?, '') "
-            "ON CONFLICT (key) DO UPDATE SET details = excluded.details, ending = ''",
-            (key, text, as_json(details)),
-        )
-        (number,) = self._database.execute(
-            "SELECT number FROM searches WHERE key = ?", (key,)
-        ).fetchone()
-        self._database.execute("DELETE FROM evaluations WHERE search = ?", (number,))
-        self._database.execute("COMMIT")
+        with writing(self._database, self._path):
+            self._database.execute(_SEARCHES)
+            self._database.execute(_EVALUATIONS)
+            self._database.execute(
+                "INSERT INTO searches (key, settings, details, ending) VALUES (?, ?, ?, '') "
+                "ON CONFLICT (key) DO UPDATE SET details = excluded.details, ending = ''",
+                (key, text, as_json(details)),
+            )
+            (number,) = self._database.execute(
+                "SELECT number FROM searches WHERE key = ?", (key,)
+            ).fetchone()
+            self._database.execute("DELETE FROM evaluations WHERE search = ?", (number,))
         return int(number)
 
     def note(self, search: int, evaluation: Evaluation) -> None:
@@ -87,9 +94,10 @@ class SearchTable:
 
     def end(self, search: int, ending: Ending) -> None:
         """Write how a search ended."""
-        self._database.execute(
-            "UPDATE searches SET ending = ? WHERE number = ?", (ending.to_json(), search)
-        )
+        with writing(self._database, self._path):
+            self._database.execute(
+                "UPDATE searches SET ending = ? WHERE number = ?", (ending.to_json(), search)
+            )
 
     def records(self) -> dict[int, SearchRecord]:
         """Return all searches by their numbers, in the order in which they were begun."""

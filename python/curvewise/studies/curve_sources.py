@@ -7,7 +7,9 @@ Text, Excel and MATLAB are read by curvewise.read_curve, solvers' files by curve
 from __future__ import annotations
 
 import glob
+import json
 import os
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +19,7 @@ import numpy as np
 
 from .. import solvers
 from .._curves import Array
+from ..column_choice import TimeColumnWarning
 from ..curve_files import read_curve, read_named_columns
 from ..solvers import SolverOutput
 from .formulas import Formula
@@ -131,7 +134,14 @@ class CurveSource:
         """Return what is read, a column each."""
         path = folder / self.file
         if self.format == "columns":
-            return read_curve(path, self.columns or None, sheet=self.sheet)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error", TimeColumnWarning)
+                try:
+                    return read_curve(path, self.columns or None, sheet=self.sheet)
+                except TimeColumnWarning as guessed:
+                    wanted = json.dumps(guessed.wanted, ensure_ascii=False)
+                    message = f"{guessed.found}; name those wanted: columns = {wanted}"
+                    raise ValueError(message) from None
         reader = FORMATS[self.format]
         assert reader is not None
         if not glob.glob(os.fspath(path)):

@@ -186,7 +186,8 @@ def plain(result: Any) -> list[Any]:
     if isinstance(result, curvewise.Comparison):
         return plain(list(result.values.values()))
     if dataclasses.is_dataclass(result):
-        return plain([getattr(result, field.name) for field in dataclasses.fields(result)])
+        compared = [field.name for field in dataclasses.fields(result) if field.compare]
+        return plain([getattr(result, name) for name in compared])
     if isinstance(result, (list, tuple)):
         return [plain(part) for part in result]
     return [result.tolist()] if isinstance(result, np.ndarray) else [result]
