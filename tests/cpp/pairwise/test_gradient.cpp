@@ -55,6 +55,10 @@ void slopes() {
         }
     }
     check_slope(curvewise::DtwOptions{}, P, Q, direction);
+    curvewise::DtwOptions per_step;
+    per_step.step_pattern = curvewise::StepPattern::symmetric2;
+    per_step.normalize = true;
+    check_slope(per_step, P, Q, direction);
     check_slope(curvewise::FrechetOptions{}, P, Q, direction);
     check_slope(curvewise::CurveLengthOptions{curvewise::LengthScale::range}, P, Q, direction);
 }

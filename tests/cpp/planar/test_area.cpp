@@ -265,10 +265,21 @@ void messages() {
     CHECK_EQUAL(area(P, Curve{{0.0, 1.0}, {0.0, 1.0}}), 0.5);
 }
 
+// The number of curvewise.reference, which shares no code with this: pieces on either side of P,
+// and a coordinate that turns by less than a third of the box.
+void matched_area_of_the_reference() {
+    const Curve P{{0, 0}, {1, 2}, {3, 1}, {4, 4}, {6, 0}, {2, -1}, {0.5, 0}};
+    const Curve Q{{0, 0.5}, {2, 2.5}, {4, 3}, {5, 1}, {3, -1.5}, {0, 0.25}};
+    curvewise::AreaOptions options;
+    options.spacing = curvewise::Spacing::matched;
+    CHECK_CLOSE(curvewise::area(P, Q, options), 6.3181757077365654, 1e-12);
+}
+
 }  // namespace
 
 int main() {
-    return check::run({{"values by hand", values_by_hand},
+    return check::run({{"matched area of the reference", matched_area_of_the_reference},
+                       {"values by hand", values_by_hand},
                        {"crossing segments", crossing_segments},
                        {"random quadrilaterals", random_quadrilaterals},
                        {"refinement by hand", refinement_by_hand},
