@@ -6,13 +6,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ._curves import Array, CurveLike, as_curves
 from ._docstrings import filled
+from ._foreign_curves import warn
 from ._options import Preset
+from .column_choice import is_time
 from .deviations import Deviations, deviation
 from .measures import normalize
 from .measures.registry import MEASURES, PRESETS, Condition, MeasureInfo, default_measures
-from .named_curve import copied
+from .named_curve import copied, known_names
 
 if TYPE_CHECKING:
     from .plotting.picture import Picture
@@ -114,7 +118,9 @@ def compare(
     Parameters
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
-        The curves; P is the reference.
+        The curves; P is the reference. Every column is a coordinate: of three or more of which one
+        is time by its name, or alone increases from point to point in both curves, a warning says
+        so, unless `measures` is given.
     preset : {"scaled", "paper", "raw"}
         "scaled": everything on curves scaled by P's box, area with spacing="matched",
         curve_length with scale="mean_abs".
@@ -157,11 +163,13 @@ def compare(
     >>> print(curvewise.compare(P, Q, measures=["area"]).deviations["area"])
     mean 54.09 (4 %), largest 99.3 (7.3 %)
     """
+    columns = known_names(P, Q)
     P, Q = map(copied, (P, Q), as_curves(P, Q))
     if not isinstance(preset, str) or preset not in PRESETS:
         raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
     if measures is None:
         measures = default_measures(P)
+        _warn_of_time(P, Q, columns, measures)
     if isinstance(measures, str) or not (names := list(measures)):
         raise ValueError(f"measures is {measures!r}; give a list of names, e.g. ['area', 'dtw']")
     given = {} if options is None else options
@@ -174,6 +182,23 @@ def compare(
     conditions = {name: _changed(PRESETS[preset][name], given.get(name, {})) for name in names}
     values = {name: _value(MEASURES[name], conditions[name], P, Q) for name in names}
     return Comparison(P, Q, preset, values, conditions)
+
+
+def _warn_of_time(P: Array, Q: Array, names: Sequence[Any], measures: Sequence[str]) -> None:
+    """Warn of a column beside two others that is time: it would count as a coordinate."""
+    if P.ndim != 2 or Q.ndim != 2 or P.shape[1] != Q.shape[1] or P.shape[1] < 3:
+        return
+    times = [i for i, name in enumerate(names) if is_time(name)]
+    if not times and min(len(P), len(Q)) > 2:
+        rising = (np.diff(P, axis=0) > 0).all(axis=0) & (np.diff(Q, axis=0) > 0).all(axis=0)
+        times = [int(i) for i in np.flatnonzero(rising)] if rising.sum() == 1 else []
+    if times:
+        by_name = bool(names) and is_time(names[times[0]])
+        column = repr(names[times[0]]) if by_name else f"{times[0] + 1} of {P.shape[1]}"
+        warn(
+            f"column {column} counts as a coordinate, and looks like time; leave it out of P and Q,"
+            f" or say measures={list(measures)} if it shall count"
+        )
 
 
 def _changed(condition: Condition, options: Mapping[str, Any]) -> Condition:

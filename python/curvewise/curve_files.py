@@ -64,7 +64,8 @@ def read_curve(
         Names from the header, or numbers from 1 (as int or str), in the order wanted. By default
         the first two columns, or the only one.
     sheet : str or int, optional
-        The sheet of a workbook, by its name, or by its number from 1. By default the first.
+        The sheet of a workbook, by its name, or by its number from 1 (as int or str). By default
+        the first.
     factors : sequence of float, one per column, optional
         What the columns are multiplied by, to change units: ``[0.01, 1e-6]`` for per cent and Pa
         where the other curve has fractions and MPa.
@@ -87,6 +88,11 @@ def read_curve(
     OSError
         The file cannot be read.
 
+    Warns
+    -----
+    TimeColumnWarning
+        `columns` is not given, the first column is time by its name, and there are three or more.
+
     Notes
     -----
     O(size) time and memory: about 2 s for 10^6 points of text (quoted: 5 s), more of a workbook.
@@ -106,22 +112,7 @@ def read_curve(
     array([[0.000e+00, 0.000e+00],
            [1.000e-03, 1.995e+02]])
     """
-    values, names = read_named_columns(path, columns, sheet=sheet)
-    if factors is None:
-        return values
-    given = np.asarray(factors, dtype=np.float64)
-    if given.shape != values.shape[1:]:
-        raise ValueError(
-            f"factors has shape {given.shape}; {os.fspath(path)} gives {values.shape[1]} columns, "
-            "and each needs one"
-        )
-    if not (np.isfinite(given).all() and given.all()):
-        raise ValueError(f"factors is {given.tolist()}; each must be finite and not 0")
-    changed = [
-        name if factor == 1.0 else f"{name} × {factor:.10g}"
-        for name, factor in zip(_titles(names), given.tolist(), strict=True)
-    ]
-    return NamedCurve(values * given, changed)
+    return read_named_columns(path, columns, sheet=sheet, factors=factors)[0]
 
 
 def read_named_columns(
@@ -129,12 +120,13 @@ def read_named_columns(
     columns: Sequence[str | int] | None = None,
     *,
     sheet: str | int | None = None,
+    factors: Sequence[float] | None = None,
 ) -> tuple[Array, list[str]]:
     r"""Read a curve as :func:`read_curve` does, and say which columns it was read from.
 
     Parameters
     ----------
-    path, columns, sheet
+    path, columns, sheet, factors
         As for :func:`read_curve`.
 
     Returns
@@ -161,7 +153,22 @@ def read_named_columns(
     ['strain', 'stress']
     """
     values, names = _read(path, columns, sheet)
-    return NamedCurve(values, _titles(names)), names
+    titles = _titles(names)
+    if factors is None:
+        return NamedCurve(values, titles), names
+    given = np.asarray(factors, dtype=np.float64)
+    if given.shape != values.shape[1:]:
+        raise ValueError(
+            f"factors has shape {given.shape}; {os.fspath(path)} gives {values.shape[1]} columns, "
+            "and each needs one"
+        )
+    if not (np.isfinite(given).all() and given.all()):
+        raise ValueError(f"factors is {given.tolist()}; each must be finite and not 0")
+    changed = [
+        name if factor == 1.0 else f"{name} × {factor:.10g}"
+        for name, factor in zip(titles, given.tolist(), strict=True)
+    ]
+    return NamedCurve(values * given, changed), names
 
 
 def _titles(names: list[str]) -> list[str]:

@@ -41,7 +41,7 @@ def kinematic_hardening(
     .. math::
 
         \sigma = E (\varepsilon - \varepsilon_p), \qquad
-        \left|\sigma - \textstyle\sum_k X_k\right| \le \sigma_y, \qquad
+        \left|\sigma - {\textstyle\sum_k X_k}\right| \le \sigma_y, \qquad
         \dot X_k = C_k \dot\varepsilon_p - \gamma_k X_k \dot p
 
     (factors of 2/3 and 3/2 absorbed into the constants). While plastic flow keeps its direction

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ._curves import Array, column_names
+from ._curves import Array, column_names, copy_of
 
 __all__ = ["NamedCurve", "axis_names", "copied", "known_names", "renamed"]
 
@@ -101,7 +101,7 @@ def _plain(value: Any) -> Any:
 
 def copied(curve: Any, array: Array) -> Array:
     """Return a copy of the array that a curve was given as, with the names that the curve has."""
-    return renamed(curve, array.copy())
+    return renamed(curve, copy_of(array))
 
 
 def renamed(curve: Any, array: Array) -> Array:

@@ -164,6 +164,11 @@ class PcmMatch(_Record):
         Which curve is the shorter one, whose vertices are mapped onto the other.
     points : ndarray, shape (k, 2)
         For every vertex of the mapped curve, its point on the other curve, in original units.
+    tolerance : float
+        How far `value` may lie above the smallest area of all offsets. For lengths S <= T and
+        ``offsets=k`` it is S (T - S) / (2 (k - 1)), or S (T - S) for ``offsets=1``; for
+        "continuous" 1e-12 S or 1e-13 `value`, whichever is more, unless the search took more than
+        2^20 evaluations: then it says with how much more the search ended.
     curves : tuple of two ndarrays, or None
         Copies of P and Q, for the picture; not those of :mod:`curvewise.reference`.
     """
@@ -173,6 +178,7 @@ class PcmMatch(_Record):
     coverage: float
     mapped: Literal["P", "Q"]
     points: npt.NDArray[np.float64]
+    tolerance: float
     curves: Curves = field(default=None, repr=False, compare=False)
 
     def plot(self) -> Picture:

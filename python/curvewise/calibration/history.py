@@ -18,6 +18,7 @@ import json
 import os
 import zlib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -102,7 +103,9 @@ class History:
     def close(self) -> None:
         """Close the file."""
         if self._file is not None:
-            self._file.close()
+            # Every line was flushed when it was written; one that could not be has been reported.
+            with suppress(OSError):
+                self._file.close()
 
     def write(self, evaluation: Evaluation) -> None:
         """Append an evaluation to the file, at once."""
@@ -116,8 +119,14 @@ class History:
             " ".join(evaluation.message.split()),  # on one line
             text_of(evaluation.simulations or ()) if self._keep_simulations else "",
         ]
-        self._file.write(_with_checksum(_line(row).rstrip("\n")))
-        self._file.flush()
+        try:
+            self._file.write(_with_checksum(_line(row).rstrip("\n")))
+            self._file.flush()
+        except OSError as error:
+            raise OSError(
+                f"the history {self._file.name} cannot be written: {error}; what it held before "
+                "is whole, and a search that is started again goes on from there"
+            ) from error
 
     def _load(self, path: Path, settings: dict[str, Any], header: tuple[str, ...]) -> bool:
         """Read the file; return whether there is anything in it."""

@@ -9,7 +9,8 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from inspect import signature
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,9 +21,10 @@ from ..deviations import Deviation, deviation
 from ..measures.registry import Condition, default_measures
 from .cases import Case, CaseObjective, Cases
 from .curve_list import points_of
+from .determined import determined_by
 from .evaluations import Progress
 from .history import Evaluation, as_records
-from .loop_measure import Measure, Part
+from .loop_measure import Measure, Part, unknown_options_explained
 from .loop_selection import Selection
 from .model_pool import Model
 from .objective import Objective
@@ -34,7 +36,7 @@ from .running import Ended, Plan, run_search
 from .sensitivity import design_runs, indifferent, optimum_surfaces
 from .store import StorePath
 from .study import Study, models_of
-from .uncertainty import Uncertainty, determined_by, uncertainty_of
+from .uncertainty import Uncertainty, uncertainty_of
 
 if TYPE_CHECKING:
     from ..plotting.picture import Picture
@@ -308,6 +310,23 @@ class Identification:
 
         write_report(path, [record_of(self, uncertainty)])
 
+    def followed_by(self, later: Identification) -> Identification:
+        """Return a later search of the same study as the continuation of this one."""
+        best = later if later.value <= self.value else self
+        count = len(self.history)
+        history = np.concatenate([self.history, later.history])
+        history["evaluation"] = np.arange(1, len(history) + 1)
+        failures = [(count + number, message) for number, message in later.failures]
+        return replace(
+            best,
+            history=history.view(np.recarray),
+            failures=(*self.failures, *failures),
+            converged=later.converged,
+            message=later.message,
+            runs=self.runs + later.runs,
+            kept=later.kept,
+        )
+
     @property
     def _unit(self) -> Array:
         return self.study.space.unit_of(self.parameters)
@@ -432,9 +451,11 @@ def identify(
         "nelder-mead": size (of the simplex, 0.1), restarts (10), and scipy's options (xatol,
         fatol, ...). "least_squares": diff_step (of the derivatives, as a fraction of the bounds'
         range, 1e-6; 1e-4 to 1e-3 for a solver that prints seven digits) and those of
-        `scipy.optimize.least_squares`, e.g. loss for a robust sum. "trust-region": initial_range
-        (0.5), diff_step (0.02), tol (1e-3), gain (1e-3: the least that is worth going on for),
-        maxiter. "sdrm+de": a mapping for each, ``{"sdrm": {...}, "de": {...}}``.
+        `scipy.optimize.least_squares`, e.g. loss and f_scale for a robust sum, of which the result
+        is then the minimum (residuals are in units of the experiment's height). "trust-region":
+        starts (3, where none is given), initial_range (0.5), diff_step (0.02), tol (1e-3), gain
+        (1e-3: the least that is worth going on for), maxiter.
+        "sdrm+de": a mapping for each, ``{"sdrm": {...}, "de": {...}}``.
 
     Returns
     -------
@@ -489,13 +510,15 @@ def identify(
         history,
         max_evaluations,
     )
-    plan.check(measure)
+    cases = _cases_of(model)
+    for one in (measure,) if cases is None else (case.measure for case in cases.cases):
+        plan.check(one)
     if bounds is None:
         raise TypeError("identify needs bounds: a dict of name: (low, high)")
     space = Space(bounds)
     if start is not None:
         space.unit(start)
-    if (cases := _cases_of(model)) is not None:
+    if cases is not None:
         changed = {**options, "experiments": experiments, "weights": weights}
         if given := [name for name, value in changed.items() if value is not None]:
             raise ValueError(f"{', '.join(given)} given beside cases; give them to each Case")
@@ -510,16 +533,17 @@ def identify(
             executor,
         )
         return identification_of(study, plan, run_search(study, plan))
-    objective = Objective(
-        experiments,
-        measure,
-        preset=preset,
-        weights=weights,
-        failure_value=failure_value,
-        min_coverage=min_coverage,
-        part=part,
-        **options,
-    )
+    with unknown_options_explained(measure, options, signature(identify).parameters):
+        objective = Objective(
+            experiments,
+            measure,
+            preset=preset,
+            weights=weights,
+            failure_value=failure_value,
+            min_coverage=min_coverage,
+            part=part,
+            **options,
+        )
     models, assemble = models_of(model)
     study = Study(models, assemble, objective, space, store, version, workers, executor)
     return identification_of(study, plan, run_search(study, plan))

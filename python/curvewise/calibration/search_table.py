@@ -71,9 +71,10 @@ class SearchTable:
 
     def write(self) -> None:
         """Write what has been noted; within a transaction, after which `committed` is called."""
-        self._database.executemany(
-            "INSERT OR REPLACE INTO evaluations VALUES (?, ?, ?, ?, ?, ?, ?)", self._unwritten
-        )
+        if self._unwritten:  # else there may be no table: runs are stored without a search, too
+            self._database.executemany(
+                "INSERT OR REPLACE INTO evaluations VALUES (?, ?, ?, ?, ?, ?, ?)", self._unwritten
+            )
 
     def committed(self) -> None:
         """Forget what has been written."""

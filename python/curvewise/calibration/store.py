@@ -238,11 +238,21 @@ class SimulationStore:
     def _write(self) -> None:
         if not self._unwritten and not self.searches.has_unwritten:
             return
-        self._database.execute("BEGIN IMMEDIATE")
-        rows = self._unwritten.values()
-        self._database.executemany("INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?)", rows)
-        self.searches.write()
-        self._database.execute("COMMIT")
+        try:
+            self._database.execute("BEGIN IMMEDIATE")
+            rows = self._unwritten.values()
+            self._database.executemany("INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?)", rows)
+            self.searches.write()
+            self._database.execute("COMMIT")
+        except BaseException as error:  # Ctrl-C, too: whatever comes next begins anew
+            if self._database.in_transaction:
+                self._database.execute("ROLLBACK")
+            if isinstance(error, sqlite3.Error):
+                raise OSError(
+                    f"the store {self.path} cannot be written: {error}; what it held before is "
+                    "whole, and a search that is started again goes on from there"
+                ) from error
+            raise
         self._unwritten.clear()
         self.searches.committed()
         self._written = time.monotonic()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -48,8 +49,8 @@ def intervals_correlations_direction(
     panels = lower.subplots(1, len(experiments), squeeze=False)[0]
     _draw_direction(uncertainty, panels, axes_of(uncertainty.optimum.study.objective, names))
     lines, labels = panels[0].get_legend_handles_labels()
-    lower.suptitle(uncertainty.in_words, fontsize=10)
-    lower.legend(lines, labels, loc="outside upper left", ncols=4, frameon=False)
+    lower.suptitle(textwrap.fill(uncertainty.in_words, 110), fontsize=10)
+    lower.legend(lines, labels, loc="outside lower center", ncols=4, frameon=False)
     return figure
 
 
@@ -71,7 +72,7 @@ def _draw_intervals(uncertainty: Any, ax: Any) -> None:
     ax.set_yticks(range(len(space.names)), space.names)
     ax.invert_yaxis()
     percent = f"{100 * uncertainty.level:g} %"
-    ax.set(xlim=(-0.05, 1.75), xlabel="place between the bounds", title=f"{percent} intervals")
+    ax.set(xlim=(-0.05, 2.1), xlabel="place between the bounds", title=f"{percent} intervals")
     ax.set_xticks([0.0, 0.5, 1.0])
 
 
