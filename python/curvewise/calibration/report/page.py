@@ -21,6 +21,7 @@ from ..._extras import extra
 from ..search_record import SearchRecord
 from .figures import Figure
 from .sections import AddFigure, headline, most_points, overview, sections_of
+from .uncertainty_summary import summary_of_record
 
 __all__ = ["page", "write_report"]
 
@@ -88,10 +89,11 @@ def _heading(record: SearchRecord, number: int, several: bool) -> str:
 
 
 def _search(record: SearchRecord, prefix: str, heading: str, add: AddFigure, most: int) -> str:
-    sections = sections_of(record, add, most)
+    summary, reason = summary_of_record(record)
+    sections = sections_of(record, summary, reason, add, most)
     parts = [
         f'<section id="{prefix}"><h2>{html.escape(heading)}</h2>',
-        f'<p class="state">{html.escape(headline(record))}</p>',
+        f'<p class="state">{html.escape(headline(record, summary))}</p>',
     ]
     anchors = [f"{prefix}-{i}" for i in range(len(sections))]
     links = [

@@ -14,7 +14,7 @@ from . import figures
 from .branches import branches_of
 from .figures import Figure
 from .repeating import code_to_repeat
-from .uncertainty_summary import moved_curves, space_of, summary_of_record
+from .uncertainty_summary import moved_curves, space_of
 
 __all__ = ["AddFigure", "headline", "most_points", "overview", "sections_of", "table"]
 
@@ -53,12 +53,17 @@ def _paragraph(text: str) -> str:
     return f"<p>{html.escape(text)}</p>"
 
 
-def headline(record: SearchRecord) -> str:
-    """Return the state of a search as a sentence."""
+def headline(record: SearchRecord, summary: dict[str, Any] | None) -> str:
+    """Return the state of a search as a sentence; what is undetermined has not converged."""
     failed = sum(one.failed for one in record.evaluations)
     count = f"{len(record.evaluations)} evaluations" + (f", {failed} failed" if failed else "")
     if record.ending is None:
         return f"The search has not ended: it was interrupted, or goes on. So far {count}."
+    determined = {} if summary is None else summary["determined"]
+    loose = [name for name, good in determined.items() if not good]
+    if record.ending.converged and loose:
+        names = ", ".join(loose)
+        return f"Undetermined: {names}. The search ended: {record.ending.message}. {count}."
     state = "Converged" if record.ending.converged else "Not converged"
     return f"{state}: {record.ending.message}. {count}."
 
@@ -85,18 +90,25 @@ def overview(records: dict[int, SearchRecord]) -> str:
     return table(header, rows)
 
 
-def sections_of(record: SearchRecord, add: AddFigure, most: int) -> list[tuple[str, str]]:
+def sections_of(
+    record: SearchRecord,
+    summary: dict[str, Any] | None,
+    reason: str,
+    add: AddFigure,
+    most: int,
+) -> list[tuple[str, str]]:
     """Return the title and the HTML of every section.
 
     Parameters
     ----------
     record : SearchRecord
+    summary, reason
+        What `summary_of_record` gives.
     add : callable
         Adds a figure to the page.
     most : int
         How many points are drawn of a curve.
     """
-    summary, reason = summary_of_record(record)
     return [
         ("Parameters", _parameters_section(record, summary, reason, add)),
         ("Tests and simulations", _tests(record, add, most)),
