@@ -113,7 +113,6 @@ html_theme_options = {
     },
     "header_links_before_dropdown": 7,
     "show_toc_level": 2,
-    "navigation_depth": 2,  # of a module's forty functions its own page has the list
     "navigation_with_keys": False,
     "footer_start": ["copyright"],
     "footer_end": ["sphinx-version"],
