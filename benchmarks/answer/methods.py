@@ -1,15 +1,16 @@
 """Runs to within 1 % of the best value: which method is the default for expensive models.
 
 Material points with 3, 7 and 9 parameters, each as a test with noise of its own for every seed (the
-nine parameters: the paper's five loops as they are), measure area. The best value of a data set is
-the best that any search has found there. A search that never comes within 1 % of it has failed;
-the table has the median of the runs of those that do, with the failures counted as infinite.
-"trust-region" makes three searches, one after the other; beside it stands the first of them alone.
-"sdrm+de" was the default before.
+nine parameters: the paper's five loops as they are), measure area, in its default. The best value
+of a data set is the best that any search has found there. A search that never comes within 1 % of
+it has failed; the table has the median of the runs of those that do, with the failures counted as
+infinite. "trust-region" makes three searches, one after the other; beside it stands the first of
+them alone. "sdrm+de" was the default before. "gauss-newton" and "gaussian-process" are of
+candidates.py.
 
     python benchmarks/answer/methods.py --seeds 10
 
-Writes methods.json, methods.md and methods.png.
+Adds the searches that methods.json does not have to it, and writes methods.md and methods.png.
 """
 
 from __future__ import annotations
@@ -21,21 +22,46 @@ import logging
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from paper_problems import cube, femu, problems
+from paper_problems import problems
 
 from curvewise import datasets
 from curvewise.calibration import identify
 
 HERE = Path(__file__).resolve().parent
 
-METHODS = ("sdrm", "trust-region, 1 start", "trust-region", "nelder-mead", "de", "sdrm+de")
+METHODS = (
+    "sdrm",
+    "trust-region, 1 start",
+    "trust-region",
+    "gauss-newton",
+    "gaussian-process",
+    "nelder-mead",
+    "de",
+    "sdrm+de",
+)
 LIMIT = {"nelder-mead": 2000, "de": 4000, "sdrm+de": 4000}
+# Those that take long have fewer seeds: the first so many.
+SEEDS = {"gaussian-process": 3, "de": 3, "sdrm+de": 3}
 COLOURS = dict(
-    zip(METHODS, ("#0072B2", "#56B4E9", "#D55E00", "#CC79A7", "#E69F00", "#000000"), strict=True)
+    zip(
+        METHODS,
+        (
+            "#0072B2",
+            "#56B4E9",
+            "#D55E00",
+            "#009E73",
+            "#8B4513",
+            "#CC79A7",
+            "#E69F00",
+            "#000000",
+        ),
+        strict=True,
+    )
 )
 
 
@@ -45,7 +71,7 @@ def path(*corners: float, points: int = 40) -> np.ndarray:
 
 
 CYCLE = path(0.0, 0.02, -0.02, 0.02)
-CYCLES = [path(0.0, 0.03, -0.03, 0.03), path(0.0, 0.06, -0.06, 0.06)]
+CYCLES = [path(0.0, x, -x, x, points=25) for x in (0.02, 0.04)]
 
 
 def three(p):
@@ -59,7 +85,21 @@ def three(p):
 
 
 def seven(p):
-    return [np.column_stack((strain, cube.integrate(p, strain))) for strain in CYCLES]
+    backstresses = ((p["C1"], p["gamma1"]), (p["C2"], p["gamma2"]), (p["C3"], 0.0))
+    return [
+        np.column_stack(
+            (
+                strain,
+                datasets.kinematic_hardening(
+                    strain,
+                    youngs_modulus=p["E"],
+                    yield_stress=p["yield"],
+                    backstresses=backstresses,
+                ),
+            )
+        )
+        for strain in CYCLES
+    ]
 
 
 def problem(name: str, seed: int):
@@ -75,8 +115,24 @@ def problem(name: str, seed: int):
         bounds = {"E": (150e3, 260e3), "yield": (150.0, 500.0), "C": (20e3, 200e3)}
         model: Callable = three
     else:
-        truth = {"E": 175e3, "yield": 350, "Q": 400, "g": 150, "H": 1e3, "R": 0.3, "b": 20}
-        bounds = femu.BOUNDS
+        truth = {
+            "E": 190e3,
+            "yield": 250.0,
+            "C1": 90e3,
+            "gamma1": 700.0,
+            "C2": 10e3,
+            "gamma2": 60.0,
+            "C3": 500.0,
+        }
+        bounds = {
+            "E": (150e3, 230e3),
+            "yield": (100.0, 500.0),
+            "C1": (20e3, 300e3),
+            "gamma1": (200.0, 2000.0),
+            "C2": (1e3, 40e3),
+            "gamma2": (10.0, 200.0),
+            "C3": (0.0, 3000.0),
+        }
         model = seven
     random = np.random.default_rng(seed)
     tests = [
@@ -86,16 +142,20 @@ def problem(name: str, seed: int):
     return model, tests, bounds
 
 
-def trace(task: tuple[str, str, int]) -> np.ndarray:
-    """Return the best value after each run of a search."""
+def trace(task: tuple[str, str, int]) -> dict:
+    """Return how many runs a search made, and those after which its best value was a better one."""
     name, method, seed = task
     logging.getLogger("curvewise.calibration").setLevel(logging.ERROR)
     model, tests, bounds = problem(name, seed)
     search = partial(identify, model, tests, bounds, progress=False, measure="area", seed=seed)
     chosen, _, single = method.partition(",")
     keywords = {"method_options": {"starts": 1}} if single else {}
-    found = search(method=chosen, max_evaluations=LIMIT.get(method), **keywords)
-    return np.minimum.accumulate(found.history.value)
+    if chosen in ("gauss-newton", "gaussian-process"):
+        import_module("candidates")  # makes them known
+    values = search(method=chosen, max_evaluations=LIMIT.get(method), **keywords).history.value
+    best = np.minimum.accumulate(values)
+    improved = np.flatnonzero(np.diff(best, prepend=np.inf))
+    return {"runs": len(best), "steps": [[int(i) + 1, float(best[i])] for i in improved]}
 
 
 def main() -> None:
@@ -107,36 +167,52 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--output", type=Path, metavar="DIR", default=HERE)
     options = parser.parse_args()
-    results: dict = {}
-    with ProcessPoolExecutor(options.workers) as pool:
-        for name in options.problems:
-            tasks = [(name, m, s) for m in options.methods for s in range(options.seeds)]
-            traces = dict(zip(tasks, pool.map(trace, tasks), strict=True))
-            for seed in range(options.seeds):
-                # The paper's loops are one data set, whatever the seed of the search.
-                alike = [t for t in tasks if name == "9" or t[2] == seed]
-                best = min(traces[t][-1] for t in alike)
-                for method in options.methods:
-                    curve = traces[name, method, seed]
-                    within = np.nonzero(curve <= 1.01 * best)[0]
-                    row = results.setdefault(name, {}).setdefault(
-                        method, {"runs": [], "total": [], "above": []}
-                    )
-                    row["runs"].append(int(within[0]) + 1 if within.size else None)
-                    row["total"].append(len(curve))
-                    row["above"].append(float(curve[-1] / best - 1.0))
-            print(table(name, results[name]), flush=True)
     options.output.mkdir(exist_ok=True)
-    (options.output / "methods.json").write_text(json.dumps(results) + "\n")
+    path = options.output / "methods.json"
+    found: dict = json.loads(path.read_text()) if path.exists() else {}
+    tasks = [
+        (name, method, seed)
+        for name in options.problems
+        for method in options.methods
+        for seed in range(min(options.seeds, SEEDS.get(method, options.seeds)))
+        if str(seed) not in found.get(name, {}).get(method, {})
+    ]
+    with ProcessPoolExecutor(options.workers) as pool:
+        for (name, method, seed), ended in zip(tasks, pool.map(trace, tasks), strict=True):
+            found.setdefault(name, {}).setdefault(method, {})[str(seed)] = ended
+            path.write_text(json.dumps(found) + "\n")
+    results = {name: judged(name, found[name]) for name in sorted(found)}
     text = "\n\n".join(table(name, rows) for name, rows in results.items())
+    print(text)
     (options.output / "methods.md").write_text(text + "\n")
     draw(results).savefig(options.output / "methods.png", dpi=90)
+
+
+def judged(name: str, found: dict) -> dict:
+    """Return, for every method, when each of its searches was within 1 % of the best known."""
+    last = {
+        (method, seed): ended["steps"][-1][1]
+        for method, searches in found.items()
+        for seed, ended in searches.items()
+    }
+    results: dict = {}
+    for method in (m for m in METHODS if m in found):
+        row: dict = {"runs": [], "total": [], "above": []}
+        for seed, ended in found[method].items():
+            # The paper's loops are one data set, whatever the seed of the search.
+            best = min(value for (_, other), value in last.items() if name == "9" or other == seed)
+            within = [run for run, value in ended["steps"] if value <= 1.01 * best]
+            row["runs"].append(within[0] if within else None)
+            row["total"].append(ended["runs"])
+            row["above"].append(last[method, seed] / best - 1.0)
+        results[method] = row
+    return results
 
 
 def table(name: str, rows: dict) -> str:
     """Return the table of a problem."""
     lines = [
-        f"{name} parameters, {len(next(iter(rows.values()))['runs'])} seeds:",
+        f"{name} parameters:",
         "",
         "| method | runs to within 1 %, median | within 1 % | runs in all, median | "
         "above the best, median (largest), % |",

@@ -62,7 +62,8 @@ struct SearchOptions {
 class Index {
    public:
     /// Owns a copy of the curves. Throws as cdist does, naming the curve (curves[3]).
-    CURVEWISE_EXPORT Index(const std::vector<CurveView>& curves, const Measure& measure);
+    CURVEWISE_EXPORT Index(const std::vector<CurveView>& curves, const Measure& measure,
+                           Control* control = nullptr);
     CURVEWISE_EXPORT Index(Index&&) noexcept;
     CURVEWISE_EXPORT Index& operator=(Index&&) noexcept;
     Index(const Index&) = delete;
@@ -70,7 +71,7 @@ class Index {
     CURVEWISE_EXPORT ~Index();
 
     /// All of them, or, where it throws, none.
-    CURVEWISE_EXPORT void add(const std::vector<CurveView>& curves);
+    CURVEWISE_EXPORT void add(const std::vector<CurveView>& curves, Control* control = nullptr);
     CURVEWISE_EXPORT std::size_t size() const;
     /// Copies of the points: valid as long as the index.
     CURVEWISE_EXPORT std::vector<CurveView> curves() const;

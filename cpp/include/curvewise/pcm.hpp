@@ -35,7 +35,7 @@ struct PcmOptions {
     /// Search all offsets instead, by branch and bound: to 1e-12 of S, or 1e-13 of the value where
     /// that is more. `offsets` is not used. 10^3 evaluations of O(n + m) are usual. After 2^20 of
     /// them the tolerance is doubled with every 2^14 more, so that a curve of up to 10^6 boxes in
-    /// length takes 2.1 million at most.
+    /// length takes 2.1 million at most: PcmMatch::tolerance is the one of the end.
     bool continuous = false;
 
     static constexpr bool is_symmetric() noexcept { return false; }
@@ -57,10 +57,16 @@ void visit_options(PcmOptions& options, Visit&& visit) {
 /// is infinite, offset and coverage 0, points nan.)
 struct PcmMatch {
     double value = 0.0;
-    double offset = 0.0;    ///< arc length on the longer curve, after scaling
+    double offset = 0.0;    // arc length on the longer curve, after scaling
     double coverage = 0.0;  ///< S / T
-    bool maps_p = true;     ///< the shorter curve, whose vertices are mapped: P, or Q
+    bool maps_p = true;     // the shorter curve, whose vertices are mapped: P, or Q
     std::vector<std::array<double, 2>> points;  ///< their places on the other, in original units
+    /// How far `value` may lie above the smallest area of all offsets: half a step of the grid, or
+    /// all of the way where there is one offset alone, times S; where all offsets are searched, the
+    /// tolerance with which the search ended.
+    double tolerance = 0.0;
+    /// (A curve longer than the largest double: value and tolerance are infinite, offset and
+    /// coverage 0, points nan.)
 };
 
 /// The smallest area, in units of the scaled axes.

@@ -11,7 +11,7 @@ number of points (a solver with adaptive steps) are resampled by arc length for 
 Linear surfaces average over noise and jumps that mislead gradients. Cost: an iteration takes 5
 evaluations for k <= 3 parameters, 9 up to 7, and 17 up to 15. With the default options there are at
 least 14 iterations (0.6^14 < 1e-3), more where parameters pan: 16 to 29 in what we have run. Each
-also takes some 100 k evaluations of the objective on predicted curves.
+also minimises the objective on predicted curves (`surface_minimum`).
 
 N. Stander, K. J. Craig, "On the robustness of a simple domain reduction scheme for
 simulation-based optimization", Engineering Computations 19 (2002) 431-450.
@@ -19,22 +19,15 @@ simulation-based optimization", Engineering Computations 19 (2002) 431-450.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TypeAlias
-
 import numpy as np
 
 from .._curves import Array
 from ._extra import required
 from .evaluations import Evaluations, Finish
-from .history import Evaluation
-from .nelder_mead import nelder_mead
-from .objective import Objective
-from .surfaces import Responses
+from .surface_minimum import SurfaceMinimum
+from .surfaces import Responses, Surfaces
 
 __all__ = ["domain_reduction"]
-
-Region: TypeAlias = tuple[Array, Array]
 
 
 def domain_reduction(
@@ -82,11 +75,18 @@ def domain_reduction(
         good = [i for i, evaluation in enumerate(done) if not evaluation.failed]
         target = evaluations.best_unit  # what is left if no plane goes through so few points
         if len(good) > k:
-            successes = [done[i] for i in good]
+            curves = [done[i].simulations or () for i in good]
             if responses is None:
-                responses = Responses(successes[0].simulations or ())
-            surface = _surface(points[good], successes, responses, evaluations.objective)
-            target = _lowest(surface, centre, (low, high), random, evaluations.negligible)
+                responses = Responses(curves[0])
+                minimum = SurfaceMinimum(
+                    evaluations.objective,
+                    responses,
+                    random,
+                    evaluations.negligible,
+                    evaluations.thinking,
+                )
+            planes = _planes(points[good], np.array([responses.vector(c) for c in curves]))
+            target = minimum.lowest(planes, centre, (low, high), thoroughly=True)
         last_move, move = move, np.clip(2.0 * (target - centre) / size, -1.0, 1.0)
         size = size * _contraction(last_move, move, gamma_osc, gamma_pan, eta)
         centre = target
@@ -122,16 +122,7 @@ def _design(k: int, random: np.random.Generator) -> Array:
     return signs
 
 
-def _surface(
-    points: Array, done: list[Evaluation], responses: Responses, objective: Objective
-) -> Callable[[Array], float]:
-    """Return the objective as linear response surfaces predict it."""
-    curves = [e.simulations for e in done if e.simulations is not None]
-    planes = _planes(points, np.array([responses.vector(several) for several in curves]))
-    return lambda point: objective.predicted(responses.curves(planes(point))).value
-
-
-def _planes(points: Array, responses: Array) -> Callable[[Array], Array]:
+def _planes(points: Array, responses: Array) -> Surfaces:
     """Return the planes, one for every column of responses, that fit best."""
     # Centred and scaled: a region may be 1e-3 wide.
     middle = points.mean(axis=0)
@@ -139,29 +130,4 @@ def _planes(points: Array, responses: Array) -> Callable[[Array], Array]:
     width = np.where(width == 0, 1.0, width)
     design = np.column_stack((np.ones(len(points)), (points - middle) / width))
     coefficients: Array = np.linalg.lstsq(design, responses, rcond=None)[0]
-    return lambda point: coefficients[0] + ((point - middle) / width) @ coefficients[1:]
-
-
-def _lowest(
-    surface: Callable[[Array], float],
-    centre: Array,
-    region: Region,
-    random: np.random.Generator,
-    negligible: float,
-) -> Array:
-    """Return where in a region a surface is lowest: roughly, as the surface is rough too."""
-    low, high = region
-    width = high - low
-    unit = np.ones(centre.size)
-    best, _ = nelder_mead(
-        lambda u: surface(low + u * width),
-        (centre - low) / np.where(width == 0, 1.0, width),
-        (0.0 * unit, unit),
-        random,
-        negligible=negligible,
-        size=0.25,
-        restarts=3,
-        xatol=1e-3,
-        fatol=max(negligible, 1e-4 * surface(centre)),
-    )
-    return low + best * width
+    return Surfaces(middle, coefficients[0], coefficients[1:].T / width)

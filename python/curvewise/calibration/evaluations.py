@@ -9,6 +9,7 @@ nothing that it sees depends on the number of processes or on what was run befor
 from __future__ import annotations
 
 import logging
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -21,6 +22,7 @@ from .history import Evaluation, History
 from .model_pool import Outcome
 from .objective import Objective
 from .parameters import Point, Space
+from .recorder import Recorder
 from .simulator import Simulator
 
 __all__ = ["Evaluations", "Finish", "Progress", "SearchEndedError"]
@@ -32,6 +34,8 @@ _NEGLIGIBLE = 1e-7
 # Earlier runs give the slopes at a point if none is further away than this, and if their spread in
 # every direction is at least this fraction of their reach.
 _NEAR, _FLATTEST = 0.25, 0.03
+
+_PAUSE = 0.2  # seconds between two refreshes of the bar while nothing is run
 
 _log = logging.getLogger("curvewise.calibration")
 
@@ -70,8 +74,8 @@ class Evaluations:
 
     Parameters
     ----------
-    simulator, objective, space, history
-        What runs the model, scores it, names the parameters and keeps the record.
+    simulator, objective, space, history, recorder
+        What runs the model, scores it, names the parameters, and keeps the records.
     limit : int or None
         How many parameter sets to evaluate at most.
     callback : callable or None
@@ -88,6 +92,7 @@ class Evaluations:
         objective: Objective,
         space: Space,
         history: History,
+        recorder: Recorder,
         *,
         limit: int | None,
         callback: Callable[[Progress], Any] | None,
@@ -96,12 +101,14 @@ class Evaluations:
     ) -> None:
         self._known = known
         self.objective = objective
-        self._simulator, self._space, self._history = simulator, space, history
+        self._simulator, self._space = simulator, space
+        self._history, self._recorder = history, recorder
         self._limit, self._callback, self._bar = limit, callback, bar
         self._done: dict[Point, Evaluation] = {}
         self._units: dict[Point, Array] = {}
         self._best: Point | None = None
         self._best_simulations: Any = None
+        self._thoughts, self._shown = 0, time.monotonic()
         self._log_level = logging.WARNING  # of the first failure; all are kept anyway
 
     @property
@@ -137,9 +144,22 @@ class Evaluations:
         assert self._best is not None
         return self._units[self._best]
 
+    def settle(self, unit: Array) -> None:
+        """Take a point that was evaluated for the best, where a method has a rule of its own."""
+        self._best = self._space.point(unit)
+        self._best_simulations = self._done[self._best].simulations
+
     def stage(self, name: str) -> None:
         """Show the name of a stage of the search beside the progress."""
         self._bar.set_description(name)
+
+    def thinking(self) -> None:
+        """Show that a search is at work between runs, on what it predicts of them."""
+        self._thoughts += 1
+        now = time.monotonic()
+        if self._best is not None and now - self._shown > _PAUSE:
+            self._shown = now
+            self._bar.set_postfix(best=f"{self.best.value:.4g}", predicted=self._thoughts)
 
     def known_near(self, unit: Array) -> tuple[Array, list[Evaluation]] | None:
         """Return earlier runs around a point that determine the slopes there, if they do.
@@ -232,6 +252,7 @@ class Evaluations:
             self._bar.update()
         for point in batch:
             self._done[point] = finished[point]
+            self._recorder.note(finished[point])
             if self._best is None or finished[point].value < self.best.value:
                 self._best = point
                 self._best_simulations = simulations.get(point)

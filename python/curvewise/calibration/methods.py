@@ -21,7 +21,7 @@ from .evaluations import Evaluations, Finish
 from .nelder_mead import nelder_mead
 from .trust_region import trust_region
 
-__all__ = ["METHODS", "search"]
+__all__ = ["METHODS", "options_of", "search"]
 
 
 def search(
@@ -190,6 +190,10 @@ def _least_squares(
         bounds=(0.0, 1.0),
         **{"x_scale": "jac", "xtol": 1e-9, "ftol": 1e-12, "gtol": 1e-12, **options},
     )
+    if (
+        options.get("loss", "linear") != "linear"
+    ):  # the smallest sum of squares is not what is wanted
+        evaluations.settle(result.x)
     return Finish(bool(result.success), str(result.message))
 
 
@@ -201,3 +205,24 @@ METHODS: dict[str, dict[str, Callable[..., Finish]]] = {
     "nelder-mead": {"nelder-mead": _nelder_mead},
     "least_squares": {"least_squares": _least_squares},
 }
+
+# What of scipy's functions is not for users: the objective, and what a method sets itself.
+_SET_HERE = {
+    "de": {"func", "bounds", "args", "x0", "vectorized", "workers", "seed", "rng"},
+    "least_squares": {"fun", "x0", "jac", "bounds", "args", "kwargs", "diff_step", "workers"},
+}
+_OF_NELDER_MEAD = ("xatol", "fatol", "maxiter", "maxfev", "adaptive", "disp", "return_all")
+
+
+def options_of(name: str, stage: Callable[..., Finish]) -> list[str]:
+    """Return the names of a stage's options, those that scipy takes included."""
+    parameters = inspect.signature(stage).parameters.values()
+    own = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY]
+    if name == "nelder-mead":
+        return [*own, *_OF_NELDER_MEAD]
+    if name not in _SET_HERE:
+        return own
+    optimize = required("scipy.optimize")
+    function = optimize.differential_evolution if name == "de" else optimize.least_squares
+    passed_on = [p for p in inspect.signature(function).parameters if p not in _SET_HERE[name]]
+    return [*own, *passed_on]

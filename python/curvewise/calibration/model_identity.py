@@ -4,8 +4,10 @@ A model says so itself by an attribute `identity`, a text that changes whenever 
 (:class:`CommandModel` has one, made of its templates, its command and the function that reads).
 Of any other Python callable only its user knows, and gives a `version`. Its bytecode and its data
 are remembered beside it as a fingerprint: a model whose code has changed under the same version
-is refused, and not looked up. Functions that the model calls in turn are not seen, nor are lists,
-dicts and whole numbers that it holds, since a model may count its runs.
+is refused, and not looked up. So are the functions of its own module that it calls by their names,
+and what they call. Not seen are functions of other modules, and lists, dicts, whole numbers and
+variables of the module, since a model may keep a record of its runs there: where these change, only
+another `version` says so.
 """
 
 from __future__ import annotations
@@ -113,7 +115,14 @@ def _parts(value: Any) -> list[Any]:
         return [value.__func__, value.__self__]
     if isinstance(value, types.FunctionType):
         cells = _lasting([_content(cell) for cell in value.__closure__ or ()])
-        return [_without_docstring(value), value.__defaults__, value.__kwdefaults__, *cells]
+        called = _called_functions(value)
+        return [
+            _without_docstring(value),
+            value.__defaults__,
+            value.__kwdefaults__,
+            *cells,
+            *called,
+        ]
     if isinstance(value, (type, types.BuiltinFunctionType, types.ModuleType)):
         return [getattr(value, "__qualname__", value.__name__)]
     call = type(value).__call__ if callable(value) else None
@@ -141,6 +150,22 @@ def _without_docstring(function: types.FunctionType) -> types.CodeType:
     if not code.co_consts or code.co_consts[0] != function.__doc__:
         return code
     return code.replace(co_consts=(None, *code.co_consts[1:]))
+
+
+def _called_functions(function: types.FunctionType) -> list[types.FunctionType]:
+    """Return the functions of the same module that a function names, in the order of the names."""
+    found = [function.__globals__.get(name) for name in sorted(_names(function.__code__))]
+    return [
+        value
+        for value in found
+        if isinstance(value, types.FunctionType) and value.__module__ == function.__module__
+    ]
+
+
+def _names(code: types.CodeType) -> set[str]:
+    """Return the names that bytecode looks up, that of the functions within it included."""
+    inner = [_names(part) for part in code.co_consts if isinstance(part, types.CodeType)]
+    return set(code.co_names).union(*inner)
 
 
 def _content(cell: types.CellType) -> Any:

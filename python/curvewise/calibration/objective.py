@@ -20,11 +20,23 @@ from .._docstrings import filled, listed
 from .._options import Preset
 from ..measures import normalize, registry
 from ..measures.registry import PRESETS
+from ..named_curve import known_names
 from ..reference.scaling import box
 from ..results import PcmMatch
 from .common_x import check_common_x, y_column
 from .curve_list import as_points, curve_list
-from .loop_measure import Measure, Part, check_part, condition_of, functions, measure_name
+from .loop_measure import (
+    Measure,
+    Part,
+    check_part,
+    condition_of,
+    functions,
+    gradient_of,
+    measure_name,
+    unknown_options_explained,
+)
+from .near_names import meant
+from .surfaces import thinned_rows
 
 __all__ = ["LEAST_SQUARES", "MEASURES", "FailedSimulationError", "Loop", "Objective", "Score"]
 
@@ -71,7 +83,9 @@ class Objective:
         that returns a float; where it raises ValueError the simulation has failed.
         "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
         the experiment's x, which must not turn back. Of loops that have a third column, such as
-        time or the step, ``over=2`` compares y at the same time instead.
+        time or the step, ``over=2`` compares y at the same time instead; of a model that is driven
+        by the experiment's own x, as a material point by the measured strains,
+        ``over="points"`` compares y point by point.
     preset : {"scaled", "paper", "raw"}
         As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
         that loops, and x and y, count alike, and takes area with ``spacing="matched"``, which
@@ -146,9 +160,15 @@ class Objective:
         **options: Any,
     ) -> None:
         if not callable(measure) and measure not in MEASURES:
-            raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(MEASURES)}")
+            raise ValueError(
+                f"unknown measure {measure!r}; choose from {', '.join(MEASURES)}"
+                f"{meant([measure], MEASURES)}"
+            )
         if preset not in PRESETS:
-            raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
+            raise ValueError(
+                f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}"
+                f"{meant([preset], PRESETS)}"
+            )
         if not 0.0 <= min_coverage <= 1.0:
             raise ValueError(f"min_coverage is {min_coverage}; it must be from 0 to 1")
         self.measure = measure_name(measure)
@@ -166,10 +186,11 @@ class Objective:
         check_part(part, measure, options)
         curves = curve_list(experiments)
         names = ["P"] if len(curves) == 1 else [f"experiments[{i}]" for i in range(len(curves))]
-        self._loops = [
-            Loop(curve, name, measure, condition.scaled, options, part, min_coverage)
-            for curve, name in zip(curves, names, strict=True)
-        ]
+        with unknown_options_explained(measure, self.options):
+            self._loops = [
+                Loop(curve, name, measure, condition.scaled, options, part, min_coverage)
+                for curve, name in zip(curves, names, strict=True)
+            ]
         self.experiments = tuple(loop.experiment for loop in self._loops)
         self.weights = _checked_weights(weights, len(self._loops))
         self.scales = np.array([loop.scale for loop in self._loops])
@@ -217,6 +238,52 @@ class Objective:
                 failures.append(self._located(str(error), i))
         return Score(float(self.weights @ terms), terms, tuple(failures))
 
+    @property
+    def has_gradient(self) -> bool:
+        """Whether there is a gradient that is of use to a minimisation."""
+        return all(loop.has_gradient for loop in self._loops)
+
+    def value_and_gradient(self, simulations: Any) -> tuple[float, list[Array]]:
+        """Return what `predicted` returns as value, and its derivative by every coordinate.
+
+        The derivative is that of the measure with its path held; 0 for loops that fail.
+
+        Parameters
+        ----------
+        simulations
+            As for a call.
+
+        Returns
+        -------
+        value : float
+        gradients : list of ndarray
+            Of each simulation's shape.
+        """
+        total = 0.0
+        gradients = []
+        for i, simulation in enumerate(self._matched(simulations)):
+            try:
+                value, gradient = self._loops[i].value_and_gradient(simulation)
+            except FailedSimulationError:
+                value, gradient = self.failure_value[i], np.zeros(np.shape(simulation))
+            total += float(self.weights[i] * value)
+            gradients.append(self.weights[i] * gradient)
+        return total, gradients
+
+    def thinned(self, most: int) -> Objective | None:
+        """Return the objective of about so many points a test at most; None if all have no more.
+
+        Its terms are weighted so that a simulation that is wrong by a loop's height costs the same.
+        """
+        rows = [thinned_rows(curve, most) for curve in self.experiments]
+        pairs = list(zip(self.experiments, rows, strict=True))
+        if all(len(kept) == len(curve) for curve, kept in pairs):
+            return None
+        thinned = self.of_other_tests([curve[kept] for curve, kept in pairs])
+        thinned.weights = self.weights * self.scales / thinned.scales
+        thinned.failure_value = self.failure_value * thinned.scales / self.scales
+        return thinned
+
     def residuals(self, simulations: Any) -> Array:
         """Return what `scipy.optimize.least_squares` squares and adds up.
 
@@ -255,6 +322,16 @@ class Objective:
     def is_least_squares(self) -> bool:
         """Whether the value is a weighted sum of squares of `residuals`."""
         return self.measure == "sum_of_squares" and self._has_residuals
+
+    @property
+    def has_function(self) -> bool:
+        """Whether the measure is a function of the user's."""
+        return callable(self._measure)
+
+    @property
+    def names(self) -> list[tuple[str, ...]]:
+        """What the columns of every experiment are called; empty where that is not known."""
+        return [loop.names for loop in self._loops]
 
     @property
     def extents(self) -> list[Array]:
@@ -342,6 +419,7 @@ class Loop:
     ) -> None:
         self.experiment = as_points(experiment, name).copy()
         self._columns = column_names(experiment)
+        self.names = known_names(experiment)
         self._name = "the experiment" if name == "P" else name
         self._min_coverage = 0.0 if part == "simulation" else min_coverage
         try:
@@ -357,6 +435,7 @@ class Loop:
                 self.y = y_column(over)
             self.height = 1.0 if self._box is None else float(self._box[1][self.y])
             self._value, self._residuals = functions(measure, self._P, options, part)
+            self._gradient = gradient_of(measure, self._P, options, part)
             # Fails here, not at the first simulation, for an experiment or option it refuses.
             value = self._value(_moved_up(self._P, self.y))
             self.scale = value.value if isinstance(value, PcmMatch) else value
@@ -379,6 +458,23 @@ class Loop:
         if not math.isfinite(value):
             raise FailedSimulationError(f"the value of the measure is {value}")
         return value
+
+    @property
+    def has_gradient(self) -> bool:
+        """Whether there is a gradient that is of use to a minimisation."""
+        return self._gradient is not None
+
+    def value_and_gradient(self, simulation: Any) -> tuple[float, Array]:
+        """Return the value and its derivative by the simulation's coordinates."""
+        assert self._gradient is not None, "see has_gradient"
+        Q = self._checked(simulation)
+        try:
+            value, gradient = self._gradient(Q)
+        except ValueError as error:
+            raise FailedSimulationError(str(error)) from error
+        if not (math.isfinite(value) and np.isfinite(gradient).all()):
+            raise FailedSimulationError(f"the value of the measure is {value}")
+        return value, gradient if self._box is None else gradient / self._box[1]
 
     def of_move(self, distance: float) -> float:
         """Return the measure of a simulation that is off by a distance in y everywhere."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import inspect
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -15,8 +14,11 @@ from .cases import CaseObjective
 from .evaluations import Evaluations, Finish, Progress, SearchEndedError
 from .history import Evaluation, History
 from .loop_measure import Measure, measure_name
-from .methods import METHODS, search
+from .methods import METHODS, options_of, search
+from .near_names import meant
 from .objective import LEAST_SQUARES, Objective
+from .recorder import Recorder
+from .search_record import details_of
 from .study import Study
 
 __all__ = ["Ended", "Plan", "run_search"]
@@ -38,7 +40,10 @@ class Plan:
     def check(self, measure: Measure) -> None:
         """Refuse a method that does not exist or does not go with a measure."""
         if self.method not in METHODS:
-            raise ValueError(f"unknown method {self.method!r}; choose from {', '.join(METHODS)}")
+            raise ValueError(
+                f"unknown method {self.method!r}; choose from {', '.join(METHODS)}"
+                f"{meant([self.method], METHODS)}"
+            )
         if self.method == "least_squares" and measure not in LEAST_SQUARES:
             raise ValueError(
                 f"measure {measure!r} is not a sum of squares; method 'least_squares' needs "
@@ -49,6 +54,7 @@ class Plan:
             raise ValueError(
                 f"method_options has {', '.join(self.method_options)}; "
                 f"method {self.method!r} takes a dict for each of {', '.join(stages)}"
+                f"{meant(self.method_options, stages)}"
             )
         for name, stage in stages.items():
             chosen = self.method_options if len(stages) == 1 else self.method_options.get(name, {})
@@ -58,25 +64,23 @@ class Plan:
 
 
 def _check_options(method: str, stage: Callable[..., Finish], options: Mapping[str, Any]) -> None:
-    """Refuse options that a method does not have; those of scipy's functions scipy refuses."""
-    parameters = inspect.signature(stage).parameters.values()
-    if any(p.kind is p.VAR_KEYWORD for p in parameters):
-        return
-    known = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY]
+    """Refuse options that neither a method has nor, where it passes them on, scipy."""
+    known = options_of(method, stage)
     if unknown := set(options) - set(known):
         raise ValueError(
             f"method {method!r} has no option {', '.join(sorted(unknown))}; "
-            f"it has {', '.join(known)}"
+            f"it has {', '.join(known)}{meant(sorted(unknown), known)}"
         )
 
 
 class Ended(NamedTuple):
-    """What is left of a search: its evaluations, how it ended, the best curves, the runs made."""
+    """What is left of a search: evaluations, how it ended, the best curves, runs made, records."""
 
     evaluations: Evaluations
     finish: Finish
     simulations: Any
     runs: int
+    recorder: Recorder
 
 
 def run_search(study: Study, plan: Plan, known: Sequence[tuple[Array, Evaluation]] = ()) -> Ended:
@@ -92,17 +96,25 @@ def run_search(study: Study, plan: Plan, known: Sequence[tuple[Array, Evaluation
     start = None if plan.start is None else study.space.unit(plan.start)
     required("scipy.optimize")
     tqdm = required("tqdm.auto").tqdm
+    settings, details = _settings(study, plan), details_of(study, plan.max_evaluations)
     record = History(
-        plan.history, _settings(study, plan), study.space.names, keep_simulations=not study.store
+        plan.history,
+        settings,
+        study.space.names,
+        keep_simulations=not study.store,
+        details=details,
     )
+    recorder = Recorder(settings, details, study.store, plan.history)
     try:
         with study.simulator() as simulator:
+            recorder.begin(simulator.store)
             with tqdm(total=plan.max_evaluations, unit="run", disable=not plan.progress) as bar:
                 evaluations = Evaluations(
                     simulator,
                     study.objective,
                     study.space,
                     record,
+                    recorder,
                     limit=plan.max_evaluations,
                     callback=plan.callback,
                     bar=bar,
@@ -115,7 +127,8 @@ def run_search(study: Study, plan: Plan, known: Sequence[tuple[Array, Evaluation
             simulations = evaluations.best_simulations()
     finally:
         record.close()
-    return Ended(evaluations, finish, simulations, simulator.runs)
+        recorder.stop()
+    return Ended(evaluations, finish, simulations, simulator.runs, recorder)
 
 
 def _settings(study: Study, plan: Plan) -> dict[str, Any]:

@@ -10,12 +10,17 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from .._curves import Array
 
-__all__ = ["Responses", "Surfaces", "regression"]
+__all__ = ["Responses", "Rows", "Surfaces", "regression", "thinned_rows"]
+
+Rows: TypeAlias = npt.NDArray[np.intp]
+"""Numbers of points of a curve."""
 
 _log = logging.getLogger("curvewise.calibration")
 
@@ -30,6 +35,7 @@ class Responses:
     """
 
     def __init__(self, simulations: Sequence[Array]) -> None:
+        self._first = tuple(simulations)
         self.shapes = [curve.shape for curve in simulations]
         self._extents = [np.ptp(curve, axis=0) for curve in simulations]
         self._ends = np.cumsum([curve.size for curve in simulations])[:-1]
@@ -48,6 +54,29 @@ class Responses:
         parts = np.split(vector, self._ends)
         return [part.reshape(shape) for part, shape in zip(parts, self.shapes, strict=True)]
 
+    def thinned_rows(self, most: int) -> list[Rows] | None:
+        """Return which points of each curve stand for it, or None where all have to.
+
+        See `thinned_rows`; by the curves of the first run.
+        """
+        rows = [thinned_rows(curve, most) for curve in self._first]
+        fewer = any(len(kept) < len(curve) for kept, curve in zip(rows, self._first, strict=True))
+        return rows if fewer else None
+
+    def of_rows(self, rows: Sequence[Rows]) -> Responses:
+        """Return the same for curves of some of the points alone."""
+        return Responses([curve[kept] for curve, kept in zip(self._first, rows, strict=True)])
+
+    def places_of_rows(self, rows: Sequence[Rows]) -> Rows:
+        """Return where in a vector the coordinates of some of the points are."""
+        parts = []
+        first = 0
+        for (count, dimension), kept in zip(self.shapes, rows, strict=True):
+            numbers = first + np.arange(count * dimension).reshape(count, dimension)
+            parts.append(numbers[kept].ravel())
+            first += count * dimension
+        return np.concatenate(parts)
+
     def _resampled(self, curve: Array, count: int, extent: Array) -> Array:
         if not self._warned:
             _log.warning(
@@ -59,6 +88,27 @@ class Responses:
             )
             self._warned = True
         return resampled(curve, count, extent)
+
+
+def thinned_rows(curve: Array, most: int) -> Rows:
+    """Return the numbers of some points of a curve, about evenly along it, its ends among them.
+
+    Parameters
+    ----------
+    curve : ndarray, shape (n, d)
+    most : int
+        About how many to keep; all where there are hardly more.
+    """
+    count = len(curve)
+    if count <= 1.5 * most:
+        return np.arange(count)
+    extent = np.ptp(curve, axis=0)
+    steps = np.diff(curve, axis=0) / np.where(extent > 0, extent, 1.0)
+    # Noise has length too: a test that rests must not take all points to itself, nor have none.
+    length = np.concatenate(([0.0], np.cumsum(np.linalg.norm(steps, axis=1))))
+    along = length / (length[-1] or 1.0) + np.linspace(0.0, 1.0, count)
+    rows: Rows = np.unique(np.searchsorted(along, np.linspace(0.0, along[-1], most)))
+    return rows
 
 
 def resampled(curve: Array, count: int, extent: Array) -> Array:

@@ -19,15 +19,13 @@ C. G. Broyden, "A class of methods for solving nonlinear simultaneous equations"
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from .._curves import Array
-from ._extra import required
 from .evaluations import Evaluations, Finish
 from .history import Evaluation
-from .nelder_mead import nelder_mead
+from .surface_minimum import SurfaceMinimum
 from .surfaces import Responses, Surfaces, regression
 
 __all__ = ["trust_region"]
@@ -149,6 +147,7 @@ class _Search:
         self._evaluations, self._random = evaluations, random
         self._diff_step = diff_step
         self.responses = responses
+        self._minimum: SurfaceMinimum | None = None
         self.is_fresh = False
         self.value = np.inf
 
@@ -194,22 +193,21 @@ class _Search:
 
     def lowest(self, radius: float) -> tuple[Array, float]:
         """Return where the surfaces are lowest within the region, and the gain they promise."""
-        low = np.clip(self.centre - radius, 0.0, 1.0)
-        high = np.clip(self.centre + radius, 0.0, 1.0)
-        objective, responses = self._evaluations.objective, self.responses
-        assert responses is not None
-
-        def predicted(point: Array) -> float:
-            return objective.predicted(responses.curves(self._surfaces.at(point))).value
-
-        best = lowest_point(
-            predicted,
-            self.centre,
-            (low, high),
-            self._random,
-            negligible=self._evaluations.negligible,
+        assert self.responses is not None
+        if self._minimum is None:
+            self._minimum = SurfaceMinimum(
+                self._evaluations.objective,
+                self.responses,
+                self._random,
+                self._evaluations.negligible,
+                self._evaluations.thinking,
+            )
+        region = (
+            np.clip(self.centre - radius, 0.0, 1.0),
+            np.clip(self.centre + radius, 0.0, 1.0),
         )
-        return best, self.value - predicted(best)
+        best = self._minimum.lowest(self._surfaces, self.centre, region, thoroughly=self.is_fresh)
+        return best, self.value - self._minimum.value(self._surfaces, best)
 
     def step(self, candidate: Array) -> float:
         """Run a candidate, learn from it, move there if it is better; return the gain."""
@@ -272,47 +270,3 @@ def _simplex(centre: Array, step: float, random: np.random.Generator) -> Array:
     signs = np.where(centre + signs * step < 0.0, 1.0, signs)
     points: Array = np.clip(centre + np.diag(signs * step), 0.0, 1.0)
     return points
-
-
-def lowest_point(
-    function: Any,
-    start: Array,
-    region: tuple[Array, Array],
-    random: np.random.Generator,
-    *,
-    negligible: float,
-) -> Array:
-    """Return where a function on surfaces is lowest in a box.
-
-    Quasi-Newton steps with differences over thousandths of the box, which is quick where the
-    measure is smooth, then a small simplex search, which does not mind kinks.
-    """
-    low, high = region
-    width = np.where(high > low, high - low, 1.0)
-    k = start.size
-    at_start = (start - low) / width
-
-    def scaled(unit: Array) -> float:
-        return float(function(low + np.clip(unit, 0.0, 1.0) * width))
-
-    result = required("scipy.optimize").minimize(
-        scaled,
-        at_start,
-        method="L-BFGS-B",
-        bounds=[(0.0, 1.0)] * k,
-        options={"eps": 1e-4, "maxiter": 30, "ftol": 1e-6},
-    )
-    best, _ = nelder_mead(
-        scaled,
-        np.clip(result.x, 0.0, 1.0),
-        (np.zeros(k), np.ones(k)),
-        random,
-        negligible=negligible,
-        size=0.05,
-        restarts=0,
-        xatol=1e-3,
-        fatol=max(negligible, 1e-4 * float(result.fun)),
-        maxfev=40 * k,
-    )
-    point: Array = low + best * width
-    return point

@@ -213,6 +213,59 @@ def test_the_data_of_a_model_count(tmp_path):
         identify(functools.partial(scaled, np.array([1.0, 2.0])), EXPERIMENT, BOUNDS, **keywords)
 
 
+def in_module(source):
+    names = {"np": np, "X": X, "__name__": "some.module", "calls": [], "RUNS": 0}
+    exec(source, names)
+    return names["model"]
+
+
+def test_the_functions_that_a_model_calls_count(tmp_path):
+    """Those of its module, through any number of calls; what it records of its runs does not."""
+    source = """
+def law(slope, p):
+    return slope(p) * X
+def slope(p):
+    return p["a"]
+def model(p):
+    global RUNS
+    RUNS += 1
+    calls.append(dict(p))
+    return np.column_stack((X, law(slope, p) + p["b"]))
+def other():
+    return 1
+"""
+    keywords = {**SDRM, "store": tmp_path / "s.db", "version": "1"}
+    identify(in_module(source), EXPERIMENT, BOUNDS, **keywords)
+    for same in (source, source.replace("return 1", "return 2")):
+        identify(in_module(same), EXPERIMENT, BOUNDS, **keywords)
+    for changed in (
+        source.replace('return p["a"]', 'return 2.0 * p["a"]'),
+        source.replace("* X", "* X**2"),
+    ):
+        with pytest.raises(ValueError, match="model, version 1, whose code or data were others"):
+            identify(in_module(changed), EXPERIMENT, BOUNDS, **keywords)
+
+
+def test_what_a_version_is_for(tmp_path, recwarn):
+    """A table in a dict is not seen, by which a model may count its runs: the version says so."""
+
+    def made(table):
+        def model(p):
+            table["runs"] = table.get("runs", 0) + 1
+            return line({"a": table["factor"] * p["a"], "b": p["b"]})
+
+        return model
+
+    keywords = {**SDRM, "store": tmp_path / "s.db"}
+    first = identify(made({"factor": 1.0}), EXPERIMENT, BOUNDS, version="1", **keywords)
+    stale = identify(made({"factor": 0.5}), EXPERIMENT, BOUNDS, version="1", **keywords)
+    fresh = identify(made({"factor": 0.5}), EXPERIMENT, BOUNDS, version="2", **keywords)
+    assert (stale.runs, stale.parameters) == (0, first.parameters)
+    assert fresh.runs > 0
+    assert fresh.parameters["a"] == pytest.approx(2.0 * first.parameters["a"], rel=1e-3)
+    assert not recwarn.list
+
+
 # Folds, views, failures, files.
 
 

@@ -1,0 +1,33 @@
+"""What a misspelt name was meant to be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+__all__ = ["meant"]
+
+
+def meant(names: Iterable[object], known: Iterable[str]) -> str:
+    """Return "; did you mean ...?" for names near to known ones, or nothing where none is near.
+
+    Parameters
+    ----------
+    names
+        As they were given, some of them perhaps right.
+    known
+        Those that there are.
+    """
+    known = list(known)
+    plain = {_plain(name): name for name in known}
+    found = []
+    for name in names:
+        if isinstance(name, str) and name not in known:
+            found += [plain[near] for near in get_close_matches(_plain(name), plain, n=1)]
+    listed = ", ".join(repr(name) for name in dict.fromkeys(found))
+    return f"; did you mean {listed}?" if listed else ""
+
+
+def _plain(name: str) -> str:
+    """Return a name without what is most often confused in it."""
+    return name.lower().replace("-", "").replace("_", "").replace(" ", "")
