@@ -66,6 +66,7 @@ myst_enable_extensions = ["colon_fence", "dollarmath", "attrs_block"]
 myst_heading_anchors = 4
 repository_folders = {
     "cpp/examples": "docs/api/cpp_examples.rst",
+    "examples/studies": "docs/study_examples.rst",
     "benchmarks": "docs/project/benchmarks.md",
     "benchmarks/paper": "docs/paper/index.md",
 }
