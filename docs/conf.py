@@ -66,6 +66,7 @@ myst_enable_extensions = ["colon_fence", "dollarmath", "attrs_block"]
 myst_heading_anchors = 4
 repository_folders = {
     "cpp/examples": "docs/api/cpp_examples.rst",
+    "examples/studies": "docs/study_examples.rst",
     "benchmarks": "docs/project/benchmarks.md",
     "benchmarks/paper": "docs/paper/index.md",
 }
@@ -113,7 +114,6 @@ html_theme_options = {
     },
     "header_links_before_dropdown": 7,
     "show_toc_level": 2,
-    "navigation_depth": 2,  # of a module's forty functions its own page has the list
     "navigation_with_keys": False,
     "footer_start": ["copyright"],
     "footer_end": ["sphinx-version"],

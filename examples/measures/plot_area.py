@@ -22,11 +22,12 @@ experiment, simulation = curvewise.datasets.hysteresis_pair()
 figure, axes = plt.subplots(1, 2, figsize=(10, 4.5), sharey=True, layout="constrained")
 for ax, spacing in zip(axes, ("x", "matched"), strict=True):
     plot_area(experiment, simulation, ax, spacing=spacing)
+    ax.locator_params(axis="x", nbins=5)
     value = curvewise.area(experiment, simulation, spacing=spacing)
     ax.set(
         title=f'spacing="{spacing}": {value:.2f} MPa', xlabel="strain [-]", ylabel="stress [MPa]"
     )
-axes[0].legend(loc="center")
+axes[0].legend(loc="lower right")
 axes[1].set_ylabel("")
 
 # %%

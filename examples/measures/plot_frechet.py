@@ -16,6 +16,7 @@ experiment, simulation = curvewise.datasets.hysteresis_pair()
 figure, axes = plt.subplots(1, 2, figsize=(10.5, 4.5), layout="constrained")
 plot_alignment(experiment, simulation, axes[0], measure="frechet", normalized=True, every=4)
 axes[0].set(xlabel="strain [-]", ylabel="stress [MPa]")
+axes[0].locator_params(axis="x", nbins=5)
 axes[0].legend(loc="center")
 plot_table(experiment, simulation, axes[1], measure="frechet", normalized=True)
 

@@ -20,6 +20,7 @@ plot_pcm(simulation, piece, axes[0])
 plot_alignment(piece, simulation, axes[1], measure="dtw", normalized=True, open_end=True, every=5)
 for ax, title in zip(axes, ("pcm", "dtw, open_end=True"), strict=True):
     ax.set(title=title, xlabel="strain [-]", ylabel="stress [MPa]")
+    ax.locator_params(axis="x", nbins=5)
     ax.legend(loc="center")
 
 # %%

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import re
 import shlex
 from collections import Counter
@@ -156,6 +157,21 @@ def test_the_reference_has_c_and_fortran() -> None:
     )
     assert ".. doxygenfile:: curvewise.h\n" in c
     assert ".. literalinclude:: ../../cpp/fortran/curvewise.f90" in fortran
+
+
+def test_every_link_to_a_file_leads_to_one() -> None:
+    """The build refuses such a link too; here it is found without one."""
+    broken = []
+    for page in [*ROOT.glob("*.md"), *(ROOT / "benchmarks").rglob("*.md"), *PAGES]:
+        text = re.sub(
+            r"^```.*?^```$|`[^`\n]+`", "", page.read_text(encoding="utf-8"), flags=re.M | re.S
+        )
+        for link in re.findall(r"(?<=\]\()[^()\s#]+", text):
+            target = page.parent / link
+            made_by_the_build = (DOCS / "gallery") in Path(os.path.normpath(target)).parents
+            if "://" not in link and not made_by_the_build and not target.exists():
+                broken.append(f"{name_of(page)}: {link}")
+    assert broken == []
 
 
 def test_every_page_has_a_place_in_the_navigation() -> None:
