@@ -13,9 +13,10 @@ import numpy as np
 
 import curvewise
 from curvewise.datasets import kinematic_hardening
+from curvewise.plotting.palette import P_COLOUR, Q_COLOUR
 
 IMAGES = Path(__file__).parents[1] / "docs" / "images"
-BLUE, RED, GREY = "#1f77b4", "#d62728", "0.75"
+GREY = "0.75"
 
 
 def loop(random, yield_stress, hardening, cycles=1.25):
@@ -39,8 +40,8 @@ def neighbours(random):
         left.plot(*curve.T, color=GREY, linewidth=0.5)
     for k, i in enumerate(indices[0]):
         label = "its five nearest" if k == 0 else None
-        left.plot(*library[i].T, color=BLUE, linewidth=0.9, label=label)
-    left.plot(*test.T, color=RED, linewidth=1.4, label="the test")
+        left.plot(*library[i].T, color=Q_COLOUR, linewidth=0.9, label=label)
+    left.plot(*test.T, color=P_COLOUR, linewidth=1.4, label="the test")
     left.set(xlabel="strain / 0.02", ylabel="stress / 500 MPa", title="80 loops of four steels")
     left.set(xticks=(-1, 0, 1))
     left.legend(frameon=False, fontsize=8, loc=(0.25, 0.3))
@@ -48,7 +49,7 @@ def neighbours(random):
     for steel in range(4):
         own = np.arange(steel, 80, 4)
         right.plot(np.full(len(own), steel), table[own], "o", color=GREY, markersize=4)
-    right.plot(indices[0] % 4, distances[0], "o", color=BLUE, markersize=5)
+    right.plot(indices[0] % 4, distances[0], "o", color=Q_COLOUR, markersize=5)
     right.set(xticks=range(4), xlabel="steel", ylabel="dtw from the test", ylim=(0, None))
     right.set_title("How far they are from the test")
     return figure
@@ -71,16 +72,16 @@ def cycles(random):
     figure, (left, right) = plt.subplots(
         1, 2, figsize=(9, 3), layout="constrained", width_ratios=[1, 2.6]
     )
-    left.plot(*cycle.T, color=RED, linewidth=1.4, label="the cycle")
+    left.plot(*cycle.T, color=P_COLOUR, linewidth=1.4, label="the cycle")
     for k, one in enumerate(found):
         run = record[one.start : one.stop + 1]
-        left.plot(*run.T, color=BLUE, linewidth=0.6, label="six runs" if k == 0 else None)
+        left.plot(*run.T, color=Q_COLOUR, linewidth=0.6, label="six runs" if k == 0 else None)
     left.set(xlabel="strain / 0.02", ylabel="stress / 500 MPa")
     left.legend(frameon=False, fontsize=8)
     right.plot(record[:, 0], color=GREY, linewidth=0.8)
     for rank, one in enumerate(found, 1):
         places = np.arange(one.start, one.stop + 1)
-        right.plot(places, record[places, 0], color=BLUE, linewidth=1.6)
+        right.plot(places, record[places, 0], color=Q_COLOUR, linewidth=1.6)
         right.annotate(str(rank), (places.mean(), 1.12), ha="center", fontsize=8)
     right.set(xlabel="point of the record", ylabel="strain / 0.02", ylim=(-1.2, 1.3))
     return figure
@@ -102,8 +103,8 @@ def means(random):
     for height in heights:
         axes.plot(x, height, color=GREY, linewidth=0.6)
     axes.plot(x, np.mean(heights, axis=0), "k--", linewidth=1.2, label="mean, point by point")
-    axes.plot(x, heights[chosen], color=BLUE, linewidth=1.0, label="medoid")
-    axes.plot(x, mean, color=RED, linewidth=1.6, label="dtw_mean")
+    axes.plot(x, heights[chosen], color=Q_COLOUR, linewidth=1.0, label="medoid")
+    axes.plot(x, mean, color=P_COLOUR, linewidth=1.6, label="dtw_mean")
     axes.legend(frameon=False, fontsize=8)
     axes.set(xlabel="time", ylabel="height")
     return figure

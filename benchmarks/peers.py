@@ -40,7 +40,7 @@ PACKAGE_COLOURS = {
     "dtw-python": "#CC79A7",
     "tslearn": "#E69F00",
     "curvesimilarities": "#56B4E9",
-    "similaritymeasures": "#8C564B",
+    "similaritymeasures": "#F0E442",
     "shapely": "#666666",
 }
 # On this pair GEOS, and so shapely, is known to be wrong: the discrete Fréchet distance is 5.
@@ -369,7 +369,7 @@ def draw(
         panel.grid(which="both", linewidth=0.4, alpha=0.5)
         panel.legend(fontsize=8, ncols=2, loc="upper center", bbox_to_anchor=(0.5, -0.12))
     panels[0].set_ylabel("seconds per call from Python, one thread")
-    figure.suptitle(f"curvewise {machine['commit']}, {machine['cpu']}", fontsize=9)
+    figure.suptitle(str(machine["cpu"]), fontsize=9)
     file.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(file, dpi=130)
     print(f"written: {file}")

@@ -32,6 +32,7 @@ from matplotlib.figure import Figure
 
 from curvewise import read_curve
 from curvewise.calibration import Identification, identify
+from curvewise.named_curve import NamedCurve
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -139,7 +140,8 @@ def sampled(test: Array, increments: int) -> tuple[Array, Array]:
         steps = np.linspace(0.0, progress[-1], cube.REFINEMENT * count + 1)[1:]
         points.append(branch[np.searchsorted(progress, steps)])
         path.append(np.linspace(path[-1][-1], test[last, 0], count + 1)[1:])
-    return np.concatenate(points), np.concatenate(path)
+    names = ("true strain", "true stress, MPa")
+    return NamedCurve(np.concatenate(points), names), np.concatenate(path)
 
 
 def verify(paths: Sequence[Array], runs: Path) -> list[dict[str, float]]:

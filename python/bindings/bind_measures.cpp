@@ -18,6 +18,7 @@ namespace {
 template <class Options, class Compute>
 auto computed(const CurveArray& P, const CurveArray& Q, const Options& options, Compute compute) {
     const CurveView p = view(P), q = view(Q);
+    if (few_points_of_many_coordinates(p, q)) warn_if_transposed(P);
     const double work = options.work(static_cast<double>(p.size()), static_cast<double>(q.size()),
                                      static_cast<double>(p.dim()));
     // The curves are read before the work that the measure knows of.
@@ -63,7 +64,8 @@ py::tuple as_tuple(AreaQuads&& found) {
 py::tuple as_tuple(PcmMatch&& match) {
     const auto count = static_cast<py::ssize_t>(match.points.size());
     return py::make_tuple(match.value, match.offset, match.coverage, match.maps_p ? "P" : "Q",
-                          owning_array<double>(std::move(match.points), {count, py::ssize_t{2}}));
+                          owning_array<double>(std::move(match.points), {count, py::ssize_t{2}}),
+                          match.tolerance);
 }
 
 py::tuple as_tuple(WarpingInfo&& info) {
@@ -147,8 +149,9 @@ py::tuple gradient_by_name(const std::string& measure, const CurveArray& P, cons
     }
     return value_with_gradient(Q, [&](double* gradient) {
         const CurveView p = view(P), q = view(Q);
-        return unlocked(static_cast<double>(P.size()),
-                        [&] { return sum_of_squares_and_gradient(p, q, gradient); });
+        return interruptible(static_cast<double>(P.size()), py::none(), [&](Control* control) {
+            return sum_of_squares_and_gradient(p, q, gradient, control);
+        });
     });
 }
 

@@ -41,12 +41,14 @@ class BoundIndex {
 
     void add(const py::list& curves) {
         const Curves added(curves);
-        const py::gil_scoped_release unlocked;
-        index_.add(added.views);
+        // It may have to wait for searches, however few the curves are.
+        const double work = std::max(reading(added), steps_worth_watching);
+        interruptible(work, py::none(),
+                      [&](Control* control) { index_.add(added.views, control); });
         note_longest(added);
     }
     std::size_t size() const {
-        const py::gil_scoped_release unlocked;
+        const WithoutLock unlocked;
         return index_.size();
     }
     py::list curves() const {
@@ -114,12 +116,18 @@ class BoundIndex {
     Index make(const py::list& list) {
         const Curves curves(list);
         note_longest(curves);
-        return unlocked(curves.size() * curves.longest() * curves.dim(),
-                        [&] { return Index(curves.views, measure_); });
+        return interruptible(reading(curves), py::none(), [&](Control* control) {
+            return Index(curves.views, measure_, control);
+        });
+    }
+
+    // The elementary steps that copying and preparing curves takes, roughly.
+    static double reading(const Curves& curves) noexcept {
+        return 10.0 * curves.size() * curves.longest() * curves.dim();
     }
 
     std::vector<CurveView> views() const {
-        const py::gil_scoped_release unlocked;
+        const WithoutLock unlocked;
         return index_.curves();
     }
 

@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 
 #include "curvewise/control.hpp"
+#include "interpreter_lock.hpp"
 
 namespace curvewise::bindings {
 
@@ -33,13 +34,15 @@ class PythonControl {
 
     // Whether to go on.
     bool report(std::int64_t done, std::int64_t total) {
-        const py::gil_scoped_acquire lock;
-        if (handles_signals_ && PyErr_CheckSignals() != 0) return false;
-        if (progress_.is_none()) return true;
-        PyObject* const result = PyObject_CallFunction(
-            progress_.ptr(), "LL", static_cast<long long>(done), static_cast<long long>(total));
-        Py_XDECREF(result);
-        return result != nullptr;
+        const WithLock lock;
+        return or_stand_still([&] {
+            if (handles_signals_ && PyErr_CheckSignals() != 0) return false;
+            if (progress_.is_none()) return true;
+            PyObject* const result = PyObject_CallFunction(
+                progress_.ptr(), "LL", static_cast<long long>(done), static_cast<long long>(total));
+            Py_XDECREF(result);
+            return result != nullptr;
+        });
     }
 
     const py::object& progress_;
@@ -51,11 +54,14 @@ class PythonControl {
 // lock: to release it costs something, too.
 inline constexpr double steps_worth_unlocking = 5e3;
 
+// Calls of fewer are over before a report is due.
+inline constexpr double steps_worth_watching = 5e5;
+
 // Calls function(), without the interpreter's lock where that is worth its cost.
 template <class Function>
 auto unlocked(double steps, Function function) {
     if (steps < steps_worth_unlocking) return function();
-    const py::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     return function();
 }
 
@@ -63,13 +69,12 @@ auto unlocked(double steps, Function function) {
 // handled on the main thread, where Python delivers them.
 template <class Function>
 auto interruptible(double steps, const py::object& progress, Function function) {
-    constexpr double worth_watching = 5e5;  // less is over before a report is due
-    if (progress.is_none() && steps < worth_watching) {
+    if (progress.is_none() && steps < steps_worth_watching) {
         return unlocked(steps, [&] { return function(nullptr); });
     }
     PythonControl python(progress);
     try {
-        const py::gil_scoped_release unlocked;
+        const WithoutLock unlocked;
         return function(python.control());
     } catch (const Stopped&) {
         throw py::error_already_set();

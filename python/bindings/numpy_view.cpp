@@ -11,4 +11,8 @@ CurveView view(const CurveArray& array) {
     return {data, array.shape(0), array.shape(1), array.strides(0) / item, col_stride};
 }
 
+void warn_if_transposed(const CurveArray& P) {
+    py::module_::import("curvewise._curves").attr("warn_if_transposed")(P, "P");
+}
+
 }  // namespace curvewise::bindings

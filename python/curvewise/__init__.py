@@ -62,6 +62,8 @@ if TYPE_CHECKING:
     from . import plotting as plotting
     from . import reference as reference
     from . import sklearn as sklearn
+    from . import solvers as solvers
+    from . import studies as studies
 
 __all__ = [
     "Alignment",
@@ -112,7 +114,16 @@ __all__ = [
     "value_and_gradient",
 ]
 
-_LAZY = ("calibration", "compat", "dask", "plotting", "reference", "sklearn")
+_LAZY = (
+    "calibration",
+    "compat",
+    "dask",
+    "plotting",
+    "reference",
+    "sklearn",
+    "solvers",
+    "studies",
+)
 
 # Hidden from type checkers, which would otherwise accept every misspelt attribute.
 if not TYPE_CHECKING:

@@ -14,21 +14,27 @@ import io
 import json
 import math
 import os
+import shlex
 import sys
+import warnings
 from collections.abc import Callable, Iterable, Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import Any, get_args
 
 from . import __version__, build_info
+from ._curves import Array
 from ._extras import extra
 from ._options import Crossing, Preset, Spacing, Window
+from .column_choice import TimeColumnWarning
 from .compare import PRESETS, Comparison, compare
 from .curve_files import read_named_columns
 from .datasets import hysteresis_pair
 from .embedding import get_cmake_dir, get_include
+from .identify_command import add_identify
 from .measures import curve_length_residuals, normalize
 from .measures.registry import MEASURES
+from .report_command import add_report
 
 __all__ = ["main"]
 
@@ -133,18 +139,7 @@ def _parser() -> argparse.ArgumentParser:
     command.set_defaults(run=_compare, usage_error=command.error)
     command.add_argument("A", help="the reference, e.g. the experiment: one point per line")
     command.add_argument("B", help="the other curve, e.g. the simulation")
-    command.add_argument(
-        "--columns",
-        nargs="+",
-        metavar="COLUMN",
-        help="names from the header, or numbers from 1; by default the first two",
-    )
-    command.add_argument(
-        "--columns-b",
-        nargs="+",
-        metavar="COLUMN",
-        help="those of B, where they are others than those of A",
-    )
+    _add_columns(command)
     command.add_argument(
         "--preset",
         choices=get_args(Preset),
@@ -184,15 +179,48 @@ def _parser() -> argparse.ArgumentParser:
         help="write to the --output file the terms of curve_length, for least squares, instead",
     )
 
+    add_identify(commands)
+
     command = commands.add_parser("demo", help="compare the built-in hysteresis loops")
     command.set_defaults(run=_demo)
     command.add_argument("--output", metavar="FILE", default="curvewise_demo.png")
+
+    add_report(commands)
 
     command = commands.add_parser("selfcheck", help="check every kernel on this machine")
     command.set_defaults(run=_selfcheck)
     command = commands.add_parser("info", help="show version, compiler and instruction sets")
     command.set_defaults(run=_info)
     return parser
+
+
+def _add_columns(command: argparse.ArgumentParser) -> None:
+    """Add what is said of each file: its columns, their units, the sheet of a workbook."""
+    command.add_argument(
+        "--columns",
+        nargs="+",
+        metavar="COLUMN",
+        help="names from the header, or numbers from 1; by default the first two",
+    )
+    command.add_argument(
+        "--columns-b",
+        nargs="+",
+        metavar="COLUMN",
+        help="those of B, where they are others than those of A",
+    )
+    for file in "AB":
+        command.add_argument(
+            f"--factors-{file.lower()}",
+            nargs="+",
+            type=float,
+            metavar="F",
+            help=f"what the columns of {file} are multiplied by, to change units: 0.01 1e-6",
+        )
+        command.add_argument(
+            f"--sheet-{file.lower()}",
+            metavar="SHEET",
+            help=f"of the workbook {file}: its name, or its number from 1; by default the first",
+        )
 
 
 def _window(text: str) -> Window:
@@ -211,8 +239,11 @@ def _compare(arguments: argparse.Namespace) -> int:
     if arguments.plot:
         _require_matplotlib()
     files = [arguments.A, arguments.B]
-    P, of_p = read_named_columns(arguments.A, arguments.columns)
-    Q, of_q = read_named_columns(arguments.B, arguments.columns_b or arguments.columns)
+    factors = [arguments.factors_a, arguments.factors_b]
+    P, of_p = _read(arguments.A, arguments.columns, arguments.sheet_a, factors[0])
+    Q, of_q = _read(
+        arguments.B, arguments.columns_b or arguments.columns, arguments.sheet_b, factors[1]
+    )
     given = {
         "area": {"spacing": arguments.spacing, "crossing": arguments.crossing},
         "dtw": {"window": arguments.window},
@@ -223,24 +254,48 @@ def _compare(arguments: argparse.Namespace) -> int:
         if (chosen := {name: value for name, value in values.items() if value is not None})
     }
     try:
-        comparison = compare(
-            P, Q, preset=arguments.preset, measures=arguments.measures, options=options
-        )
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always", UserWarning)
+            comparison = compare(
+                P, Q, preset=arguments.preset, measures=arguments.measures, options=options
+            )
     except ValueError as error:
         raise ValueError(f"{error} (P is {files[0]}, Q is {files[1]})") from error
+    for words in dict.fromkeys(str(warning.message) for warning in said):
+        print("curvewise:", words, file=sys.stderr)
     if arguments.output:
         numbers = _residuals(comparison) if arguments.residuals else comparison.values.values()
         _write_numbers(numbers, arguments.output)
     if arguments.json:
-        print(_to_json(comparison, files, [of_p, of_q]))
+        print(_to_json(comparison, files, [of_p, of_q], factors))
     else:
-        columns = [f", columns {', '.join(names)}" for names in (of_p, of_q)]
+        columns = [_columns_in_words(*of) for of in zip((of_p, of_q), factors, strict=True)]
         _print_table(comparison, files, columns)
     if arguments.plot:
         _write_picture(comparison, arguments.plot)
         if not arguments.json:
             print(f"\npicture: {arguments.plot}")
     return 0
+
+
+def _read(
+    file: str, columns: list[str] | None, sheet: str | None, factors: list[float] | None
+) -> tuple[Array, list[str]]:
+    """Read the columns of a file; refuse to guess them where the first of several is time."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", TimeColumnWarning)
+        try:
+            return read_named_columns(file, columns, sheet=sheet, factors=factors)
+        except TimeColumnWarning as guessed:
+            wanted = shlex.join(guessed.wanted)
+            raise ValueError(f"{guessed.found}; name those wanted: --columns {wanted}") from None
+
+
+def _columns_in_words(names: list[str], factors: list[float] | None) -> str:
+    if factors is None:
+        return f", columns {', '.join(names)}"
+    scaled = (f"{name} × {factor:g}" for name, factor in zip(names, factors, strict=True))
+    return f", columns {', '.join(scaled)}"
 
 
 def _demo(arguments: argparse.Namespace) -> int:
@@ -276,7 +331,12 @@ def _print_table(comparison: Comparison, names: list[str], columns: list[str]) -
         print(f"{name:<{width}}  {deviation}")
 
 
-def _to_json(comparison: Comparison, files: list[str], columns: list[list[str]]) -> str:
+def _to_json(
+    comparison: Comparison,
+    files: list[str],
+    columns: list[list[str]],
+    factors: list[list[float] | None],
+) -> str:
     values = {name: _json_number(value) for name, value in comparison.values.items()}
     deviations = {
         name: {key: _json_number(value) for key, value in found._asdict().items()}
@@ -287,6 +347,7 @@ def _to_json(comparison: Comparison, files: list[str], columns: list[list[str]])
         {
             "files": files,
             "columns": columns,
+            "factors": factors,
             "preset": comparison.preset,
             "n": n,
             "values": values,

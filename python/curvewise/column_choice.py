@@ -1,11 +1,46 @@
-"""Which columns of a file a user asks for, by name or by number, whatever the kind of file."""
+"""Which columns of a file a user asks for, by name or by number, whatever the kind of file.
+
+Where nobody asks, the first two are taken, which is said where they are time and something else.
+"""
 
 from __future__ import annotations
 
 import operator
+import re
 from collections.abc import Sequence
+from typing import Any
 
-__all__ = ["choose_columns", "column_name"]
+from ._foreign_curves import warn
+
+__all__ = ["TimeColumnWarning", "choose_columns", "column_name", "is_time"]
+
+# "time", "Time [s]", "t (s)", "time_s", "Step Time", "Zeit/s"; not "T" (temperature), "timeout".
+_TIME = re.compile(
+    r"(?:(?i:(?:\w+[ _])?(?:time|zeit|temps|tiempo|tempo)|timestamp)|t)"
+    r"(?:[ _]*[\[(/,].*|[ _](?i:s|sec|seconds?|ms|min|minutes?|h|hours?))?"
+)
+
+
+class TimeColumnWarning(UserWarning):
+    """The first two columns of a file are taken, the first is time, and there are more.
+
+    Attributes
+    ----------
+    found : str
+        Which file, and which columns.
+    wanted : list of str
+        The two columns after time.
+    """
+
+    def __init__(self, found: str, wanted: list[str]) -> None:
+        super().__init__(f"{found}; name those wanted, for example columns={wanted}")
+        self.found = found
+        self.wanted = wanted
+
+
+def is_time(name: Any) -> bool:
+    """Say whether a column is time by its name, with or without a unit."""
+    return isinstance(name, str) and _TIME.fullmatch(name.strip()) is not None
 
 
 def choose_columns(
@@ -30,8 +65,17 @@ def choose_columns(
         A lone name.
     ValueError
         No column, or one that is not there, or a name that several have.
+
+    Warns
+    -----
+    TimeColumnWarning
+        The first two of several columns are taken, and the first is time.
     """
     if columns is None:
+        if width > 2 and names and is_time(names[0]):
+            others = [column_name(names, column) for column in range(1, width)]
+            found = f"the first two of the {width} columns of {file} are {names[0]} and {others[0]}"
+            warn(TimeColumnWarning(found, others[:2]))
         return list(range(min(2, width)))
     if isinstance(columns, str):
         raise TypeError(f"columns is {columns!r}; give a list, even for one column")

@@ -6,15 +6,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ._curves import Array, CurveLike, as_curves
 from ._docstrings import filled
+from ._foreign_curves import warn
 from ._options import Preset
-from .deviations import Deviation, deviation
+from .column_choice import is_time
+from .deviations import Deviations, deviation
 from .measures import normalize
 from .measures.registry import MEASURES, PRESETS, Condition, MeasureInfo, default_measures
+from .named_curve import copied, known_names
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from .plotting.picture import Picture
 
 __all__ = ["PRESETS", "Comparison", "Preset", "compare"]
 
@@ -28,7 +33,7 @@ class Comparison:
     Attributes
     ----------
     P, Q : ndarray
-        The curves, in float64, not scaled.
+        The curves, in float64, not scaled; with the names of their columns, if they had any.
     preset : {"scaled", "paper", "raw"}
         The conditions under which the values were computed.
     values : dict of str to float
@@ -37,8 +42,8 @@ class Comparison:
         How each value was computed: on curves scaled or not, and with which options.
     """
 
-    P: Array
-    Q: Array
+    P: Array = field(repr=False)
+    Q: Array = field(repr=False)
     preset: Preset
     values: dict[str, float]
     conditions: dict[str, Condition] = field(repr=False)
@@ -52,33 +57,46 @@ class Comparison:
         return "\n".join(lines)
 
     @property
-    def deviations(self) -> dict[str, Deviation]:
+    def deviations(self) -> Deviations:
         """How far apart the points are that each measure compares, in units of y.
 
         Of the measures that compare points: not of curve_length. Computed when asked for: dtw and
-        frechet need their paths. See :class:`curvewise.deviations.Deviation`.
+        frechet need their paths. A dict of :class:`curvewise.deviations.Deviation`.
         """
         found = {
             name: deviation(name, condition, self.P, self.Q)
             for name, condition in self.conditions.items()
         }
-        return {name: value for name, value in found.items() if value is not None}
+        return Deviations({name: value for name, value in found.items() if value is not None})
 
     def to_dict(self) -> dict[str, float]:
         """Return the values by name, as a new dict of Python floats."""
         return dict(self.values)
 
-    def plot(self) -> Figure:
+    def plot(self, *, names: Sequence[str] | None = None) -> Picture:
         """Return a matplotlib Figure of the curves and of what each measure saw.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            What the coordinates are called on the axes; by default what the curves' columns were
+            called, else x and y.
 
         Raises
         ------
         ImportError
             matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        ValueError
+            Another number of names than of coordinates.
         """
         from .plotting import plot_comparison
 
-        return plot_comparison(self)
+        return plot_comparison(self, names=names)
+
+    def _repr_html_(self) -> str:
+        from .notebook import comparison_html
+
+        return comparison_html(self)
 
 
 @filled(
@@ -100,7 +118,9 @@ def compare(
     Parameters
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
-        The curves; P is the reference.
+        The curves; P is the reference. Every column is a coordinate: of three or more of which one
+        is time by its name, or alone increases from point to point in both curves, a warning says
+        so, unless `measures` is given.
     preset : {"scaled", "paper", "raw"}
         "scaled": everything on curves scaled by P's box, area with spacing="matched",
         curve_length with scale="mean_abs".
@@ -143,11 +163,13 @@ def compare(
     >>> print(curvewise.compare(P, Q, measures=["area"]).deviations["area"])
     mean 54.09 (4 %), largest 99.3 (7.3 %)
     """
-    P, Q = (curve.copy() for curve in as_curves(P, Q))
+    columns = known_names(P, Q)
+    P, Q = map(copied, (P, Q), as_curves(P, Q))
     if not isinstance(preset, str) or preset not in PRESETS:
         raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
     if measures is None:
         measures = default_measures(P)
+        _warn_of_time(P, Q, columns, measures)
     if isinstance(measures, str) or not (names := list(measures)):
         raise ValueError(f"measures is {measures!r}; give a list of names, e.g. ['area', 'dtw']")
     given = {} if options is None else options
@@ -160,6 +182,23 @@ def compare(
     conditions = {name: _changed(PRESETS[preset][name], given.get(name, {})) for name in names}
     values = {name: _value(MEASURES[name], conditions[name], P, Q) for name in names}
     return Comparison(P, Q, preset, values, conditions)
+
+
+def _warn_of_time(P: Array, Q: Array, names: Sequence[Any], measures: Sequence[str]) -> None:
+    """Warn of a column beside two others that is time: it would count as a coordinate."""
+    if P.ndim != 2 or Q.ndim != 2 or P.shape[1] != Q.shape[1] or P.shape[1] < 3:
+        return
+    times = [i for i, name in enumerate(names) if is_time(name)]
+    if not times and min(len(P), len(Q)) > 2:
+        rising = (np.diff(P, axis=0) > 0).all(axis=0) & (np.diff(Q, axis=0) > 0).all(axis=0)
+        times = [int(i) for i in np.flatnonzero(rising)] if rising.sum() == 1 else []
+    if times:
+        by_name = bool(names) and is_time(names[times[0]])
+        column = repr(names[times[0]]) if by_name else f"{times[0] + 1} of {P.shape[1]}"
+        warn(
+            f"column {column} counts as a coordinate, and looks like time; leave it out of P and Q,"
+            f" or say measures={list(measures)} if it shall count"
+        )
 
 
 def _changed(condition: Condition, options: Mapping[str, Any]) -> Condition:

@@ -14,6 +14,7 @@ import numpy as np
 
 from ._curves import Array
 from .csv_curves import read_csv_columns
+from .named_curve import NamedCurve
 
 __all__ = ["read_curve", "read_named_columns"]
 
@@ -63,7 +64,8 @@ def read_curve(
         Names from the header, or numbers from 1 (as int or str), in the order wanted. By default
         the first two columns, or the only one.
     sheet : str or int, optional
-        The sheet of a workbook, by its name, or by its number from 1. By default the first.
+        The sheet of a workbook, by its name, or by its number from 1 (as int or str). By default
+        the first.
     factors : sequence of float, one per column, optional
         What the columns are multiplied by, to change units: ``[0.01, 1e-6]`` for per cent and Pa
         where the other curve has fractions and MPa.
@@ -72,7 +74,7 @@ def read_curve(
     -------
     ndarray, shape (n, d)
         One row per point, one column per entry of `columns`, in the units of the file times
-        `factors`.
+        `factors`. It remembers the names of its columns, which pictures write on their axes.
 
     Raises
     ------
@@ -85,6 +87,11 @@ def read_curve(
         A workbook without pandas and openpyxl, or a .mat file without scipy.
     OSError
         The file cannot be read.
+
+    Warns
+    -----
+    TimeColumnWarning
+        `columns` is not given, the first column is time by its name, and there are three or more.
 
     Notes
     -----
@@ -105,18 +112,7 @@ def read_curve(
     array([[0.000e+00, 0.000e+00],
            [1.000e-03, 1.995e+02]])
     """
-    values = read_named_columns(path, columns, sheet=sheet)[0]
-    if factors is None:
-        return values
-    given = np.asarray(factors, dtype=np.float64)
-    if given.shape != values.shape[1:]:
-        raise ValueError(
-            f"factors has shape {given.shape}; {os.fspath(path)} gives {values.shape[1]} columns, "
-            "and each needs one"
-        )
-    if not (np.isfinite(given).all() and given.all()):
-        raise ValueError(f"factors is {given.tolist()}; each must be finite and not 0")
-    return values * given
+    return read_named_columns(path, columns, sheet=sheet, factors=factors)[0]
 
 
 def read_named_columns(
@@ -124,12 +120,13 @@ def read_named_columns(
     columns: Sequence[str | int] | None = None,
     *,
     sheet: str | int | None = None,
+    factors: Sequence[float] | None = None,
 ) -> tuple[Array, list[str]]:
     r"""Read a curve as :func:`read_curve` does, and say which columns it was read from.
 
     Parameters
     ----------
-    path, columns, sheet
+    path, columns, sheet, factors
         As for :func:`read_curve`.
 
     Returns
@@ -155,6 +152,34 @@ def read_named_columns(
     ...     read_named_columns(path, columns=["strain", 3])[1]
     ['strain', 'stress']
     """
+    values, names = _read(path, columns, sheet)
+    titles = _titles(names)
+    if factors is None:
+        return NamedCurve(values, titles), names
+    given = np.asarray(factors, dtype=np.float64)
+    if given.shape != values.shape[1:]:
+        raise ValueError(
+            f"factors has shape {given.shape}; {os.fspath(path)} gives {values.shape[1]} columns, "
+            "and each needs one"
+        )
+    if not (np.isfinite(given).all() and given.all()):
+        raise ValueError(f"factors is {given.tolist()}; each must be finite and not 0")
+    changed = [
+        name if factor == 1.0 else f"{name} × {factor:.10g}"
+        for name, factor in zip(titles, given.tolist(), strict=True)
+    ]
+    return NamedCurve(values * given, changed), names
+
+
+def _titles(names: list[str]) -> list[str]:
+    """Return what pictures call the columns: those that have a number for a name, "column 2"."""
+    return [f"column {name}" if name.isdecimal() else name for name in names]
+
+
+def _read(
+    path: str | os.PathLike[str], columns: Sequence[str | int] | None, sheet: str | int | None
+) -> tuple[Array, list[str]]:
+    """Return the columns and their names, by the kind of the file."""
     kind = Path(path).suffix.lower()
     if kind in _WORKBOOKS:
         from .excel_curves import read_sheet_columns

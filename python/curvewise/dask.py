@@ -23,7 +23,7 @@ import numpy.typing as npt
 
 from . import _core, pairwise
 from ._abandoned import watch
-from ._curves import Array, as_curve_list
+from ._curves import Array, as_curve_list, copy_of
 from ._extras import extra
 from ._options import MeasureName
 from .nearest import Index, _whole_number
@@ -247,7 +247,7 @@ class _Pieces:
 
     def packed(self) -> list[_Piece]:
         """Return the pieces, copied: what the caller does to his arrays later changes nothing."""
-        return [_Piece([curve.copy() for curve in self._curves[part]]) for part in self._slices()]
+        return [_Piece([copy_of(curve) for curve in self._curves[part]]) for part in self._slices()]
 
     def _slices(self) -> list[slice]:
         return [slice(start, start + self._starts.step) for start in self._starts]

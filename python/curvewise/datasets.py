@@ -16,11 +16,14 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from .named_curve import NamedCurve
+
 __all__ = ["hysteresis_pair", "kinematic_hardening"]
 
 # Strain amplitude of the pair's cycle, and where its branches end: tension, compression, tension.
 _AMPLITUDE = 0.02
 _TURNS = (0.0, _AMPLITUDE, -_AMPLITUDE, _AMPLITUDE)
+_NAMES = ("true strain", "true stress, MPa")
 
 
 def kinematic_hardening(
@@ -38,7 +41,7 @@ def kinematic_hardening(
     .. math::
 
         \sigma = E (\varepsilon - \varepsilon_p), \qquad
-        \left|\sigma - \textstyle\sum_k X_k\right| \le \sigma_y, \qquad
+        \left|\sigma - {\textstyle\sum_k X_k}\right| \le \sigma_y, \qquad
         \dot X_k = C_k \dot\varepsilon_p - \gamma_k X_k \dot p
 
     (factors of 2/3 and 3/2 absorbed into the constants). While plastic flow keeps its direction
@@ -181,7 +184,7 @@ def hysteresis_pair(*, seed: int = 0) -> tuple[npt.NDArray[np.float64], npt.NDAr
     Returns
     -------
     experiment : ndarray, shape (241, 2)
-        True strain [-] and true stress [MPa].
+        True strain [-] and true stress [MPa]; pictures write so on their axes.
     simulation : ndarray, shape (151, 2)
         Likewise.
 
@@ -209,11 +212,12 @@ def hysteresis_pair(*, seed: int = 0) -> tuple[npt.NDArray[np.float64], npt.NDAr
         backstresses=((110e3, 600.0), (10e3, 60.0), (2e3, 0.0)),
     )
     stress += random.normal(0.0, 4.0, strain.size)
-    experiment = np.column_stack((strain, stress))
+    experiment = NamedCurve(np.column_stack((strain, stress)), _NAMES)
 
     steps = np.repeat([1.0, -1.0, 1.0], [30, 60, 60]).cumsum()
     strain = np.concatenate(([0.0], steps * (_AMPLITUDE / 30)))
-    return experiment, np.column_stack((strain, kinematic_hardening(strain)))
+    simulation = np.column_stack((strain, kinematic_hardening(strain)))
+    return experiment, NamedCurve(simulation, _NAMES)
 
 
 def _logged_strain(random: np.random.Generator) -> npt.NDArray[np.float64]:

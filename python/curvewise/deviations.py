@@ -17,7 +17,7 @@ from ._options import Crossing
 from .measures import area, area_quads, frechet_continuous_path, normalize, pcm_match
 from .measures.registry import MEASURES, Condition
 
-__all__ = ["Deviation", "deviation"]
+__all__ = ["Deviation", "Deviations", "deviation"]
 
 
 class Deviation(NamedTuple):
@@ -45,13 +45,36 @@ class Deviation(NamedTuple):
     height: float
 
     def __str__(self) -> str:
-        return f"mean {self._text(self.mean)}, largest {self._text(self.largest)}"
+        return f"mean {self.mean_text}, largest {self.largest_text}"
+
+    @property
+    def mean_text(self) -> str:
+        """The mean as a text, with its part of the height."""
+        return self._text(self.mean)
+
+    @property
+    def largest_text(self) -> str:
+        """The largest as a text, with its part of the height."""
+        return self._text(self.largest)
 
     def _text(self, value: float) -> str:
         if not (0 < self.height < math.inf and value < math.inf):
             return f"{value:.4g}"
         share = 100 * (value / self.height)
         return f"{value:.4g} ({share:.2g} %)" if share < 99.5 else f"{value:.4g} ({share:.0f} %)"
+
+
+class Deviations(dict[str, Deviation]):
+    """Deviations by measure; prints as a table."""
+
+    def __str__(self) -> str:
+        width = max(map(len, self), default=0)
+        return "\n".join(f"{name:<{width}}  {found}" for name, found in self.items())
+
+    def _repr_html_(self) -> str:
+        from .notebook import deviations_html
+
+        return deviations_html(self)
 
 
 def deviation(

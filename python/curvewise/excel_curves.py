@@ -58,6 +58,8 @@ def _cells(
         pandas = import_module("pandas")
         with pandas.ExcelFile(path) as book:
             titles = book.sheet_names
+            if isinstance(sheet, str) and sheet not in titles and sheet.isdecimal():
+                sheet = int(sheet)
             by_number = isinstance(sheet, int) and 1 <= sheet <= len(titles)
             if not by_number and sheet not in titles:
                 listed = ", ".join(map(str, titles))

@@ -7,6 +7,7 @@ and conventions of ``sklearn.neighbors.NearestNeighbors``. The work is done by t
 from __future__ import annotations
 
 import operator
+import sys
 from importlib import import_module
 from itertools import pairwise
 from typing import Any, Literal, SupportsFloat, SupportsIndex, overload
@@ -374,7 +375,8 @@ def _index_of(curves: list[Array], measure: MeasureName, options: dict[str, Any]
 
 def _whole_number(name: str, value: SupportsIndex) -> int:
     try:
-        return operator.index(value)
+        # Beyond 64 bits it is as good as the largest number there is.
+        return max(-sys.maxsize, min(operator.index(value), sys.maxsize))
     except TypeError:
         raise ValueError(f"{name} is {value!r}; give a whole number >= 1") from None
 

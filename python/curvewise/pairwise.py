@@ -21,8 +21,11 @@ from ._curves import (
     as_curve_list,
     check_column_names,
     column_names,
+    copy_of,
+    warn_if_transposed,
 )
 from ._docstrings import filled, listed
+from ._foreign_curves import is_curve_of_another_package
 from ._options import Default, MeasureName, Metric
 from ._progress import Report, reporting
 from .measures.registry import MEASURES
@@ -243,7 +246,8 @@ class Prepared:
     """
 
     def __init__(self, P: CurveLike, measure: MeasureName = "dtw", **options: Any) -> None:
-        self._curve = as_curve(P, "P").copy()
+        self._curve = copy_of(as_curve(P, "P"))
+        warn_if_transposed(self._curve, "P")
         self._columns = column_names(P)
         self._measure = _check_names(measure, options)
         self._options = options
@@ -290,7 +294,9 @@ class Prepared:
 
     def _is_list(self, Q: Any) -> bool:
         if isinstance(Q, list | tuple):
-            return len(Q) == 0 or np.ndim(Q[0]) == self._curve.ndim
+            if len(Q) == 0 or is_curve_of_another_package(Q[0]):
+                return True
+            return bool(np.ndim(Q[0]) == self._curve.ndim)
         return np.ndim(Q) == 3
 
 
@@ -338,7 +344,7 @@ def _checked_out(out: Array | None, shape: tuple[int, ...], name: str) -> Array:
 
 def _apart(curves: list[Array], out: Array) -> list[Array]:
     """Return the curves, copied where writing to `out` might change them."""
-    return [curve.copy() if np.may_share_memory(curve, out) else curve for curve in curves]
+    return [copy_of(curve) if np.may_share_memory(curve, out) else curve for curve in curves]
 
 
 def _checked_cutoff(cutoff: SupportsFloat | None) -> float:

@@ -1,12 +1,20 @@
-"""What the richer functions return: plain, immutable records of numpy arrays and numbers."""
+"""What the richer functions return: plain, immutable records of numpy arrays and numbers.
+
+In a terminal they print their numbers, and of arrays the shapes; in a notebook a table and, where
+they know the curves, the picture of what was found.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from collections.abc import Iterable
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from .plotting.picture import Picture
 
 __all__ = [
     "Alignment",
@@ -19,8 +27,29 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True)
-class Alignment:
+Curves: TypeAlias = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None
+
+
+@dataclass(frozen=True, repr=False)
+class _Record:
+    """A record that does not print its arrays."""
+
+    def __repr__(self) -> str:
+        names = [one.name for one in fields(self) if one.repr]
+        return _printed(self, [(name, getattr(self, name)) for name in names])
+
+
+def _printed(record: object, items: Iterable[tuple[str, Any]]) -> str:
+    parts = [f"{name}={_short(value)}" for name, value in items]
+    return f"{type(record).__name__}({', '.join(parts)})"
+
+
+def _short(value: Any) -> str:
+    return f"<array of shape {value.shape}>" if isinstance(value, np.ndarray) else repr(value)
+
+
+@dataclass(frozen=True, repr=False)
+class Alignment(_Record):
     """A distance with the path that attains it.
 
     Attributes
@@ -30,10 +59,32 @@ class Alignment:
     path : ndarray of int64, shape (k, 2)
         Index pairs ``(i, j)``: point ``i`` of P is matched to point ``j`` of Q. Each step is
         (1, 0), (0, 1) or (1, 1).
+    curves : tuple of two ndarrays, or None
+        Copies of P and Q, for the picture; not those of :mod:`curvewise.reference`.
     """
 
     distance: float
     path: npt.NDArray[np.int64]
+    curves: Curves = field(default=None, repr=False, compare=False)
+
+    def plot(self) -> Picture:
+        """Return a matplotlib Figure of the curves and the pairs of the path.
+
+        Where the curves are not known, or have more than two coordinates, of the path alone.
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        """
+        from .plotting.found import alignment_figure
+
+        return alignment_figure(self)
+
+    def _repr_html_(self) -> str:
+        from .notebook import alignment_html
+
+        return alignment_html(self)
 
 
 class AreaQuads(NamedTuple):
@@ -50,9 +101,12 @@ class AreaQuads(NamedTuple):
     quads: npt.NDArray[np.float64]
     areas: npt.NDArray[np.float64]
 
+    def __repr__(self) -> str:
+        return _printed(self, self._asdict().items())
 
-@dataclass(frozen=True)
-class Matching:
+
+@dataclass(frozen=True, repr=False)
+class Matching(_Record):
     """A distance with two walks along the curves that attain it.
 
     Attributes
@@ -64,14 +118,36 @@ class Matching:
         Pairs of a parameter of P and one of Q: the index of a vertex plus a fraction of the edge
         behind it. Neither ever decreases; the first are 0 and the last the indices of the last
         points. Between two rows both walks stay on one edge each, at steady speeds.
+    curves : tuple of two ndarrays, or None
+        Copies of P and Q, for the picture; not those of :mod:`curvewise.reference`.
     """
 
     distance: float
     parameters: npt.NDArray[np.float64]
+    curves: Curves = field(default=None, repr=False, compare=False)
+
+    def plot(self) -> Picture:
+        """Return a matplotlib Figure of the curves and the leashes between them.
+
+        Where the curves are not known, or have more than two coordinates, of the parameters alone.
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        """
+        from .plotting.found import matching_figure
+
+        return matching_figure(self)
+
+    def _repr_html_(self) -> str:
+        from .notebook import matching_html
+
+        return matching_html(self)
 
 
-@dataclass(frozen=True)
-class PcmMatch:
+@dataclass(frozen=True, repr=False)
+class PcmMatch(_Record):
     """Where partial curve mapping places the shorter curve on the longer.
 
     Attributes
@@ -88,6 +164,13 @@ class PcmMatch:
         Which curve is the shorter one, whose vertices are mapped onto the other.
     points : ndarray, shape (k, 2)
         For every vertex of the mapped curve, its point on the other curve, in original units.
+    tolerance : float
+        How far `value` may lie above the smallest area of all offsets. For lengths S <= T and
+        ``offsets=k`` it is S (T - S) / (2 (k - 1)), or S (T - S) for ``offsets=1``; for
+        "continuous" 1e-12 S or 1e-13 `value`, whichever is more, unless the search took more than
+        2^20 evaluations: then it says with how much more the search ended.
+    curves : tuple of two ndarrays, or None
+        Copies of P and Q, for the picture; not those of :mod:`curvewise.reference`.
     """
 
     value: float
@@ -95,6 +178,27 @@ class PcmMatch:
     coverage: float
     mapped: Literal["P", "Q"]
     points: npt.NDArray[np.float64]
+    tolerance: float
+    curves: Curves = field(default=None, repr=False, compare=False)
+
+    def plot(self) -> Picture:
+        """Return a matplotlib Figure of the curves and of where the shorter one lies.
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        ValueError
+            The curves are not known: the match is that of :mod:`curvewise.reference`.
+        """
+        from .plotting.found import match_figure
+
+        return match_figure(self)
+
+    def _repr_html_(self) -> str:
+        from .notebook import match_html
+
+        return match_html(self)
 
 
 @dataclass(frozen=True)
@@ -127,8 +231,8 @@ class WarpingInfo:
     seconds: dict[str, float]
 
 
-@dataclass(frozen=True)
-class Subsequence:
+@dataclass(frozen=True, repr=False)
+class Subsequence(_Record):
     """A run of consecutive points of Q that is like P.
 
     Attributes
@@ -148,8 +252,8 @@ class Subsequence:
     path: npt.NDArray[np.int64] | None = None
 
 
-@dataclass(frozen=True)
-class DtwMean:
+@dataclass(frozen=True, repr=False)
+class DtwMean(_Record):
     """The mean of curves under dtw.
 
     Attributes

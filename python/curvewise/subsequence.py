@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import SupportsFloat, SupportsIndex, get_args
 
 from . import _core
-from ._curves import Array, CurveLike, as_curves
+from ._curves import Array, CurveLike, as_curves, warn_if_transposed
 from ._docstrings import filled, listed
 from ._options import Default, Metric, Order, WarpingName
 from .measures import dtw_path, frechet_path
@@ -85,6 +85,7 @@ def subsequence(
     0.5 7 9
     """
     P, Q = as_curves(P, Q)
+    warn_if_transposed(P, "P")
     count = _whole_number("k", k)
     options = {"metric": metric, "p": p, "workers": workers, "cutoff": cutoff}
     if measure == "dtw":

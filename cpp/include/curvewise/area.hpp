@@ -1,15 +1,16 @@
-// The area between two curves in the plane: Algorithm 1 of Jekel, Venter, Venter, Stander &
-// Haftka (2018). The curve with fewer points is refined until both have the same number;
-// quadrilateral i is (A[i], A[i+1], B[i+1], B[i]); the measure is the sum of their areas.
-// Symmetric to rounding, except with Spacing::arc_length and Spacing::matched. Time
-// O(n + m + |n - m| log m), with Spacing::matched O(n + m + (50 T)^2), where P travels T widths and
-// heights of its box; memory O(n + m). Throws std::invalid_argument for a curve that is not finite,
-// has fewer than 2 points or other than 2 coordinates; std::bad_alloc; Stopped. Safe from any
-// number of threads.
-//
-//   curvewise::AreaOptions options;
-//   options.spacing = curvewise::Spacing::x;   // raw stress and strain
-//   const double value = curvewise::area(experiment, simulation, options);
+/// \file
+/// The area between two curves in the plane: Algorithm 1 of Jekel, Venter, Venter, Stander &
+/// Haftka (2018). The curve with fewer points is refined until both have the same number;
+/// quadrilateral i is (A[i], A[i+1], B[i+1], B[i]); the measure is the sum of their areas.
+/// Symmetric to rounding, except with Spacing::arc_length and Spacing::matched. Time
+/// O(n + m + |n - m| log m), with Spacing::matched O(n + m + (50 T)^2), where P travels T widths
+/// and heights of its box; memory O(n + m). Throws std::invalid_argument for a curve that is not
+/// finite, has fewer than 2 points or other than 2 coordinates; std::bad_alloc; Stopped. Safe from
+/// any number of threads.
+///
+///     curvewise::AreaOptions options;
+///     options.spacing = curvewise::Spacing::x;   // raw stress and strain
+///     const double value = curvewise::area(experiment, simulation, options);
 #pragma once
 
 #include <array>
@@ -23,46 +24,49 @@
 
 namespace curvewise {
 
-// What the refinement measures a segment by. Raw stress-strain data want `x`, or curves scaled by
-// normalize(): with `distance` stress, being the larger number, decides alone (174 where the
-// paper's Table 4 says 45.1).
+/// What the refinement measures a segment by. Raw stress-strain data want `x`, or curves scaled by
+/// normalize(): with `distance` stress, being the larger number, decides alone (174 where the
+/// paper's Table 4 says 45.1).
 enum class Spacing {
-    distance,    // sqrt(dx^2 + dy^2): the paper's text
-    x,           // |dx|: what the paper's Table 4 was computed with (within 1.4 %)
-    arc_length,  // a vertex wherever the other curve has one, by relative arc length, after
-                 // scaling by P's box: independent of how either curve was sampled
-    matched      // not Algorithm 1: by a warping path, areas with their signs in pieces of a tenth
-                 // of P's box. Little moved by sampling, noise and outliers; Crossing does not act
+    distance,    ///< sqrt(dx^2 + dy^2): the paper's text
+    x,           ///< |dx|: what the paper's Table 4 was computed with (within 1.4 %)
+    arc_length,  ///< a vertex wherever the other curve has one, by relative arc length, after
+                 ///< scaling by P's box: independent of how either curve was sampled
+    matched  ///< not Algorithm 1: by a warping path, areas with their signs in pieces of a tenth
+             ///< of P's box. Little moved by sampling, noise and outliers; Crossing does not act
 };
 
+/// The names of the enumerators, in their order.
 constexpr auto choice_names(Spacing /*spacing*/) noexcept {
     return names_up_to<Spacing::matched>("distance", "x", "arc_length", "matched");
 }
 
-// What becomes of a quadrilateral that intersects itself.
+/// What becomes of a quadrilateral that intersects itself.
 enum class Crossing {
-    rearrange,  // two vertices are swapped until it is simple: the paper. Jumps where a
-                // quadrilateral turns complex.
-    split       // the two triangles at the crossing point. Continuous.
+    rearrange,  ///< two vertices are swapped until it is simple: the paper. Jumps where a
+                ///< quadrilateral turns complex.
+    split       ///< the two triangles at the crossing point. Continuous.
 };
 
+/// The names of the enumerators, in their order.
 constexpr auto choice_names(Crossing /*crossing*/) noexcept {
     return names_up_to<Crossing::split>("rearrange", "split");
 }
 
+/// How area() refines and adds up.
 struct AreaOptions {
     static constexpr const char* measure = "area";
-    static constexpr bool is_planar = true;  // for curves of two coordinates only
+    static constexpr bool is_planar = true;  ///< for curves of two coordinates only
 
     Spacing spacing = Spacing::distance;
     Crossing crossing = Crossing::rearrange;
-    // Sum the squared areas (the paper's section 4, the analogue of sum-of-squares).
+    /// Sum the squared areas (the paper's section 4, the analogue of sum-of-squares).
     bool squared = false;
 
     constexpr bool is_symmetric() const noexcept {
         return spacing != Spacing::arc_length && spacing != Spacing::matched;
     }
-    // The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
+    /// The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
     constexpr double work(double n, double m, double /*dim*/) const noexcept {
         // Of most loops 250 to 300 samples are matched.
         if (spacing == Spacing::matched) return 20.0 * (n + m) + 1e5;
@@ -70,6 +74,7 @@ struct AreaOptions {
     }
 };
 
+/// Calls visit() with the name and the value of each option (options.hpp).
 template <class Visit>
 void visit_options(AreaOptions& options, Visit&& visit) {
     visit("spacing", options.spacing);
@@ -77,24 +82,24 @@ void visit_options(AreaOptions& options, Visit&& visit) {
     visit("squared", options.squared);
 }
 
-// The quadrilaterals between two curves, and their areas: quads[i] has areas[i].
+/// The quadrilaterals between two curves, and their areas: quads[i] has areas[i].
 struct AreaQuads {
-    // Vertices in the order whose area is given; the original order where a complex
-    // quadrilateral was split, and with Spacing::matched, where an area is negative if it counts
-    // against its piece.
+    /// Vertices in the order whose area is given; the original order where a complex
+    /// quadrilateral was split, and with Spacing::matched, where an area is negative if it counts
+    /// against its piece.
     std::vector<std::array<std::array<double, 2>, 4>> quads;
     std::vector<double> areas;
 };
 
-// In units of x times units of y; with options.squared, of that squared.
+/// In units of x times units of y; with options.squared, of that squared.
 CURVEWISE_EXPORT double area(const CurveView& P, const CurveView& Q,
                              const AreaOptions& options = {}, Control* control = nullptr);
 
-// The quadrilaterals behind area(); options.squared is not used.
+/// The quadrilaterals behind area(); options.squared is not used.
 CURVEWISE_EXPORT AreaQuads area_quads(const CurveView& P, const CurveView& Q,
                                       const AreaOptions& options = {}, Control* control = nullptr);
 
-// For code that serves all measures alike (measure.hpp).
+/// For code that serves all measures alike (measure.hpp).
 inline double evaluate(const AreaOptions& options, const CurveView& P, const CurveView& Q,
                        Control* control = nullptr) {
     return area(P, Q, options, control);

@@ -1,9 +1,10 @@
-// All measures of a pair of curves at once, under conditions that make sense together.
-//
-//   const curvewise::Comparison found = curvewise::compare(experiment, simulation);
-//   std::printf("area %g, Fréchet %g\n", *found.area, found.frechet);
-//
-// Time O(n m) for frechet and dtw and O(200 (n + m)) for pcm; memory O(n + m).
+/// \file
+/// All measures of a pair of curves at once, under conditions that make sense together.
+///
+///     const curvewise::Comparison found = curvewise::compare(experiment, simulation);
+///     std::printf("area %g, Fréchet %g\n", *found.area, found.frechet);
+///
+/// Time O(n m) for frechet and dtw and O(200 (n + m)) for pcm; memory O(n + m).
 #pragma once
 
 #include <optional>
@@ -16,37 +17,39 @@
 
 namespace curvewise {
 
-// The conditions under which each measure is computed.
+/// The conditions under which each measure is computed.
 enum class Preset {
-    scaled,  // all on curves scaled by P's box (normalize), area with Spacing::matched,
-             // curve_length with mean_abs
-    paper,   // those of Table 4 of Jekel et al. (2018): area raw with Spacing::x; frechet, and dtw
-             // with symmetric2, on scaled curves; pcm and curve_length raw
-    raw      // every default, on the curves as they are
+    scaled,  ///< all on curves scaled by P's box (normalize), area with Spacing::matched,
+             ///< curve_length with mean_abs
+    paper,  ///< those of Table 4 of Jekel et al. (2018): area raw with Spacing::x; frechet, and dtw
+            ///< with symmetric2, on scaled curves; pcm and curve_length raw
+    raw     ///< every default, on the curves as they are
 };
 
+/// The names of the enumerators, in their order.
 constexpr auto choice_names(Preset /*preset*/) noexcept {
     return names_up_to<Preset::raw>("scaled", "paper", "raw");
 }
 
-// How a preset computes one measure.
+/// How a preset computes one measure.
 struct Condition {
-    Measure measure;  // with its options
-    bool scaled;      // on curves scaled by P's box
+    Measure measure;  ///< with its options
+    bool scaled;      ///< on curves scaled by P's box
 };
 
-// One for each measure, in the order of the list (measure.hpp).
+/// One for each measure, in the order of the list (measure.hpp).
 CURVEWISE_EXPORT std::vector<Condition> conditions(Preset preset);
 
-// One value for each measure. Those of the plane have none where curves have other than two
-// coordinates.
+/// One value for each measure. Those of the plane have none where curves have other than two
+/// coordinates.
 struct Comparison {
+    /// A measure by name.
     struct Value {
         const char* measure;
         double value;
     };
-    // Of all measures except the continuous Fréchet distance, in the order of the list
-    // (measure.hpp), and by name.
+    /// Of all measures except the continuous Fréchet distance, in the order of the list
+    /// (measure.hpp), and by name.
     std::vector<Value> values;
     std::optional<double> area;
     std::optional<double> pcm;
@@ -55,8 +58,8 @@ struct Comparison {
     std::optional<double> curve_length;
 };
 
-// Throws what the measures throw: std::invalid_argument, std::bad_alloc, Stopped. The control
-// watches one measure after the other, not their sum.
+/// Throws what the measures throw: std::invalid_argument, std::bad_alloc, Stopped. The control
+/// watches one measure after the other, not their sum.
 CURVEWISE_EXPORT Comparison compare(const CurveView& P, const CurveView& Q,
                                     Preset preset = Preset::scaled, Control* control = nullptr);
 

@@ -1,16 +1,17 @@
-// A way to watch a long call and to stop it. A Control is given to a call as its last argument;
-// stop() may then be called from any thread or from a signal handler, and done() read by any
-// thread. The call looks at it every fraction of a millisecond and, when stopped, ends all its
-// threads and throws Stopped. A call without one pays nothing.
-//
-//   curvewise::Control control([](std::int64_t done, std::int64_t total) {
-//       std::printf("%3.0f %%\r", 100.0 * done / total);
-//       return !user_pressed_cancel();
-//   });
-//   double value = curvewise::dtw(P, Q, {}, &control);
-//
-// Work is counted in nominal steps: cells of the table, n m for a pair of n and m points, for dtw
-// and frechet (twice that for a path), and points, n + m for a pair, for the other measures.
+/// \file
+/// A way to watch a long call and to stop it. A Control is given to a call as its last argument;
+/// stop() may then be called from any thread or from a signal handler, and done() read by any
+/// thread. The call looks at it every fraction of a millisecond and, when stopped, ends all its
+/// threads and throws Stopped. A call without one pays nothing.
+///
+///     curvewise::Control control([](std::int64_t done, std::int64_t total) {
+///         std::printf("%3.0f %%\r", 100.0 * done / total);
+///         return !user_pressed_cancel();
+///     });
+///     double value = curvewise::dtw(P, Q, {}, &control);
+///
+/// Work is counted in nominal steps: cells of the table, n m for a pair of n and m points, for dtw
+/// and frechet (twice that for a path), and points, n + m for a pair, for the other measures.
 #pragma once
 
 #include <atomic>
@@ -28,17 +29,17 @@ namespace detail {
 class Poller;
 }
 
-// What a call throws whose Control was stopped. Its output arrays are then unspecified.
+/// What a call throws whose Control was stopped. Its output arrays are then unspecified.
 class CURVEWISE_EXPORT Stopped : public std::runtime_error {
    public:
     Stopped() : std::runtime_error("stopped before the work was done") {}
 };
 
-// One per call at a time; may be used again for another call unless it was stopped.
+/// One per call at a time; may be used again for another call unless it was stopped.
 class Control {
    public:
-    // Called with (done, total) by the thread that made the call, about once an interval while the
-    // work goes on and once when it is done. Returns whether to go on. Must not throw.
+    /// Called with (done, total) by the thread that made the call, about once an interval while the
+    /// work goes on and once when it is done. Returns whether to go on. Must not throw.
     using Report = std::function<bool(std::int64_t done, std::int64_t total)>;
 
     Control() = default;

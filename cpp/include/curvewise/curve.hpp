@@ -1,18 +1,19 @@
-// A curve as every function of the library takes it: a view of n points with dim coordinates,
-// owned by the caller, of any layout that two strides can describe. Costs nothing to copy; copies
-// no points, ever. What it views must live as long as it does.
-//
-//   CurveView(xy, 240, 2)               240 points, row-major: x0, y0, x1, y1, ...
-//   CurveView(xy, 240, 2, 1, 240)       column-major: all x, then all y
-//   CurveView(&rows[0].strain, n, 2, sizeof(Row) / sizeof(double), 1)
-//                                       two neighbouring members of a struct of doubles
-//   CurveView(points)                   a std::vector<std::array<double, 2>>
-//   curve_view(matrix)                  an Eigen matrix, map, block: curvewise/eigen.hpp
-//
-// A view itself checks nothing: the function that is given one does, and throws
-// std::invalid_argument, in words that name the argument and the place:
-// "Q[17, 1] is nan; curves must be finite". Reading one from any number of threads is safe while
-// nobody writes to its points.
+/// \file
+/// A curve as every function of the library takes it: a view of n points with dim coordinates,
+/// owned by the caller, of any layout that two strides can describe. Costs nothing to copy; copies
+/// no points, ever. What it views must live as long as it does.
+///
+///     CurveView(xy, 240, 2)               240 points, row-major: x0, y0, x1, y1, ...
+///     CurveView(xy, 240, 2, 1, 240)       column-major: all x, then all y
+///     CurveView(&rows[0].strain, n, 2, sizeof(Row) / sizeof(double), 1)
+///                                         two neighbouring members of a struct of doubles
+///     CurveView(points)                   a std::vector<std::array<double, 2>>
+///     curve_view(matrix)                  an Eigen matrix, map, block: curvewise/eigen.hpp
+///
+/// A view itself checks nothing: the function that is given one does, and throws
+/// std::invalid_argument, in words that name the argument and the place:
+/// "Q[17, 1] is nan; curves must be finite". Reading one from any number of threads is safe while
+/// nobody writes to its points.
 #pragma once
 
 #include <array>
@@ -24,19 +25,20 @@
 
 namespace curvewise {
 
+/// A view of n points with dim coordinates.
 class CurveView {
    public:
-    // Row-major: point after point, its coordinates side by side.
+    /// Row-major: point after point, its coordinates side by side.
     CurveView(const double* data, std::ptrdiff_t n, std::ptrdiff_t dim) noexcept
         : CurveView(data, n, dim, dim, 1) {}
 
-    // Strides count doubles, not bytes, and may be negative. A column stride of 0 with dim = 1
-    // says that the curve is a flat list of numbers: messages then print Q[17], not Q[17, 0].
+    /// Strides count doubles, not bytes, and may be negative. A column stride of 0 with dim = 1
+    /// says that the curve is a flat list of numbers: messages then print Q[17], not Q[17, 0].
     CurveView(const double* data, std::ptrdiff_t n, std::ptrdiff_t dim, std::ptrdiff_t row_stride,
               std::ptrdiff_t col_stride) noexcept
         : data_(data), n_(n), dim_(dim), row_stride_(row_stride), col_stride_(col_stride) {}
 
-    // Not explicit, so that every function takes the vector itself.
+    /// Not explicit, so that every function takes the vector itself.
     template <std::size_t D, class Allocator>
     CurveView(const std::vector<std::array<double, D>, Allocator>& points) noexcept
         : CurveView(points.empty() ? nullptr : points.front().data(),
@@ -53,7 +55,7 @@ class CurveView {
     std::ptrdiff_t dim() const noexcept { return dim_; }
     bool is_flat() const noexcept { return dim_ == 1 && col_stride_ == 0; }
 
-    // "(5, 2)", or "(5,)" for a flat list.
+    /// "(5, 2)", or "(5,)" for a flat list.
     CURVEWISE_EXPORT std::string shape() const;
 
    private:

@@ -1,12 +1,13 @@
-/* curvewise for C (C99), and through cpp/fortran/curvewise.f90 for Fortran: the measures, the
+/** \file
+ * curvewise for C (C99), and through cpp/fortran/curvewise.f90 for Fortran: the measures, the
  * scaling that goes with them, and all pairs of many curves. What a measure means, costs and
  * refuses is written in the C++ header of its name (area.hpp, pcm.hpp, frechet.hpp, dtw.hpp,
  * curve_length.hpp, pairwise.hpp); the numbers are the same to the last bit.
  *
- *   curvewise_curve P = curvewise_rows(xy, 240, 2), Q = curvewise_rows(uv, 150, 2);
- *   double value;
- *   curvewise_error error;
- *   if (curvewise_dtw(&P, &Q, NULL, &value, &error) != CURVEWISE_OK) puts(error.message);
+ *     curvewise_curve P = curvewise_rows(xy, 240, 2), Q = curvewise_rows(uv, 150, 2);
+ *     double value;
+ *     curvewise_error error;
+ *     if (curvewise_dtw(&P, &Q, NULL, &value, &error) != CURVEWISE_OK) puts(error.message);
  *
  * There is nothing to create or to free, and no state: all functions may be called from any number
  * of threads. Curves are read where they are, never copied by the caller. Options given as NULL
@@ -26,30 +27,30 @@
 extern "C" {
 #endif
 
-/* What a call returns. */
+/** What a call returns. */
 enum curvewise_status {
     CURVEWISE_OK = 0,
-    CURVEWISE_INVALID_ARGUMENT = 1, /* a curve or an option is refused */
+    CURVEWISE_INVALID_ARGUMENT = 1, /**< a curve or an option is refused */
     CURVEWISE_NO_MEMORY = 2,
-    CURVEWISE_FAILED = 3 /* anything else, e.g. CURVEWISE_ISA names a level this machine lacks */
+    CURVEWISE_FAILED = 3 /**< anything else, e.g. CURVEWISE_ISA names a level this machine lacks */
 };
 
-/* One line, ended by a zero; a longer message is cut. Empty after CURVEWISE_OK. */
+/** One line, ended by a zero; a longer message is cut. Empty after CURVEWISE_OK. */
 typedef struct curvewise_error {
     char message[256];
 } curvewise_error;
 
-/* n points of dim coordinates; coordinate c of point i is data[i * row_stride + c * col_stride].
+/** n points of dim coordinates; coordinate c of point i is data[i * row_stride + c * col_stride].
  * Strides count doubles and may be negative. */
 typedef struct curvewise_curve {
     const double* data;
     ptrdiff_t n, dim, row_stride, col_stride;
 } curvewise_curve;
 
-/* Row-major points: x0, y0, x1, y1, ... */
+/** Row-major points: x0, y0, x1, y1, ... */
 CURVEWISE_EXPORT curvewise_curve curvewise_rows(const double* data, ptrdiff_t n, ptrdiff_t dim);
 
-/* The values of the int members of the options below. */
+/** Values of `metric` in curvewise_dtw_options and curvewise_frechet_options. */
 enum curvewise_metric {
     CURVEWISE_EUCLIDEAN,
     CURVEWISE_SQEUCLIDEAN,
@@ -57,99 +58,122 @@ enum curvewise_metric {
     CURVEWISE_CHEBYSHEV,
     CURVEWISE_MINKOWSKI
 };
+/** Values of curvewise_dtw_options.step_pattern. */
 enum curvewise_step_pattern { CURVEWISE_SYMMETRIC1, CURVEWISE_SYMMETRIC2 };
+/** Values of curvewise_area_options.spacing. */
 enum curvewise_spacing {
     CURVEWISE_SPACING_DISTANCE,
     CURVEWISE_SPACING_X,
     CURVEWISE_SPACING_ARC_LENGTH,
     CURVEWISE_SPACING_MATCHED
 };
+/** Values of curvewise_area_options.crossing. */
 enum curvewise_crossing { CURVEWISE_REARRANGE, CURVEWISE_SPLIT };
+/** Values of curvewise_curve_length_options.scale. */
 enum curvewise_length_scale { CURVEWISE_MEAN, CURVEWISE_MEAN_ABS, CURVEWISE_RANGE };
 
+/** Options of curvewise_area(), as in area.hpp. */
 typedef struct curvewise_area_options {
-    int spacing;  /* curvewise_spacing */
-    int crossing; /* curvewise_crossing */
-    int squared;  /* not 0: sum the squared areas */
+    int spacing;  /**< curvewise_spacing */
+    int crossing; /**< curvewise_crossing */
+    int squared;  /**< not 0: sum the squared areas */
 } curvewise_area_options;
+/** What NULL stands for. */
 #define CURVEWISE_AREA_DEFAULTS \
     { CURVEWISE_SPACING_DISTANCE, CURVEWISE_REARRANGE, 0 }
 
+/** Options of curvewise_pcm(), as in pcm.hpp. */
 typedef struct curvewise_pcm_options {
-    ptrdiff_t offsets; /* at least 1 */
-    int continuous;    /* not 0: search all offsets; `offsets` is not used */
+    ptrdiff_t offsets; /**< at least 1 */
+    int continuous;    /**< not 0: search all offsets; `offsets` is not used */
 } curvewise_pcm_options;
+/** What NULL stands for. */
 #define CURVEWISE_PCM_DEFAULTS \
     { 200, 0 }
 
+/** Options of curvewise_frechet(), as in frechet.hpp. */
 typedef struct curvewise_frechet_options {
-    int metric;        /* curvewise_metric */
-    double p;          /* the order of CURVEWISE_MINKOWSKI; not used by other metrics */
-    ptrdiff_t workers; /* threads, -1 for one per core */
-    int prune;         /* not 0: leave out what cannot matter of the table */
-    double cutoff;     /* a value above it becomes infinity */
+    int metric;        /**< curvewise_metric */
+    double p;          /**< the order of CURVEWISE_MINKOWSKI; not used by other metrics */
+    ptrdiff_t workers; /**< threads, -1 for one per core */
+    int prune;         /**< not 0: leave out what cannot matter of the table */
+    double cutoff;     /**< a value above it becomes infinity */
 } curvewise_frechet_options;
+/** What NULL stands for. */
 #define CURVEWISE_FRECHET_DEFAULTS \
     { CURVEWISE_EUCLIDEAN, 2.0, 1, 1, HUGE_VAL }
 
+/** Options of curvewise_dtw(), as in dtw.hpp. */
 typedef struct curvewise_dtw_options {
     int metric;
     double p;
-    int step_pattern;       /* curvewise_step_pattern */
-    int open_begin;         /* not 0: P is matched to a part of Q that may begin anywhere */
-    int open_end;           /* not 0: ... that may end anywhere */
-    ptrdiff_t window;       /* Sakoe-Chiba band; CURVEWISE_NO_WINDOW for none */
-    ptrdiff_t workers;      /* threads, -1 for one per core */
-    int prune;              /* not 0: leave out what cannot matter of the table */
-    double cutoff;          /* a value above it becomes infinity */
-    double window_fraction; /* not 0: in place of window, a fraction of the longer curve's points */
-    int normalize;          /* not 0: divide by n + m; CURVEWISE_SYMMETRIC2 only */
+    int step_pattern;       /**< curvewise_step_pattern */
+    int open_begin;         /**< not 0: P is matched to a part of Q that may begin anywhere */
+    int open_end;           /**< not 0: ... that may end anywhere */
+    ptrdiff_t window;       /**< Sakoe-Chiba band; CURVEWISE_NO_WINDOW for none */
+    ptrdiff_t workers;      /**< threads, -1 for one per core */
+    int prune;              /**< not 0: leave out what cannot matter of the table */
+    double cutoff;          /**< a value above it becomes infinity */
+    double window_fraction; /**< not 0: in place of window, a fraction of the longer curve */
+    int normalize;          /**< not 0: divide by n + m; CURVEWISE_SYMMETRIC2 only */
 } curvewise_dtw_options;
+/** As the window: no band. */
 #define CURVEWISE_NO_WINDOW (-1)
+/** What NULL stands for. */
 #define CURVEWISE_DTW_DEFAULTS                                                                     \
     {                                                                                              \
         CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL, \
             0.0, 0                                                                                 \
     }
 
+/** Options of curvewise_curve_length(), as in curve_length.hpp. */
 typedef struct curvewise_curve_length_options {
-    int scale; /* curvewise_length_scale */
+    int scale; /**< curvewise_length_scale */
 } curvewise_curve_length_options;
+/** What NULL stands for. */
 #define CURVEWISE_CURVE_LENGTH_DEFAULTS \
     { CURVEWISE_MEAN }
 
+/** Options of curvewise_frechet_continuous(), as in frechet_continuous.hpp. */
 typedef struct curvewise_frechet_continuous_options {
-    ptrdiff_t workers; /* threads, -1 for one per core; one pair is searched by one thread */
+    ptrdiff_t workers; /**< threads, -1 for one per core; one pair is searched by one thread */
 } curvewise_frechet_continuous_options;
+/** What NULL stands for. */
 #define CURVEWISE_FRECHET_CONTINUOUS_DEFAULTS \
     { 1 }
 
-/* The measures: one number, in *value. */
+/** The measure of area.hpp, in *value. */
 CURVEWISE_EXPORT int curvewise_area(const curvewise_curve* P, const curvewise_curve* Q,
                                     const curvewise_area_options* options, double* value,
                                     curvewise_error* error);
+/** The measure of pcm.hpp, in *value. */
 CURVEWISE_EXPORT int curvewise_pcm(const curvewise_curve* P, const curvewise_curve* Q,
                                    const curvewise_pcm_options* options, double* value,
                                    curvewise_error* error);
+/** The measure of frechet.hpp, in *value. */
 CURVEWISE_EXPORT int curvewise_frechet(const curvewise_curve* P, const curvewise_curve* Q,
                                        const curvewise_frechet_options* options, double* value,
                                        curvewise_error* error);
+/** The measure of dtw.hpp, in *value. */
 CURVEWISE_EXPORT int curvewise_dtw(const curvewise_curve* P, const curvewise_curve* Q,
                                    const curvewise_dtw_options* options, double* value,
                                    curvewise_error* error);
+/** The measure of curve_length.hpp, in *value. */
 CURVEWISE_EXPORT int curvewise_curve_length(const curvewise_curve* P, const curvewise_curve* Q,
                                             const curvewise_curve_length_options* options,
                                             double* value, curvewise_error* error);
+/** The measure of frechet_continuous.hpp, in *value. */
 CURVEWISE_EXPORT int curvewise_frechet_continuous(
     const curvewise_curve* P, const curvewise_curve* Q,
     const curvewise_frechet_continuous_options* options, double* value, curvewise_error* error);
 
-/* Writes C minus P's minimum, divided by P's extent, to out[i * dim + c] (pointwise.hpp). */
+/** Writes C minus P's minimum, divided by P's extent, to out[i * dim + c] (pointwise.hpp). */
 CURVEWISE_EXPORT int curvewise_normalize(const curvewise_curve* P, const curvewise_curve* C,
                                          double* out, curvewise_error* error);
 
-/* Many curves: one measure for all pairs, on several threads. `options` points to the options of
- * that measure (to a curvewise_dtw_options for CURVEWISE_DTW), or is NULL. */
+/** The measures of curvewise_cdist() and curvewise_pdist(), which compare many curves on several
+ * threads. Their `options` point to the options of the measure (to a curvewise_dtw_options for
+ * CURVEWISE_DTW), or are NULL. */
 enum curvewise_measure {
     CURVEWISE_AREA,
     CURVEWISE_PCM,
@@ -159,26 +183,28 @@ enum curvewise_measure {
     CURVEWISE_FRECHET_CONTINUOUS
 };
 
+/** Options of curvewise_cdist() and curvewise_pdist(). */
 typedef struct curvewise_batch_options {
-    ptrdiff_t workers; /* threads, -1 for one per core; the measure's own are not used */
-    double cutoff;     /* a value above it becomes infinity, which may save its computation */
+    ptrdiff_t workers; /**< threads, -1 for one per core; the measure's own are not used */
+    double cutoff;     /**< a value above it becomes infinity, which may save its computation */
 } curvewise_batch_options;
+/** What NULL stands for. */
 #define CURVEWISE_BATCH_DEFAULTS \
     { 1, HUGE_VAL }
 
-/* Writes the measure of XA[i] (as P) and XB[j] (as Q) to out[i * nb + j]. */
+/** Writes the measure of XA[i] (as P) and XB[j] (as Q) to out[i * nb + j]. */
 CURVEWISE_EXPORT int curvewise_cdist(const curvewise_curve* XA, ptrdiff_t na,
                                      const curvewise_curve* XB, ptrdiff_t nb, int measure,
                                      const void* options, const curvewise_batch_options* batch,
                                      double* out, curvewise_error* error);
 
-/* Writes the measure of X[i] and X[j], i < j, row by row: k (k - 1) / 2 values, (0, 1), (0, 2), ...
- * For symmetric measures: area, both Frechet distances, and dtw without open ends. */
+/** Writes the measure of X[i] and X[j], i < j, row by row: k (k - 1) / 2 values: (0, 1), (0, 2)
+ * and so on. For symmetric measures: area, both Frechet distances, and dtw without open ends. */
 CURVEWISE_EXPORT int curvewise_pdist(const curvewise_curve* X, ptrdiff_t k, int measure,
                                      const void* options, const curvewise_batch_options* batch,
                                      double* out, curvewise_error* error);
 
-/* The version of the library that is linked, e.g. "0.1.0". */
+/** The version of the library that is linked, e.g. "0.1.0". */
 CURVEWISE_EXPORT const char* curvewise_version(void);
 
 #ifdef __cplusplus

@@ -1,4 +1,5 @@
-// How alike two curves are: everything curvewise offers to C++, except the Eigen adaptors.
+/// \file
+/// How alike two curves are: everything curvewise offers to C++, except the Eigen adaptors.
 #pragma once
 
 #include "curvewise/build_info.hpp"

@@ -1,18 +1,19 @@
-// Dynamic time warping: the smallest sum of ground distances over all warping paths.
-//
-//   c[0, 0] = d(P_0, Q_0)
-//   c[i, j] = min(min(c[i-1, j], c[i, j-1]) + d, c[i-1, j-1] + w d),   d = d(P_i, Q_j)
-//
-// w = 1 for symmetric1, 2 for symmetric2 (Sakoe & Chiba 1978). Exact. Time O(n m); memory O(n + m)
-// for the distance and the path, 8 n m bytes for the table. Every function throws
-// std::invalid_argument for a curve that is empty or not finite, for curves of different
-// dimension, and for options out of range, with a message that says which and where;
-// std::bad_alloc; and Stopped. Safe from any number of threads.
-//
-//   curvewise::DtwOptions options;
-//   options.step_pattern = curvewise::StepPattern::symmetric2;
-//   options.window = 20;
-//   const double distance = curvewise::dtw(experiment, simulation, options);
+/// \file
+/// Dynamic time warping: the smallest sum of ground distances over all warping paths.
+///
+///     c[0, 0] = d(P_0, Q_0)
+///     c[i, j] = min(min(c[i-1, j], c[i, j-1]) + d, c[i-1, j-1] + w d),   d = d(P_i, Q_j)
+///
+/// w = 1 for symmetric1, 2 for symmetric2 (Sakoe & Chiba 1978). Exact. Time O(n m); memory O(n + m)
+/// for the distance and the path, 8 n m bytes for the table. Every function throws
+/// std::invalid_argument for a curve that is empty or not finite, for curves of different
+/// dimension, and for options out of range, with a message that says which and where;
+/// std::bad_alloc; and Stopped. Safe from any number of threads.
+///
+///     curvewise::DtwOptions options;
+///     options.step_pattern = curvewise::StepPattern::symmetric2;
+///     options.window = 20;
+///     const double distance = curvewise::dtw(experiment, simulation, options);
 #pragma once
 
 #include <cstddef>
@@ -30,45 +31,49 @@
 
 namespace curvewise {
 
+/// What a diagonal step counts: once, or twice.
 enum class StepPattern { symmetric1, symmetric2 };
 
+/// The names of the enumerators, in their order.
 constexpr auto choice_names(StepPattern /*pattern*/) noexcept {
     return names_up_to<StepPattern::symmetric2>("symmetric1", "symmetric2");
 }
 
+/// Which paths dtw() allows, what it adds up along them, and how it is computed.
 struct DtwOptions {
     static constexpr const char* measure = "dtw";
-    static constexpr bool is_planar = false;  // for curves of any dimension
+    static constexpr bool is_planar = false;  ///< for curves of any dimension
 
     GroundDistance ground;
     StepPattern step_pattern = StepPattern::symmetric1;
-    // Sakoe-Chiba band: |i (m-1) - j (n-1)| <= window (max(n, m) - 1); none where n or m is 1.
+    /// Sakoe-Chiba band: |i (m-1) - j (n-1)| <= window (max(n, m) - 1); none where n or m is 1.
     std::optional<std::ptrdiff_t> window;
-    // In place of `window`, a fraction between 0 and 1 of the points of the longer curve, cut to a
-    // whole number.
+    /// In place of `window`, a fraction between 0 and 1 of the points of the longer curve, cut to a
+    /// whole number.
     std::optional<double> window_fraction;
-    // Subsequence DTW (Müller 2007): P is matched to a part of Q, which may begin, or end,
-    // anywhere. With symmetric1 and without a window only.
+    /// Subsequence DTW (Müller 2007): P is matched to a part of Q, which may begin, or end,
+    /// anywhere. With symmetric1 and without a window only.
     bool open_begin = false;
     bool open_end = false;
-    // Divide the distance by n + m, the sum of the weights of any path, with symmetric2 only.
-    // Paths and tables do not look at it.
+    /// Divide the distance by n + m, the sum of the weights of any path, with symmetric2 only.
+    /// Paths and tables do not look at it.
     bool normalize = false;
-    // Threads for this call, -1 for one per core. Never changes a result.
+    /// Threads for this call, -1 for one per core. Never changes a result.
     std::ptrdiff_t workers = 1;
-    // Whether to leave out what cannot matter of the table. Never changes a result.
+    /// Whether to leave out what cannot matter of the table. Never changes a result.
     bool prune = true;
-    // A distance above it, at least 0, becomes infinity, and is found to be so early. Paths and
-    // tables do not look at it; batches have one of their own besides.
+    /// A distance above it, at least 0, becomes infinity, and is found to be so early. Paths and
+    /// tables do not look at it; batches have one of their own besides.
     double cutoff = std::numeric_limits<double>::infinity();
 
     constexpr bool is_symmetric() const noexcept { return !open_begin && !open_end; }
-    // The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
+    /// The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
     constexpr double work(double n, double m, double dim) const noexcept {
         return n * m * ground.weight(dim);
     }
 };
 
+/// Calls visit() with the name and the value of each option (options.hpp).
 template <class Visit>
 void visit_options(DtwOptions& options, Visit&& visit) {
     visit(options.ground);
@@ -82,23 +87,24 @@ void visit_options(DtwOptions& options, Visit&& visit) {
     visit("cutoff", options.cutoff, cutoff_range);
 }
 
+/// The distance, in units of the ground distance.
 CURVEWISE_EXPORT double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options = {},
                             Control* control = nullptr);
 
-// Among equal predecessors: diagonal, then (i-1, j), then (i, j-1). The sum of step weight
-// times ground distance along the path, in path order, equals the distance to the bit.
+/// Among equal predecessors: diagonal, then (i-1, j), then (i, j-1). The sum of step weight
+/// times ground distance along the path, in path order, equals the distance to the bit.
 CURVEWISE_EXPORT Alignment dtw_path(const CurveView& P, const CurveView& Q,
                                     const DtwOptions& options = {}, Control* control = nullptr);
 
-// Writes c to out[i * m + j]; infinity outside the window.
+/// Writes c to out[i * m + j]; infinity outside the window.
 CURVEWISE_EXPORT void dtw_table(const CurveView& P, const CurveView& Q, double* out,
                                 const DtwOptions& options = {}, Control* control = nullptr);
 
-// The distance, with how it was found (see docs/performance.md).
+/// The distance, with how it was found (see docs/performance.md).
 CURVEWISE_EXPORT WarpingInfo dtw_info(const CurveView& P, const CurveView& Q,
                                       const DtwOptions& options = {}, Control* control = nullptr);
 
-// For code that serves all measures alike (measure.hpp).
+/// For code that serves all measures alike (measure.hpp).
 inline double evaluate(const DtwOptions& options, const CurveView& P, const CurveView& Q,
                        Control* control = nullptr) {
     return dtw(P, Q, options, control);

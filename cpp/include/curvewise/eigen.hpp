@@ -1,16 +1,17 @@
-// Eigen matrices as curves, without a copy: rows are points, columns coordinates. Takes whatever
-// lies in memory (Matrix and Array of either storage order, Map with any strides, Ref, Block,
-// transpose) and holds double; a vector is a flat list of numbers, one coordinate a point.
-//
-//   Eigen::MatrixX2d experiment = ...;
-//   Eigen::MatrixX2d simulation = ...;
-//   double value = curvewise::dtw(curvewise::curve_view(experiment),
-//                                 curvewise::curve_view(simulation));
-//
-// What has no memory of its own, a sum or a cast, is evaluated by the caller first, since a view of
-// a temporary matrix would outlive it: Eigen::MatrixXd Q = points.cast<double>(). Everything is
-// inline: pointers and strides, no Eigen type, go on to the compiled library, which therefore does
-// not care with which flags, alignment or version of Eigen its caller is compiled.
+/// \file
+/// Eigen matrices as curves, without a copy: rows are points, columns coordinates. Takes whatever
+/// lies in memory (Matrix and Array of either storage order, Map with any strides, Ref, Block,
+/// transpose) and holds double; a vector is a flat list of numbers, one coordinate a point.
+///
+///     Eigen::MatrixX2d experiment = ...;
+///     Eigen::MatrixX2d simulation = ...;
+///     double value = curvewise::dtw(curvewise::curve_view(experiment),
+///                                   curvewise::curve_view(simulation));
+///
+/// What has no memory of its own, a sum or a cast, is evaluated by the caller first, since a view
+/// of a temporary matrix would outlive it: Eigen::MatrixXd Q = points.cast<double>(). Everything is
+/// inline: pointers and strides, no Eigen type, go on to the compiled library, which therefore does
+/// not care with which flags, alignment or version of Eigen its caller is compiled.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +22,7 @@
 
 namespace curvewise {
 
-// Lives as long as the memory of `points` does. Throws nothing.
+/// Lives as long as the memory of `points` does. Throws nothing.
 template <class Derived>
 CurveView curve_view(const Eigen::DenseBase<Derived>& points) noexcept {
     static_assert(std::is_same_v<typename Derived::Scalar, double>,

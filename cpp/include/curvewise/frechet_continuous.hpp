@@ -1,20 +1,21 @@
-// The continuous Fréchet distance of two polygonal curves: the shortest leash for two walks along
-// the curves themselves, at any speeds, never back. Unlike the discrete one it does not depend on
-// how a curve is sampled: points added on an edge change nothing. Euclidean, in any dimension.
-//
-// Certified: the value is the least double that is not below the real number, always, however long
-// or far from the origin the curves are. Every comparison that rounded arithmetic leaves open is
-// decided in whole numbers. So it does not depend on the order or the direction of the curves, and
-// it is exactly 0 for curves that differ in points on straight edges alone.
-//
-// The free-space diagram of Alt & Godau (1995), searched through as Bringmann, Künnemann & Nusser
-// (2019) do, by filters and boxes: time about O((n + m) log(n + m)) for curves that are alike,
-// O(n m log) at worst; memory O(n + m). Throws std::invalid_argument for a curve that is empty or
-// not finite, and for curves of different dimension; std::bad_alloc; Stopped. Safe from any number
-// of threads.
-//
-//   const double leash = curvewise::frechet_continuous(experiment, simulation);
-//   if (curvewise::frechet_within(experiment, simulation, 0.1)) std::puts("close enough");
+/// \file
+/// The continuous Fréchet distance of two polygonal curves: the shortest leash for two walks along
+/// the curves themselves, at any speeds, never back. Unlike the discrete one it does not depend on
+/// how a curve is sampled: points added on an edge change nothing. Euclidean, in any dimension.
+///
+/// Certified: the value is the least double that is not below the real number, always, however long
+/// or far from the origin the curves are. Every comparison that rounded arithmetic leaves open is
+/// decided in whole numbers. So it does not depend on the order or the direction of the curves, and
+/// it is exactly 0 for curves that differ in points on straight edges alone.
+///
+/// The free-space diagram of Alt & Godau (1995), searched through as Bringmann, Künnemann & Nusser
+/// (2019) do, by filters and boxes: time about O((n + m) log(n + m)) for curves that are alike,
+/// O(n m log) at worst; memory O(n + m). Throws std::invalid_argument for a curve that is empty or
+/// not finite, and for curves of different dimension; std::bad_alloc; Stopped. Safe from any number
+/// of threads.
+///
+///     const double leash = curvewise::frechet_continuous(experiment, simulation);
+///     if (curvewise::frechet_within(experiment, simulation, 0.1)) std::puts("close enough");
 #pragma once
 
 #include <array>
@@ -29,65 +30,67 @@
 
 namespace curvewise {
 
+/// How frechet_continuous() is computed.
 struct FrechetContinuousOptions {
     static constexpr const char* measure = "frechet_continuous";
-    static constexpr bool is_planar = false;  // for curves of any dimension
+    static constexpr bool is_planar = false;  ///< for curves of any dimension
 
-    // As for the other measures of any dimension. One pair is searched by one thread, however.
+    /// As for the other measures of any dimension. One pair is searched by one thread, however.
     std::ptrdiff_t workers = 1;
 
     static constexpr bool is_symmetric() noexcept { return true; }
-    // The elementary steps, of some nanoseconds each, that curves of n and m points may take.
+    /// The elementary steps, of some nanoseconds each, that curves of n and m points may take.
     constexpr double work(double n, double m, double /*dim*/) const noexcept { return 10 * n * m; }
 };
 
+/// Calls visit() with the name and the value of each option (options.hpp).
 template <class Visit>
 void visit_options(FrechetContinuousOptions& options, Visit&& visit) {
     visit("workers", options.workers, workers_range);
 }
 
-// Two doubles that a real number lies between.
+/// Two doubles that a real number lies between.
 struct Interval {
     double low = 0.0;
     double high = 0.0;
 };
 
-// The real number rounded up; inf where it is beyond the range of a double.
+/// The real number rounded up; inf where it is beyond the range of a double.
 CURVEWISE_EXPORT double frechet_continuous(const CurveView& P, const CurveView& Q,
                                            const FrechetContinuousOptions& options = {},
                                            Control* control = nullptr);
 
-// The same, and the real number rounded down: equal to it, or the double below it.
+/// The same, and the real number rounded down: equal to it, or the double below it.
 CURVEWISE_EXPORT Interval frechet_continuous_bounds(const CurveView& P, const CurveView& Q,
                                                     const FrechetContinuousOptions& options = {},
                                                     Control* control = nullptr);
 
-// Two walks that attain the distance.
+/// Two walks that attain the distance.
 struct Matching {
-    // The longest leash between the walks: frechet_continuous(), or, where the rounding of the
-    // parameters stretches it, the least double that is not below what they need: some units in
-    // the last place of the longest edge times the number of points.
+    /// The longest leash between the walks: frechet_continuous(), or, where the rounding of the
+    /// parameters stretches it, the least double that is not below what they need: some units in
+    /// the last place of the longest edge times the number of points.
     double distance = 0.0;
-    // Pairs of a parameter of P and one of Q, each a vertex's index plus a fraction of the edge
-    // behind it. Neither ever decreases; the first are 0, the last the indices of the last points;
-    // between two rows both walks stay on one edge, at steady speeds.
+    /// Pairs of a parameter of P and one of Q, each a vertex's index plus a fraction of the edge
+    /// behind it. Neither ever decreases; the first are 0, the last the indices of the last points;
+    /// between two rows both walks stay on one edge, at steady speeds.
     std::vector<std::array<double, 2>> parameters;
 };
 
-// Takes the way where the curves are close, as far as the distance leaves a choice. Twice the time
-// of the distance; memory O(n + m), and sqrt(n) times what a row of the free-space diagram holds
-// of separate pieces.
+/// Takes the way where the curves are close, as far as the distance leaves a choice. Twice the time
+/// of the distance; memory O(n + m), and sqrt(n) times what a row of the free-space diagram holds
+/// of separate pieces.
 CURVEWISE_EXPORT Matching frechet_continuous_path(const CurveView& P, const CurveView& Q,
                                                   const FrechetContinuousOptions& options = {},
                                                   Control* control = nullptr);
 
-// Whether the continuous distance, or the discrete one of Euclidean distances, is at most
-// `distance`, a number >= 0: of the real numbers, not of rounded ones. Faster than the distance,
-// and far faster where curves lie far apart.
+/// Whether the continuous distance, or the discrete one of Euclidean distances, is at most
+/// `distance`, a number >= 0: of the real numbers, not of rounded ones. Faster than the distance,
+/// and far faster where curves lie far apart.
 CURVEWISE_EXPORT bool frechet_within(const CurveView& P, const CurveView& Q, double distance,
                                      bool continuous = true, Control* control = nullptr);
 
-// For code that serves all measures alike (measure.hpp).
+/// For code that serves all measures alike (measure.hpp).
 inline double evaluate(const FrechetContinuousOptions& options, const CurveView& P,
                        const CurveView& Q, Control* control = nullptr) {
     return frechet_continuous(P, Q, options, control);

@@ -1,35 +1,39 @@
-// The ground distance: how far apart two points are, for dtw and frechet, in any number of
-// coordinates. A p below 1, or nan, makes the function that is given it throw
-// std::invalid_argument.
-//
-//   curvewise::FrechetOptions options;
-//   options.ground = {curvewise::Metric::minkowski, 3.0};
+/// \file
+/// The ground distance: how far apart two points are, for dtw and frechet, in any number of
+/// coordinates. A p below 1, or nan, makes the function that is given it throw
+/// std::invalid_argument.
+///
+///     curvewise::FrechetOptions options;
+///     options.ground = {curvewise::Metric::minkowski, 3.0};
 #pragma once
 
 #include "curvewise/options.hpp"
 
 namespace curvewise {
 
+/// How the differences of two points' coordinates become one number.
 enum class Metric {
-    euclidean,    // sqrt of the sum of squared differences (|difference| in one dimension)
-    sqeuclidean,  // sum of squared differences
-    cityblock,    // sum of absolute differences
-    chebyshev,    // largest absolute difference
-    minkowski     // M (sum (|difference| / M)^p)^(1/p), M the largest |difference|
+    euclidean,    ///< sqrt of the sum of squared differences (|difference| in one dimension)
+    sqeuclidean,  ///< sum of squared differences
+    cityblock,    ///< sum of absolute differences
+    chebyshev,    ///< largest absolute difference
+    minkowski     ///< M (sum (|difference| / M)^p)^(1/p), M the largest |difference|
 };
 
+/// The names of the enumerators, in their order.
 constexpr auto choice_names(Metric /*metric*/) noexcept {
     return names_up_to<Metric::minkowski>("euclidean", "sqeuclidean", "cityblock", "chebyshev",
                                           "minkowski");
 }
 
+/// A metric, with its order.
 struct GroundDistance {
     Metric metric = Metric::euclidean;
-    // The order of minkowski, 1 <= p <= inf; p = 1, 2 and inf are computed as cityblock,
-    // euclidean and chebyshev. Not used by the other metrics.
+    /// The order of minkowski, 1 <= p <= inf; p = 1, 2 and inf are computed as cityblock,
+    /// euclidean and chebyshev. Not used by the other metrics.
     double p = 2.0;
 
-    // The time that one distance in `dim` coordinates takes, roughly, in that of the fastest.
+    /// The time that one distance in `dim` coordinates takes, roughly, in that of the fastest.
     constexpr double weight(double dim) const noexcept {
         return dim * (metric == Metric::minkowski ? 16.0 : 1.0);
     }

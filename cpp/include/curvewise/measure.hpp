@@ -1,7 +1,8 @@
-// The list of measures. Whoever serves all of them alike (batches, compare, the C interface, a
-// language binding) goes through it: a measure that is added here is served by all of them.
-//
-//   curvewise::for_each_measure([](const auto& defaults) { std::puts(defaults.measure); });
+/// \file
+/// The list of measures. Whoever serves all of them alike (batches, compare, the C interface, a
+/// language binding) goes through it: a measure that is added here is served by all of them.
+///
+///     curvewise::for_each_measure([](const auto& defaults) { std::puts(defaults.measure); });
 #pragma once
 
 #include <variant>
@@ -15,7 +16,7 @@
 
 namespace curvewise {
 
-// A measure, chosen by the type of its options.
+/// A measure, chosen by the type of its options.
 using Measure = std::variant<AreaOptions, PcmOptions, FrechetOptions, DtwOptions,
                              CurveLengthOptions, FrechetContinuousOptions>;
 
@@ -26,13 +27,13 @@ void for_each_alternative(const std::variant<Options...>* /*type*/, Visit&& visi
 }
 }  // namespace detail
 
-// Calls visit(options), with the default options of every measure in the order of the list.
+/// Calls visit(options), with the default options of every measure in the order of the list.
 template <class Visit>
 void for_each_measure(Visit&& visit) {
     detail::for_each_alternative(static_cast<const Measure*>(nullptr), visit);
 }
 
-// The measure of P and Q. Throws what the measure's own function throws.
+/// The measure of P and Q. Throws what the measure's own function throws.
 CURVEWISE_EXPORT double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q,
                                  Control* control = nullptr);
 

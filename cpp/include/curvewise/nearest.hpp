@@ -1,22 +1,23 @@
-// The nearest of many curves, exactly: for each curve of a list the k curves of an index that have
-// the smallest distances from it, or all within a radius, under any measure.
-//
-//   const curvewise::Index index(library, curvewise::DtwOptions{});
-//   std::vector<double> distances(tests.size() * 5);
-//   std::vector<std::int64_t> places(tests.size() * 5);
-//   index.kneighbors(tests, 5, distances.data(), places.data(), {-1});  // on all cores
-//
-// The answers are those of cdist and a stable sort, to the bit, for any number of threads: of equal
-// distances the earlier curve is the nearer. dtw, frechet and frechet_continuous have lower bounds,
-// cheap beside a distance: candidates are looked at in the order of their bounds, each bound is
-// raised before a distance is computed, and one that is above the k-th best distance so far ends
-// its pair (the optimal multi-step search of Seidl & Kriegel 1998). What is computed then ends
-// where the cutoff shows that it will be above. Measures without bounds compute every pair, with
-// the cutoff.
-//
-// Time: for N curves of n points, N cheap bounds a query, and the distances that are left, O(n^2)
-// each. Memory: some three times that of the points; about once for measures without bounds. All
-// functions may be called from any number of threads; add() waits for searches that run.
+/// \file
+/// The nearest of many curves, exactly: for each curve of a list the k curves of an index that have
+/// the smallest distances from it, or all within a radius, under any measure.
+///
+///     const curvewise::Index index(library, curvewise::DtwOptions{});
+///     std::vector<double> distances(tests.size() * 5);
+///     std::vector<std::int64_t> places(tests.size() * 5);
+///     index.kneighbors(tests, 5, distances.data(), places.data(), {-1});  // on all cores
+///
+/// The answers are those of cdist and a stable sort, to the bit, for any number of threads: of
+/// equal distances the earlier curve is the nearer. dtw, frechet and frechet_continuous have lower
+/// bounds, cheap beside a distance: candidates are looked at in the order of their bounds, each
+/// bound is raised before a distance is computed, and one that is above the k-th best distance so
+/// far ends its pair (the optimal multi-step search of Seidl & Kriegel 1998). What is computed then
+/// ends where the cutoff shows that it will be above. Measures without bounds compute every pair,
+/// with the cutoff.
+///
+/// Time: for N curves of n points, N cheap bounds a query, and the distances that are left, O(n^2)
+/// each. Memory: some three times that of the points; about once for measures without bounds. All
+/// functions may be called from any number of threads; add() waits for searches that run.
 #pragma once
 
 #include <cstddef>
@@ -31,61 +32,65 @@
 
 namespace curvewise {
 
+/// A curve of the index, and how far it is.
 struct Neighbor {
-    std::int64_t index;  // of a curve of the index
+    std::int64_t index;  ///< of a curve of the index
     double distance;
 };
 
-// What a search did, added up over its queries.
+/// What a search did, added up over its queries.
 struct SearchRecord {
     std::int64_t pairs = 0;
-    std::int64_t refined = 0;   // of these, pairs whose bound was raised
-    std::int64_t computed = 0;  // and pairs of which a distance was begun
+    std::int64_t refined = 0;   ///< of these, pairs whose bound was raised
+    std::int64_t computed = 0;  ///< and pairs of which a distance was begun
 };
 
+/// How a search is run, and what it returns.
 struct SearchOptions {
-    // Threads for this call, -1 for one per core, each with a query of its own at a time. (The
-    // `workers` of the measure are not used.)
+    /// Threads for this call, -1 for one per core, each with a query of its own at a time. (The
+    /// `workers` of the measure are not used.)
     std::ptrdiff_t workers = 1;
-    // Whether the neighbours within a radius come by distance, then index, or by index alone.
+    /// Whether the neighbours within a radius come by distance, then index, or by index alone.
     bool sort_results = true;
-    // Whether the distances of the neighbours within a radius are wanted. If not, and if they are
-    // not to be sorted by them, they are nan where a measure decides faster that they are within.
+    /// Whether the distances of the neighbours within a radius are wanted. If not, and if they are
+    /// not to be sorted by them, they are nan where a measure decides faster that they are within.
     bool with_distances = true;
     SearchRecord* record = nullptr;
 };
 
+/// Curves that are asked for their nearest, again and again.
 class Index {
    public:
-    // Owns a copy of the curves. Throws as cdist does, naming the curve (curves[3]).
-    CURVEWISE_EXPORT Index(const std::vector<CurveView>& curves, const Measure& measure);
+    /// Owns a copy of the curves. Throws as cdist does, naming the curve (curves[3]).
+    CURVEWISE_EXPORT Index(const std::vector<CurveView>& curves, const Measure& measure,
+                           Control* control = nullptr);
     CURVEWISE_EXPORT Index(Index&&) noexcept;
     CURVEWISE_EXPORT Index& operator=(Index&&) noexcept;
     Index(const Index&) = delete;
     Index& operator=(const Index&) = delete;
     CURVEWISE_EXPORT ~Index();
 
-    // All of them, or, where it throws, none.
-    CURVEWISE_EXPORT void add(const std::vector<CurveView>& curves);
+    /// All of them, or, where it throws, none.
+    CURVEWISE_EXPORT void add(const std::vector<CurveView>& curves, Control* control = nullptr);
     CURVEWISE_EXPORT std::size_t size() const;
-    // Copies of the points: valid as long as the index.
+    /// Copies of the points: valid as long as the index.
     CURVEWISE_EXPORT std::vector<CurveView> curves() const;
 
-    // Writes the n_neighbors nearest of X[i] (as P, the curves of the index as Q) to
-    // distances[i * n_neighbors] and indices[i * n_neighbors] on, in ascending order. Throws
-    // std::invalid_argument for what the measure refuses, naming the curve (X[2]), before any work,
-    // and for an n_neighbors that is not from 1 to size(); std::bad_alloc; Stopped. Progress counts
-    // every pair, computed or not.
+    /// Writes the n_neighbors nearest of X[i] (as P, the curves of the index as Q) to
+    /// distances[i * n_neighbors] and indices[i * n_neighbors] on, in ascending order. Throws
+    /// std::invalid_argument for what the measure refuses, naming the curve (X[2]), before any
+    /// work, and for an n_neighbors that is not from 1 to size(); std::bad_alloc; Stopped. Progress
+    /// counts every pair, computed or not.
     CURVEWISE_EXPORT void kneighbors(const std::vector<CurveView>& X, std::ptrdiff_t n_neighbors,
                                      double* distances, std::int64_t* indices,
                                      const SearchOptions& options = {},
                                      Control* control = nullptr) const;
-    // Of every curve of the index, which is no neighbour of itself.
+    /// Of every curve of the index, which is no neighbour of itself.
     CURVEWISE_EXPORT void kneighbors(std::ptrdiff_t n_neighbors, double* distances,
                                      std::int64_t* indices, const SearchOptions& options = {},
                                      Control* control = nullptr) const;
 
-    // All curves whose distance from X[i] is at most `radius`, a number >= 0.
+    /// All curves whose distance from X[i] is at most `radius`, a number >= 0.
     CURVEWISE_EXPORT std::vector<std::vector<Neighbor>> radius_neighbors(
         const std::vector<CurveView>& X, double radius, const SearchOptions& options = {},
         Control* control = nullptr) const;

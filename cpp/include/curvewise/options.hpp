@@ -1,16 +1,17 @@
-// Options by name, for code that serves all measures alike: a language binding, a command line, a
-// configuration file. Beside every enumeration stand the names of its enumerators, and beside
-// every struct of options a function visit_options() that calls a visitor with each of them:
-//
-//   visit(name, value)                     an enumeration or a bool
-//   visit(ground)                          a GroundDistance: the options "metric" and "p"
-//   visit(name, number, range)             a whole number
-//   visit(name, optional_number, optional_fraction, range)
-//                                          a whole number, a fraction between 0 and 1, or none
-//   visit(name, number, switch, range)     a whole number, or "continuous", which sets the switch
-//   visit(name, real_number, range)        a number; infinity stands for none
-//
-// An example: python/bindings/options.hpp, which reads all of them from a dict.
+/// \file
+/// Options by name, for code that serves all measures alike: a language binding, a command line, a
+/// configuration file. Beside every enumeration stand the names of its enumerators, and beside
+/// every struct of options a function visit_options() that calls a visitor with each of them:
+///
+///     visit(name, value)                     an enumeration or a bool
+///     visit(ground)                          a GroundDistance: the options "metric" and "p"
+///     visit(name, number, range)             a whole number
+///     visit(name, optional_number, optional_fraction, range)
+///                                            a whole number, a fraction between 0 and 1, or none
+///     visit(name, number, switch, range)     a whole number, or "continuous", which sets the
+///     switch visit(name, real_number, range)        a number; infinity stands for none
+///
+/// An example: python/bindings/options.hpp, which reads all of them from a dict.
 #pragma once
 
 #include <array>
@@ -18,26 +19,31 @@
 
 namespace curvewise {
 
-// What a whole number may be; messages give `advice`.
+/// What a whole number may be; messages give `advice`.
 struct WholeNumberRange {
     std::ptrdiff_t least;
     const char* advice;
 };
 
+/// What a number may be; likewise.
 struct RealNumberRange {
     double least;
     const char* advice;
 };
 
+/// Of threads.
 inline constexpr WholeNumberRange workers_range{
     -1, "give a whole number >= 1, or -1 for all cores"};  // 0 is refused, too
+/// Of the half-width of a band.
 inline constexpr WholeNumberRange window_range{
     0, "give a whole number >= 0, a fraction between 0 and 1, or None"};
+/// Of the offsets of pcm.
 inline constexpr WholeNumberRange offsets_range{1, "give a whole number >= 1, or 'continuous'"};
+/// Of a distance from which on it does not matter.
 inline constexpr RealNumberRange cutoff_range{0.0, "give a number >= 0, or None"};
 
-// The names of an enumeration's enumerators, in their order, as choice_names() gives them; `last`
-// is the last one there is.
+/// The names of an enumeration's enumerators, in their order, as choice_names() gives them; `last`
+/// is the last one there is.
 template <auto last, class... Name>
 constexpr std::array<const char*, sizeof...(Name)> names_up_to(Name... names) noexcept {
     static_assert(static_cast<std::size_t>(last) + 1 == sizeof...(Name), "one name each");

@@ -1,15 +1,16 @@
-// One measure between many curves: all pairs of two lists (cdist), all pairs within one (pdist),
-// or one curve against others as they come (Prepared). What depends on one curve alone, its
-// checks, its packing for the kernels, its scaling, is done once a curve and not once a pair.
-//
-//   const std::vector<curvewise::CurveView> X = ...;
-//   std::vector<double> distances(X.size() * (X.size() - 1) / 2);
-//   curvewise::pdist(X, curvewise::DtwOptions{}, distances.data(), {-1});  // on all cores
-//
-// Threads take tiles of pairs, the largest pairs first; a pair that is large beside all others is
-// swept by all threads together. Neither their number nor their order changes a value: each is
-// what the measure's own function returns for the pair. Memory: a packed copy of the curves (two
-// where a list is compared with itself), and some kilobytes a thread.
+/// \file
+/// One measure between many curves: all pairs of two lists (cdist), all pairs within one (pdist),
+/// or one curve against others as they come (Prepared). What depends on one curve alone, its
+/// checks, its packing for the kernels, its scaling, is done once a curve and not once a pair.
+///
+///     const std::vector<curvewise::CurveView> X = ...;
+///     std::vector<double> distances(X.size() * (X.size() - 1) / 2);
+///     curvewise::pdist(X, curvewise::DtwOptions{}, distances.data(), {-1});  // on all cores
+///
+/// Threads take tiles of pairs, the largest pairs first; a pair that is large beside all others is
+/// swept by all threads together. Neither their number nor their order changes a value: each is
+/// what the measure's own function returns for the pair. Memory: a packed copy of the curves (two
+/// where a list is compared with itself), and some kilobytes a thread.
 #pragma once
 
 #include <cstddef>
@@ -24,52 +25,54 @@
 
 namespace curvewise {
 
-// Whether d(P, Q) = d(Q, P): dtw without open ends, frechet, and (to rounding) area except with
-// Spacing::arc_length.
+/// Whether d(P, Q) = d(Q, P): dtw without open ends, frechet, and (to rounding) area except with
+/// Spacing::arc_length.
 CURVEWISE_EXPORT bool is_symmetric(const Measure& measure) noexcept;
 
+/// How a batch is run.
 struct BatchOptions {
-    // Threads for this call, -1 for one per core. (The `workers` of the measure are not used.)
+    /// Threads for this call, -1 for one per core. (The `workers` of the measure are not used.)
     std::ptrdiff_t workers = 1;
-    // A value above it, at least 0, becomes infinity; its pair may be abandoned before its end.
+    /// A value above it, at least 0, becomes infinity; its pair may be abandoned before its end.
     double cutoff = std::numeric_limits<double>::infinity();
 };
 
-// Writes the measure of XA[i] (as P) and XB[j] (as Q) to out[i * XB.size() + j]. Throws
-// std::invalid_argument for what the measure refuses, naming the curve (XA[3]), and for curves of
-// different dimension, before any work; std::bad_alloc; Stopped.
+/// Writes the measure of XA[i] (as P) and XB[j] (as Q) to out[i * XB.size() + j]. Throws
+/// std::invalid_argument for what the measure refuses, naming the curve (XA[3]), and for curves of
+/// different dimension, before any work; std::bad_alloc; Stopped.
 CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
                             const Measure& measure, double* out, const BatchOptions& options = {},
                             Control* control = nullptr);
 
-// The same of one list with itself. Each pair of a symmetric measure is computed once, in the
-// order (i, j) with i < j, and the diagonal is 0.
+/// The same of one list with itself. Each pair of a symmetric measure is computed once, in the
+/// order (i, j) with i < j, and the diagonal is 0.
 CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
                             const BatchOptions& options = {}, Control* control = nullptr);
 
-// Throws what cdist of these lists would throw before its work, for whoever cuts a batch into
-// parts: a part cannot say which curve of the whole list is at fault.
+/// Throws what cdist of these lists would throw before its work, for whoever cuts a batch into
+/// parts: a part cannot say which curve of the whole list is at fault.
 CURVEWISE_EXPORT void check_batch(const std::vector<CurveView>& XA,
                                   const std::vector<CurveView>& XB, const Measure& measure,
                                   Control* control = nullptr);
+/// The same for cdist and pdist of one list.
 CURVEWISE_EXPORT void check_batch(const std::vector<CurveView>& X, const Measure& measure,
                                   Control* control = nullptr);
 
-// Writes the measure of X[i] and X[j] for i < j, row by row, k (k-1) / 2 values: the pair (i, j)
-// goes to out[i k - i (i+1) / 2 + j - i - 1]. For symmetric measures only. Throws as cdist does.
+/// Writes the measure of X[i] and X[j] for i < j, row by row, k (k-1) / 2 values: the pair (i, j)
+/// goes to out[i k - i (i+1) / 2 + j - i - 1]. For symmetric measures only. Throws as cdist does.
 CURVEWISE_EXPORT void pdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
                             const BatchOptions& options = {}, Control* control = nullptr);
 
-// A curve P, checked, packed and scaled once, to be compared with others. Owns a copy of P. Cheap
-// to copy; may be called from any number of threads.
+/// A curve P, checked, packed and scaled once, to be compared with others. Owns a copy of P. Cheap
+/// to copy; may be called from any number of threads.
 class Prepared {
    public:
     CURVEWISE_EXPORT Prepared(const CurveView& P, const Measure& measure,
                               Control* control = nullptr);
 
-    // The measure of P and Q. Throws as the measure does.
+    /// The measure of P and Q. Throws as the measure does.
     CURVEWISE_EXPORT double operator()(const CurveView& Q, Control* control = nullptr) const;
-    // Of P and each of Qs, in out[j], as cdist would.
+    /// Of P and each of Qs, in out[j], as cdist would.
     CURVEWISE_EXPORT void operator()(const std::vector<CurveView>& Qs, double* out,
                                      const BatchOptions& options = {},
                                      Control* control = nullptr) const;

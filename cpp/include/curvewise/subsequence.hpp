@@ -1,19 +1,21 @@
-// Where in a long curve a short one occurs: the k best runs of Q for P, under dtw or the discrete
-// Fréchet distance (subsequence DTW: Müller 2007, chapter 7).
-//
-//   for (const curvewise::Subsequence& found : curvewise::subsequences(cycle, record, 10)) {
-//       std::printf("%td to %td: %g\n", found.start, found.stop, found.distance);
-//   }
-//
-// The first answer is the best of all runs of consecutive points of Q, what dtw with open_begin and
-// open_end finds. Each later one is the best run of what is left of Q: of the pieces between,
-// before and behind the earlier answers, each of them searched as if it were all of Q. Answers do
-// not overlap, and their distances never fall. Of equal distances the run that ends first is the
-// better.
-//
-// Exact. One sweep of the table, O(n m), that carries along with every value where in Q its path
-// began; after each answer only those ends behind it are swept again whose paths began before its
-// end. Memory O(n + m).
+/// \file
+/// Where in a long curve a short one occurs: the k best runs of Q for P, under dtw or the discrete
+/// Fréchet distance (subsequence DTW: Müller 2007, chapter 7).
+///
+///     for (const curvewise::Subsequence& found : curvewise::subsequences(cycle, record, 10)) {
+///         std::printf("%td to %td: %g\n", found.start, found.stop, found.distance);
+///     }
+///
+/// The first answer is the best of all runs of consecutive points of Q, what dtw with open_begin
+/// and open_end finds. Each later one is the best run of what is left of Q: of the pieces between,
+/// before and behind the earlier answers, each of them searched as if it were all of Q. Answers do
+/// not overlap, and their distances never fall. Of equal distances the run that ends first is the
+/// better; Fréchet's with Euclidean ground distances are compared by their squares, fewer of which
+/// are equal after rounding.
+///
+/// Exact. One sweep of the table, O(n m), that carries along with every value where in Q its path
+/// began; after each answer only those ends behind it are swept again whose paths began before its
+/// end. Memory O(n + m).
 #pragma once
 
 #include <cstddef>
@@ -27,19 +29,22 @@
 
 namespace curvewise {
 
+/// A run of consecutive points of Q.
 struct Subsequence {
-    double distance;       // of P and the run
-    std::ptrdiff_t start;  // the run's first point of Q, and its last
+    double distance;       ///< of P and the run
+    std::ptrdiff_t start;  ///< the run's first point of Q, and its last
     std::ptrdiff_t stop;
 };
 
-// Fewer than `count` where Q has no more runs, or none within the options' cutoff. Throws
-// std::invalid_argument for what dtw and frechet refuse, for a count below 1, for a window, and for
-// a step pattern other than symmetric1; std::bad_alloc; Stopped. Open ends need not be asked for.
+/// Fewer than `count` where Q has no more runs, or none within the options' cutoff. Throws
+/// std::invalid_argument for what dtw and frechet refuse, for a count below 1, for a window, and
+/// for a step pattern other than symmetric1; std::bad_alloc; Stopped. Open ends need not be asked
+/// for.
 CURVEWISE_EXPORT std::vector<Subsequence> subsequences(const CurveView& P, const CurveView& Q,
                                                        std::ptrdiff_t count = 1,
                                                        const DtwOptions& options = {},
                                                        Control* control = nullptr);
+/// The same under the discrete Fréchet distance.
 CURVEWISE_EXPORT std::vector<Subsequence> subsequences(const CurveView& P, const CurveView& Q,
                                                        std::ptrdiff_t count,
                                                        const FrechetOptions& options,

@@ -1,7 +1,8 @@
-// What dtw_info and frechet_info say of one computation: how much of the table it took, and why.
-//
-//   const curvewise::WarpingInfo info = curvewise::frechet_info(experiment, simulation);
-//   std::printf("%g from %.2f %% of the table\n", info.value, 100.0 * info.share);
+/// \file
+/// What dtw_info and frechet_info say of one computation: how much of the table it took, and why.
+///
+///     const curvewise::WarpingInfo info = curvewise::frechet_info(experiment, simulation);
+///     std::printf("%g from %.2f %% of the table\n", info.value, 100.0 * info.share);
 #pragma once
 
 #include <cstdint>
@@ -9,19 +10,22 @@
 
 namespace curvewise {
 
+/// A value, and how it was found.
 struct WarpingInfo {
+    /// A step of the computation.
     struct Phase {
         const char* name;
         double seconds;
     };
 
     double value = 0.0;
-    // Whether a part of the table was left out; otherwise all of it was swept, because it was asked
-    // for, because the curves are short, or because the bounds said early that they would not help.
+    /// Whether a part of the table was left out; otherwise all of it was swept, because it was
+    /// asked for, because the curves are short, or because the bounds said early that they would
+    /// not help.
     bool pruned = false;
     std::int64_t cells_swept = 0;
-    double share = 0.0;  // of the n m cells of the table; above 1 where some were swept twice
-    // Bounds that were known before the last step, in units of the value.
+    double share = 0.0;  ///< of the n m cells of the table; above 1 where some were swept twice
+    /// Bounds that were known before the last step, in units of the value.
     double lower = 0.0;
     double upper = 0.0;
     std::vector<Phase> phases;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -16,6 +15,7 @@
 #include "continuous/leash_search.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
+#include "runtime/room.hpp"
 #include "runtime/workers.hpp"
 
 namespace curvewise {
@@ -108,11 +108,8 @@ class FrechetContinuousMeasure::Bounds {
    public:
     static constexpr int levels = 3;
     void keep(const PreparedQ& Q) { kept_.emplace_back(Q.checked, Q.boxed); }
-    void take(Bounds& others) {
-        kept_.insert(kept_.end(), std::make_move_iterator(others.kept_.begin()),
-                     std::make_move_iterator(others.kept_.end()));
-        others.kept_.clear();
-    }
+    void make_room(const Bounds& others) { detail::make_room(kept_, others.kept_.size()); }
+    void take(Bounds& others) noexcept { detail::move_behind(kept_, others.kept_); }
 
     class Query {
        public:

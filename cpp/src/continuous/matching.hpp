@@ -32,7 +32,8 @@ class LeashMeasure {
         : diagram_(diagram), radius_(radius), poller_(poller) {}
 
     // The least double that is not below the radius nor below the leash of any row. Rows that the
-    // radius is too short for are first moved by a unit in the last place, if that helps.
+    // radius is too short for are first moved by a unit in the last place, if that helps; except
+    // for those at vertices of both curves, before and behind which walks are on different edges.
     double longest(MatchedParameters& matched) const {
         double longest = radius_.given();
         for (std::size_t k = 1; k + 1 < matched.size(); ++k) {
@@ -41,6 +42,10 @@ class LeashMeasure {
             if (leash(row, radius_.given()) == radius_.given()) continue;
             const std::size_t side = row[0] == std::floor(row[0]) ? 1 : 0;
             const double given = row[side];
+            if (given == std::floor(given)) {
+                longest = leash(row, longest);
+                continue;
+            }
             for (const double other : {matched[k - 1][side], matched[k + 1][side]}) {
                 row[side] = std::nextafter(given, other);
                 if (leash(row, radius_.given()) == radius_.given()) break;

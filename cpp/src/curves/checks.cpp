@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
 
 namespace curvewise {
@@ -25,6 +26,17 @@ struct Named {
 
 [[noreturn]] void refuse(const std::string& what, const std::string& need) {
     throw std::invalid_argument(what + "; " + need);
+}
+
+// x and y in rows are a curve of two points, and the commonest reason for a wrong shape.
+bool looks_transposed(const CurveView& curve) noexcept {
+    return curve.size() <= 3 && curve.dim() > 3;
+}
+
+[[noreturn]] void refuse_shapes(const std::string& what, const std::string& need,
+                                std::initializer_list<CurveView> curves) {
+    const bool transposed = std::any_of(curves.begin(), curves.end(), looks_transposed);
+    refuse(what, need + (transposed ? " (a row is a point: transpose?)" : ""));
 }
 
 std::string both(const Named& a, const Named& b) {
@@ -98,13 +110,17 @@ void check_shapes(const Requirements& needs, const CurveList& first, const Curve
     for_each(first, second, [&](const Named& named) {
         check_columns(named);
         if (named.curve().dim() == example.curve().dim()) return;
-        refuse(both(example, named), "both need the same number of coordinates");
+        refuse_shapes(both(example, named), "both need the same number of coordinates",
+                      {example.curve(), named.curve()});
     });
     if (needs.planar && example.curve().dim() != 2) {
         const std::string need = std::string(needs.measure) + " needs 2 coordinates, x and y";
-        if (first.size() > 0 && second.size() > 0) refuse(both(example, {&second, 0}), need);
-        if (with_first.size() > 1) refuse(both(example, {&with_first, 1}), need);
-        refuse(example.with_shape(), need);
+        const auto refuse_with = [&](const Named& other) {
+            refuse_shapes(both(example, other), need, {example.curve(), other.curve()});
+        };
+        if (first.size() > 0 && second.size() > 0) refuse_with({&second, 0});
+        if (with_first.size() > 1) refuse_with({&with_first, 1});
+        refuse_shapes(example.with_shape(), need, {example.curve()});
     }
     for_each(first, second, [&](const Named& named) { check_points(named, needs); });
 }

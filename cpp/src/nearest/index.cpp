@@ -2,6 +2,7 @@
 // query is one thread's, so that the number of threads changes nothing.
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -14,6 +15,7 @@
 #include "curvewise/nearest.hpp"
 #include "nearest/neighbor_search.hpp"
 #include "pairwise/batch.hpp"
+#include "runtime/room.hpp"
 #include "runtime/workers.hpp"
 
 namespace curvewise {
@@ -29,11 +31,14 @@ using detail::Targets;
 // A curve with points of its own. Flat where the caller's is, for messages.
 class OwnedCurve {
    public:
-    explicit OwnedCurve(const CurveView& curve) : is_flat_(curve.is_flat()), dim_(curve.dim()) {
+    OwnedCurve(const CurveView& curve, Poller& poller)
+        : is_flat_(curve.is_flat()), dim_(curve.dim()) {
         points_.reserve(static_cast<std::size_t>(curve.size() * dim_));
-        for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-            for (std::ptrdiff_t c = 0; c < dim_; ++c) points_.push_back(curve(i, c));
-        }
+        poller.in_runs(curve.size(), dim_, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+            for (std::ptrdiff_t i = first; i < end; ++i) {
+                for (std::ptrdiff_t c = 0; c < dim_; ++c) points_.push_back(curve(i, c));
+            }
+        });
     }
     CurveView view() const noexcept {
         const auto n = static_cast<std::ptrdiff_t>(points_.size()) / dim_;
@@ -119,31 +124,38 @@ class Index::State {
                               measure)),
           targets_(measure_->make_targets()) {}
 
-    void add(const std::vector<CurveView>& curves) {
-        const std::unique_lock<std::shared_mutex> lock(mutex_);
+    void add(const std::vector<CurveView>& curves, Control* control) {
+        Poller poller(control);
+        const auto lock = locked<std::unique_lock<std::shared_timed_mutex>>(poller);
         check_like_first({curves, "curves"});
         std::vector<OwnedCurve> owned;
         owned.reserve(curves.size());
         const std::unique_ptr<Targets> added = measure_->make_targets();
-        Poller poller(nullptr);
+        std::int64_t total = 0;
+        for (const CurveView& curve : curves) total += curve.size();
+        poller.begin(total);
         for (std::size_t i = 0; i < curves.size(); ++i) {
-            owned.emplace_back(curves[i]);
+            owned.emplace_back(curves[i], poller);
             const std::string name = CurveList(curves, "curves").name_of(i);
             added->add(CheckedCurve(owned.back().view(), name, poller), poller);
+            if (poller.count_steps(curves[i].size())) throw Stopped();
         }
+        poller.finish();  // the last that may throw Stopped
         for (const OwnedCurve& curve : owned) sizes_.insert(curve.view().size());
-        curves_.insert(curves_.end(), std::make_move_iterator(owned.begin()),
-                       std::make_move_iterator(owned.end()));
+        detail::make_room(curves_, owned.size());
+        targets_->make_room(*added);
+        // Nothing fails from here on.
+        detail::move_behind(curves_, owned);
         targets_->take(*added);
     }
 
     std::size_t size() const {
-        const std::shared_lock<std::shared_mutex> lock(mutex_);
+        const std::shared_lock<std::shared_timed_mutex> lock(mutex_);
         return curves_.size();
     }
 
     std::vector<CurveView> curves() const {
-        const std::shared_lock<std::shared_mutex> lock(mutex_);
+        const std::shared_lock<std::shared_timed_mutex> lock(mutex_);
         std::vector<CurveView> views;
         views.reserve(curves_.size());
         for (const OwnedCurve& curve : curves_) views.push_back(curve.view());
@@ -153,9 +165,10 @@ class Index::State {
     // Of the curves of X, or, where that is null, of the index.
     void kneighbors(const std::vector<CurveView>* X, std::ptrdiff_t count, double* distances,
                     std::int64_t* indices, const SearchOptions& options, Control* control) const {
-        const std::shared_lock<std::shared_mutex> lock(mutex_);
+        Poller poller(control);
+        const auto lock = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
         check_count(count, X == nullptr);
-        ask(X, options, control,
+        ask(X, options, poller,
             [=](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
                 std::ptrdiff_t left_out) {
                 auto place = static_cast<std::ptrdiff_t>(i) * count;
@@ -169,10 +182,11 @@ class Index::State {
     std::vector<std::vector<Neighbor>> radius_neighbors(const std::vector<CurveView>* X,
                                                         double radius, const SearchOptions& options,
                                                         Control* control) const {
-        const std::shared_lock<std::shared_mutex> lock(mutex_);
+        Poller poller(control);
+        const auto lock = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
         check_radius(radius);
         std::vector<std::vector<Neighbor>> results(X == nullptr ? curves_.size() : X->size());
-        ask(X, options, control,
+        ask(X, options, poller,
             [&](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
                 std::ptrdiff_t left_out) {
                 results[i] =
@@ -186,10 +200,20 @@ class Index::State {
     }
 
    private:
-    void ask(const std::vector<CurveView>* X, const SearchOptions& options, Control* control,
+    // The mutex, once those who have it let go; throws Stopped where that is asked for meanwhile.
+    template <class Lock>
+    Lock locked(Poller& poller) const {
+        constexpr std::chrono::milliseconds nap(20);
+        Lock lock(mutex_, std::defer_lock);
+        while (!lock.try_lock_for(nap)) {
+            if (poller.poll()) throw Stopped();
+        }
+        return lock;
+    }
+
+    void ask(const std::vector<CurveView>* X, const SearchOptions& options, Poller& poller,
              const Answer& answer) const {
         const std::ptrdiff_t workers = detail::resolve_workers(options.workers);
-        Poller poller(control);
         const Queries queries = checked(X, poller);
         const SearchRecord record = QueryRun(*targets_, queries, answer).run(workers, poller);
         if (options.record == nullptr) return;
@@ -243,21 +267,23 @@ class Index::State {
     }
 
     std::unique_ptr<const detail::BatchMeasure> measure_;
-    mutable std::shared_mutex mutex_;
+    mutable std::shared_timed_mutex mutex_;
     std::vector<OwnedCurve> curves_;
     std::set<std::ptrdiff_t> sizes_;
     std::unique_ptr<Targets> targets_;
 };
 
-Index::Index(const std::vector<CurveView>& curves, const Measure& measure)
+Index::Index(const std::vector<CurveView>& curves, const Measure& measure, Control* control)
     : state_(std::make_unique<State>(measure)) {
-    state_->add(curves);
+    state_->add(curves, control);
 }
 Index::Index(Index&&) noexcept = default;
 Index& Index::operator=(Index&&) noexcept = default;
 Index::~Index() = default;
 
-void Index::add(const std::vector<CurveView>& curves) { state_->add(curves); }
+void Index::add(const std::vector<CurveView>& curves, Control* control) {
+    state_->add(curves, control);
+}
 std::size_t Index::size() const { return state_->size(); }
 std::vector<CurveView> Index::curves() const { return state_->curves(); }
 

@@ -21,8 +21,9 @@
 //
 // It may have, for searches that look at a bound before they compute a value (targets.hpp),
 //
-//   M::Bounds                            what is kept of all Qs for that, by keep(prepared_q) and
-//                                        take(others), which leaves the others empty
+//   M::Bounds                            what is kept of all Qs for that, by keep(prepared_q), and
+//                                        by make_room(others) and then take(others), which does
+//                                        not throw and leaves the others empty
 //   M::Bounds::levels                    how many bounds there are of a pair, from cheap to dear
 //   M::Bounds::Query                     of one P: made from (measure, bounds, prepared_p);
 //     quick(out)                         the first bound of every Q

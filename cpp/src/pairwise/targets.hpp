@@ -48,8 +48,9 @@ class Targets {
 
     // The points must outlive this. Throws where the curve serves no P.
     virtual void add(const CheckedCurve& Q, Poller& poller) = 0;
-    // Adds those of `others`, of the same measure, and leaves it empty.
-    virtual void take(Targets& others) = 0;
+    // Adds those of `others`, of the same measure, for which room was made, and leaves it empty.
+    virtual void make_room(const Targets& others) = 0;
+    virtual void take(Targets& others) noexcept = 0;
     virtual std::ptrdiff_t size() const noexcept = 0;
     // Throws where P serves no Q, as query() does.
     virtual void check(const CheckedCurve& P, Poller& poller) const = 0;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -10,6 +9,7 @@
 
 #include "pairwise/measure.hpp"
 #include "pairwise/targets.hpp"
+#include "runtime/room.hpp"
 
 namespace curvewise::detail {
 
@@ -19,6 +19,7 @@ class NoBounds {
    public:
     static constexpr int levels = 1;
     void keep(const typename M::PreparedQ& /*Q*/) noexcept { ++size_; }
+    void make_room(const NoBounds& /*others*/) noexcept {}
     void take(NoBounds& others) noexcept { size_ += std::exchange(others.size_, 0); }
 
     class Query {
@@ -68,13 +69,16 @@ class TargetsOf final : public Targets {
         bounds_.keep(curves_.back());
         points_ += Q.curve.size();
     }
-    void take(Targets& targets) override {
+    void make_room(const Targets& targets) override {
+        const auto& others = static_cast<const TargetsOf&>(targets);
+        detail::make_room(curves_, others.curves_.size());
+        bounds_.make_room(others.bounds_);
+    }
+    void take(Targets& targets) noexcept override {
         auto& others = static_cast<TargetsOf&>(targets);
-        curves_.insert(curves_.end(), std::make_move_iterator(others.curves_.begin()),
-                       std::make_move_iterator(others.curves_.end()));
+        move_behind(curves_, others.curves_);
         bounds_.take(others.bounds_);
         points_ += std::exchange(others.points_, 0);
-        others.curves_.clear();
     }
     std::ptrdiff_t size() const noexcept override {
         return static_cast<std::ptrdiff_t>(curves_.size());

@@ -261,6 +261,11 @@ Offset best_of_grid(const AreaAtOffset& f, double slack, std::ptrdiff_t count) {
     return best;
 }
 
+// f is S-Lipschitz, and no offset is farther than this from one of the grid.
+double grid_tolerance(double S, double slack, std::ptrdiff_t count) noexcept {
+    return S * (count == 1 ? slack : 0.5 * slack / static_cast<double>(count - 1));
+}
+
 struct Interval {
     double low;
     double high;
@@ -270,7 +275,10 @@ struct Interval {
 
 Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdiff_t count,
                     Poller& poller) {
-    return best_of_grid(AreaAtOffset(shorter, longer, poller), slack(shorter, longer), count);
+    const double range = slack(shorter, longer);
+    Offset best = best_of_grid(AreaAtOffset(shorter, longer, poller), range, count);
+    best.tolerance = grid_tolerance(shorter.length(), range, count);
+    return best;
 }
 
 Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poller,
@@ -285,6 +293,7 @@ Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poll
         open.push_back({grid_offset(range, i - 1, count), grid_offset(range, i, count)});
     }
     double tolerance = finest_tolerance;
+    const auto allowed = [&] { return tolerance * std::max(S, of_the_value * best.area); };
     // An infinite tolerance leaves nothing open that has a bound.
     for (std::int64_t tried = 1; !open.empty() && std::isfinite(tolerance); ++tried) {
         if (tried > effort.patience && tried % effort.impatience == 0) tolerance *= 2.0;
@@ -295,11 +304,12 @@ Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poll
         if (!(interval.low < centre && centre < interval.high)) continue;
         const double area = f.value(centre);
         improve(best, centre, area);
-        const double target = best.area - tolerance * std::max(S, of_the_value * best.area);
+        const double target = best.area - allowed();
         if (area - S * half >= target || f.lower_bound(centre, half) >= target) continue;
         open.push_back({centre, interval.high});
         open.push_back({interval.low, centre});
     }
+    best.tolerance = std::min(allowed(), grid_tolerance(S, range, count));
     return best;
 }
 

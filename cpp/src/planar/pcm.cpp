@@ -44,7 +44,7 @@ ArcCurve scaled(const CheckedCurve& checked, const detail::Box& box, detail::Pol
 // A curve too long for a double is infinitely far from everything.
 detail::Offset best_offset(const Roles& roles, const PcmOptions& options, detail::Poller& poller) {
     const double infinity = std::numeric_limits<double>::infinity();
-    if (!std::isfinite(roles.longer.length())) return {0.0, infinity};
+    if (!std::isfinite(roles.longer.length())) return {0.0, infinity, infinity};
     return options.continuous
                ? detail::best_of_all(roles.shorter, roles.longer, poller)
                : detail::best_of_grid(roles.shorter, roles.longer, options.offsets, poller);
@@ -101,6 +101,7 @@ class PcmMeasure : public detail::LinearMeasure {
         PcmMatch match;
         match.value = best.area;
         match.offset = best.at;
+        match.tolerance = best.tolerance;
         match.maps_p = roles.maps_p;
         if (!std::isfinite(roles.longer.length())) {
             const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -46,11 +46,14 @@ double sum_of_squares(const CurveView& P, const CurveView& Q, Control* control) 
 double sum_of_squares_and_gradient(const CurveView& P, const CurveView& Q, double* gradient,
                                    Control* control) {
     const double value = sum_of_squares(P, Q, control);
-    for (std::ptrdiff_t i = 0; i < Q.size(); ++i) {
-        for (std::ptrdiff_t c = 0; c < Q.dim(); ++c) {
-            gradient[i * Q.dim() + c] = 2.0 * (Q(i, c) - P(i, c));
+    detail::Poller poller(control);
+    poller.in_runs(Q.size(), Q.dim(), [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = first; i < end; ++i) {
+            for (std::ptrdiff_t c = 0; c < Q.dim(); ++c) {
+                gradient[i * Q.dim() + c] = 2.0 * (Q(i, c) - P(i, c));
+            }
         }
-    }
+    });
     return value;
 }
 

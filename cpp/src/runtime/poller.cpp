@@ -18,7 +18,7 @@ void Poller::finish() {
     if (control_ == nullptr) return;
     uncounted_ = 0;
     control_->done_.store(control_->total(), std::memory_order_relaxed);
-    report();
+    report(control_->total());
     throw_if_stopped();
 }
 
@@ -26,7 +26,10 @@ bool Poller::poll() {
     if (control_ == nullptr) return false;
     effort_ = 0;
     publish_count();
-    if (role_ == Role::caller && !stopped() && Clock::now() >= next_report_) report();
+    // The total is reported once, at the end: threads may still be at work on what is counted.
+    if (role_ == Role::caller && !stopped() && Clock::now() >= next_report_) {
+        report(std::max<std::int64_t>(control_->total() - 1, 0));
+    }
     return stopped();
 }
 
@@ -36,10 +39,9 @@ void Poller::publish_count() noexcept {
     uncounted_ = 0;
 }
 
-void Poller::report() {
-    const std::int64_t total = control_->total();
-    const std::int64_t done = std::min(control_->done(), total);
-    if (control_->report_ && !control_->report_(done, total)) {
+void Poller::report(std::int64_t most) {
+    const std::int64_t done = std::min(control_->done(), most);
+    if (control_->report_ && !control_->report_(done, control_->total())) {
         control_->stop();
     }
     next_report_ = Clock::now() + control_->interval_;

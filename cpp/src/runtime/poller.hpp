@@ -85,7 +85,8 @@ class Poller {
     static constexpr std::int64_t effort_between_polls = 1 << 15;
 
     void publish_count() noexcept;
-    void report();
+    // Reports what is done, or `most` where that is less.
+    void report(std::int64_t most);
 
     Control* control_;
     Role role_;

@@ -1,14 +1,9 @@
 #include "warping/dispatch.hpp"
 
-#include <cfloat>
 #include <cstdlib>
 #include <stdexcept>
 
-// On 32-bit x86 without SSE2, values are kept with 64 bits and rounded twice: the same bits as
-// elsewhere are out of reach.
-#if defined(FLT_EVAL_METHOD) && (FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD < 0)
-#error "curvewise needs arithmetic in double precision; compile with -msse2 -mfpmath=sse"
-#endif
+#include "runtime/double_precision.hpp"
 
 namespace curvewise::detail {
 namespace {

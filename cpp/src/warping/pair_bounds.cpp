@@ -1,9 +1,9 @@
 #include "warping/pair_bounds.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 
+#include "runtime/room.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/ground_distance.hpp"
 
@@ -85,13 +85,17 @@ void KeptBounds::keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrd
     largest_.push_back(Q.largest);
 }
 
-void KeptBounds::take(KeptBounds& others) {
+void KeptBounds::make_room(const KeptBounds& others) {
+    detail::make_room(largest_, others.largest_.size());
+    detail::make_room(summaries_, others.summaries_.size());
+    detail::make_room(trees_, others.trees_.size());
+}
+
+void KeptBounds::take(KeptBounds& others) noexcept {
     dim_ = std::max(dim_, others.dim_);
-    largest_.insert(largest_.end(), others.largest_.begin(), others.largest_.end());
-    summaries_.insert(summaries_.end(), others.summaries_.begin(), others.summaries_.end());
-    trees_.insert(trees_.end(), std::make_move_iterator(others.trees_.begin()),
-                  std::make_move_iterator(others.trees_.end()));
-    others = KeptBounds();
+    move_behind(largest_, others.largest_);
+    move_behind(summaries_, others.summaries_);
+    move_behind(trees_, others.trees_);
 }
 
 PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, const CheckedCurve& P,

@@ -39,8 +39,9 @@ class KeptBounds {
    public:
     // `packed` must outlive this, at the address of its points.
     void keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrder order);
-    // Adds those of `others`, and leaves it empty.
-    void take(KeptBounds& others);
+    // Adds those of `others`, for which room was made, and leaves it empty.
+    void make_room(const KeptBounds& others);
+    void take(KeptBounds& others) noexcept;
 
     std::ptrdiff_t size() const noexcept { return static_cast<std::ptrdiff_t>(trees_.size()); }
     double largest(std::ptrdiff_t j) const noexcept {

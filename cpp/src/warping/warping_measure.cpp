@@ -82,9 +82,13 @@ class WarpingMeasure {
     double value(const PreparedP& P, const PreparedQ& Q, const detail::Call<Memory>& call,
                  Compute compute) const {
         const double divisor = options_.divisor(P.packed.size(), Q.packed.size());
-        // A little more, so that the rounding of the quotient gives nothing up.
-        const double more = divisor == 1.0 ? 1.0 : divisor * (1.0 + 1e-15);
-        const double cutoff = std::min(call.cutoff, options_.cutoff) * more;
+        double cutoff = std::min(call.cutoff, options_.cutoff);
+        if (divisor != 1.0) {
+            // A little more, so that the rounding of the quotient gives nothing up: of one near 0,
+            // too, which is by the smallest double.
+            cutoff += std::numeric_limits<double>::denorm_min();
+            cutoff *= divisor * (1.0 + 1e-15);
+        }
         const double found =
             with_problem(P, Q, call,
                          [&](WarpingProblem& problem) { return compute(problem, cutoff); }) /
@@ -103,7 +107,8 @@ class WarpingMeasure::Bounds {
    public:
     static constexpr int levels = detail::PairBounds::levels;
     void keep(const PreparedQ& Q) { kept_.keep(Q.checked, Q.packed, PointOrder::reversed); }
-    void take(Bounds& others) { kept_.take(others.kept_); }
+    void make_room(const Bounds& others) { kept_.make_room(others.kept_); }
+    void take(Bounds& others) noexcept { kept_.take(others.kept_); }
 
     class Query {
        public:

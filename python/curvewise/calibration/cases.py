@@ -127,13 +127,13 @@ def _response(case: Case, outcome: Outcome) -> Any:
     result = outcome.simulations
     if case.response is not None and result is not None:
         try:
-            curves = points_of(result if np.ndim(result) else [[[result]]])
+            curves = points_of([[[result]]] if _is_number(result) else result)
             result = case.response(curves[0] if len(curves) == 1 else list(curves))
         except Exception as error:  # whatever the user's function stumbles over
             return RuntimeError(f"response: {type(error).__name__}: {error}")
     if result is None:
         return None
-    if np.ndim(result) == 0:
+    if _is_number(result):
         return np.array([[float(result)]])
     curves = points_of(result)
     if len(curves) != 1:
@@ -142,6 +142,11 @@ def _response(case: Case, outcome: Outcome) -> Any:
             "picks one, or a case for each"
         )
     return curves[0]
+
+
+def _is_number(result: Any) -> bool:
+    """Return whether a model or a response gave one number; a list holds curves, of any lengths."""
+    return not isinstance(result, (list, tuple)) and np.ndim(result) == 0
 
 
 class CaseObjective(Objective):
@@ -231,6 +236,7 @@ class _Number:
     residual_count = 1
     scale = 1.0
     y = 0
+    names: tuple[str, ...] = ()
     has_gradient = can_be_thinned = True
 
     def __init__(self, case: Case) -> None:

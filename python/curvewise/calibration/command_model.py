@@ -3,52 +3,33 @@
 Every set of parameters has a scratch folder of its own. The templates are written there, filled in;
 the command runs there under a time limit, in a process group of its own; and a function of the
 user's reads the curves. Nothing is shared between calls, so any number of them may run side by
-side, in threads or in processes. The cost of a call is the solver's; what is added is a few
-milliseconds, and at most 50 ms until the end of the process is noticed.
-
-Placeholders are written as in LS-OPT, ``<<E>>``: solvers give ``$``, ``{}``, ``%``, ``&``, ``*``
-and ``#`` a meaning; none of them gives one to two angle brackets.
+side, in threads or in processes. The cost of a call is the solver's, and that of the templates
+(deck_templates.py) and of the process (solver_process.py).
 """
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import math
 import os
-import re
 import shutil
-import signal
-import subprocess
 import tempfile
-import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from .._curves import Array, as_curve
+from .deck_templates import check_names, read_templates
 from .model_identity import fingerprint
+from .solver_process import SolverError, run_solver
 
 __all__ = ["CommandModel", "SolverError"]
 
 Curves: TypeAlias = Array | list[Array]
 
 LOG = "command.log"
-
-# Bytes of output after which a program has run away, and what is then left of its log.
-_MOST_OUTPUT = 2**26
-_KEPT_OUTPUT = 2**20
-_LOOK = 0.1  # seconds between two looks at the log
-
-_GRACE = 2.0  # seconds between SIGTERM, on which solvers return their licence, and SIGKILL
-_NAME = re.compile(r"[A-Za-z_]\w*")
-_WIDTH = re.compile(r"(?:.?[<>=^])?[-+ ]?z?#?0?(\d+)")
-
-
-class SolverError(RuntimeError):
-    """A run of the solver failed; the text says how, and where its log is."""
 
 
 class CommandModel:
@@ -174,8 +155,8 @@ class CommandModel:
         self.environment = dict(environment or {})
         self.scratch = None if scratch is None else Path(scratch).resolve()
         self.keep = keep
-        self._templates = _read_templates(template_files)
-        _check_names(self._templates, self.parameters)
+        self._templates = read_templates(template_files, LOG)
+        check_names(self._templates, self.parameters)
         self.identity = self._identity()
 
     def __call__(self, parameters: Mapping[str, float | str]) -> Curves:
@@ -208,7 +189,13 @@ class CommandModel:
         try:
             for name, content in files:
                 (folder / name).write_bytes(content)
-            self._run(folder)
+            run_solver(
+                self.command,
+                folder,
+                folder / LOG,
+                timeout=self.timeout,
+                environment=self.environment,
+            )
             return self._read(folder)
         except Exception:  # not KeyboardInterrupt: nothing is wrong with that run
             keep = True
@@ -239,44 +226,6 @@ class CommandModel:
                 raise ValueError(f"parameter {name} is {value}; parameters must be finite")
         return [(template.name, template.fill(parameters)) for template in self._templates]
 
-    def _run(self, folder: Path) -> None:
-        program, log = Path(self.command[0]).name, folder / LOG
-        begin = time.monotonic()
-        with log.open("wb") as output:
-            try:
-                process = subprocess.Popen(
-                    self.command,
-                    cwd=folder,
-                    env={**os.environ, **self.environment},
-                    stdin=subprocess.DEVNULL,
-                    stdout=output,
-                    stderr=subprocess.STDOUT,
-                    start_new_session=True,
-                )
-            except OSError as error:
-                raise SolverError(f"{program} did not start: {error}; folder: {folder}") from error
-            try:
-                code = _wait(process, begin + self.timeout, log)
-                too_much = False
-            except subprocess.TimeoutExpired:
-                raise SolverError(
-                    f"{program} took longer than {self.timeout:g} s and was stopped; log: {log}"
-                ) from None
-            except _RunAwayError:
-                too_much = True
-            finally:
-                _end_group(process)
-        if too_much:
-            os.truncate(log, _KEPT_OUTPUT)
-            raise SolverError(
-                f"{program} printed more than {_MOST_OUTPUT >> 20} MiB and was stopped; "
-                f"the first of it: {log}"
-            )
-        if code != 0:
-            how = f"was killed by signal {-code}" if code < 0 else f"ended with exit code {code}"
-            seconds = time.monotonic() - begin
-            raise SolverError(f"{program} {how} after {seconds:.1f} s; log: {log}")
-
     def _read(self, folder: Path) -> Curves:
         try:
             curves = self.read(folder)
@@ -289,160 +238,8 @@ class CommandModel:
             ) from error
 
 
-class _Placeholder(NamedTuple):
-    """One ``<<name:format>>`` of a template."""
-
-    name: str
-    format: str
-    place: str
-
-
-class _Template(NamedTuple):
-    """A file to fill in, cut at its placeholders: one text more than there are placeholders."""
-
-    name: str
-    texts: list[str]
-    placeholders: list[_Placeholder]
-
-    def fill(self, parameters: Mapping[str, float | str]) -> bytes:
-        parts = self.texts[:1]
-        for placeholder, text in zip(self.placeholders, self.texts[1:], strict=True):
-            try:
-                parts.append(_format(parameters[placeholder.name], placeholder.format))
-            except ValueError as error:
-                raise ValueError(f"{placeholder.place}: {error}") from None
-            parts.append(text)
-        return "".join(parts).encode("utf-8", "surrogateescape")
-
-
-def _read_templates(
-    files: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
-) -> list[_Template]:
-    paths = [Path(files)] if isinstance(files, (str, os.PathLike)) else [Path(f) for f in files]
-    names = [path.name for path in paths]
-    for name in names:
-        if names.count(name) > 1:
-            raise ValueError(f"two templates are called {name}; rename one")
-        if name == LOG:
-            raise ValueError(f"a template is called {LOG}, as the log is; rename it")
-    for path in paths:
-        if not path.is_file():
-            raise FileNotFoundError(f"there is no template {os.fspath(path)!r}")
-    return [_parse(path) for path in paths]
-
-
-def _parse(path: Path) -> _Template:
-    # Bytes rather than text, as line ends and what other encodings a deck's comments have stay.
-    whole = path.read_bytes().decode("utf-8", "surrogateescape")
-    texts, placeholders, end, line = [], [], 0, 1
-    for begin, past in _placeholders(whole):
-        texts.append(whole[end:begin])
-        line += texts[-1].count("\n")
-        place = f"{path.name}, line {line}: {whole[begin:past]}"
-        name, _, spec = whole[begin + 2 : past - 2].partition(":")
-        if not _NAME.fullmatch(name.strip()):
-            raise ValueError(f"{place} is malformed; write <<name>> or <<name:10.4g>>")
-        placeholders.append(_Placeholder(name.strip(), spec.strip(), place))
-        end = past
-    return _Template(path.name, [*texts, whole[end:]], placeholders)
-
-
-def _placeholders(text: str) -> Iterator[tuple[int, int]]:
-    """Yield where each "<<" with the next ">>" of its line begins and ends, in linear time."""
-    begin = text.find("<<")
-    while begin >= 0:
-        close = text.find(">>", begin + 2)
-        if close < 0:
-            return
-        line_end = text.find("\n", begin, close)
-        if line_end < 0:
-            yield begin, close + 2
-            line_end = close + 2
-        begin = text.find("<<", line_end)
-
-
-def _check_names(templates: Sequence[_Template], parameters: Sequence[str]) -> None:
-    """Hold the placeholders against the parameters, and try every format."""
-    used = set()
-    for placeholder in (p for template in templates for p in template.placeholders):
-        used.add(placeholder.name)
-        if placeholder.name not in parameters:
-            raise ValueError(
-                f"{placeholder.place} is no parameter; the parameters are {', '.join(parameters)}"
-            )
-        try:
-            format(1.0, placeholder.format)
-        except ValueError:
-            raise ValueError(
-                f"{placeholder.place} has no format of a number; write e.g. <<name:10.4g>>"
-            ) from None
-    for name in parameters:
-        if name not in used:
-            raise ValueError(f"no template has a placeholder <<{name}>>; add it or drop {name}")
-
-
-def _format(value: float | str, spec: str) -> str:
-    if isinstance(value, str):
-        return format(value, spec)
-    if not spec:
-        return repr(float(value))  # of a numpy float, repr would show the type
-    if spec.isdecimal():
-        return _fit(float(value), int(spec))
-    text = format(float(value), spec)
-    width = _WIDTH.match(spec)
-    if width and len(text) > int(width.group(1)):
-        raise ValueError(f"{text} is longer than the field; choose another format or bounds")
-    return text
-
-
-def _fit(value: float, width: int) -> str:
-    for digits in range(17, 0, -1):
-        text = f"{value:#.{digits}g}"
-        if len(text) <= width:
-            return text.rjust(width)
-    raise ValueError(f"{value!r} does not fit; widen the field or narrow the bounds")
-
-
 def _checked(curve: object, name: str) -> Array:
     array = as_curve(curve, name)
     if array.size == 0 or not np.isfinite(array).all():
         raise ValueError(f"{name} is {'empty' if array.size == 0 else 'not finite'}")
     return array
-
-
-class _RunAwayError(Exception):
-    """A program has printed more than any log is worth."""
-
-
-def _wait(process: subprocess.Popen[bytes], deadline: float, log: Path) -> int:
-    """Return the exit code; TimeoutExpired at the deadline, _RunAwayError for a huge log."""
-    while True:
-        left = deadline - time.monotonic()
-        try:
-            return process.wait(min(max(left, 0.0), _LOOK))
-        except subprocess.TimeoutExpired:
-            if left <= _LOOK:
-                raise
-            if log.stat().st_size > _MOST_OUTPUT:
-                raise _RunAwayError from None
-
-
-def _end_group(process: subprocess.Popen[bytes]) -> None:
-    """End the program and whatever it has started, if that is still running."""
-    try:
-        if process.poll() is None:
-            _signal_group(process, "SIGTERM")
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(_GRACE)
-    finally:  # also when Ctrl-C is pressed once more
-        _signal_group(process, "SIGKILL")
-        process.wait()
-
-
-def _signal_group(process: subprocess.Popen[bytes], name: str) -> None:
-    if os.name == "posix":
-        # The group outlives the program while it has members; macOS refuses where all are zombies.
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.killpg(process.pid, signal.Signals[name])
-    else:
-        process.kill()

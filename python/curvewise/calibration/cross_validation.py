@@ -61,7 +61,7 @@ class Fold:
         return self.identification.parameters
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class CrossValidation:
     """What `cross_validate` returns: a fold for every loop.
 
@@ -80,8 +80,16 @@ class CrossValidation:
     def __str__(self) -> str:
         return self.summary()
 
-    def summary(self) -> str:
-        """Return a table: the parameters of every fold, the left-out loop's value, the others'."""
+    def __repr__(self) -> str:
+        return f"CrossValidation({len(self.folds)} folds, measure={self.measure!r})"
+
+    def _repr_html_(self) -> str:
+        from .in_notebooks import cross_validation_html
+
+        return cross_validation_html(self)
+
+    def rows(self) -> list[list[str]]:
+        """Return the summary's rows, the header first."""
         names = list(self.folds[0].parameters)
         rows = [["left out", *names, self.measure, "others"]]
         for fold in self.folds:
@@ -92,6 +100,11 @@ class CrossValidation:
         )
         rows.append(["mean", *(f"{number:.5g}" for number in columns.mean(axis=0))])
         rows.append(["std", *(f"{number:.5g}" for number in columns.std(axis=0, ddof=1))])
+        return rows
+
+    def summary(self) -> str:
+        """Return a table: the parameters of every fold, the left-out loop's value, the others'."""
+        rows = self.rows()
         widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
         return "\n".join(
             "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from .._curves import Array, as_curve
+from .._foreign_curves import is_curve_of_another_package
 
 __all__ = ["as_points", "curve_list", "points_of"]
 
@@ -32,7 +33,9 @@ def curve_list(curves: Any) -> list[Any]:
         if item is None or isinstance(item, BaseException):
             continue
         ndim = getattr(item, "ndim", None)
-        if ndim is None:
+        if is_curve_of_another_package(item):
+            is_curve = True
+        elif ndim is None:
             is_curve = isinstance(item, (list, tuple)) and any(
                 isinstance(point, (list, tuple, np.ndarray)) for point in item
             )

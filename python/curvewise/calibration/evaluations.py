@@ -22,6 +22,7 @@ from .history import Evaluation, History
 from .model_pool import Outcome
 from .objective import Objective
 from .parameters import Point, Space
+from .recorder import Recorder
 from .simulator import Simulator
 
 __all__ = ["Evaluations", "Finish", "Progress", "SearchEndedError"]
@@ -73,8 +74,8 @@ class Evaluations:
 
     Parameters
     ----------
-    simulator, objective, space, history
-        What runs the model, scores it, names the parameters and keeps the record.
+    simulator, objective, space, history, recorder
+        What runs the model, scores it, names the parameters, and keeps the records.
     limit : int or None
         How many parameter sets to evaluate at most.
     callback : callable or None
@@ -91,6 +92,7 @@ class Evaluations:
         objective: Objective,
         space: Space,
         history: History,
+        recorder: Recorder,
         *,
         limit: int | None,
         callback: Callable[[Progress], Any] | None,
@@ -99,7 +101,8 @@ class Evaluations:
     ) -> None:
         self._known = known
         self.objective = objective
-        self._simulator, self._space, self._history = simulator, space, history
+        self._simulator, self._space = simulator, space
+        self._history, self._recorder = history, recorder
         self._limit, self._callback, self._bar = limit, callback, bar
         self._done: dict[Point, Evaluation] = {}
         self._units: dict[Point, Array] = {}
@@ -249,6 +252,7 @@ class Evaluations:
             self._bar.update()
         for point in batch:
             self._done[point] = finished[point]
+            self._recorder.note(finished[point])
             if self._best is None or finished[point].value < self.best.value:
                 self._best = point
                 self._best_simulations = simulations.get(point)

@@ -6,18 +6,19 @@ gives a double back bit for bit. Every line is flushed when it is written, so th
 killed loses the evaluations that were running and no other; half a line at the end is cut off.
 Methods that learn more from a simulation than its value have the curves appended as base64. Every
 line ends with a checksum of the rest of it (CRC-32, in hexadecimal digits): a damaged file is
-refused, and never changes a result.
+refused, and never changes a result. A search that ends adds a comment that says how, for reports;
+its tests stand beside the settings.
 """
 
 from __future__ import annotations
 
-import base64
 import csv
 import io
 import json
 import os
 import zlib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,15 +26,18 @@ from typing import Any
 import numpy as np
 
 from .._curves import Array
+from .curve_text import curves_of, text_of
 from .parameters import Point
 
-__all__ = ["Evaluation", "History", "as_records"]
+__all__ = ["Evaluation", "History", "append_ending", "as_records", "read_history"]
 
 # A row may hold the curves of several loops: more than csv's default of 128 kB for a cell.
 _LARGEST_CELL = 2**31 - 1
 
 _TITLE = "# curvewise identification "
 _CHECKSUM = "checksum"
+_ENDING = "# ended "
+_DETAILS = "report"  # among the settings; what a report needs beside them
 
 
 @dataclass(frozen=True)
@@ -62,6 +66,8 @@ class History:
         The parameters.
     keep_simulations : bool
         Write curves too; not where a store has them.
+    details : mapping
+        What a report needs beside the settings; it may change from one version to the next.
 
     Raises
     ------
@@ -78,6 +84,7 @@ class History:
         names: tuple[str, ...],
         *,
         keep_simulations: bool = True,
+        details: Mapping[str, Any] | None = None,
     ) -> None:
         self._keep_simulations = keep_simulations
         self.saved: dict[Point, Evaluation] = {}
@@ -88,13 +95,17 @@ class History:
         header = ("evaluation", *names, "value", "failed", "seconds", "message", "simulations")
         if not self._load(Path(path), json.loads(text), header):
             with open(path, "w", encoding="utf-8", newline="") as file:
-                file.write(_with_checksum(_TITLE + text) + _line([*header, _CHECKSUM]))
+                title = {**settings, _DETAILS: details}
+                title_line = _with_checksum(_TITLE + json.dumps(title, default=repr))
+                file.write(title_line + _line([*header, _CHECKSUM]))
         self._file = open(path, "a", encoding="utf-8", newline="")  # noqa: SIM115 (close() does)
 
     def close(self) -> None:
         """Close the file."""
         if self._file is not None:
-            self._file.close()
+            # Every line was flushed when it was written; one that could not be has been reported.
+            with suppress(OSError):
+                self._file.close()
 
     def write(self, evaluation: Evaluation) -> None:
         """Append an evaluation to the file, at once."""
@@ -106,10 +117,16 @@ class History:
             int(evaluation.failed),
             f"{evaluation.seconds:.6g}",
             " ".join(evaluation.message.split()),  # on one line
-            _encoded(evaluation.simulations or ()) if self._keep_simulations else "",
+            text_of(evaluation.simulations or ()) if self._keep_simulations else "",
         ]
-        self._file.write(_with_checksum(_line(row).rstrip("\n")))
-        self._file.flush()
+        try:
+            self._file.write(_with_checksum(_line(row).rstrip("\n")))
+            self._file.flush()
+        except OSError as error:
+            raise OSError(
+                f"the history {self._file.name} cannot be written: {error}; what it held before "
+                "is whole, and a search that is started again goes on from there"
+            ) from error
 
     def _load(self, path: Path, settings: dict[str, Any], header: tuple[str, ...]) -> bool:
         """Read the file; return whether there is anything in it."""
@@ -130,6 +147,8 @@ class History:
         csv.field_size_limit(_LARGEST_CELL)
         for number, line in enumerate(lines[2:], 3):
             row = _checked(line, f"{path}, line {number}", "delete the line: it will be run again")
+            if row.startswith(_ENDING):
+                continue
             evaluation = _parsed(next(csv.reader([row])))
             self.saved[evaluation.point] = evaluation
         if len(complete) < len(content):
@@ -174,25 +193,60 @@ def _parsed(row: list[str]) -> Evaluation:
         failed == "1",
         float(seconds),
         message,
-        _decoded(simulations) if simulations else None,
+        curves_of(simulations) or None,
     )
 
 
-def _encoded(curves: tuple[Array, ...]) -> str:
-    """Return curves as text: the shape of each, and its float64 numbers in base64."""
-    return " ".join(
-        f"{'x'.join(map(str, curve.shape))}:{base64.b64encode(curve.tobytes()).decode()}"
-        for curve in curves
-    )
+def append_ending(path: str | os.PathLike[str], ending: str) -> None:
+    """Add how a search ended, as JSON, unless that is what the file says already."""
+    line = _with_checksum(_ENDING + ending)
+    with open(path, "r+", encoding="utf-8", newline="") as file:
+        content = file.read()
+        if not content.endswith("\n" + line):
+            file.write(line)
 
 
-def _decoded(text: str) -> tuple[Array, ...]:
-    curves = []
-    for part in text.split(" "):
-        shape, _, numbers = part.partition(":")
-        curve = np.frombuffer(base64.b64decode(numbers))
-        curves.append(curve.reshape(tuple(map(int, shape.split("x")))))
-    return tuple(curves)
+def read_history(
+    path: str | os.PathLike[str],
+) -> tuple[dict[str, Any], dict[str, Any], list[Evaluation], str]:
+    """Read what a file holds, to report on it.
+
+    Returns
+    -------
+    settings, details : dict
+        As they were given to `History`.
+    evaluations : list of Evaluation
+        In the order of the file.
+    ending : str
+        The last that was added; empty if there is none.
+
+    Raises
+    ------
+    ValueError
+        The file is no history, is damaged, or is from before there were details.
+    OSError
+        The file cannot be read.
+    """
+    lines = Path(path).read_text(encoding="utf-8", errors="replace").split("\n")[:-1]
+    if len(lines) < 2 or not lines[0].startswith(_TITLE):
+        raise ValueError(f"{path} is not a history; give the file that identify(..., history=) has")
+    title = _checked(lines[0], f"{path}, line 1", "give another file")
+    settings = json.loads(title.removeprefix(_TITLE))
+    details = settings.pop(_DETAILS, None)
+    if details is None:
+        raise ValueError(
+            f"{path} was begun by a curvewise that did not write the tests down; search again with "
+            "another history (what a store holds is not run again)"
+        )
+    csv.field_size_limit(_LARGEST_CELL)
+    evaluations, ending = [], ""
+    for number, line in enumerate(lines[2:], 3):
+        row = _checked(line, f"{path}, line {number}", "delete the line")
+        if row.startswith(_ENDING):
+            ending = row.removeprefix(_ENDING)
+        else:
+            evaluations.append(_parsed(next(csv.reader([row]))))
+    return settings, details, evaluations, ending
 
 
 def as_records(evaluations: list[Evaluation], names: tuple[str, ...]) -> np.recarray[Any, Any]:

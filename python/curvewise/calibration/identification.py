@@ -21,6 +21,7 @@ from ..deviations import Deviation, deviation
 from ..measures.registry import Condition, default_measures
 from .cases import Case, CaseObjective, Cases
 from .curve_list import points_of
+from .determined import determined_by
 from .evaluations import Progress
 from .history import Evaluation, as_records
 from .loop_measure import Measure, Part, unknown_options_explained
@@ -28,15 +29,17 @@ from .loop_selection import Selection
 from .model_pool import Model
 from .objective import Objective
 from .parameters import Bounds, Space
-from .pictures import loops_and_convergence
+from .pictures import axes_of, loops_and_convergence, titles_of
+from .recorder import Recorder
+from .report.ending import write_down
 from .running import Ended, Plan, run_search
 from .sensitivity import design_runs, indifferent, optimum_surfaces
 from .store import StorePath
 from .study import Study, models_of
-from .uncertainty import Uncertainty, determined_by, uncertainty_of
+from .uncertainty import Uncertainty, uncertainty_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from ..plotting.picture import Picture
 
 __all__ = ["Identification", "identification_of", "identify"]
 
@@ -73,8 +76,9 @@ class Identification:
         As asked for.
     runs : int
         How many runs of the model were made for it; the others were looked up.
-    study, kept
-        What was searched, and the runs whose curves are known: for what comes after the search.
+    study, kept, recorder
+        What was searched, the runs whose curves are known, and what writes the search down: for
+        what comes after the search.
     condition : Condition or None
         Whether the measure is computed on scaled curves, and its options, the preset's included;
         None for "sum_of_squares" and for a function.
@@ -99,6 +103,7 @@ class Identification:
     kept: tuple[tuple[Array, Evaluation], ...] = field(repr=False)
     part: Part
     condition: Condition | None = field(repr=False)
+    recorder: Recorder = field(repr=False)
 
     @property
     def deviations(self) -> tuple[Deviation | None, ...]:
@@ -254,6 +259,57 @@ class Identification:
             optimum, sigma=sigma, level=level, samples=samples, seed=seed, runs=runs
         )
 
+    def report(
+        self, path: str | os.PathLike[str], *, uncertainty: Uncertainty | None = None
+    ) -> None:
+        """Write the identification down as one page of HTML, which opens without a network.
+
+        Tests and simulations to zoom into, residuals by branch, convergence, parameters with
+        intervals and correlations, the weakest directions, failures, versions, and the settings to
+        repeat it. ``curvewise report study.db`` makes the same file of the store, bit for bit.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; what is there is replaced.
+        uncertainty : Uncertainty, optional
+            What the page says of the parameters. By default what :meth:`uncertainty` gives, unless
+            it takes runs of the model (`uncertainty_runs`): then the page is without intervals.
+
+        Raises
+        ------
+        ImportError
+            plotly is not installed: ``pip install "curvewise[report]"``.
+        ValueError
+            As :meth:`uncertainty`.
+        OSError
+            The file cannot be written.
+
+        Notes
+        -----
+        Some 2 MB, of which plotly.js is most, and at most 5 MB: of many or long curves every k-th
+        point is drawn. Time: that of `uncertainty`, and of a warping path for every loop.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import numpy as np
+        >>> from curvewise.calibration import identify
+        >>> x = np.linspace(0, 1, 20)
+        >>> def line(p):
+        ...     return np.column_stack((x, p["slope"] * x))
+        >>> found = identify(line, line({"slope": 2.0}), {"slope": (0, 10)}, progress=False)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     found.report(Path(folder, "report.html"))
+        ...     Path(folder, "report.html").stat().st_size < 5e6
+        True
+        """
+        from .report import write_report
+        from .report.ending import record_of
+
+        write_report(path, [record_of(self, uncertainty)])
+
     def followed_by(self, later: Identification) -> Identification:
         """Return a later search of the same study as the continuation of this one."""
         best = later if later.value <= self.value else self
@@ -275,16 +331,35 @@ class Identification:
     def _unit(self) -> Array:
         return self.study.space.unit_of(self.parameters)
 
-    def plot(self) -> Figure:
+    def plot(self, *, names: Sequence[str] | None = None) -> Picture:
         """Return a matplotlib Figure of the loops and of the convergence.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            What the coordinates are called on the axes; by default what the experiments' columns
+            were called, else x and y.
 
         Raises
         ------
         ImportError
             matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        ValueError
+            Another number of names than of coordinates.
         """
-        objective = f"{self.measure} ({self.preset})"
-        return loops_and_convergence(self.experiments, self.simulations, self.history, objective)
+        return loops_and_convergence(
+            self.experiments,
+            self.simulations,
+            self.history,
+            f"{self.measure} ({self.preset})",
+            axes_of(self.study.objective, names),
+            titles_of(self.study.objective),
+        )
+
+    def _repr_html_(self) -> str:
+        from .in_notebooks import identification_html
+
+        return identification_html(self)
 
 
 def identify(
@@ -435,13 +510,15 @@ def identify(
         history,
         max_evaluations,
     )
-    plan.check(measure)
+    cases = _cases_of(model)
+    for one in (measure,) if cases is None else (case.measure for case in cases.cases):
+        plan.check(one)
     if bounds is None:
         raise TypeError("identify needs bounds: a dict of name: (low, high)")
     space = Space(bounds)
     if start is not None:
         space.unit(start)
-    if (cases := _cases_of(model)) is not None:
+    if cases is not None:
         changed = {**options, "experiments": experiments, "weights": weights}
         if given := [name for name, value in changed.items() if value is not None]:
             raise ValueError(f"{', '.join(given)} given beside cases; give them to each Case")
@@ -483,7 +560,7 @@ def identification_of(study: Study, plan: Plan, ended: Ended) -> Identification:
     """Return what a search has found."""
     evaluations, objective = ended.evaluations, study.objective
     done, best = evaluations.done, evaluations.best
-    return Identification(
+    found = Identification(
         parameters=study.space.dictionary(best.point),
         value=best.value,
         measures=_measures(objective, ended.simulations, best.value),
@@ -503,7 +580,10 @@ def identification_of(study: Study, plan: Plan, ended: Ended) -> Identification:
         kept=evaluations.kept,
         part=objective.part,
         condition=objective.condition,
+        recorder=ended.recorder,
     )
+    write_down(found)
+    return found
 
 
 def _measures(objective: Objective, simulations: Any, value: float) -> dict[str, float]:

@@ -16,12 +16,13 @@ from .._curves import Array
 from .._options import Preset
 from ..measures.registry import default_measures
 from ..plotting import drawing
+from ..plotting.palette import series_colours
 from ._extra import required
 from .model_pool import Model, ModelPool
 from .objective import Objective
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from ..plotting.picture import Picture
 
 __all__ = ["LinePlot", "line_plot"]
 
@@ -39,7 +40,13 @@ class LinePlot(NamedTuple):
     """
 
     data: np.recarray[Any, Any]
-    figure: Figure
+    figure: Picture
+
+    def __repr__(self) -> str:
+        return f"LinePlot({len(self.data)} points, {len(self.data.dtype.names) // 2} objectives)"
+
+    def _repr_png_(self) -> bytes:
+        return self.figure.png()
 
 
 def line_plot(
@@ -112,8 +119,6 @@ def line_plot(
         raise ValueError(f"a has parameters {', '.join(a)} and b {', '.join(b)}; give the same")
     if points < 2:
         raise ValueError(f"points is {points}; give at least 2")
-    with drawing.matplotlib_required():
-        from matplotlib.figure import Figure
     if isinstance(objectives, Mapping):
         named = dict(objectives)
     else:
@@ -123,10 +128,10 @@ def line_plot(
     line = [{key: (1.0 - s) * a[key] + s * b[key] for key in a} for s in t.tolist()]
     values = _values(named, model, line, workers, progress)
     data = _records(t, values)
-    figure = Figure(figsize=(7, 4.2), layout="constrained")
+    figure = drawing.new_figure(figsize=(7, 4.2), layout="constrained")
     ax = figure.subplots()
-    for name in named:
-        ax.plot(t, data[f"{name}_scaled"], linewidth=1.2, label=name)
+    for name, colour in zip(named, series_colours(len(named)), strict=True):
+        ax.plot(t, data[f"{name}_scaled"], color=colour, linewidth=1.2, label=name)
     ax.set(xlabel="position on the line from a to b", ylabel="objective, scaled on the line")
     figure.legend(loc="outside upper center", ncols=len(named), frameon=False)
     return LinePlot(data, figure)

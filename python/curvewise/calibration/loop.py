@@ -14,6 +14,7 @@ import numpy as np
 
 from .._curves import Array, check_column_names, column_names
 from ..measures import normalize
+from ..named_curve import known_names
 from ..reference.scaling import box
 from ..results import PcmMatch
 from .common_x import check_common_x, y_column
@@ -42,6 +43,7 @@ class Loop:
     ) -> None:
         self.experiment = as_points(experiment, name).copy()
         self._columns = column_names(experiment)
+        self.names = known_names(experiment)
         self.can_be_thinned = measure != "sum_of_squares"
         self._name = "the experiment" if name == "P" else name
         self._min_coverage = 0.0 if part == "simulation" else min_coverage

@@ -78,7 +78,9 @@ class Objective:
         that returns a float; where it raises ValueError the simulation has failed.
         "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
         the experiment's x, which must not turn back. Of loops that have a third column, such as
-        time or the step, ``over=2`` compares y at the same time instead.
+        time or the step, ``over=2`` compares y at the same time instead; of a model that is driven
+        by the experiment's own x, as a material point by the measured strains,
+        ``over="points"`` compares y point by point.
     preset : {"scaled", "paper", "raw"}
         As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
         that loops, and x and y, count alike, and takes area with ``spacing="matched"``, which
@@ -323,6 +325,16 @@ class Objective:
     def is_least_squares(self) -> bool:
         """Whether the value is a weighted sum of squares of `residuals`."""
         return self.measure == "sum_of_squares" and self._has_residuals
+
+    @property
+    def has_function(self) -> bool:
+        """Whether the measure is a function of the user's."""
+        return callable(self._measure)
+
+    @property
+    def names(self) -> list[tuple[str, ...]]:
+        """What the columns of every experiment are called; empty where that is not known."""
+        return [loop.names for loop in self._loops]
 
     @property
     def extents(self) -> list[Array]:

@@ -12,13 +12,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._curves import Array
+from ..named_curve import axis_names
 from ..plotting import drawing
+from .cases import CaseObjective
+from .objective import Objective
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
-__all__ = ["drawn", "loops_and_convergence"]
+    from ..plotting.picture import Picture
+
+__all__ = ["axes_of", "drawn", "labels", "loops_and_convergence", "titles_of"]
 
 
 def loops_and_convergence(
@@ -26,7 +30,9 @@ def loops_and_convergence(
     simulations: Sequence[Array],
     history: np.recarray[Any, Any],
     objective: str,
-) -> Figure:
+    names: Sequence[Sequence[str]],
+    titles: Sequence[str],
+) -> Picture:
     """Draw simulations beside experiments, a panel for every loop, and the convergence.
 
     Parameters
@@ -37,11 +43,16 @@ def loops_and_convergence(
         Every evaluation, with its number, its value and whether it failed.
     objective : str
         What the value is called on its axis.
+    names : sequence of sequence of str
+        For each loop what its coordinates are called; see :func:`axes_of`.
+    titles : sequence of str
+        What the loops are called.
 
     Returns
     -------
     matplotlib.figure.Figure
         Not registered with pyplot: ``figure.savefig("identification.png")``.
+        Notebooks show it.
 
     Raises
     ------
@@ -52,22 +63,22 @@ def loops_and_convergence(
     -----
     The first two coordinates are drawn of curves that have more.
     """
-    with drawing.matplotlib_required():
-        from matplotlib.figure import Figure
     count = len(experiments) + 1
     columns = math.ceil(math.sqrt(count))
     rows = math.ceil(count / columns)
-    figure = Figure(figsize=(4.2 * columns, 3.4 * rows), layout="constrained")
+    figure = drawing.new_figure(figsize=(4.2 * columns, 3.4 * rows), layout="constrained")
     panels = figure.subplots(rows, columns, squeeze=False).ravel().tolist()
     for ax in panels[count:]:
         ax.remove()
     pairs = zip(experiments, simulations, strict=True)
     for i, (experiment, simulation) in enumerate(pairs):
-        measured, simulated = drawing.draw_curves(panels[i], experiment[:, :2], simulation[:, :2])
+        measured, simulated = drawing.draw_curves(
+            panels[i], experiment[:, :2], simulation[:, :2], names[i]
+        )
         measured.set(label="experiment", marker=".", markersize=3, linewidth=0.6)
         simulated.set_label("simulation")
         if count > 2:
-            panels[i].set_title(f"Loop {i}")
+            panels[i].set_title(titles[i])
     # Outside the panels, since a loop leaves no room within.
     figure.legend(handles=[measured, simulated], loc="outside upper left", ncols=2, frameon=False)
     _draw_convergence(history, objective, panels[count - 1])
@@ -107,6 +118,32 @@ def _draw_convergence(history: np.recarray[Any, Any], objective: str, ax: Axes) 
         ax.set_ylim(top=2.0 * positive.max())
     ax.set(xlabel="evaluation", ylabel=objective)
     ax.legend(loc="best" if len(history) < 1000 else "upper right", frameon=False)
+
+
+def axes_of(objective: Objective, names: Sequence[str] | None = None) -> list[tuple[str, ...]]:
+    """Return for each loop what its coordinates are called: as given, or as its columns are."""
+    return [
+        _axes(curve.shape[1], names if curve.size > 1 else None, known)
+        for curve, known in zip(objective.experiments, objective.names, strict=True)
+    ]
+
+
+def _axes(dim: int, names: Sequence[str] | None, known: Sequence[str]) -> tuple[str, ...]:
+    if names is None and len(known) == dim:
+        return tuple(known)
+    return axis_names(dim, names)
+
+
+def titles_of(objective: Objective) -> list[str]:
+    """Return what the loops are called: the names of the cases, or their numbers."""
+    if isinstance(objective, CaseObjective):
+        return [case.name for case in objective.cases]
+    return [f"Loop {i}" for i in range(len(objective.experiments))]
+
+
+def labels(names: Sequence[str]) -> tuple[str, str]:
+    """Return the labels of the axes on which `drawn` is drawn."""
+    return ("index", names[0]) if len(names) == 1 else (names[0], names[1])
 
 
 def drawn(curve: Array) -> tuple[Array, Array]:

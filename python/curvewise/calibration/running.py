@@ -17,6 +17,8 @@ from .loop_measure import Measure, measure_name
 from .methods import METHODS, options_of, search
 from .near_names import meant
 from .objective import LEAST_SQUARES, Objective
+from .recorder import Recorder
+from .search_record import details_of
 from .study import Study
 
 __all__ = ["Ended", "Plan", "run_search"]
@@ -72,12 +74,13 @@ def _check_options(method: str, stage: Callable[..., Finish], options: Mapping[s
 
 
 class Ended(NamedTuple):
-    """What is left of a search: its evaluations, how it ended, the best curves, the runs made."""
+    """What is left of a search: evaluations, how it ended, the best curves, runs made, records."""
 
     evaluations: Evaluations
     finish: Finish
     simulations: Any
     runs: int
+    recorder: Recorder
 
 
 def run_search(study: Study, plan: Plan, known: Sequence[tuple[Array, Evaluation]] = ()) -> Ended:
@@ -93,17 +96,25 @@ def run_search(study: Study, plan: Plan, known: Sequence[tuple[Array, Evaluation
     start = None if plan.start is None else study.space.unit(plan.start)
     required("scipy.optimize")
     tqdm = required("tqdm.auto").tqdm
+    settings, details = _settings(study, plan), details_of(study, plan.max_evaluations)
     record = History(
-        plan.history, _settings(study, plan), study.space.names, keep_simulations=not study.store
+        plan.history,
+        settings,
+        study.space.names,
+        keep_simulations=not study.store,
+        details=details,
     )
+    recorder = Recorder(settings, details, study.store, plan.history)
     try:
         with study.simulator() as simulator:
+            recorder.begin(simulator.store)
             with tqdm(total=plan.max_evaluations, unit="run", disable=not plan.progress) as bar:
                 evaluations = Evaluations(
                     simulator,
                     study.objective,
                     study.space,
                     record,
+                    recorder,
                     limit=plan.max_evaluations,
                     callback=plan.callback,
                     bar=bar,
@@ -116,7 +127,8 @@ def run_search(study: Study, plan: Plan, known: Sequence[tuple[Array, Evaluation
             simulations = evaluations.best_simulations()
     finally:
         record.close()
-    return Ended(evaluations, finish, simulations, simulator.runs)
+        recorder.stop()
+    return Ended(evaluations, finish, simulations, simulator.runs, recorder)
 
 
 def _settings(study: Study, plan: Plan) -> dict[str, Any]:

@@ -11,6 +11,7 @@ full, the others a fraction of it with the methods that begin from what is known
 from __future__ import annotations
 
 import math
+import os
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack
@@ -23,6 +24,7 @@ import numpy as np
 from .._curves import Array
 from ..measures.registry import default_measures
 from ..plotting import drawing
+from ..plotting.palette import GROUND_COLOUR, series_colours
 from .curve_list import as_points, curve_list
 from .history import Evaluation
 from .identification import Identification, identification_of
@@ -30,13 +32,13 @@ from .loop_measure import measure_name
 from .model_pool import Model
 from .objective import Objective
 from .parameters import Bounds, Space
-from .pictures import drawn
+from .pictures import axes_of, drawn, labels, titles_of
 from .running import Plan, run_search
 from .store import StorePath
 from .study import Study, models_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from ..plotting.picture import Picture
 
 __all__ = ["SeveralMeasures", "identify_each"]
 
@@ -46,7 +48,6 @@ _WARM_RANGE = 0.1
 # search has gained more than this fraction of its value.
 _WORTH_A_ROUND, _ROUNDS = 1e-3, 4
 _CLOSER = {"gain": 2e-4, "tol": 3e-4}  # of "trust-region"
-_COLOURS = ("#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#0072B2")
 
 
 class SeveralMeasures(Mapping[str, Identification]):
@@ -87,11 +88,16 @@ class SeveralMeasures(Mapping[str, Identification]):
         columns = {name: [one.parameters[name] for one in self._found.values()] for name in names}
         return {name: (min(column), max(column)) for name, column in columns.items()}
 
-    def table(self) -> str:
-        """Return the parameters by measure with their spread, and every optimum by every measure.
+    def __repr__(self) -> str:
+        return f"SeveralMeasures({', '.join(self._found)}: {self.runs} runs)"
 
-        The spread is the largest minus the smallest, in % of the bounds' range.
-        """
+    def _repr_html_(self) -> str:
+        from .in_notebooks import several_html
+
+        return several_html(self)
+
+    def rows(self) -> tuple[list[list[str]], list[list[str]]]:
+        """Return the rows of both parts of the table, the headers first."""
         names = list(self.spread)
         bounds = next(iter(self._found.values())).bounds
         rows = [["", *names]]
@@ -105,47 +111,80 @@ class SeveralMeasures(Mapping[str, Identification]):
         values = [["optimum of", *self._found, "runs"]]
         for (measure, one), row in zip(self._found.items(), self.optima, strict=True):
             values.append([measure, *(f"{value:.5g}" for value in row), f"{one.runs}"])
-        return f"{_aligned(rows)}\n\n{_aligned(values)}\n\n{self.runs} runs of the model"
+        return rows, values
 
-    def plot(self) -> Figure:
+    def table(self) -> str:
+        """Return the parameters by measure with their spread, and every optimum by every measure.
+
+        The spread is the largest minus the smallest, in % of the bounds' range.
+        """
+        parameters, optima = self.rows()
+        return f"{_aligned(parameters)}\n\n{_aligned(optima)}\n\n{self.runs} runs of the model"
+
+    def plot(self, *, names: Sequence[str] | None = None) -> Picture:
         """Return a matplotlib Figure: the loops of every measure, and the parameters.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            As for :meth:`Identification.plot`.
 
         Raises
         ------
         ImportError
             matplotlib is not installed: ``pip install "curvewise[plot]"``.
         """
-        with drawing.matplotlib_required():
-            from matplotlib.figure import Figure
         first = next(iter(self._found.values()))
+        axes = axes_of(first.study.objective, names)
+        titles = titles_of(first.study.objective)
         count = len(first.experiments) + 1
         columns = math.ceil(math.sqrt(count))
         rows = math.ceil(count / columns)
-        figure = Figure(figsize=(4.6 * columns, 3.6 * rows), layout="constrained")
+        figure = drawing.new_figure(figsize=(4.6 * columns, 3.6 * rows), layout="constrained")
         panels = figure.subplots(rows, columns, squeeze=False).ravel().tolist()
         for ax in panels[count:]:
             ax.remove()
         for i, experiment in enumerate(first.experiments):
             ax = panels[i]
-            ax.plot(*drawn(experiment), ".", color="#909090", markersize=3, label="experiment")
+            ax.plot(
+                *drawn(experiment), ".", color=drawing.FILL_COLOUR, markersize=3, label="experiment"
+            )
             for colour, (measure, one) in zip(
-                _colours(len(self)), self._found.items(), strict=True
+                series_colours(len(self)), self._found.items(), strict=True
             ):
                 ax.plot(*drawn(one.simulations[i]), color=colour, linewidth=1.1, label=measure)
-            drawing.label_axes(ax, "x", "y")
+            drawing.label_axes(ax, *labels(axes[i]))
             if count > 2:
-                ax.set_title(f"Loop {i}")
-        handles, labels = panels[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper left", ncols=len(labels), frameon=False)
+                ax.set_title(titles[i])
+        handles, texts = panels[0].get_legend_handles_labels()
+        figure.legend(handles, texts, loc="outside upper left", ncols=len(texts), frameon=False)
         self._draw_parameters(panels[count - 1])
         return figure
+
+    def report(self, path: str | os.PathLike[str]) -> None:
+        """Write all identifications down as one page of HTML; see :meth:`Identification.report`.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; what is there is replaced.
+
+        Raises
+        ------
+        ImportError, ValueError, OSError
+            As :meth:`Identification.report`.
+        """
+        from .report import write_report
+        from .report.ending import record_of
+
+        write_report(path, [record_of(one, None) for one in self._found.values()])
 
     def _draw_parameters(self, ax: Any) -> None:
         """Draw every parameter within its bounds, a row each."""
         bounds = next(iter(self._found.values())).bounds
         rows = range(len(bounds))
-        ax.hlines(rows, 0.0, 1.0, color="#D0D0D0", linewidth=4, zorder=0)
-        for colour, one in zip(_colours(len(self)), self._found.values(), strict=True):
+        ax.hlines(rows, 0.0, 1.0, color=GROUND_COLOUR, linewidth=4, zorder=0)
+        for colour, one in zip(series_colours(len(self)), self._found.values(), strict=True):
             units = one.study.space.unit_of(one.parameters)
             ax.plot(units, rows, "o", color=colour, markersize=5, markerfacecolor="none")
         ax.set_yticks(list(rows), list(bounds))
@@ -317,7 +356,3 @@ def _aligned(rows: list[list[str]]) -> str:
         cells = [cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True)]
         lines.append("  ".join([row[0].ljust(widths[0]), *cells]))
     return "\n".join(lines)
-
-
-def _colours(count: int) -> list[str]:
-    return [_COLOURS[i % len(_COLOURS)] for i in range(count)]

@@ -69,6 +69,11 @@ class Simulator:
         self.runs = 0  # of models, by this simulator
 
     @property
+    def store(self) -> SimulationStore | None:
+        """Where runs are saved."""
+        return self._store
+
+    @property
     def has_store(self) -> bool:
         """Whether runs can be looked up again."""
         return self._store is not None

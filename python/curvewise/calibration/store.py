@@ -2,7 +2,8 @@
 
 An SQLite database. A run is found again by the identity of its model (see `model_identity`) and
 by what the model was called with, to the last bit; which measure, method, weights or loops it was
-made for does not matter. A run is written when it ends, in a transaction of its own, or together
+made for does not matter. Beside the runs it has the searches that made them (search_table.py), for
+reports. A run is written when it ends, in a transaction of its own, or together
 with others that ended within a fifth of a second. So a process that is killed loses what was
 under way and a fifth of a second of what was not, and several processes may use one store at once.
 
@@ -26,8 +27,10 @@ import numpy as np
 
 from .._curves import Array
 from .curve_list import as_points, curve_list
+from .history import Evaluation
 from .model_identity import ModelIdentity
 from .model_pool import Outcome
+from .search_table import SearchTable
 
 __all__ = ["SimulationStore", "StoredRun"]
 
@@ -133,6 +136,7 @@ class SimulationStore:
         except ValueError:
             self._database.close()
             raise
+        self.searches = SearchTable(self._database)
 
     def __enter__(self) -> SimulationStore:
         return self
@@ -225,14 +229,32 @@ class SimulationStore:
         if time.monotonic() - self._written > _PAUSE:
             self._write()
 
+    def note(self, search: int, evaluation: Evaluation) -> None:
+        """Take down an evaluation of a search; see :class:`SearchTable`."""
+        self.searches.note(search, evaluation)
+        if time.monotonic() - self._written > _PAUSE:
+            self._write()
+
     def _write(self) -> None:
-        if not self._unwritten:
+        if not self._unwritten and not self.searches.has_unwritten:
             return
-        self._database.execute("BEGIN IMMEDIATE")
-        rows = self._unwritten.values()
-        self._database.executemany("INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?)", rows)
-        self._database.execute("COMMIT")
+        try:
+            self._database.execute("BEGIN IMMEDIATE")
+            rows = self._unwritten.values()
+            self._database.executemany("INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?)", rows)
+            self.searches.write()
+            self._database.execute("COMMIT")
+        except BaseException as error:  # Ctrl-C, too: whatever comes next begins anew
+            if self._database.in_transaction:
+                self._database.execute("ROLLBACK")
+            if isinstance(error, sqlite3.Error):
+                raise OSError(
+                    f"the store {self.path} cannot be written: {error}; what it held before is "
+                    "whole, and a search that is started again goes on from there"
+                ) from error
+            raise
         self._unwritten.clear()
+        self.searches.committed()
         self._written = time.monotonic()
 
 

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._curves import Array, CurveLike
+from ..named_curve import renamed
 from .checks import Turns, branch_slices, check_column, checked_curve
 
 __all__ = ["Along", "resample", "trim"]
@@ -84,7 +85,7 @@ def resample(
         piece = _interpolated(at, places, points[branch])
         piece[0], piece[-1] = points[branch][[0, -1]]
         pieces.append(piece if k == 0 else piece[1:])
-    return np.concatenate(pieces)
+    return renamed(curve, np.concatenate(pieces))
 
 
 def trim(
@@ -137,7 +138,8 @@ def trim(
     last = len(x) - 1.0 if stop is None else _first_place(x, stop, first, "stop")
     between = np.arange(int(np.floor(first)) + 1, int(np.ceil(last)))
     places = np.concatenate(([first], between, [last])) if last > first else np.array([first])
-    return _interpolated(places, np.arange(len(x), dtype=np.float64), points)
+    cut = _interpolated(places, np.arange(len(x), dtype=np.float64), points)
+    return renamed(curve, cut)
 
 
 def _counts(count: int | Sequence[int], branches: int) -> list[int]:

@@ -14,6 +14,7 @@ import numpy as np
 
 from .._curves import Array, CurveLike
 from .._extras import extra
+from ..named_curve import renamed
 from .checks import Turns, branch_slices, check_column, checked_curve
 
 __all__ = ["smooth"]
@@ -92,7 +93,7 @@ def smooth(
         owners[branch] += 1.0
     result = points.copy()
     result[:, smoothed] = total / owners
-    return result
+    return renamed(curve, result)
 
 
 def _odd_window(window: int | float, order: int, length: int, branch: int) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .._curves import Array, CurveLike
+from ..named_curve import renamed
 from .checks import checked_curve
 
 __all__ = ["engineering_to_true", "shift_to_origin"]
@@ -97,7 +98,7 @@ def shift_to_origin(curve: CurveLike, *, elastic: tuple[float, float] | None = N
     if elastic is None:
         points = checked_curve(curve, 1)
         shifted: Array = points - points[0]
-        return shifted
+        return renamed(curve, shifted)
     points = _strain_and_stress(curve)
     low, high = elastic
     if not low < high:
@@ -116,7 +117,7 @@ def shift_to_origin(curve: CurveLike, *, elastic: tuple[float, float] | None = N
         raise ValueError(f"stresses from {low} to {high} do not rise with the strain")
     # The line as strain over stress, which is steep: its error is that of the strain.
     zero = strain[inside].mean() - stress[inside].mean() * float(x @ y / (y @ y))
-    return np.column_stack((strain - zero, stress))
+    return renamed(curve, np.column_stack((strain - zero, stress)))
 
 
 def _strain_and_stress(curve: CurveLike) -> Array:

@@ -11,6 +11,7 @@ from .. import _core
 from .._curves import Array, CurveLike, as_curves
 from .._docstrings import filled
 from .._options import Default, Metric, Order, StepPattern, Window
+from ..named_curve import copied
 from ..results import Alignment, WarpingInfo
 
 __all__ = ["dtw", "dtw_info", "dtw_path", "dtw_table"]
@@ -223,11 +224,11 @@ def dtw_path(
     >>> curvewise.dtw_path([0, 1, 2, 3], [0, 2, 3]).path.tolist()
     [[0, 0], [1, 0], [2, 1], [3, 2]]
     """
-    P, Q = as_curves(P, Q)
+    A, B = as_curves(P, Q)
     return Alignment(
         *_core.dtw_path(
-            P,
-            Q,
+            A,
+            B,
             {
                 "metric": metric,
                 "p": p,
@@ -238,7 +239,8 @@ def dtw_path(
                 "workers": workers,
                 "prune": prune,
             },
-        )
+        ),
+        (copied(P, A), copied(Q, B)),
     )
 
 

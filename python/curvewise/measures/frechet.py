@@ -11,6 +11,7 @@ from .. import _core
 from .._curves import Array, CurveLike, as_curves
 from .._docstrings import filled
 from .._options import Default, Metric, Order
+from ..named_curve import copied
 from ..results import Alignment, WarpingInfo
 
 __all__ = ["frechet", "frechet_info", "frechet_path", "frechet_table"]
@@ -154,9 +155,9 @@ def frechet_path(
     >>> curvewise.frechet_path([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 3)]).path.tolist()
     [[0, 0], [1, 0], [2, 1]]
     """
-    P, Q = as_curves(P, Q)
+    A, B = as_curves(P, Q)
     options = {"metric": metric, "p": p, "workers": workers, "prune": prune}
-    return Alignment(*_core.frechet_path(P, Q, options))
+    return Alignment(*_core.frechet_path(A, B, options), (copied(P, A), copied(Q, B)))
 
 
 def frechet_table(

@@ -12,6 +12,7 @@ from .. import _core
 from .._curves import CurveLike, as_curves
 from .._docstrings import filled
 from .._options import Default
+from ..named_curve import copied
 from ..results import Matching
 
 __all__ = ["frechet_continuous", "frechet_continuous_path", "frechet_within"]
@@ -123,13 +124,15 @@ def frechet_continuous_path(
     Examples
     --------
     >>> import curvewise
-    >>> curvewise.frechet_continuous_path([(0, 0), (2, 0)], [(0, 1), (1, 1), (2, 1)])
-    Matching(distance=1.0, parameters=array([[0. , 0. ],
-           [0.5, 1. ],
-           [1. , 2. ]]))
+    >>> found = curvewise.frechet_continuous_path([(0, 0), (2, 0)], [(0, 1), (1, 1), (2, 1)])
+    >>> found
+    Matching(distance=1.0, parameters=<array of shape (3, 2)>)
+    >>> found.parameters.tolist()
+    [[0.0, 0.0], [0.5, 1.0], [1.0, 2.0]]
     """
-    P, Q = as_curves(P, Q)
-    return Matching(*_core.frechet_continuous_path(P, Q, {"workers": workers}))
+    p, q = as_curves(P, Q)
+    found = _core.frechet_continuous_path(p, q, {"workers": workers})
+    return Matching(*found, (copied(P, p), copied(Q, q)))
 
 
 def frechet_within(

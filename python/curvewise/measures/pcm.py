@@ -8,6 +8,7 @@ from __future__ import annotations
 from .. import _core
 from .._curves import CurveLike, as_curves
 from .._options import Default, Offsets
+from ..named_curve import copied
 from ..results import PcmMatch
 
 __all__ = ["pcm", "pcm_match"]
@@ -52,7 +53,8 @@ def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> fl
     "continuous" needs about 10³ evaluations of O(n + m) for curves that bend, and more where the
     area has many equal minima: some 20 n for zigzags along one line (4 s for 2201 and 4401
     points). After 2^20 of them the tolerance is doubled with every 2^14 more, so that there are
-    2.1 million at most for a curve of up to 10⁶ boxes in length. Memory O(n + m). The error of
+    2.1 million at most for a curve of up to 10⁶ boxes in length; the `tolerance` of
+    :func:`pcm_match` is the one with which the search ended. Memory O(n + m). The error of
     the grid is at most S (T - S) / (2 (offsets - 1)) for lengths S <= T.
 
     Examples
@@ -78,9 +80,10 @@ def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets)
     -------
     PcmMatch
         ``value``, ``offset``, ``coverage`` (shorter length over longer), ``mapped`` ("P" or "Q",
-        the shorter curve) and ``points``: for each of its vertices the point on the other curve,
-        in original units. Where a scaled length is beyond the range of a double, ``value`` is
-        inf, ``offset`` and ``coverage`` are 0 and ``points`` are nan.
+        the shorter curve), ``points``: for each of its vertices the point on the other curve, in
+        original units, and ``tolerance``: how far ``value`` may lie above the smallest area of all
+        offsets. Where a scaled length is beyond the range of a double, ``value`` and
+        ``tolerance`` are inf, ``offset`` and ``coverage`` are 0 and ``points`` are nan.
 
     Raises
     ------
@@ -98,5 +101,6 @@ def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets)
     >>> match.mapped, match.coverage
     ('Q', 0.25)
     """
-    P, Q = as_curves(P, Q)
-    return PcmMatch(*_core.pcm_match(P, Q, {"offsets": offsets}))
+    p, q = as_curves(P, Q)
+    found = _core.pcm_match(p, q, {"offsets": offsets})
+    return PcmMatch(*found, (copied(P, p), copied(Q, q)))

@@ -12,6 +12,7 @@ analysis", Int. J. Material Forming (2018), and their like for the other measure
 from __future__ import annotations
 
 from .alignment import plot_alignment
+from .animation import animate_alignment
 from .area import plot_area
 from .comparison import plot_comparison
 from .curve_length import plot_curve_length
@@ -22,6 +23,7 @@ from .table import plot_table
 
 __all__ = [
     "CurveArtists",
+    "animate_alignment",
     "plot_alignment",
     "plot_area",
     "plot_comparison",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from .drawing import CurveArtists
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["plot_alignment"]
+__all__ = ["draw_path", "plot_alignment"]
 
 
 def plot_alignment(
@@ -27,6 +28,7 @@ def plot_alignment(
     measure: WarpingName = "dtw",
     every: int | None = None,
     normalized: bool = False,
+    names: Sequence[str] | None = None,
     **options: Any,
 ) -> CurveArtists:
     """Draw which points a DTW or Fréchet coupling matches.
@@ -45,7 +47,7 @@ def plot_alignment(
     every : int, optional
         Draw each `every`-th pair of the path. By default at most 80 pairs, evenly spread over
         the path, its ends among them.
-    normalized : bool
+    normalized, names
         As in `plot_area`.
     **options
         Passed to `dtw_path` or `frechet_path`.
@@ -85,16 +87,17 @@ def plot_alignment(
             "plot_table any number"
         )
     path = warping.path(*measured, **options).path
-    lines = drawing.draw_curves(ax, *drawn, apart=True)
-    points = [np.asarray(line.get_xydata()) for line in lines]
-    links = np.stack([points[k][path[:, k]] for k in (0, 1)], axis=1)
-    shown = links[:: int(every)] if every else drawing.evenly(links)
-    between = drawing.draw_links(ax, shown, "matched points")
+    axes = drawing.axis_names(drawn[0].shape[1], names, P, Q)
+    artists = draw_path(ax, drawn, path, axes, every=every)
     if measure == "dtw":
-        return CurveArtists(*lines, between)
-    farthest = _farthest_pair(*measured, path, **options)
+        return artists
+    farthest = path[_farthest_pair(*measured, path, **options)]
+    ends = [
+        np.asarray(line.get_xydata())[i]
+        for line, i in zip((artists.P, artists.Q), farthest, strict=True)
+    ]
     (accent,) = ax.plot(
-        *links[farthest].T,
+        *np.transpose(ends),
         color=drawing.ACCENT_COLOUR,
         linewidth=2,
         marker="o",  # a pair at distance 0 has no length to be seen
@@ -102,7 +105,23 @@ def plot_alignment(
         zorder=3,
         label="Fréchet distance",
     )
-    return CurveArtists(*lines, between, accent)
+    return artists._replace(accent=accent)
+
+
+def draw_path(
+    ax: Axes,
+    drawn: tuple[Array, Array],
+    path: npt.NDArray[np.int64],
+    axes: Sequence[str],
+    *,
+    every: int | None = None,
+) -> CurveArtists:
+    """Draw curves of shapes (n, d), d = 1 or 2, and lines between the points of a path's pairs."""
+    lines = drawing.draw_curves(ax, *drawn, axes, apart=True)
+    points = [np.asarray(line.get_xydata()) for line in lines]
+    links = np.stack([points[k][path[:, k]] for k in (0, 1)], axis=1)
+    shown = links[:: int(every)] if every else drawing.evenly(links)
+    return CurveArtists(*lines, drawing.draw_links(ax, shown, "matched points"))
 
 
 def _farthest_pair(

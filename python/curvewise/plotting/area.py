@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from .._curves import CurveLike
@@ -25,6 +26,7 @@ def plot_area(
     spacing: Spacing = Default.spacing,
     crossing: Crossing = Default.crossing,
     normalized: bool = False,
+    names: Sequence[str] | None = None,
 ) -> CurveArtists:
     """Draw the quadrilaterals whose areas `area` adds up.
 
@@ -39,6 +41,9 @@ def plot_area(
     normalized : bool
         Whether to measure ``normalize(P, Q)``, the curves scaled by P's box. They are drawn in
         original units either way.
+    names : sequence of str, optional
+        What the coordinates are called on the axes; by default what the curves' columns are called
+        (DataFrames, `read_curve`), else x and y.
 
     Returns
     -------
@@ -64,13 +69,14 @@ def plot_area(
     2
     """
     measured, drawn = drawing.measured_and_drawn(P, Q, normalized)
+    axes = drawing.axis_names(drawn[0].shape[1], names, P, Q)
     quads = area_quads(*measured, spacing=spacing, crossing=crossing).quads
     if normalized:
         low, extent = box(drawn[0])
         quads = low + extent * quads
     with drawing.matplotlib_required():
         from matplotlib.collections import PolyCollection
-    lines = drawing.draw_curves(ax, *drawn)
+    lines = drawing.draw_curves(ax, *drawn, axes)
     between = PolyCollection(
         list(quads),
         facecolors=drawing.FILL_COLOUR,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -12,15 +13,15 @@ from .table import plot_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
     from ..compare import Comparison
+    from .picture import Picture
 
 __all__ = ["plot_comparison"]
 
 
-def plot_comparison(comparison: Comparison) -> Figure:
+def plot_comparison(comparison: Comparison, *, names: Sequence[str] | None = None) -> Picture:
     """Draw both curves, and for each measure of a comparison its value and its picture.
 
     In the plane the curves fill the large panel and each measure has a small one. For series
@@ -31,16 +32,22 @@ def plot_comparison(comparison: Comparison) -> Figure:
     comparison : Comparison
         What `compare` returned. Its preset decides which curves are measured, scaled or not;
         the picture is in original units.
+    names : sequence of str, optional
+        What the coordinates are called on the axes; by default what the curves' columns were called
+        (DataFrames, `read_curve`), else x and y.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Not registered with pyplot: ``figure.savefig("comparison.png")``.
+        Not registered with pyplot: ``figure.savefig("comparison.png")``, or .svg, or .pdf.
+        Notebooks show it.
 
     Raises
     ------
     ImportError
         Without matplotlib.
+    ValueError
+        Another number of names than of coordinates.
 
     Notes
     -----
@@ -54,28 +61,29 @@ def plot_comparison(comparison: Comparison) -> Figure:
     >>> [ax.get_title() for ax in figure.axes][1:3]
     ['Area: 0.5', 'Partial curve mapping: 0.3953']
     """
-    with drawing.matplotlib_required():
-        from matplotlib.figure import Figure
     P, Q = comparison.P, comparison.Q
     _, drawn = drawing.measured_and_drawn(P, Q, normalized=False)
     dim = drawn[0].shape[1]
-    figure = Figure(layout="constrained")
+    axes = drawing.axis_names(dim, names, P, Q)
+    figure = drawing.new_figure(layout="constrained")
     main, others = drawing.panels(figure, dim, len(comparison.values))
     main.set_title(f"Preset: {comparison.preset}")
-    if dim > 2:
-        main.set(xlabel="coordinate 0", ylabel="coordinate 1")
-    handles = list(drawing.draw_curves(main, *(curve[:, :2] for curve in drawn)))
+    P, Q = (curve[:, :2] for curve in drawn)
+    handles = list(drawing.draw_curves(main, P, Q, axes))
     for ax, (name, value) in zip(others, comparison.values.items(), strict=True):
         ax.set_title(f"{MEASURES[name].title}: {value:.4g}")
-        accent = _draw_measure(comparison, name, ax, dim)
+        accent = _draw_measure(comparison, name, ax, axes)
         if accent is not None:
             handles.append(accent)
     figure.legend(handles=handles, loc="outside upper left", ncols=len(handles), frameon=False)
     return figure
 
 
-def _draw_measure(comparison: Comparison, name: str, ax: Axes, dim: int) -> Line2D | None:
+def _draw_measure(
+    comparison: Comparison, name: str, ax: Axes, axes: Sequence[str]
+) -> Line2D | None:
     """Draw the picture of one measure into a small panel, and return its accent."""
+    dim = len(axes)
     info, condition = MEASURES[name], comparison.conditions[name]
     options: dict[str, Any] = dict(condition.options)
     if info.warping:
@@ -91,7 +99,7 @@ def _draw_measure(comparison: Comparison, name: str, ax: Axes, dim: int) -> Line
         ax.figure.colorbar(image)
         return None
     picture = getattr(import_module(__package__), info.picture)
-    artists: drawing.CurveArtists = picture(*curves, ax, **options)
+    artists: drawing.CurveArtists = picture(*curves, ax, names=axes, **options)
     for line in (artists.P, artists.Q):
         line.set_linewidth(0.9)
     if dim == 2:

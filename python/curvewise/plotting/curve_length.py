@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,6 +28,7 @@ def plot_curve_length(
     *,
     scale: LengthScale = Default.scale,
     normalized: bool = False,
+    names: Sequence[str] | None = None,
 ) -> CurveArtists:
     """Draw the points that the curve-length measure compares.
 
@@ -42,7 +44,7 @@ def plot_curve_length(
     scale : str
         As in `curve_length`: it weighs the differences and does not move the points, but where
         it is 0 there is no value and no picture.
-    normalized : bool
+    normalized, names
         As in `plot_area`.
 
     Returns
@@ -73,6 +75,7 @@ def plot_curve_length(
     curve_length(*measured, scale=scale)  # for its checks
     counterparts = interpolate(drawn[1], *corresponding_positions(*measured))
     links = np.stack([drawn[0], counterparts], axis=1)
-    lines = drawing.draw_curves(ax, *drawn)
+    axes = drawing.axis_names(2, names, P, Q)
+    lines = drawing.draw_curves(ax, *drawn, axes)
     between = drawing.draw_links(ax, drawing.evenly(links), "points compared")
     return CurveArtists(*lines, between)

@@ -1,18 +1,19 @@
 """What the pictures of `plotting` are made of: curves, the lines between them, and panels.
 
-P is always blue and Q always vermilion, equally dark and distinct to colour-blind readers; what
-lies between them is grey, what decides the value black. The number of artists does not depend on
-the number of points: each curve is one line, all lines between them are one collection. pyplot is
-never used, so any backend will do; matplotlib is imported when something is drawn, not when this
-module is.
+The colours are those of palette.py. The number of artists does not depend on the number of points:
+each curve is one line, all lines between them are one collection. pyplot is never used, so any
+backend will do, and any format that matplotlib writes; matplotlib is imported when something is
+drawn, not when this module is.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from contextlib import AbstractContextManager
+from importlib import import_module
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -20,6 +21,8 @@ from .._curves import Array, CurveLike, as_curves
 from .._extras import extra
 from ..measures import normalize
 from ..measures.registry import WARPINGS, Warping
+from ..named_curve import axis_names
+from .palette import ACCENT_COLOUR, BETWEEN_COLOUR, FILL_COLOUR, P_COLOUR, Q_COLOUR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,11 +30,28 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
-P_COLOUR = "#0072B2"
-Q_COLOUR = "#D55E00"
-BETWEEN_COLOUR = "#808080"
-FILL_COLOUR = "#A0A0A0"
-ACCENT_COLOUR = "#000000"
+    from .picture import Picture
+
+__all__ = [
+    "ACCENT_COLOUR",
+    "BETWEEN_COLOUR",
+    "FILL_COLOUR",
+    "MAX_LINKS",
+    "P_COLOUR",
+    "Q_COLOUR",
+    "CurveArtists",
+    "axis_names",
+    "draw_curves",
+    "draw_links",
+    "evenly",
+    "label_axes",
+    "matplotlib_required",
+    "measured_and_drawn",
+    "new_figure",
+    "panels",
+    "warping",
+]
+
 MAX_LINKS = 80  # more lines than this merge into a grey mass
 
 
@@ -60,6 +80,14 @@ def matplotlib_required() -> AbstractContextManager[None]:
     return extra("plot", "pictures need matplotlib, which is not installed")
 
 
+def new_figure(**options: Any) -> Picture:
+    """Return an empty figure that notebooks show; options as of matplotlib's Figure."""
+    with matplotlib_required():
+        import_module("matplotlib.figure")  # Picture may have been imported when it was there
+        from .picture import Picture
+    return Picture(**options)
+
+
 def measured_and_drawn(
     P: CurveLike, Q: CurveLike, normalized: bool
 ) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
@@ -77,15 +105,22 @@ def warping(measure: str) -> Warping:
     return WARPINGS[measure]
 
 
-def draw_curves(ax: Axes, P: Array, Q: Array, *, apart: bool = False) -> tuple[Line2D, Line2D]:
-    """Draw curves in the plane, or series (d = 1) against the index: `apart`, with Q below P."""
-    x_label, y_label, q_label = "x", "y", "Q"
+def draw_curves(
+    ax: Axes, P: Array, Q: Array, names: Sequence[str], *, apart: bool = False
+) -> tuple[Line2D, Line2D]:
+    """Draw curves in the plane, or series (d = 1) against the index: `apart`, with Q below P.
+
+    `names` are those of the coordinates, as `axis_names` gives them.
+    """
+    q_label = "Q"
     if P.shape[1] == 1:
-        x_label, y_label = "index", "value"
+        x_label, y_label = "index", names[0]
         if apart:
             Q, q_label = _below(P, Q)
-            y_label = f"value ({q_label})"
+            y_label = f"{y_label} ({q_label})"
         P, Q = (np.column_stack([np.arange(len(series)), series]) for series in (P, Q))
+    else:
+        x_label, y_label = names[:2]
     label_axes(ax, x_label, y_label)
     (p_line,) = ax.plot(*P.T, color=P_COLOUR, linewidth=1.3, label="P")
     (q_line,) = ax.plot(*Q.T, color=Q_COLOUR, linewidth=1.3, label=q_label)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .._curves import Array, CurveLike
 from ..measures import frechet_continuous_path
+from ..results import Matching
 from . import drawing
 from .drawing import CurveArtists
 
@@ -16,14 +18,19 @@ if TYPE_CHECKING:
     from matplotlib.image import AxesImage
     from matplotlib.lines import Line2D
 
-__all__ = ["plot_free_space", "plot_matching"]
+__all__ = ["draw_matching", "plot_free_space", "plot_matching"]
 
 _LINES = 60  # of a curve; more vertices than this are not marked in a diagram
 _PIXELS = 600  # of a side of the diagram
 
 
 def plot_matching(
-    P: CurveLike, Q: CurveLike, ax: Axes, *, normalized: bool = False
+    P: CurveLike,
+    Q: CurveLike,
+    ax: Axes,
+    *,
+    normalized: bool = False,
+    names: Sequence[str] | None = None,
 ) -> CurveArtists:
     """Draw which points of the curves the continuous Fréchet distance matches.
 
@@ -36,7 +43,7 @@ def plot_matching(
         The curves.
     ax : matplotlib.axes.Axes
         Where to draw.
-    normalized : bool
+    normalized, names
         As in `plot_area`.
 
     Returns
@@ -69,9 +76,21 @@ def plot_matching(
             f"P has shape {drawn[0].shape}; plot_matching draws 1 or 2 coordinates, "
             "plot_free_space any number"
         )
-    matched = frechet_continuous_path(*measured).parameters
+    axes = drawing.axis_names(drawn[0].shape[1], names, P, Q)
+    return draw_matching(ax, measured, drawn, frechet_continuous_path(*measured), axes)
+
+
+def draw_matching(
+    ax: Axes,
+    measured: tuple[Array, Array],
+    drawn: tuple[Array, Array],
+    matching: Matching,
+    axes: Sequence[str],
+) -> CurveArtists:
+    """Draw a matching of the curves that were measured on the curves to be drawn."""
+    matched = matching.parameters
     lengths = _leashes(*measured, matched)
-    lines = drawing.draw_curves(ax, *drawn, apart=True)
+    lines = drawing.draw_curves(ax, *drawn, axes, apart=True)
     points = [np.asarray(line.get_xydata()) for line in lines]
     shown = _evenly(matched)
     links = np.stack([_points_at(points[k], shown[:, k]) for k in (0, 1)], axis=1)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from .._curves import CurveLike
 from .._options import WarpingName
 from . import drawing
+from .palette import TABLE_MAP
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -81,7 +82,7 @@ def plot_table(
     rows, columns = shown.shape
     image = ax.imshow(
         shown,
-        cmap="viridis_r",
+        cmap=TABLE_MAP,
         origin="lower",
         aspect="auto",
         interpolation="nearest",

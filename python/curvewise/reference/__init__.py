@@ -2,7 +2,7 @@
 
 Same names, arguments (except ``workers``), defaults, results and errors as :mod:`curvewise`, one
 module for each measure, and nothing compiled except numpy. Docstrings are those of
-:mod:`curvewise.measures`, for which alone that module is imported; those in the source here become
+``curvewise.measures``, for which alone that module is imported; those in the source here become
 the Notes. For every metric except minkowski (with p other than 1, 2 and inf) the
 values, tables and paths of dtw and frechet equal those of the compiled library bit for bit: every
 sum is written out in its order, and nothing is left to a library that may reorder it. The other

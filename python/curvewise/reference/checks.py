@@ -55,9 +55,11 @@ def check_pair(
     _check_columns(P, "P")
     _check_columns(Q, name)
     if _points(P).shape[1] != _points(Q).shape[1]:
-        raise ValueError(f"{_shapes(P, Q, name)}; both need the same number of coordinates")
+        need = "both need the same number of coordinates"
+        raise ValueError(f"{_shapes(P, Q, name)}; {need}{_transposed(P, Q)}")
     if planar and _points(P).shape[1] != 2:
-        raise ValueError(f"{_shapes(P, Q, name)}; {measure} needs 2 coordinates, x and y")
+        need = f"{measure} needs 2 coordinates, x and y"
+        raise ValueError(f"{_shapes(P, Q, name)}; {need}{_transposed(P, Q)}")
     _check_least_points(P, "P", measure, least_points)
     _check_least_points(Q, name, measure, least_points)
     _check_finite(P, "P")
@@ -88,6 +90,12 @@ def _points(curve: Array) -> Array:
 
 def _shapes(P: Array, Q: Array, name: str = "Q") -> str:
     return f"P has shape {P.shape} and {name} has shape {Q.shape}"
+
+
+def _transposed(P: Array, Q: Array) -> str:
+    """Return the question that few points of many coordinates raise: x and y in rows."""
+    few = any(len(curve) <= 3 < _points(curve).shape[1] for curve in (P, Q))
+    return " (a row is a point: transpose?)" if few else ""
 
 
 def _check_columns(curve: Array, name: str) -> None:

@@ -54,7 +54,8 @@ def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets)
     longer = Q if roles.mapped == "P" else P
     S, T = roles.s[-1], roles.t[-1]
     if not np.isfinite(T):
-        return PcmMatch(math.inf, 0.0, 0.0, roles.mapped, np.full((len(roles.s), 2), np.nan))
+        nowhere = np.full((len(roles.s), 2), np.nan)
+        return PcmMatch(math.inf, 0.0, 0.0, roles.mapped, nowhere, math.inf)
     tried = _all_offsets(roles) if offsets == "continuous" else _grid(roles, offsets)
     areas = _areas(roles, tried)
     best = int(np.argmin(areas))  # the first among equals
@@ -64,6 +65,7 @@ def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets)
         coverage=float(S / T),
         mapped=roles.mapped,
         points=_mapped_points(roles, tried[best], longer),
+        tolerance=_tolerance(roles, float(areas[best]), offsets),
     )
 
 
@@ -88,6 +90,17 @@ def _assign_roles(P: Array, Q: Array) -> _Roles:
 def _grid(roles: _Roles, count: Any) -> Array:
     # P is the shorter curve even if it is longer by rounding: hence no less than 0.
     return np.linspace(0.0, max(roles.t[-1] - roles.s[-1], 0.0), count)
+
+
+def _tolerance(roles: _Roles, value: float, offsets: Any) -> float:
+    """Return how far the smallest area of all offsets may lie below the value: f is S-Lipschitz."""
+    S, slack = float(roles.s[-1]), max(float(roles.t[-1] - roles.s[-1]), 0.0)
+    if offsets == 1:
+        return S * slack
+    if offsets != "continuous":
+        return S * (0.5 * slack / (offsets - 1))
+    at_grid = S * (0.5 * slack / (_GRID - 1))
+    return min(_OFFSET_TOLERANCE * max(S, 0.1 * value), at_grid)
 
 
 def _areas(roles: _Roles, offsets: Array) -> Array:

@@ -213,6 +213,23 @@ void longer_curves() {
     }
 }
 
+// Curves that differ in their last bits: the leash is shorter than a parameter can be told, and
+// rows may not be moved off a vertex to where the walk is on another edge.
+void curves_that_nearly_coincide() {
+    const Curve P{{-0.0453304722905159, 0.030887983553111564},
+                  {-0.065635706065222621, 0.10309095648117364},
+                  {-0.12647633603774011, 0.123799983644858},
+                  {-0.15875420854426919, 0.088189668115228409},
+                  {-0.25818692198954524, 0.044781448645517224}};
+    const Curve Q{{-0.0453304722905159, 0.030887983553111568},
+                  {-0.065635706065222607, 0.10309095648117364},
+                  {-0.12647633603774014, 0.12379998364485802},
+                  {-0.15875420854426919, 0.088189668115228409},
+                  {-0.25818692198954524, 0.044781448645517224}};
+    check_matching(P, Q);
+    check_matching(Q, P);
+}
+
 // A search that begins with a window too small ends at the same value.
 void a_blind_alley() {
     // Q runs along P, turns aside at one place and leads into a long alley that P has, too.
@@ -302,6 +319,7 @@ int main() {
     return check::run({{"values by hand", values_by_hand},
                        {"random curves", random_curves},
                        {"longer curves", longer_curves},
+                       {"curves that nearly coincide", curves_that_nearly_coincide},
                        {"a blind alley", a_blind_alley},
                        {"ends of the range", ends_of_the_range},
                        {"batches", batches},

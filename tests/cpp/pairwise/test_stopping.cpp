@@ -2,10 +2,12 @@
 // packed, scaled and refined as well as during the work itself. No test asserts a time. A Control
 // with an interval of 0 is asked at every poll: how often that is, and that each of them can end
 // the call, is what is checked.
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <thread>
 #include <type_traits>
 #include <vector>
 
@@ -71,7 +73,9 @@ void single_calls() {
               [&](Control* control) { evaluate(options, P, few, control); });
     });
     const AreaOptions by_arc_length{Spacing::arc_length};
+    const AreaOptions by_x{Spacing::x}, matched{Spacing::matched};
     const CurveLengthOptions by_range{LengthScale::range};
+    hears("area, matched", [&](Control* control) { area(P, Q, matched, control); });
     hears("area by arc length", [&](Control* control) { area(P, Q, by_arc_length, control); });
     hears("area_quads", [&](Control* control) { area_quads(P, few, {}, control); });
     hears("pcm_match", [&](Control* control) { pcm_match(P, Q, {2}, control); });
@@ -83,6 +87,15 @@ void single_calls() {
     window.window = 1;
     hears("dtw_table", [&](Control* control) { dtw_table(few, Q, out.data(), window, control); });
     hears("sum_of_squares", [&](Control* control) { sum_of_squares(P, Q, control); });
+    hears("gradient of sum_of_squares",
+          [&](Control* control) { sum_of_squares_and_gradient(P, Q, out.data(), control); });
+    hears("gradient of area",
+          [&](Control* control) { value_and_gradient(by_x, P, few, out.data(), control); });
+    hears("gradient of dtw",
+          [&](Control* control) { value_and_gradient(DtwOptions{}, few, Q, out.data(), control); });
+    hears("frechet_continuous_path",
+          [&](Control* control) { frechet_continuous_path(few, Q, {}, control); });
+    hears("frechet_within", [&](Control* control) { frechet_within(few, Q, 1e9, true, control); });
     hears("mse", [&](Control* control) { mse(P, Q, control); });
     hears("mae", [&](Control* control) { mae(P, Q, control); });
     hears("normalize", [&](Control* control) { normalize(P, Q, out.data(), "Q", control); });
@@ -104,9 +117,45 @@ void batches() {
               [&](Control* control) { cdist(rows, columns, options, out.data(), {}, control); });
         hears("Prepared, " + name,
               [&](Control* control) { Prepared(P, options, control)(Q, control); });
+        hears("Index, " + name, [&](Control* control) { Index(rows, options, control); });
     });
+}
+
+// A call that waits for another thread's, which keeps the index to itself.
+void an_index_that_is_busy() {
+    Random random(5);
+    const Curve P = random.walk(20'000), Q = random.walk(20'000);
+    Index index({Q}, DtwOptions{});
+    Control search([](std::int64_t, std::int64_t) { return true; });
+    std::atomic<bool> is_over{false};
+    std::thread searching([&] {
+        double distance = 0.0;
+        std::int64_t place = 0;
+        try {
+            index.kneighbors({P}, 1, &distance, &place, {}, &search);
+        } catch (const Stopped&) {
+            is_over = true;
+        }
+    });
+    while (search.done() == 0) std::this_thread::yield();
+    Control adding([](std::int64_t, std::int64_t) { return false; }, std::chrono::milliseconds(0));
+    bool is_stopped = false;
+    try {
+        index.add({Q}, &adding);
+    } catch (const Stopped&) {
+        is_stopped = true;
+    }
+    CHECK(is_stopped);
+    CHECK(!is_over);
+    search.stop();
+    searching.join();
+    CHECK_EQUAL(index.size(), std::size_t{1});
 }
 
 }  // namespace
 
-int main() { return check::run({{"single calls", single_calls}, {"batches", batches}}); }
+int main() {
+    return check::run({{"single calls", single_calls},
+                       {"batches", batches},
+                       {"an index that is busy", an_index_that_is_busy}});
+}

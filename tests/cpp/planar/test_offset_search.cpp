@@ -195,7 +195,11 @@ void an_effort_that_ends() {
     const int cut_short = evaluations(p, q, {500, 10});
     CHECK(full > 3000);
     CHECK(cut_short < 500 + 10 * 60 + 1000);  // the grid, and the bounds, poll, too
-    CHECK(best_of_all(p, q, unpolled, {500, 10}).area <= best_of_grid(p, q, 200, unpolled).area);
+    const Offset all = best_of_all(p, q, unpolled), ended = best_of_all(p, q, unpolled, {500, 10});
+    CHECK(ended.area <= best_of_grid(p, q, 200, unpolled).area);
+    CHECK_EQUAL(all.tolerance, 1e-12 * p.length());
+    CHECK(ended.tolerance > 100.0 * all.tolerance);
+    CHECK(ended.area <= all.area + ended.tolerance);
 }
 
 void the_grid() {
@@ -208,7 +212,9 @@ void the_grid() {
             const double offset = slack * static_cast<double>(k) / static_cast<double>(count - 1);
             smallest = std::min(smallest, area_at(p, q, offset));
         }
-        CHECK_CLOSE(best_of_grid(p, q, count, unpolled).area, smallest, 1e-12);
+        const Offset best = best_of_grid(p, q, count, unpolled);
+        CHECK_CLOSE(best.area, smallest, 1e-12);
+        CHECK(best.area <= best_of_all(p, q, unpolled).area + best.tolerance);
     }
     CHECK_EQUAL(best_of_grid(p, q, 1, unpolled).at, 0.0);
     // The first of equals: along a parallel, every offset is as good.

@@ -218,6 +218,7 @@ void beyond_the_range() {
         CHECK_EQUAL(pcm(P, Q, options), match.value);
         CHECK_EQUAL(match.offset, 0.0);
         CHECK_EQUAL(match.coverage, 0.0);
+        CHECK_EQUAL(match.tolerance, match.value);
         CHECK_EQUAL(match.points.size(), std::size_t{2});
         CHECK(std::isnan(match.points[1][0]) && std::isnan(match.points[1][1]));
     }

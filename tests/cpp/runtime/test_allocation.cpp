@@ -132,6 +132,9 @@ void single_calls() {
     all.continuous = true;
     fail_each("pcm, continuous", [&] { return pcm(P, Q, all); });
     fail_each("area by arc length", [&] { return area(P, Q, {Spacing::arc_length}); });
+    fail_each("area, matched", [&] { return area(P, Q, {Spacing::matched}); });
+    fail_each("area_quads, matched",
+              [&] { return area_quads(P, Q, {Spacing::matched}).areas.back(); });
     fail_each("area_quads", [&] { return area_quads(P, Q).areas.back(); });
     fail_each("pcm_match", [&] { return pcm_match(P, Q).value; });
     fail_each("dtw_path", [&] { return dtw_path(P, Q).distance; });
@@ -147,6 +150,89 @@ void single_calls() {
     });
     fail_each("mse", [&] { return mse(P, P.times_power_of_two(1)); });
     fail_each("compare", [&] { return compare(P, Q).dtw; });
+}
+
+void continuous_calls() {
+    Random random(9);
+    const Curve P = random.walk(40), Q = random.walk(30), high = random.curve(20, 5),
+                other_high = random.curve(30, 5);
+    fail_each("frechet_continuous", [&] { return frechet_continuous(P, Q); });
+    fail_each("frechet_continuous, 5-D", [&] { return frechet_continuous(high, other_high); });
+    fail_each("its bounds", [&] { return frechet_continuous_bounds(P, Q).low; });
+    fail_each("its path", [&] { return frechet_continuous_path(P, Q).parameters[7][0]; });
+    for (const bool continuous : {true, false}) {
+        fail_each(continuous ? "frechet_within" : "frechet_within, discrete",
+                  [&] { return frechet_within(P, Q, 3.0, continuous) ? 1.0 : 0.0; });
+    }
+}
+
+void gradients() {
+    Random random(10);
+    const Curve P = random.walk(40), Q = random.walk(30);
+    std::vector<double> gradient(P.values().size());
+    const auto fails = [&](const std::string& name, const auto& options) {
+        fail_each("gradient of " + name, [&] {
+            const double value = value_and_gradient(options, P, Q, gradient.data());
+            return value + gradient[5];
+        });
+    };
+    fails("dtw", DtwOptions{});
+    fails("frechet", FrechetOptions{});
+    fails("curve_length", CurveLengthOptions{LengthScale::range});
+    fails("area", AreaOptions{});
+    fails("area, matched", AreaOptions{Spacing::matched});
+    fail_each("gradient of sum_of_squares", [&] {
+        return sum_of_squares_and_gradient(P, P.times_power_of_two(1), gradient.data());
+    });
+}
+
+// An index that could not be made, or not be added to, is as it was.
+void nearest() {
+    Random random(11);
+    std::vector<Curve> curves;
+    for (int i = 0; i < 8; ++i) curves.push_back(random.walk(20 + i));
+    const std::vector<CurveView> X(curves.begin(), curves.end());
+    std::vector<double> distances(3 * X.size());
+    std::vector<std::int64_t> places(3 * X.size());
+    for_each_measure([&](auto options) {
+        if constexpr (std::is_same_v<decltype(options), CurveLengthOptions>) {
+            options.scale = LengthScale::range;
+        }
+        const std::string of = std::string(" of ") + options.measure;
+        fail_each("Index" + of, [&] { return static_cast<double>(Index(X, options).size()); });
+        const Index index(X, options);
+        for (const std::ptrdiff_t workers : {1, 3}) {
+            fail_each("kneighbors" + of, [&] {
+                index.kneighbors(3, distances.data(), places.data(), {workers});
+                return distances[4];
+            });
+        }
+        fail_each("radius_neighbors" + of, [&] {
+            return static_cast<double>(index.radius_neighbors(X, 2.0).back().size());
+        });
+    });
+    fail_each("Index.add", [&] {
+        Index index({X[0]}, DtwOptions{});
+        try {
+            index.add(X);
+        } catch (const std::bad_alloc&) {
+            CHECK_EQUAL(index.size(), std::size_t{1});
+            throw;
+        }
+        index.kneighbors({X[1]}, 1, distances.data(), places.data());
+        return distances[0];
+    });
+    fail_each("subsequences", [&] { return subsequences(X[0], X[7], 2)[0].distance; });
+    fail_each("subsequences of frechet",
+              [&] { return subsequences(X[0], X[7], 2, FrechetOptions{})[0].distance; });
+    const std::vector<double> weights(X.size(), 1.0);
+    for (const std::ptrdiff_t workers : {1, 3}) {
+        DtwMeanOptions options;
+        options.iterations = 2;
+        options.workers = workers;
+        fail_each("dtw_mean, " + std::to_string(workers) + " workers",
+                  [&] { return dtw_mean(X, weights, X[0], options).costs.back(); });
+    }
 }
 
 void long_calls() {
@@ -202,13 +288,32 @@ void from_c() {
     curvewise_batch_options threads = CURVEWISE_BATCH_DEFAULTS;
     threads.workers = 3;
     const curvewise_curve curves[] = {p, q, p, q};
-    fail_each("curvewise_cdist", [&] {
-        double out[16];
-        curvewise_error error;
-        const int status =
-            curvewise_cdist(curves, 4, curves, 4, CURVEWISE_DTW, nullptr, &threads, out, &error);
-        if (status == CURVEWISE_NO_MEMORY) throw std::bad_alloc();
-        return status == CURVEWISE_OK ? out[1] : -1.0;
+    // `call` returns a status; `out` is what it writes.
+    double out[80] = {};
+    curvewise_error error;
+    const auto fails = [&](const std::string& name, const std::function<int()>& call) {
+        fail_each("curvewise_" + name, [&] {
+            const int status = call();
+            if (status == CURVEWISE_NO_MEMORY) throw std::bad_alloc();
+            return status == CURVEWISE_OK ? out[1] : -1.0;
+        });
+    };
+    curvewise_curve_length_options by_range = CURVEWISE_CURVE_LENGTH_DEFAULTS;
+    by_range.scale = CURVEWISE_RANGE;
+    fails("area", [&] { return curvewise_area(&p, &q, nullptr, &out[1], &error); });
+    fails("pcm", [&] { return curvewise_pcm(&p, &q, nullptr, &out[1], &error); });
+    fails("frechet", [&] { return curvewise_frechet(&p, &q, nullptr, &out[1], &error); });
+    fails("dtw", [&] { return curvewise_dtw(&p, &q, nullptr, &out[1], &error); });
+    fails("curve_length",
+          [&] { return curvewise_curve_length(&p, &q, &by_range, &out[1], &error); });
+    fails("frechet_continuous",
+          [&] { return curvewise_frechet_continuous(&p, &q, nullptr, &out[1], &error); });
+    fails("normalize", [&] { return curvewise_normalize(&p, &q, out, &error); });
+    fails("cdist", [&] {
+        return curvewise_cdist(curves, 4, curves, 4, CURVEWISE_DTW, nullptr, &threads, out, &error);
+    });
+    fails("pdist", [&] {
+        return curvewise_pdist(curves, 4, CURVEWISE_FRECHET, nullptr, &threads, out, &error);
     });
 }
 
@@ -216,6 +321,9 @@ void from_c() {
 
 int main() {
     return check::run({{"single calls", single_calls},
+                       {"continuous calls", continuous_calls},
+                       {"gradients", gradients},
+                       {"nearest", nearest},
                        {"long calls", long_calls},
                        {"batches", batches},
                        {"from C", from_c}});

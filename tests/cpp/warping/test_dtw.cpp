@@ -209,6 +209,10 @@ void fractions_and_distances_per_step() {
     CHECK_EQUAL(dtw(P, Q, per_step), per_step.cutoff);
     per_step.cutoff = std::nextafter(per_step.cutoff, 0.0);
     CHECK_EQUAL(dtw(P, Q, per_step), infinity);
+    // A quotient that is rounded to 0 is not above 0.
+    const Curve zero{{0.0}, {2.0}}, tiny{{5e-324}, {2.0}};
+    per_step.cutoff = 0.0;
+    CHECK_EQUAL(dtw(zero, tiny, per_step), 0.0);
 }
 
 void symmetry() {

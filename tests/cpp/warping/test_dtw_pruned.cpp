@@ -1,7 +1,7 @@
 // Pruned DTW against the full sweep, value and path, to the bit, at every instruction-set level of
 // this machine, with 1 to 3 threads: random pairs of hard curves, every ground distance with
 // bounds, both step patterns, windows, open ends, cutoffs around the value, coarse curves of one
-// level and of several. `test_dtw_pruned 100000` is the long run.
+// level and of several, paths along the edge of a band. `test_dtw_pruned 100000` is the long run.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -159,6 +159,25 @@ void random_pairs() {
     }
 }
 
+// One curve behind the other by as many points as the window allows, or nearly: the path runs along
+// an edge of the band, diagonally from where one row ends to where the next one does, and hardly
+// anything beside it is live.
+void along_the_edge_of_the_band() {
+    Random random(6);
+    for (std::ptrdiff_t k = 0; k < pairs / 8; ++k) {
+        const std::ptrdiff_t n = 80 + random.index(300), shift = 1 + random.index(30);
+        const std::ptrdiff_t dim = 1 + random.index(3);
+        const Curve all = random.index(2) == 0 ? random.curve(n + shift, dim)
+                                               : test::walk(n + shift, dim, 1.0, random);
+        test::Pair pair{all.part(0, n), all.part(shift, n + shift)};
+        if (random.index(2) == 0) std::swap(pair.P, pair.Q);
+        Setup setup = any_setup(pair, random);
+        setup.options.open_end = false;
+        setup.window = std::max<std::ptrdiff_t>(1, shift - random.index(2));
+        compare(pair, setup);
+    }
+}
+
 // Several strips, and coarse tables that give up or not.
 void large_pairs() {
     Random random(2);
@@ -263,6 +282,7 @@ void progress_counts_the_table() {
 int main(int argc, char** argv) {
     if (argc > 1) pairs = std::atol(argv[1]);
     return check::run({{"random pairs", random_pairs},
+                       {"along the edge of the band", along_the_edge_of_the_band},
                        {"large pairs", large_pairs},
                        {"least distances are bounds", least_distances_are_bounds},
                        {"gives up where it should", gives_up_where_it_should},

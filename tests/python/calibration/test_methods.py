@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from curvewise import datasets
-from curvewise.calibration import identify
+from curvewise.calibration import Case, identify
 
 TRUE = {"E": 200e3, "yield": 300.0, "C": 80e3}
 BOUNDS = {"E": (150e3, 260e3), "yield": (150.0, 500.0), "C": (20e3, 200e3)}
@@ -109,6 +109,31 @@ def test_loops_that_are_functions_of_time(method):
         quiet_identify(timed, clean, BOUNDS, measure="sum_of_squares", over=3)
     with pytest.raises(ValueError, match="needs x and y, shape"):
         quiet_identify(timed, clean, BOUNDS, measure="sum_of_squares")
+
+
+@pytest.mark.parametrize("method", ["least_squares", "trust-region"])
+def test_a_model_driven_by_the_tests_own_strains(method):
+    """One option: least squares on stress, point by point, though the strain turns back."""
+    noisy = model(TRUE)
+    noisy[:, 1] += np.random.default_rng(1).normal(0.0, 4.0, len(noisy))
+    keywords = {"measure": "sum_of_squares", "over": "points", "method": method}
+    found = quiet_identify(model, noisy, BOUNDS, **keywords)
+    squares = ((found.simulations[0] - noisy)[:, 1] ** 2).sum()
+    assert found.value == pytest.approx(squares / np.ptp(noisy[:, 1]) ** 2, rel=1e-12)
+    residuals = found.study.objective.residuals(found.simulations)
+    assert residuals.shape == (len(noisy),)
+    uncertainty = found.uncertainty(sigma=4.0)
+    for name, error in uncertainty.standard_errors.items():
+        assert abs(found.parameters[name] - TRUE[name]) < 3.5 * error
+    assert found.uncertainty().sigma == pytest.approx(4.0, rel=0.2)
+
+    case = Case("loop", model, noisy, "sum_of_squares", sigma=4.0, options={"over": "points"})
+    of_case = identify([case], bounds=BOUNDS, method=method, progress=False)
+    assert of_case.value == pytest.approx(squares / 4.0**2, rel=1e-3)
+    with pytest.raises(RuntimeError, match=r"21 points and the experiment \d+; over='points'"):
+        quiet_identify(first_branch, noisy, BOUNDS, **keywords)
+    with pytest.raises(RuntimeError, match=r"off by .* %.*driven by the experiment's x"):
+        quiet_identify(lambda p: model(p)[::-1], noisy, BOUNDS, **keywords)
 
 
 def test_least_squares_of_a_solver_that_prints_seven_digits():

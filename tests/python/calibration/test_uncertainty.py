@@ -56,6 +56,7 @@ def test_a_linear_model_has_the_errors_of_least_squares(sigma):
     deviation = sigma or np.sqrt(covariance[0, 0] / np.linalg.inv(DESIGN.T @ DESIGN)[0, 0])
     assert uncertainty.sigma == pytest.approx(deviation, rel=1e-3)
     assert uncertainty.runs == 0
+    assert set(uncertainty.bias.values()) == {0.0}
 
 
 def test_the_bootstrap_of_a_measure_is_near_least_squares():
@@ -181,6 +182,17 @@ def test_a_parameter_at_its_bound_is_not_determined():
     assert "at its lower bound" in str(uncertainty)
 
 
+def test_draws_that_end_at_a_bound_make_up_no_limit():
+    """Half of the draws of a end at its bound; their mirror image would be 0.2 errors away."""
+    free = identify(parabola, TEST, BOUNDS, measure="dtw", **QUIET)
+    best, error = free.parameters["a"], free.uncertainty(samples=40).standard_errors["a"]
+    bounds = {**BOUNDS, "a": (-10.0, best + 0.2 * error)}
+    found = identify(parabola, TEST, bounds, measure="dtw", start=free.parameters, **QUIET)
+    low, high = found.uncertainty(samples=40).intervals["a"]
+    assert high == bounds["a"][1]
+    assert low < best - 0.7 * error
+
+
 def test_residuals_that_go_on_alike_widen_the_intervals():
     """A wrong model: blocks of residuals, not single ones, are what may come differently."""
     smooth = parabola(TRUTH)
@@ -193,6 +205,23 @@ def test_residuals_that_go_on_alike_widen_the_intervals():
         for test in (smooth, rough)
     ]
     assert errors[0] > 1.3 * errors[1]
+
+
+def test_a_bias_is_measured_and_said():
+    """Noise lengthens a curve: curve_length makes up for it by the parameters; dtw does not."""
+    truth = {"E": 200e3, "yield": 300.0, "C": 80e3}
+    keywords = {"start": truth, **QUIET}
+    test = with_noise(hardening(truth), 5.0, seed=2)
+    biased = identify(hardening, test, THREE, measure="curve_length", **keywords)
+    uncertainty = biased.uncertainty(samples=60, sigma=5.0)
+    assert uncertainty.bias["yield"] > 0.25 * uncertainty.standard_errors["yield"]
+    assert "in the mean; intervals allow for it in part only" in str(uncertainty)
+    assert "curve_length takes noise for length: filter the test" in str(uncertainty)
+    fair = identify(hardening, test, THREE, measure="dtw", **keywords)
+    uncertainty = fair.uncertainty(samples=60, sigma=5.0)
+    for name, bias in uncertainty.bias.items():
+        assert abs(bias) < 0.25 * uncertainty.standard_errors[name]
+    assert "takes noise for length" not in str(uncertainty)
 
 
 def test_pictures_and_errors():

@@ -139,6 +139,7 @@ def test_pcm_match_equals_the_reference(all_pairs: list[Pair]) -> None:
         close(found.value, expected.value)
         close(found.offset, expected.offset)
         close(found.coverage, expected.coverage)
+        assert found.tolerance == pytest.approx(expected.tolerance, rel=1e-9, abs=1e-13)
         largest = np.abs(np.vstack((P, Q))).max(axis=0)
         np.testing.assert_array_less(np.abs(found.points - expected.points) / largest, 1e-10)
 
@@ -146,10 +147,16 @@ def test_pcm_match_equals_the_reference(all_pairs: list[Pair]) -> None:
 def test_continuous_pcm_equals_the_reference() -> None:
     for P, Q in PAIRS[:24]:
         found = curvewise.pcm_match(P, Q, offsets="continuous")
-        expected = reference.pcm(P, Q, offsets="continuous")
+        expected = reference.pcm_match(P, Q, offsets="continuous")
         assert found.value == curvewise.pcm(P, Q, offsets="continuous")
         shorter = min(length_in_box(P, P), length_in_box(Q, P))
-        assert found.value == pytest.approx(expected, rel=1e-12, abs=2e-12 * shorter)
+        assert found.value == pytest.approx(expected.value, rel=1e-12, abs=2e-12 * shorter)
+        assert found.tolerance == pytest.approx(expected.tolerance, rel=1e-9, abs=1e-27)
+        # A grid is no farther from the minimum than it says.
+        for offsets in (1, 7, 200):
+            match = curvewise.pcm_match(P, Q, offsets=offsets)
+            assert expected.value <= match.value + 2e-12 * shorter
+            assert match.value <= expected.value + match.tolerance + 2e-12 * shorter
 
 
 @pytest.mark.parametrize("scale", SCALES)

@@ -84,6 +84,7 @@ def test_compare_json_is_one_object(run, files, preset):
     assert json.loads(out) == {
         "files": ["A.csv", "B.csv"],
         "columns": [["strain", "stress"], ["1", "2"]],
+        "factors": [None, None],
         "preset": preset,
         "n": [40, 30],
         "values": expected.to_dict(),
@@ -149,6 +150,65 @@ def test_columns_are_chosen_in_both_files(run, files):
     assert json.loads(out)["values"] == {"frechet": 1.0, "dtw": 1.0}
     _, out, _ = run("compare", *files, "--json", "--preset", "raw", "--columns", "1", "2", "3")
     assert list(json.loads(out)["values"]) == ["frechet", "dtw"]
+
+
+def test_factors_change_the_units_of_each_file(run, files):
+    P, Q = map(read_curve, files)
+    np.savetxt("A.csv", P * [100.0, 1e6], delimiter=",", header="strain,stress", comments="")
+    given = ("--preset", "raw", "--factors-a", "0.01", "1e-6")
+    status, out, error = run("compare", *files, *given)
+    assert (status, error) == (0, "")
+    assert "P  A.csv, 40 points, columns strain × 0.01, stress × 1e-06\n" in out
+    assert "Q  B.csv, 30 points, columns 1, 2\n" in out
+    _, out, _ = run("compare", *files, *given, "--factors-b", "1", "-1", "--json")
+    assert json.loads(out)["factors"] == [[0.01, 1e-6], [1.0, -1.0]]
+    scaled = read_curve("A.csv", factors=[0.01, 1e-6])
+    assert json.loads(out)["values"]["dtw"] == curvewise.dtw(scaled, Q * [1.0, -1.0])
+    assert_failed(
+        run("compare", *files, "--factors-b", "2"),
+        "factors has shape (1,); B.csv gives 2 columns, and each needs one",
+    )
+    assert run("compare", *files, "--factors-a", "1", "MPa")[0] == USAGE
+
+
+def test_sheets_of_workbooks(run, files):
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("openpyxl")
+    P, Q = map(read_curve, files)
+    with pandas.ExcelWriter("loops.xlsx") as book:
+        for sheet, curve in (("about", P[:3]), ("test", P), ("2024", Q)):
+            frame = pandas.DataFrame(curve, columns=["strain", "stress"])
+            frame.to_excel(book, sheet_name=sheet, index=False)
+    book = ["loops.xlsx"] * 2
+    # A workbook's cells have 16 digits.
+    expected = pytest.approx(curvewise.compare(P, Q).to_dict(), rel=1e-12)
+    for sheets in (("test", "2024"), ("2", "3")):
+        _, out, _ = run("compare", *book, "--json", "--sheet-a", sheets[0], "--sheet-b", sheets[1])
+        assert json.loads(out)["values"] == expected
+    _, out, _ = run("compare", "loops.xlsx", "B.csv", "--json", "--sheet-a", "test")
+    assert json.loads(out)["values"] == expected
+    assert_failed(run("compare", *book, "--sheet-b", "4"), "its sheets are about, test, 2024")
+
+
+def test_time_is_not_compared_with_strain_without_a_word(run, files):
+    with open("A.csv", "w") as file:
+        file.write("Time [s],strain [%],stress,force\n0,0,0,0\n1,1,1,1\n")
+    assert_failed(
+        run("compare", *files),
+        "the first two of the 4 columns of A.csv are Time [s] and strain [%]; name those wanted: "
+        "--columns 'strain [%]' stress\n",
+    )
+    columns = ("--columns", "strain [%]", "stress", "--columns-b", "1", "2")
+    status, out, error = run("compare", *files, *columns)
+    assert (status, error) == (0, "")
+    assert "columns strain [%], stress\n" in out
+    assert run("compare", *files, "--columns", "1", "2")[0] == 0  # asked for
+    for name in files:
+        np.savetxt(name, np.column_stack([np.arange(5), [(0, 1), (2, 2), (1, 2), (0, 1), (0, 3)]]))
+    status, _, error = run("compare", *files, "--columns", "1", "2", "3")
+    assert status == 0
+    assert error.startswith("curvewise: column 1 of 3 counts as a coordinate, and looks like time")
+    assert error.count("\n") == 1
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from curvewise import csv_curves, read_curve
+from curvewise.column_choice import TimeColumnWarning
 
 POINTS = [[0.0, 0.0], [0.001, 199.5], [-0.0005, -1e-05]]
 
@@ -92,14 +93,39 @@ def test_a_comma_between_digits_alone_separates_columns(read):
 
 
 def test_columns_by_name_and_by_number(read):
-    content = "time,strain,stress,T\n1,0.1,100,7\n2,0.2,200,8\n"
+    content = "temperature,strain,stress,T\n1,0.1,100,7\n2,0.2,200,8\n"
     np.testing.assert_array_equal(read(content), [[1.0, 0.1], [2.0, 0.2]])
     expected = [[100.0, 0.1], [200.0, 0.2]]
     np.testing.assert_array_equal(read(content, ["stress", "strain"]), expected)
     np.testing.assert_array_equal(read(content, [3, 2]), expected)
     np.testing.assert_array_equal(read(content, ["3", "strain"]), expected)
     np.testing.assert_array_equal(read(content, [np.int64(4)]), [[7.0], [8.0]])
-    assert read(content, [" stress ", 1, "time", 1]).shape == (2, 4)
+    assert read(content, [" stress ", 1, "temperature", 1]).shape == (2, 4)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["time", "Time [s]", "time_s", "t", "t (s)", "Step Time", "Zeit/s", "Time, s", "TIMESTAMP"],
+)
+def test_a_first_column_of_time_is_not_taken_without_a_word(read, name):
+    header = f'"{name}";strain;stress [MPa]\n'
+    with pytest.warns(TimeColumnWarning) as caught:
+        values = read(header + "0;1;2\n1;2;3\n")
+    np.testing.assert_array_equal(values, [[0.0, 1.0], [1.0, 2.0]])
+    assert str(caught[0].message) == (
+        f"the first two of the 3 columns of loop.csv are {name} and strain; name those wanted, for "
+        "example columns=['strain', 'stress [MPa]']"
+    )
+    read(header + "0;1;2\n", [1, 2])  # asked for
+
+
+@pytest.mark.parametrize(
+    "header",
+    ["T;strain;stress", "lifetime;a;b", "thickness;a;b", "timeout;a;b", "a;time;b", "time;force"],
+)
+def test_what_is_not_called_time_and_files_without_a_choice_are_read_quietly(read, header):
+    cells = header.count(";") + 1
+    read(f"{header}\n{';'.join('0' * cells)}\n{';'.join('1' * cells)}\n")
 
 
 def test_columns_that_are_not_asked_for_may_hold_anything(read):

@@ -11,6 +11,7 @@ import pytest
 import scipy.io
 
 from curvewise import cli, read_curve
+from curvewise.column_choice import TimeColumnWarning
 
 POINTS = [[0.0, 0.0], [0.001, 199.5], [-0.0005, -1e-05]]
 
@@ -36,7 +37,9 @@ def test_a_sheet_is_read_by_names_and_numbers(book: Path, sheet, columns) -> Non
 
 def test_the_default_is_the_first_two_columns(book: Path) -> None:
     expected = [[i, point[0]] for i, point in enumerate(POINTS)]
-    assert read_curve(str(book), sheet=2).tolist() == expected
+    with pytest.warns(TimeColumnWarning, match=r"sheet 'data' are time and strain; name those "):
+        assert read_curve(str(book), sheet=2).tolist() == expected
+    assert read_curve(str(book), sheet="2", columns=[1, 2]).tolist() == expected
 
 
 @pytest.mark.parametrize(

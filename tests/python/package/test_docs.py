@@ -1,30 +1,177 @@
-"""The Python on the pages of the documentation runs: every ```python block, page by page."""
+"""What the pages of the documentation show runs, and the reference has every public name."""
 
 from __future__ import annotations
 
+import importlib
 import re
+import shlex
+from collections import Counter
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
 
+import curvewise
+from curvewise import cli
+
 ROOT = Path(__file__).resolve().parents[3]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+DOCS = ROOT / "docs"
+HEADERS = ROOT / "cpp" / "include" / "curvewise"
+# What the build writes, and git ignores, is no page of ours.
+BUILT = {DOCS / "_build", DOCS / "gallery", DOCS / "api" / "generated"}
+PAGES = [page for page in sorted(DOCS.rglob("*.md")) if BUILT.isdisjoint({page, *page.parents})]
+# Pages show how to use these, and nobody has all of them.
+OPTIONAL = ("geopandas", "polars", "shapely", "xarray")
+PYTHON = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+CONSOLE = re.compile(r"^```console\n\$ curvewise (.*?)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_the_python_of_a_page_runs(
-    page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def name_of(page: Path) -> str:
+    """Return a page's path from the root, as its test is called."""
+    return page.relative_to(ROOT).as_posix()
+
+
+def has_code(page: Path) -> bool:
+    """Return whether there is something to run on a page."""
+    return any(kind in page.read_text(encoding="utf-8") for kind in ("```python", "```console"))
+
+
+@pytest.mark.parametrize(
+    "page", [page for page in [ROOT / "README.md", *PAGES] if has_code(page)], ids=name_of
+)
+def test_the_code_of_a_page_runs(
+    page: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
-    """Run a page's blocks in one namespace; an error shows the page's line."""
+    """Run a page's blocks in their order; an error of the Python shows the page's line.
+
+    Python runs in one namespace. A command prints what stands behind it.
+    """
     text = page.read_text(encoding="utf-8")
-    blocks = list(BLOCK.finditer(text))
-    assert len(blocks) == text.count("```python"), "a block of Python that is not found"
-    if not blocks:
-        pytest.skip(f"{page.name} has no Python")
+    blocks = sorted(
+        [*PYTHON.finditer(text), *CONSOLE.finditer(text)], key=lambda block: block.start()
+    )
+    assert len(blocks) == text.count("```python") + text.count("```console"), "a block is not found"
     monkeypatch.chdir(tmp_path)
     names: dict[str, Any] = {"__name__": "__main__"}
+    missing = []
     for block in blocks:
-        before = "\n" * text.count("\n", 0, block.start(1))
-        exec(compile(before + block[1], str(page), "exec"), names)
+        if block.re is PYTHON:
+            before = "\n" * text.count("\n", 0, block.start(1))
+            try:
+                exec(compile(before + block[1], str(page), "exec"), names)
+            except ModuleNotFoundError as error:
+                if error.name not in OPTIONAL:
+                    raise
+                missing.append(error.name)
+        else:
+            capsys.readouterr()
+            assert cli.main(shlex.split(block[1])) == 0
+            assert capsys.readouterr().out == block[2]
+    if missing:
+        pytest.skip(f"all but the blocks with {', '.join(missing)}, which are not installed")
+
+
+def test_the_worked_example_shows_its_script() -> None:
+    """Its code needs a solver and data: it stands in the script that was run, line by line."""
+    page = (ROOT / "docs" / "worked_example.md").read_text(encoding="utf-8")
+    script = (ROOT / "benchmarks" / "answer" / "worked_example.py").read_text(encoding="utf-8")
+    printed = (ROOT / "benchmarks" / "answer" / "worked_example.txt").read_text(encoding="utf-8")
+    known = {line.strip() for line in (script + printed).splitlines()}
+    shown = [line.strip() for line in page.splitlines() if line.startswith("    ")]
+    assert len(shown) > 20
+    assert [line for line in shown if line not in known] == []
+
+
+def entries(page: Path) -> set[str]:
+    """Return what the lists (autosummary) of a page name, with their modules."""
+    listed, module, inside = set(), "", False
+    for line in page.read_text(encoding="utf-8").splitlines():
+        if line.startswith(".. "):
+            inside = line == ".. autosummary::"
+            if line.startswith(".. currentmodule:: "):
+                module = line.removeprefix(".. currentmodule:: ")
+        elif inside and re.fullmatch(r"   [\w.]+", line):
+            listed.add(f"{module}.{line.strip()}")
+    return listed
+
+
+def public_modules() -> set[str]:
+    """Return curvewise, the modules among its names, and those that only their own page names."""
+    names = {*curvewise.__all__, *curvewise._LAZY}
+    modules = {name for name in names if isinstance(getattr(curvewise, name), ModuleType)}
+    return {
+        "curvewise",
+        "curvewise.embedding",
+        "curvewise.reference.nearest",
+        *(f"curvewise.{name}" for name in modules),
+    }
+
+
+def test_the_reference_has_every_public_name_of_python() -> None:
+    listed = set().union(*(entries(page) for page in (DOCS / "api").glob("*.rst")))
+    modules = public_modules()
+    public = {
+        f"{module}.{name}" for module in modules for name in importlib.import_module(module).__all__
+    }
+    assert sorted(public - listed - modules - {"curvewise.__version__"}) == []
+    for name in listed - public:  # what belongs to a public name: the class of a result
+        module, _, attribute = name.rpartition(".")
+        assert hasattr(importlib.import_module(module), attribute), name
+
+
+def declared(header: Path) -> tuple[Counter[str], set[str]]:
+    """Return the functions of a header, overloads counted, and its types."""
+    text = header.read_text(encoding="utf-8")
+    text = re.sub(r"^namespace detail \{.*?^\}", "", text, flags=re.MULTILINE | re.DOTALL)
+    functions = re.findall(r"^[A-Za-z][^\n;=]*?[ *&](\w+)\(", text, flags=re.MULTILINE)
+    kinds = r"^(?:struct|class|enum class) (?:CURVEWISE_EXPORT )?(\w+)[^;\n]*\{|^using (\w+) ="
+    types = {a or b for a, b in re.findall(kinds, text, flags=re.MULTILINE)}
+    return Counter(functions), types
+
+
+def test_the_reference_has_every_function_and_type_of_cpp() -> None:
+    pages = {page.stem: page.read_text(encoding="utf-8") for page in (DOCS / "api/cpp").iterdir()}
+    headers = {header.stem: header for header in HEADERS.glob("*.hpp")}
+    assert set(pages) == set(headers) - {"curvewise"}  # which includes the others
+    overview = (DOCS / "api/cpp.rst").read_text(encoding="utf-8")
+    seen = 0
+    for name, page in pages.items():
+        functions, types = declared(headers[name])
+        seen += functions.total()
+        found = re.findall(r"^\.\. doxygenfunction:: curvewise::(\w+)", page, flags=re.MULTILINE)
+        assert Counter(found) == functions, name
+        kinds = r"^\.\. doxygen(?:struct|class|enum|typedef):: curvewise::(\w+)"
+        assert set(re.findall(kinds, page, flags=re.MULTILINE)) == types, name
+        assert [one for one in functions if f":`curvewise::{one}`" not in overview] == []
+    assert seen > 60
+
+
+def test_the_reference_has_c_and_fortran() -> None:
+    c, fortran = (
+        (DOCS / f"api/{name}.rst").read_text(encoding="utf-8") for name in ("c", "fortran")
+    )
+    assert ".. doxygenfile:: curvewise.h\n" in c
+    assert ".. literalinclude:: ../../cpp/fortran/curvewise.f90" in fortran
+
+
+def test_every_page_has_a_place_in_the_navigation() -> None:
+    """A page that no toctree names is an error of the build; here it is found without one."""
+    pages = {*PAGES, *(page for page in DOCS.rglob("*.rst") if BUILT.isdisjoint(page.parents))}
+    pages -= {page for page in pages if page.parent.name in ("autosummary", "_templates")}
+    named = {DOCS / "index.md"}
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        for block in re.findall(
+            r"^```\{toctree\}\n(.*?)^```|^\.\. toctree::\n(.*?)(?=^\S|\Z)",
+            text,
+            flags=re.MULTILINE | re.DOTALL,
+        ):
+            for line in "".join(block).splitlines():
+                entry = re.sub(r".*<(.*)>", r"\1", line.strip())
+                if entry and not entry.startswith(":"):
+                    named |= {*page.parent.glob(f"{entry}.md"), *page.parent.glob(f"{entry}.rst")}
+    assert sorted(name_of(page) for page in pages - named) == []

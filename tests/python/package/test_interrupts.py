@@ -61,6 +61,8 @@ LONG_CALLS: dict[str, Callable[[], object]] = {
     )(random_walk(2000, 2000)),
     "cdist, many offsets": lambda: curvewise.cdist([SHORT], [SHORT[:80]], "pcm", offsets=10**9),
     "sum_of_squares": lambda: curvewise.sum_of_squares(ENDLESS, ENDLESS),
+    "frechet_continuous": lambda: curvewise.frechet_continuous(*LONG),
+    "value_and_gradient": lambda: curvewise.value_and_gradient(*LONG, "frechet"),
     "Prepared, list": lambda: curvewise.Prepared(LONG[0], "dtw")([LONG[1]] * 3, workers=2),
 }
 

@@ -482,3 +482,17 @@ def test_the_continuous_distance_in_a_comparison(dim: int) -> None:
     figure = comparison.plot()
     title = f"Continuous Fréchet: {comparison['frechet_continuous']:.4g}"
     assert figure.axes[1].get_title() == title
+
+
+def test_a_warping_is_animated(tmp_path):
+    image = pytest.importorskip("PIL.Image", reason="matplotlib brings Pillow")
+    file = tmp_path / "warping.gif"
+    t = np.linspace(0, 6, 30)
+    plotting.animate_alignment(np.sin(t), np.sin(t[::2]), file, frames=3, seconds=1)
+    with image.open(file) as picture:
+        assert picture.n_frames == 3
+        assert picture.info["duration"] == 330
+    with pytest.raises(ValueError, match="frames is 1; give a whole number >= 2"):
+        plotting.animate_alignment(t, t, file, frames=1)
+    with pytest.raises(ValueError, match="animate_alignment draws 1 or 2 coordinates"):
+        plotting.animate_alignment(np.ones((3, 3)), np.ones((3, 3)), file)

@@ -1,0 +1,63 @@
+"""How far a simulation is from its test, branch by branch.
+
+A residual is the measured y minus the simulated y at the place that a warping path gives, as for
+the noise of an uncertainty (fitted_points.py). Branches end where the test turns back by more than
+a tenth of its range. Cost: a warping path.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from ..._curves import Array
+from ...curves import turning_points
+from ..fitted_points import fitted_points
+
+__all__ = ["Branch", "branches_of"]
+
+
+class Branch(NamedTuple):
+    """A branch of a test: where it is, and the residuals there.
+
+    Attributes
+    ----------
+    name : str
+        "branch 1" and so on.
+    x, residual : ndarray
+        Of every measured point, in the units of the test.
+    """
+
+    name: str
+    x: Array
+    residual: Array
+
+    def row(self) -> list[str]:
+        """Return its name, from where to where, how many points, and mean, rms and largest."""
+        rms = float(np.sqrt(np.mean(self.residual**2)))
+        largest = float(np.abs(self.residual).max())
+        numbers = [float(self.x[0]), float(self.x[-1])]
+        return [
+            self.name,
+            *(f"{number:.4g}" for number in numbers),
+            f"{len(self.x)}",
+            *(f"{number:.4g}" for number in (float(self.residual.mean()), rms, largest)),
+        ]
+
+
+def branches_of(experiment: Array, simulation: Array, y: int) -> list[Branch]:
+    """Return the branches of a test with the residuals of its column `y`."""
+    if experiment.shape[1] > 1:  # a third column, such as time, is left out
+        experiment, simulation = (curve[:, [0, y]] for curve in (experiment, simulation))
+    residual = experiment[:, -1] - fitted_points(experiment, simulation)[:, -1]
+    if experiment.shape[1] == 1:
+        return [Branch("all", np.arange(len(experiment), dtype=np.float64), residual)]
+    x = experiment[:, 0]
+    turns = turning_points(experiment) if np.ptp(x) > 0 else np.array([], dtype=np.int64)
+    ends = [0, *turns.tolist(), len(x) - 1]
+    return [
+        Branch(f"branch {k + 1}", x[first : end + 1], residual[first : end + 1])
+        for k, (first, end) in enumerate(pairwise(ends))
+    ]

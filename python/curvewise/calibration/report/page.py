@@ -1,0 +1,146 @@
+"""The page itself: head, sections, figures as JSON, and plotly.js to draw them.
+
+plotly.js is four to five megabytes and compresses to a third. It stands in the page as gzip in
+base64, and the browser unpacks it (DecompressionStream: Chrome 80, Safari 16.4, Firefox 113 and
+later; an older one shows the tables and says why there are no figures). The page loads nothing.
+"""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import html
+import json
+import os
+from collections.abc import Sequence
+from functools import lru_cache
+from importlib import import_module, resources
+from pathlib import Path
+
+from ..._extras import extra
+from ..search_record import SearchRecord
+from .figures import Figure
+from .sections import AddFigure, headline, most_points, overview, sections_of
+
+__all__ = ["page", "write_report"]
+
+_POINTS = 120_000  # of all curves together: some 2 MB
+_LEAST_SIDE = 240
+
+
+def write_report(path: str | os.PathLike[str], records: Sequence[SearchRecord]) -> None:
+    """Write the page of one search or several.
+
+    Parameters
+    ----------
+    path : path-like
+        The file; what is there is replaced.
+    records : sequence of SearchRecord
+        In the order in which the page has them.
+
+    Raises
+    ------
+    ImportError
+        plotly is not installed.
+    OSError
+        The file cannot be written.
+    """
+    Path(path).write_text(page(records), encoding="utf-8", newline="\n")
+
+
+def page(records: Sequence[SearchRecord]) -> str:
+    """Return the page of one search or several, as HTML."""
+    script = _plotly()
+    figures: list[Figure] = []
+
+    def add(figure: Figure, about: str) -> str:
+        figures.append(figure)
+        height = max(int(figure["layout"]["height"]), _LEAST_SIDE)
+        return (
+            f'<div class="figure" id="figure-{len(figures) - 1}" role="img" '
+            f'aria-label="{html.escape(about)}" style="height: {height}px"></div>'
+        )
+
+    most = most_points(records, _POINTS)
+    several = len(records) > 1
+    numbered = dict(enumerate(records, 1))
+    title = f"Identification of {', '.join(records[0].names)}"
+    body = [f"<h1>{html.escape(title)}</h1>"]
+    if several:
+        body.append(overview(numbered))
+    for number, record in numbered.items():
+        body.append(_search(record, f"s{number}", _heading(record, number, several), add, most))
+    data = json.dumps(figures, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+    return _PAGE.format(
+        title=html.escape(title),
+        style=_asset("report.css"),
+        body="\n".join(body),
+        figures=data,
+        plotly=script,
+        draw=_asset("report.js"),
+    )
+
+
+def _heading(record: SearchRecord, number: int, several: bool) -> str:
+    settings = record.settings
+    text = f"{settings['measure']} ({settings['preset']}), {settings['method']}"
+    return f"Search {number}: {text}" if several else text
+
+
+def _search(record: SearchRecord, prefix: str, heading: str, add: AddFigure, most: int) -> str:
+    sections = sections_of(record, add, most)
+    parts = [
+        f'<section id="{prefix}"><h2>{html.escape(heading)}</h2>',
+        f'<p class="state">{html.escape(headline(record))}</p>',
+    ]
+    anchors = [f"{prefix}-{i}" for i in range(len(sections))]
+    links = [
+        f'<a href="#{anchor}">{title}</a>'
+        for anchor, (title, _) in zip(anchors, sections, strict=True)
+    ]
+    parts.append(f"<nav>{' · '.join(links)}</nav>")
+    for anchor, (title, content) in zip(anchors, sections, strict=True):
+        parts.append(f'<h3 id="{anchor}">{title}</h3>\n{content}')
+    return "\n".join([*parts, "</section>"])
+
+
+def _asset(name: str) -> str:
+    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
+
+
+def _plotly() -> str:
+    """Return plotly.js as gzip in base64; the same text for the same plotly."""
+    with extra("report", "a report needs plotly, which is not installed"):
+        source: str = import_module("plotly.offline").get_plotlyjs()
+    return _packed(source)
+
+
+@lru_cache(maxsize=1)  # half a second, for every page of the same plotly
+def _packed(source: str) -> str:
+    return base64.b64encode(gzip.compress(source.encode("utf-8"), 9, mtime=0)).decode("ascii")
+
+
+_PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="generator" content="curvewise">
+<title>{title}</title>
+<link rel="icon" href="data:,">
+<style>
+{style}</style>
+</head>
+<body>
+<noscript><p class="state">Figures need JavaScript; the tables do not.</p></noscript>
+<p class="state" id="no-figures" hidden>
+This browser has no DecompressionStream, and draws no figures; the tables are complete.
+</p>
+{body}
+<script type="application/json" id="figures">{figures}</script>
+<script type="text/plain" id="plotly">{plotly}</script>
+<script>
+{draw}</script>
+</body>
+</html>
+"""

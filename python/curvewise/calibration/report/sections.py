@@ -1,0 +1,319 @@
+"""The sections of a page, each as HTML, with the figures that belong to it."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from ...deviations import Deviation
+from ..search_record import SearchRecord
+from . import figures
+from .branches import branches_of
+from .figures import Figure
+from .repeating import code_to_repeat
+from .uncertainty_summary import moved_curves, space_of, summary_of_record
+
+__all__ = ["AddFigure", "headline", "most_points", "overview", "sections_of", "table"]
+
+AddFigure = Callable[[Figure, str], str]
+"""Takes a figure and what it shows in words, and returns the HTML of its place."""
+
+_MOST_FAILURES = 100  # in the table; the others are counted
+
+
+def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Return a table of HTML; columns of numbers are set to the right."""
+    are_numbers = [all(map(_is_number, column)) for column in zip(*rows, strict=True)]
+    lines = ['<div class="table"><table><thead>', _row(header, "th", are_numbers)]
+    lines += ["</thead><tbody>", *(_row(row, "td", are_numbers) for row in rows)]
+    return "\n".join([*lines, "</tbody></table></div>"])
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell or "0")
+    except ValueError:
+        return False
+    return True
+
+
+def _row(cells: Sequence[str], tag: str, are_numbers: Sequence[bool]) -> str:
+    made = [
+        f"<{tag}{' class=number' if right else ''}>{html.escape(cell)}</{tag}>"
+        for cell, right in zip(cells, are_numbers, strict=True)
+    ]
+    return f"<tr>{''.join(made)}</tr>"
+
+
+def _paragraph(text: str) -> str:
+    return f"<p>{html.escape(text)}</p>"
+
+
+def headline(record: SearchRecord) -> str:
+    """Return the state of a search as a sentence."""
+    failed = sum(one.failed for one in record.evaluations)
+    count = f"{len(record.evaluations)} evaluations" + (f", {failed} failed" if failed else "")
+    if record.ending is None:
+        return f"The search has not ended: it was interrupted, or goes on. So far {count}."
+    state = "Converged" if record.ending.converged else "Not converged"
+    return f"{state}: {record.ending.message}. {count}."
+
+
+def overview(records: dict[int, SearchRecord]) -> str:
+    """Return the parameters that several searches have found, side by side."""
+    names = list(dict.fromkeys(name for record in records.values() for name in record.names))
+    rows = []
+    for number, record in records.items():
+        values = _parameters(record)
+        found = [f"{values[name]:.5g}" if name in values else "" for name in names]
+        best = record.best
+        rows.append(
+            [
+                f"{number}",
+                f"{record.settings['measure']} ({record.settings['preset']})",
+                record.settings["method"],
+                *found,
+                f"{len(record.evaluations)}",
+                "" if best is None else f"{best.value:.5g}",
+            ]
+        )
+    header = ["search", "measure", "method", *names, "evaluations", "value"]
+    return table(header, rows)
+
+
+def sections_of(record: SearchRecord, add: AddFigure, most: int) -> list[tuple[str, str]]:
+    """Return the title and the HTML of every section.
+
+    Parameters
+    ----------
+    record : SearchRecord
+    add : callable
+        Adds a figure to the page.
+    most : int
+        How many points are drawn of a curve.
+    """
+    summary, reason = summary_of_record(record)
+    return [
+        ("Parameters", _parameters_section(record, summary, reason, add)),
+        ("Tests and simulations", _tests(record, add, most)),
+        ("Residuals by branch", _residuals(record, add, most)),
+        ("Convergence", _convergence(record, add)),
+        ("Weakest directions", _weakest(record, summary, reason, add, most)),
+        ("Failures", _failures(record)),
+        ("Settings and versions", _settings(record)),
+    ]
+
+
+def _parameters(record: SearchRecord) -> dict[str, float]:
+    if record.ending is not None:
+        return record.ending.parameters
+    best = record.best
+    return {} if best is None else dict(zip(record.names, best.point, strict=True))
+
+
+def _parameters_section(
+    record: SearchRecord, summary: dict[str, Any] | None, reason: str, add: AddFigure
+) -> str:
+    space, parameters = space_of(record), _parameters(record)
+    rows = []
+    for name, value in parameters.items():
+        if name not in space.bounds:
+            rows.append([name, f"{value:.6g}", "", "", "", "", "", "fixed, or follows from others"])
+            continue
+        low, high = space.bounds[name]
+        place = figures.place_between(space, name, value)
+        note = "at its lower bound" if place < 1e-3 else ""
+        note = "at its upper bound" if place > 1 - 1e-3 else note
+        error = ends = ["", ""]
+        if summary is not None:
+            error = [f"{summary['standard_errors'][name]:.3g}"]
+            ends = [f"{end:.5g}" for end in summary["intervals"][name]]
+            note = note or ("" if summary["determined"][name] else "not determined")
+        cells = [f"{value:.6g}", *error[:1], *ends, f"{low:.6g}", f"{high:.6g}", note]
+        rows.append([name, *cells])
+    percent = "interval" if summary is None else f"{100 * summary['level']:g} % interval"
+    header = ["parameter", "value", "std. error", f"{percent} from", "to", "lower bound", "upper"]
+    parts = [table([*header, ""], rows)]
+    if summary is None:
+        parts.append(_paragraph(reason))
+    else:
+        noise = ", ".join(f"{sigma:.3g}" for sigma in summary["sigma"])
+        parts += [
+            _paragraph(f"Intervals from noise of standard deviation {noise} in y, loop by loop."),
+            '<div class="figures">',
+            add(figures.intervals(space, parameters, summary), "Intervals between the bounds"),
+            add(
+                figures.correlations(space.names, summary["correlations"]),
+                "Correlations of the errors",
+            ),
+            "</div>",
+        ]
+    if record.ending is not None:
+        measures = [
+            [name, f"{value:.6g}", "minimised" if name == record.settings["measure"] else ""]
+            for name, value in record.ending.measures.items()
+        ]
+        parts += [
+            "<h4>The optimum under every measure</h4>",
+            table(["measure", f"value (preset {record.settings['preset']})", ""], measures),
+        ]
+    return "\n".join(parts)
+
+
+def _loops(record: SearchRecord) -> list[tuple[str, list[str], Any, Any]]:
+    """Return title, names of the axes, test, and simulation or None, of every loop with points."""
+    tests = record.experiments
+    simulated: list[Any] = [*record.curves, *[None] * (len(tests) - len(record.curves))]
+    details = record.details
+    return list(zip(details["titles"], details["axes"], tests, simulated, strict=True))
+
+
+def _tests(record: SearchRecord, add: AddFigure, most: int) -> str:
+    parts, numbers = ['<div class="figures">'], []
+    for title, axes, test, simulation in _loops(record):
+        if test.size == 1:
+            found = "" if simulation is None else f"{simulation[0, 0]:.6g}"
+            numbers.append([title, f"{test[0, 0]:.6g}", found])
+            continue
+        figure = figures.loop(test, simulation, axes, title, most)
+        parts.append(add(figure, f"{title}: test and simulation"))
+    parts.append("</div>")
+    if numbers:
+        parts.append(table(["number", "test", "simulation"], numbers))
+    if record.ending is not None:
+        rows = [
+            [title, Deviation(*found).mean_text, Deviation(*found).largest_text]
+            for title, found in zip(
+                record.details["titles"], record.ending.deviations, strict=False
+            )
+            if found is not None
+        ]
+        if rows:
+            header = ["loop", "mean deviation, in units of y", "largest"]
+            parts += [f"<h4>As {record.settings['measure']} sees it</h4>", table(header, rows)]
+    if not record.curves:
+        parts.append(_paragraph("The simulated curves at the best point are not known."))
+    return "\n".join(parts)
+
+
+def _residuals(record: SearchRecord, add: AddFigure, most: int) -> str:
+    drawn, rows = [], []
+    for (title, axes, test, simulation), y in zip(_loops(record), record.details["y"], strict=True):
+        if simulation is None or test.size == 1 or len(test) < 2:
+            continue
+        branches = branches_of(test, simulation, y)
+        names = axes if len(axes) == 1 else [axes[0], axes[y]]
+        drawn.append(add(figures.residuals(branches, names, title, most), f"{title}: residuals"))
+        rows += [[title, *branch.row()] for branch in branches]
+    if not rows:
+        return _paragraph("There is no simulated curve to take from a test.")
+    header = ["loop", "branch", "x from", "to", "points", "mean", "rms", "largest"]
+    note = "Test minus simulation, in units of y, where a warping path matches them."
+    return "\n".join(
+        [
+            _paragraph(note),
+            '<div class="figures">',
+            *drawn,
+            "</div>",
+            table(header, rows),
+        ]
+    )
+
+
+def _convergence(record: SearchRecord, add: AddFigure) -> str:
+    if not record.evaluations:
+        return _paragraph("Nothing has been evaluated yet.")
+    objective = f"{record.settings['measure']} ({record.settings['preset']})"
+    seconds = sum(one.seconds for one in record.evaluations)
+    best = record.best
+    assert best is not None
+    text = (
+        f"{len(record.evaluations)} parameter sets, which took the model {seconds:.3g} s. "
+        f"Best value {best.value:.6g}, at evaluation {best.number}."
+    )
+    figure = figures.convergence(record.evaluations, objective)
+    return f'{_paragraph(text)}<div class="figures wide">{add(figure, "Convergence")}</div>'
+
+
+def _weakest(
+    record: SearchRecord, summary: dict[str, Any] | None, reason: str, add: AddFigure, most: int
+) -> str:
+    if summary is None:
+        return _paragraph(reason)
+    names, in_words = record.names, summary["in_words"]
+    parts = [_paragraph(f"{in_words[:1].upper()}{in_words[1:]}.")]
+    parts.append('<div class="figures">')
+    forth, back = moved_curves(summary)
+    for i, (title, axes, test, simulation) in enumerate(_loops(record)):
+        if test.size > 1 and simulation is not None:
+            figure = figures.weakest_direction(
+                test, simulation, (forth[i], back[i]), axes, title, most
+            )
+            parts.append(add(figure, f"{title}, moved along the weakest direction"))
+    parts.append("</div>")
+    changes = [
+        [name, f"{summary['weakest_direction'][name]:.4g}", f"{summary['unnoticed'][name]:.4g}"]
+        for name in names
+    ]
+    header = ["parameter", "change along the weakest direction", "change that raises the value 1 %"]
+    sensitivities = [
+        [title, *(f"{100 * value:.3g}" for value in row)]
+        for title, row in zip(record.details["titles"], summary["sensitivities"], strict=True)
+    ]
+    singular = ", ".join(f"{100 * value:.3g}" for value in summary["singular_values"])
+    parts += [
+        table(header, changes),
+        "<h4>How far each loop moves as a parameter goes through its bounds, % of the loop</h4>",
+        table(["loop", *names], sensitivities),
+        _paragraph(f"The same for combinations of parameters, strongest to weakest: {singular} %."),
+    ]
+    return "\n".join(parts)
+
+
+def _failures(record: SearchRecord) -> str:
+    failed = [one for one in record.evaluations if one.failed]
+    if not failed:
+        return _paragraph("No evaluation has failed.")
+    rows = [
+        [
+            f"{one.number}",
+            ", ".join(
+                f"{name} {value:.4g}" for name, value in zip(record.names, one.point, strict=True)
+            ),
+            one.message,
+        ]
+        for one in failed[:_MOST_FAILURES]
+    ]
+    made = table(["evaluation", "parameters", "why"], rows)
+    more = len(failed) - len(rows)
+    return made + (_paragraph(f"And {more} more.") if more else "")
+
+
+def _settings(record: SearchRecord) -> str:
+    details, settings = record.details, record.settings
+    tests = [
+        [title, f"{curve.shape[0]}", ", ".join(axes), f"{weight:.4g}"]
+        for title, curve, axes, weight in zip(
+            details["titles"], record.experiments, details["axes"], settings["weights"], strict=True
+        )
+    ]
+    rows = [["model", "; ".join(details["model"])]]
+    rows += [[name, text] for name, text in details["versions"].items()]
+    rows.append(["SHA-256 of the tests", settings["experiments"]])
+    return "\n".join(
+        [
+            f"<pre>{html.escape(code_to_repeat(record))}</pre>",
+            table(["test", "points", "columns", "weight"], tests),
+            table(["", ""], rows),
+        ]
+    )
+
+
+def most_points(records: Sequence[SearchRecord], budget: int) -> int:
+    """Return how many points of a curve are drawn, so that all curves are within a budget."""
+    # A loop is drawn up to seven times: test, simulation, residuals, and four for the directions.
+    curves = sum(7 * len(record.experiments) for record in records)
+    return int(np.clip(budget // max(curves, 1), 20, 3000))

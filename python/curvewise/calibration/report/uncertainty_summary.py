@@ -1,0 +1,144 @@
+"""What a page says of an uncertainty, as numbers and texts that JSON can hold.
+
+It is written down with the search once it has been computed. Where it has not been, it is computed
+from the record: the objective, the space and the surfaces are made again of what was written down,
+which gives the same bits. A measure that is a function of the user's cannot be made again.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..._curves import Array
+from ...named_curve import NamedCurve
+from ..cases import Case, CaseObjective
+from ..curve_text import curves_of, text_of
+from ..model_pool import Outcome
+from ..objective import Objective
+from ..parameters import Below, Bounds, Log, Space
+from ..search_record import SearchRecord
+from ..sensitivity import Optimum
+from ..study import Study
+from ..surfaces import Responses, Surfaces
+from ..uncertainty import Uncertainty, uncertainty_of
+
+__all__ = ["moved_curves", "space_of", "summary_of", "summary_of_record"]
+
+
+def summary_of(uncertainty: Uncertainty) -> dict[str, Any]:
+    """Return what a page says of an uncertainty."""
+    return {
+        "standard_errors": dict(uncertainty.standard_errors),
+        "intervals": {name: list(ends) for name, ends in uncertainty.intervals.items()},
+        "correlations": uncertainty.correlations.tolist(),
+        "sensitivities": uncertainty.sensitivities.tolist(),
+        "singular_values": uncertainty.singular_values.tolist(),
+        "weakest_direction": dict(uncertainty.weakest_direction),
+        "in_words": uncertainty.in_words,
+        "unnoticed": dict(uncertainty.unnoticed),
+        "determined": {name: bool(good) for name, good in uncertainty.determined.items()},
+        "at_bounds": dict(uncertainty.at_bounds),
+        "sigma": uncertainty.sigma.tolist(),
+        "level": uncertainty.level,
+        "runs": uncertainty.runs,
+        "moved": [text_of(curves) for curves in _moved(uncertainty)],
+    }
+
+
+def moved_curves(summary: dict[str, Any]) -> list[tuple[Array, ...]]:
+    """Return the curves moved along the weakest direction, and the other way."""
+    return [curves_of(text) for text in summary["moved"]]
+
+
+def _moved(uncertainty: Uncertainty) -> list[list[Array]]:
+    optimum = uncertainty.optimum
+    differential = optimum.study.space.differential(optimum.unit)
+    step = np.linalg.solve(differential, np.array(list(uncertainty.weakest_direction.values())))
+    return [optimum.curves(optimum.unit + sign * step) for sign in (1.0, -1.0)]
+
+
+def summary_of_record(record: SearchRecord) -> tuple[dict[str, Any] | None, str]:
+    """Return what a page says of the uncertainty of a search, or None and why it is not known."""
+    ending = record.ending
+    if ending is None:
+        return None, "The search has not ended."
+    if ending.uncertainty is not None:
+        return ending.uncertainty, ""
+    if ending.unit is None or ending.slopes is None:
+        return None, (
+            "Intervals would take runs of the model: the search has left too few near the optimum. "
+            "Call found.report(..., uncertainty=found.uncertainty()), which makes them."
+        )
+    if record.details["has_function"]:
+        return None, (
+            "The measure is a function, which is not written down: only found.report(...) itself "
+            "computes the intervals, and writes them down."
+        )
+    optimum = _optimum(record, ending.simulations, ending.unit, ending.slopes)
+    found = uncertainty_of(optimum, sigma=None, level=0.95, samples=1000, seed=0, runs=0)
+    return summary_of(found), ""
+
+
+def _optimum(
+    record: SearchRecord, simulations: tuple[Array, ...], unit: Array, slopes: Array
+) -> Optimum:
+    """Return the optimum of a search, made again of what was written down."""
+    study = Study((), _assemble_nothing, _objective(record), space_of(record))
+    responses = Responses(simulations)
+    base = responses.vector(simulations)
+    return Optimum(study, unit, responses, Surfaces(unit, base, slopes))
+
+
+def _assemble_nothing(outcomes: list[Outcome]) -> Outcome:
+    raise RuntimeError("a report assembles no runs")  # nothing asks it to: surfaces are there
+
+
+def _no_model(parameters: dict[str, Any]) -> Any:
+    raise RuntimeError("a report runs no model")  # likewise
+
+
+def _objective(record: SearchRecord) -> Objective:
+    settings, details = record.settings, record.details
+    tests: list[Any] = [
+        NamedCurve(curve, names) if names else curve
+        for curve, names in zip(record.experiments, details["named"], strict=True)
+    ]
+    if details["cases"] is not None:
+        cases = [_case(case, test) for case, test in zip(details["cases"], tests, strict=True)]
+        return CaseObjective(cases)
+    options = {name: value for name, value in settings["options"].items() if name != "part"}
+    objective = Objective(
+        tests,
+        settings["measure"],
+        preset=settings["preset"],
+        weights=settings["weights"],
+        min_coverage=settings["min_coverage"],
+        part=settings["options"].get("part", "experiment"),
+        **options,
+    )
+    objective.failure_value = np.array(settings["failure_value"])
+    return objective
+
+
+def _case(written: dict[str, Any], test: Array) -> Case:
+    others = {name: value for name, value in written.items() if name != "is_number"}
+    experiment = float(test[0, 0]) if written["is_number"] else test
+    return Case(model=_no_model, experiment=experiment, **others)
+
+
+def space_of(record: SearchRecord) -> Space:
+    """Return the space; parameters that follow from others by a function are left out."""
+    bounds: dict[str, Any] = {}
+    for name, given in record.settings["bounds"].items():
+        if not isinstance(given, list):
+            bounds[name] = given
+        elif given[0] == "log":
+            bounds[name] = Log(*given[1:])
+        elif given[0] == "below":
+            bounds[name] = Below(*given[1:])
+        elif given[0] != "tied":
+            bounds[name] = tuple(given)
+    made: Bounds = bounds
+    return Space(made)

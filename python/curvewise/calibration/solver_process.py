@@ -1,0 +1,131 @@
+"""A solver's process: started in its folder, watched, and ended with all that it has started.
+
+The program runs in a process group of its own, without a shell; what it prints goes to a log. It is
+looked at ten times a second, for its end, its time limit, and a log that has run away. Cost: a few
+milliseconds, and at most 50 ms until the end of the process is noticed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+__all__ = ["SolverError", "run_solver"]
+
+# Bytes of output after which a program has run away, and what is then left of its log.
+_MOST_OUTPUT = 2**26
+_KEPT_OUTPUT = 2**20
+_LOOK = 0.1  # seconds between two looks at the log
+
+_GRACE = 2.0  # seconds between SIGTERM, on which solvers return their licence, and SIGKILL
+
+
+class SolverError(RuntimeError):
+    """A run of the solver failed; the text says how, and where its log is."""
+
+
+def run_solver(
+    command: Sequence[str],
+    folder: Path,
+    log: Path,
+    *,
+    timeout: float,
+    environment: Mapping[str, str],
+) -> None:
+    """Run a program to its end.
+
+    Parameters
+    ----------
+    command : sequence of str
+        The program, by its path, and its arguments.
+    folder, log : Path
+        Where it runs, and the file for all that it prints.
+    timeout : float
+        Seconds after which it is stopped.
+    environment : mapping of str to str
+        Variables to set beside those of this process.
+
+    Raises
+    ------
+    SolverError
+        It does not start, takes too long, prints too much, or ends with another exit code than 0.
+    """
+    program = Path(command[0]).name
+    begin = time.monotonic()
+    with log.open("wb") as output:
+        try:
+            process = subprocess.Popen(
+                command,
+                cwd=folder,
+                env={**os.environ, **environment},
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+        except OSError as error:
+            raise SolverError(f"{program} did not start: {error}; folder: {folder}") from error
+        try:
+            code = _wait(process, begin + timeout, log)
+            too_much = False
+        except subprocess.TimeoutExpired:
+            raise SolverError(
+                f"{program} took longer than {timeout:g} s and was stopped; log: {log}"
+            ) from None
+        except _RunAwayError:
+            too_much = True
+        finally:
+            _end_group(process)
+    if too_much:
+        os.truncate(log, _KEPT_OUTPUT)
+        raise SolverError(
+            f"{program} printed more than {_MOST_OUTPUT >> 20} MiB and was stopped; "
+            f"the first of it: {log}"
+        )
+    if code != 0:
+        how = f"was killed by signal {-code}" if code < 0 else f"ended with exit code {code}"
+        seconds = time.monotonic() - begin
+        raise SolverError(f"{program} {how} after {seconds:.1f} s; log: {log}")
+
+
+class _RunAwayError(Exception):
+    """A program has printed more than any log is worth."""
+
+
+def _wait(process: subprocess.Popen[bytes], deadline: float, log: Path) -> int:
+    """Return the exit code; TimeoutExpired at the deadline, _RunAwayError for a huge log."""
+    while True:
+        left = deadline - time.monotonic()
+        try:
+            return process.wait(min(max(left, 0.0), _LOOK))
+        except subprocess.TimeoutExpired:
+            if left <= _LOOK:
+                raise
+            if log.stat().st_size > _MOST_OUTPUT:
+                raise _RunAwayError from None
+
+
+def _end_group(process: subprocess.Popen[bytes]) -> None:
+    """End the program and whatever it has started, if that is still running."""
+    try:
+        if process.poll() is None:
+            _signal_group(process, "SIGTERM")
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(_GRACE)
+    finally:  # also when Ctrl-C is pressed once more
+        _signal_group(process, "SIGKILL")
+        process.wait()
+
+
+def _signal_group(process: subprocess.Popen[bytes], name: str) -> None:
+    if os.name == "posix":
+        # The group outlives the program while it has members; macOS refuses where all are zombies.
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.Signals[name])
+    else:
+        process.kill()

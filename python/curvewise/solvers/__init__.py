@@ -1,0 +1,24 @@
+"""What solvers write, as histories: the text and binary files of CalculiX, Abaqus and LS-DYNA.
+
+Each reader returns a :class:`SolverOutput`, which prints as a list of what the file holds and gives
+one number per increment: ``read_calculix_dat("deck.dat").history("fx", set_name="PULLED")``. A
+`read` of :class:`curvewise.calibration.CommandModel` puts a curve together from two of them; a
+study file (:mod:`curvewise.studies`) does so without Python.
+"""
+
+from .abaqus_dat import read_abaqus_dat
+from .calculix_dat import read_calculix_dat
+from .calculix_frd import read_calculix_frd
+from .ls_dyna_binout import read_ls_dyna_binout
+from .ls_dyna_text import read_ls_dyna_elout, read_ls_dyna_nodout
+from .solver_output import SolverOutput
+
+__all__ = [
+    "SolverOutput",
+    "read_abaqus_dat",
+    "read_calculix_dat",
+    "read_calculix_frd",
+    "read_ls_dyna_binout",
+    "read_ls_dyna_elout",
+    "read_ls_dyna_nodout",
+]

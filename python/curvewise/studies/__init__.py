@@ -1,0 +1,13 @@
+"""Studies without Python: an identification that a file describes, ``study.toml``.
+
+``curvewise identify study.toml`` runs one from the shell, and :class:`Study` from Python. The file
+names the measured curves, the solver's command and its templates, how its output is read, the
+parameters, and how to search; docs/study.md has every key.
+"""
+
+from .dry_run import DryRun
+from .formulas import Formula
+from .study import Found, Study
+from .toml_source import StudyError
+
+__all__ = ["DryRun", "Formula", "Found", "Study", "StudyError"]

@@ -1,0 +1,80 @@
+"""What is wrong with a study only when its tests, models, measures and method come together.
+
+Objective, models and plan are made as a search would make them, and what they refuse is placed at
+the key that it is about. Cost: that of scaling the tests, and of reading the templates.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..calibration.running import Plan
+from .study_model import StudyModel
+from .toml_source import KeyPath, Source
+
+if TYPE_CHECKING:
+    from .study import Study
+
+__all__ = ["check_together"]
+
+
+def check_together(study: Study, source: Source) -> None:
+    """Note what is wrong only when tests, measures and method come together.
+
+    Parameters
+    ----------
+    study : Study
+        What the file says.
+    source : Source
+        The file, where problems are noted.
+    """
+    if study.has_cases and len(study.search.measures) > 1:
+        named = [i for i, test in enumerate(study.tests) if test.own or test.is_number]
+        at: KeyPath = ("tests", named[0]) if named else ("search", "measures")
+        source.problem(
+            at,
+            "has settings of its own, or is simulated by a model of its own, and [search] has "
+            "several measures; give one measure, and run the study once for each",
+        )
+        return
+    if study.has_cases and "failure_value" in study.search.objective:
+        source.problem(("search", "failure_value"), "does not go with tests of their own kinds")
+    models: dict[str, StudyModel] = {}
+    try:
+        models = study.study_models()
+    except (OSError, ValueError) as error:
+        source.problem(("model",) if "" in study.models else ("models",), str(error))
+        return
+    settings = study.search.search
+    for measure in study.search.measures:
+        key = "measures" if len(study.search.measures) > 1 else "measure"
+        try:
+            study.objective(models, measure)
+        except (TypeError, ValueError) as error:
+            _place_objective_error(study, source, key, str(error))
+        plan = Plan(
+            method=settings.get("method", "trust-region"),
+            method_options=settings.get("method_options", {}),
+            seed=0,
+            start=None,
+            progress=False,
+            callback=None,
+            history=None,
+            max_evaluations=settings.get("max_evaluations"),
+        )
+        try:
+            # Of cases, identify knows no common measure that is a sum of squares.
+            plan.check("area" if study.has_cases else measure)
+        except ValueError as error:
+            where = "method_options" if "option" in str(error) else "method"
+            source.problem(("search", where), f"does not go together: {error}")
+
+
+def _place_objective_error(study: Study, source: Source, key: str, message: str) -> None:
+    """Note what an objective refuses, at the test or the key that it is about."""
+    for i, test in enumerate(study.tests):
+        if f"case {test.name!r}" in message or f"experiments[{i}]" in message:
+            source.problem(("tests", i), f"cannot be compared: {message}")
+            return
+    at = "options" if "option" in message else key
+    source.problem(("search", at), f"does not go with the tests: {message}")

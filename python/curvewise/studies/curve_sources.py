@@ -1,0 +1,170 @@
+"""Where a curve comes from: a file of a test, or what a solver has written into a run's folder.
+
+Either whole columns of a file, times factors; or named quantities, of which formulas make x and y.
+Text, Excel and MATLAB are read by curvewise.read_curve, solvers' files by curvewise.solvers.
+"""
+
+from __future__ import annotations
+
+import glob
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .. import solvers
+from .._curves import Array
+from ..curve_files import read_curve, read_named_columns
+from ..solvers import SolverOutput
+from .formulas import Formula
+
+__all__ = ["FORMATS", "CurveSource", "Quantity", "format_of"]
+
+FORMATS: dict[str, Callable[[Path], SolverOutput] | None] = {
+    "columns": None,
+    "calculix-dat": solvers.read_calculix_dat,
+    "calculix-frd": solvers.read_calculix_frd,
+    "abaqus-dat": solvers.read_abaqus_dat,
+    "ls-dyna-nodout": solvers.read_ls_dyna_nodout,
+    "ls-dyna-elout": solvers.read_ls_dyna_elout,
+    "ls-dyna-binout": solvers.read_ls_dyna_binout,
+}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One number a time of a solver's output: the arguments of `SolverOutput.history`."""
+
+    component: str
+    variable: str | None = None
+    set_name: str | None = None
+    number: int | None = None
+    point: int | None = None
+    combine: str | None = None
+
+    def of(self, output: SolverOutput) -> Array:
+        """Return the history."""
+        return output.history(
+            self.component,
+            variable=self.variable,
+            set_name=self.set_name,
+            number=self.number,
+            point=self.point,
+            combine=self.combine,
+        )
+
+
+@dataclass(frozen=True)
+class CurveSource:
+    """A file, what of it is read, and what is made of that.
+
+    Parameters
+    ----------
+    file : str
+        Absolute, or in the folder that `read` is given.
+    format : str
+        One of `FORMATS`.
+    names : tuple of str
+        What formulas call the columns or quantities.
+    columns : tuple of (str or int), or of Quantity
+        Where each of them comes from; empty for the first two columns of a file.
+    factors : tuple of float
+        What they are multiplied by; empty for 1.
+    formulas : tuple of Formula
+        Of the names: x and y, or one whose value is a number; empty for the columns as they are.
+    first_point : tuple of float
+        A point that is put before the others; empty for none.
+    sheet : str or int, optional
+        Of a workbook.
+    """
+
+    file: str
+    format: str
+    names: tuple[str, ...] = ()
+    columns: tuple[Any, ...] = ()
+    factors: tuple[float, ...] = ()
+    formulas: tuple[Formula, ...] = ()
+    first_point: tuple[float, ...] = ()
+    sheet: str | int | None = None
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it gives a number, and no curve."""
+        return len(self.formulas) == 1
+
+    def axes(self, folder: Path) -> tuple[str, ...]:
+        """Return what the coordinates are called, for tables and pictures."""
+        if self.formulas:
+            return tuple(formula.text for formula in self.formulas)
+        if self.format != "columns":
+            return self.names
+        found = read_named_columns(folder / self.file, self.columns or None, sheet=self.sheet)[1]
+        return tuple(name if not name.isdecimal() else f"column {name}" for name in found)
+
+    def read(self, folder: Path) -> Array:
+        """Return the curve, shape (n, d); (1, 1) for a number.
+
+        Raises
+        ------
+        ValueError, OSError
+            The file cannot be read, does not hold what is asked for, or a formula has no value.
+        """
+        columns = self._columns(folder)
+        if self.factors:
+            columns = columns * np.array(self.factors)
+        if not self.formulas:
+            curve = columns
+        else:
+            values = dict(zip(self.names, columns.T, strict=True))
+            made = [np.asarray(formula(values), dtype=np.float64) for formula in self.formulas]
+            if self.is_number:
+                return self._single(made[0])
+            curve = np.column_stack([np.broadcast_to(m, len(columns)) for m in made])
+        if self.first_point:
+            curve = np.vstack((self.first_point, curve))
+        return curve
+
+    def _columns(self, folder: Path) -> Array:
+        """Return what is read, a column each."""
+        path = folder / self.file
+        if self.format == "columns":
+            return read_curve(path, self.columns or None, sheet=self.sheet)
+        reader = FORMATS[self.format]
+        assert reader is not None
+        if not glob.glob(os.fspath(path)):
+            there_are = sorted(item.name for item in folder.iterdir()) if folder.is_dir() else []
+            raise FileNotFoundError(
+                f"the run has written no {self.file}; it has written {', '.join(there_are)}"
+            )
+        output = reader(path)
+        histories = [quantity.of(output) for quantity in self.columns]
+        lengths = {name: len(h) for name, h in zip(self.names, histories, strict=True)}
+        if len(set(lengths.values())) > 1:
+            counts = ", ".join(f"{name} {count}" for name, count in lengths.items())
+            raise ValueError(
+                f"{self.file} has different numbers of times: {counts}; print all of them at the "
+                "same increments, or was the run cut short?"
+            )
+        return np.column_stack(histories)
+
+    def _single(self, value: Array) -> Array:
+        if value.size != 1:
+            raise ValueError(
+                f"{self.formulas[0].text!r} gives {value.size} numbers; one is wanted: use max, "
+                "min, mean, sum, first or last"
+            )
+        return value.reshape(1, 1)
+
+
+def format_of(file: str) -> str:
+    """Return the format that a file's name says; empty for a .dat, which several solvers write."""
+    name = Path(file).name.lower()
+    for known in ("nodout", "elout", "binout"):
+        if name.startswith(known):
+            return f"ls-dyna-{known}"
+    if name.endswith(".frd"):
+        return "calculix-frd"
+    return "" if name.endswith(".dat") else "columns"

@@ -1,0 +1,236 @@
+"""One run of every model of a study, before the search: what was written, read and computed.
+
+What goes wrong in a study goes wrong here: a deck that the solver refuses, a set that is called
+differently, units. Cost: one run of every model.
+"""
+
+from __future__ import annotations
+
+import math
+import shutil
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._curves import Array
+from ..calibration import SimulationStore, SolverError
+from ..calibration.curve_list import points_of
+from ..calibration.model_identity import model_identity
+from ..calibration.model_pool import Outcome
+from ..calibration.parameters import Space
+from .entries import TestEntry
+from .study_model import StudyModel
+
+if TYPE_CHECKING:
+    from .study import Study
+
+__all__ = ["DryRun", "dry_run", "least_runs"]
+
+# Test and simulation whose extents differ by more than this are probably in different units.
+_UNITS = 20.0
+_LAST_LINES = 8  # of a log
+
+
+@dataclass(frozen=True)
+class Read:
+    """What a run has for one test.
+
+    Attributes
+    ----------
+    test : TestEntry
+        The test.
+    simulation : ndarray
+        The curve that was read; shape (1, 1) for a number.
+    """
+
+    test: TestEntry
+    simulation: Array
+
+    def __str__(self) -> str:
+        test = self.test
+        if test.is_number:
+            measured = float(np.asarray(test.experiment))
+            return f"{test.name}: measured {measured:g}, simulated {self.simulation[0, 0]:g}"
+        experiment = np.asarray(test.experiment)
+        lines = [f"{test.name}: {test.file}"]
+        for what, curve in (("measured", experiment), ("simulated", self.simulation)):
+            ranges = ", ".join(
+                f"{axis} {low:.4g} to {high:.4g}"
+                for axis, low, high in zip(
+                    test.axes, curve.min(axis=0), curve.max(axis=0), strict=False
+                )
+            )
+            lines.append(f"  {what:<9}  {len(curve):>6} points, {ranges}")
+        return "\n".join([*lines, *(f"  {hint}" for hint in self.hints())])
+
+    def hints(self) -> list[str]:
+        """Return what looks wrong: other units, another sign, a piece of the test."""
+        if self.test.is_number or self.simulation.shape[1] != np.shape(self.test.experiment)[1]:
+            return []
+        found = []
+        extents = np.ptp(np.asarray(self.test.experiment), axis=0), np.ptp(self.simulation, axis=0)
+        for axis, measured, simulated in zip(self.test.axes, *extents, strict=True):
+            if simulated == 0:
+                found.append(f"look: {axis} of the simulation does not change")
+            elif not 1 / _UNITS < measured / simulated < _UNITS:
+                found.append(
+                    f"look: {axis} of the test is {measured / simulated:.3g} times that of the "
+                    "simulation; different units? see factors"
+                )
+        return found
+
+
+@dataclass(frozen=True)
+class DryRun:
+    """What came of one run of every model of a study.
+
+    Attributes
+    ----------
+    parameters : dict of str to float
+        With which it was made.
+    folders : tuple of Path
+        Of every run: the deck, the log, and what the solver has written.
+    read : tuple of Read
+        What was read for every test.
+    values : dict of str to float
+        The objective by measure.
+    seconds : float
+        What one set of parameters takes.
+    runs : int
+        How many sets of parameters the study takes at least.
+    workers : int
+        How many of them run at a time.
+    """
+
+    parameters: dict[str, float]
+    folders: tuple[Path, ...]
+    read: tuple[Read, ...]
+    values: dict[str, float]
+    seconds: float
+    runs: int
+    workers: int
+
+    @property
+    def least_seconds(self) -> float:
+        """How long the study takes at least."""
+        return math.ceil(self.runs / self.workers) * self.seconds
+
+    def __str__(self) -> str:
+        given = ", ".join(f"{name} = {value:.6g}" for name, value in self.parameters.items())
+        values = ", ".join(f"{value:.6g} by {name}" for name, value in self.values.items())
+        lines = [f"one run with {given}", *(f"kept in {folder}" for folder in self.folders), ""]
+        lines += [str(read) for read in self.read]
+        at_a_time = f", {self.workers} at a time" if self.workers > 1 else ""
+        lines += [
+            "",
+            f"objective: {values}",
+            f"{self.seconds:.2g} s a run; the study takes at least {self.runs} runs{at_a_time}: "
+            f"{duration(self.least_seconds)}, and often several times that",
+        ]
+        return "\n".join(lines)
+
+
+def duration(seconds: float) -> str:
+    """Return a time as people say it."""
+    if seconds < 100:
+        return f"{seconds:.2g} s"
+    if seconds < 6000:
+        return f"{seconds / 60:.0f} min"
+    return f"{seconds / 3600:.1f} h"
+
+
+def least_runs(method: str, parameters: int, options: Mapping[str, Any], *, has_start: bool) -> int:
+    """Return how many runs a method takes at least: its first designs, and one step.
+
+    With other options than the defaults it is a guess all the same.
+    """
+    k = parameters
+    starts = 1 if has_start else int(options.get("starts", 3))
+    design = 1 << math.ceil(math.log2(k + 1))  # of two levels
+    least = {
+        "trust-region": starts * (2 * k + 2),
+        "sdrm": 14 * (design + 1),
+        "de": 2 * max(5, int(options.get("popsize", 15)) * k),
+        "nelder-mead": 2 * k + 10,
+        "least_squares": 2 * k + 3,
+    }
+    least["sdrm+de"] = least["sdrm"] + least["de"]
+    return least[method]
+
+
+def dry_run(study: Study) -> DryRun:
+    """Run every model of a study once; see `Study.check`."""
+    space = Space(study.bounds)
+    middle = space.point(np.full(len(space.names), 0.5))
+    start = study.search.start
+    point = tuple(start[name] for name in space.names) if start else middle
+    parameters = space.dictionary(point)
+    place = study.results.parent / f"{study.path.stem}_check"
+    shutil.rmtree(place, ignore_errors=True)  # of an earlier check
+    models = study.study_models(kept_in=place)
+    began = time.perf_counter()
+    folders, simulations = [], {}
+    for name, model in models.items():
+        folder, curves = _run(model, parameters, study, place)
+        folders.append(folder)
+        simulations[name] = list(curves)
+    seconds = time.perf_counter() - began
+    read = []
+    for test in study.tests:
+        read.append(Read(test, simulations[test.model].pop(0)))
+    objectives = {name: study.objective(models, name) for name in study.search.measures}
+    values = {}
+    simulated = [one.simulation for one in read]
+    for name, objective in objectives.items():
+        score = objective.predicted(simulated)
+        if score.failures:
+            raise ValueError(f"the run has no value by {name}: {'; '.join(score.failures)}")
+        values[name] = score.value
+    search = study.search.search
+    method = str(search.get("method", "trust-region"))
+    runs = least_runs(
+        method, len(space.names), search.get("method_options", {}), has_start=bool(start)
+    )
+    limit = search.get("max_evaluations", runs)
+    workers = int(search.get("workers", 1))
+    return DryRun(
+        parameters,
+        tuple(folders),
+        tuple(read),
+        values,
+        seconds,
+        min(runs, limit),
+        max(1, workers),
+    )
+
+
+def _run(
+    model: StudyModel, parameters: dict[str, float], study: Study, place: Path
+) -> tuple[Path, tuple[Array, ...]]:
+    """Run a model, store what comes, and return its folder and its curves."""
+    before = set(place.iterdir())
+    began = time.perf_counter()
+    try:
+        result = model(parameters)
+    except SolverError as error:
+        raise SolverError(f"{error}{_end_of_log(str(error))}") from None
+    seconds = time.perf_counter() - began
+    (folder, *_) = set(place.iterdir()) - before
+    with SimulationStore(study.search.store) as store:
+        identity = model_identity(model, study.search.search.get("version"))
+        store.register(identity)
+        store.save(identity.text, parameters, Outcome(result, "", seconds))
+    return folder, points_of(result)
+
+
+def _end_of_log(message: str) -> str:
+    """Return the last lines of the log that a message names."""
+    log = Path(message.rpartition("log: ")[2])
+    if "log: " not in message or not log.is_file():
+        return ""
+    lines = [line for line in log.read_text(encoding="latin-1").splitlines() if line.strip()]
+    return "".join(f"\n  | {line.rstrip()}" for line in lines[-_LAST_LINES:])

@@ -1,0 +1,234 @@
+"""Formulas of a study file: "force / (area * (1 + ux))", "E / (2 * (1 + nu))".
+
+Numbers, names, + - * / ** (or ^), brackets, and the functions of a pocket calculator, of numbers or
+of whole columns. A parser of its own in the place of Python's, as parameters have names such as
+"yield" and "lambda", and since a formula should be able to do nothing else. Recursive descent; cost
+linear in the text, and in the columns when it is evaluated.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Callable, Iterable, Mapping
+from functools import reduce
+from typing import Any, TypeAlias
+
+import numpy as np
+
+__all__ = ["Formula", "undefined_name"]
+
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|(?P<name>[A-Za-z_]\w*)"
+    r"|(?P<sign>\*\*|[-+*/^(),]))"
+)
+_DEEPEST = 100  # brackets within brackets
+
+
+def _largest(*columns: Any) -> Any:
+    return np.max(columns[0]) if len(columns) == 1 else reduce(np.maximum, columns)
+
+
+def _smallest(*columns: Any) -> Any:
+    return np.min(columns[0]) if len(columns) == 1 else reduce(np.minimum, columns)
+
+
+_FUNCTIONS: dict[str, Callable[..., Any]] = {
+    "abs": np.abs,
+    "exp": np.exp,
+    "expm1": np.expm1,
+    "ln": np.log,
+    "log": np.log,
+    "log10": np.log10,
+    "log1p": np.log1p,
+    "sqrt": np.sqrt,
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "max": _largest,
+    "min": _smallest,
+    "mean": np.mean,
+    "sum": np.sum,
+    "first": lambda column: np.atleast_1d(column)[0],
+    "last": lambda column: np.atleast_1d(column)[-1],
+}
+_SEVERAL = ("max", "min")
+_CONSTANTS = {"pi": np.pi}
+
+_Tree: TypeAlias = "tuple[Any, ...]"
+
+
+class Formula:
+    """A formula of names, as a function of their values.
+
+    Parameters
+    ----------
+    text : str
+        The formula. ``max`` and ``min`` of one column are numbers, of several the largest and the
+        smallest at every point; ``first``, ``last``, ``mean`` and ``sum`` are numbers.
+
+    Attributes
+    ----------
+    text : str
+        As given.
+    names : tuple of str
+        What has to have a value.
+
+    Raises
+    ------
+    ValueError
+        It is no formula; the message says where.
+
+    Examples
+    --------
+    >>> from curvewise.studies.formulas import Formula
+    >>> formula = Formula("force / (4 * (1 + 2 * u)) ^ 2")
+    >>> formula.names, float(formula({"force": 100.0, "u": 0.0}))
+    (('force', 'u'), 6.25)
+    """
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self._tree = _Parser(text).tree()
+        self.names = tuple(dict.fromkeys(_names(self._tree)))
+
+    def __call__(self, values: Mapping[str, Any]) -> Any:
+        """Return the value, a number or an array."""
+        try:
+            with np.errstate(invalid="raise", divide="raise", over="raise"):
+                return _value(self._tree, values)
+        except FloatingPointError as error:
+            raise ValueError(f"{self.text!r}: {error}") from None
+
+    def __repr__(self) -> str:
+        return f"Formula({self.text!r})"
+
+
+def undefined_name(name: str, known: Iterable[str]) -> str:
+    """Return what to say of a name that is none of those that there are."""
+    names = list(known)
+    near = difflib.get_close_matches(name, names, n=1)
+    hint = f"; did you mean {near[0]!r}?" if near else ""
+    return f"uses {name!r}, which is none of {', '.join(names) or '(nothing)'}{hint}"
+
+
+class _Parser:
+    def __init__(self, text: str) -> None:
+        self._text, self._at, self._depth = text, 0, 0
+        self._kind, self._token, self._begin = "", "", 0
+        self._advance()
+
+    def tree(self) -> _Tree:
+        tree = self._sum()
+        if self._kind != "end":
+            raise self._error(f"{self._token!r} is one too many")
+        return tree
+
+    def _advance(self) -> None:
+        rest = self._text[self._at :]
+        if not rest.strip():
+            self._kind, self._token, self._begin = "end", "the end", len(self._text)
+            return
+        match = _TOKEN.match(self._text, self._at)
+        if match is None:
+            stop = len(self._text) - len(rest.lstrip())
+            self._begin = stop
+            raise self._error(f"{self._text[stop]!r} has no meaning here")
+        self._kind = str(match.lastgroup)
+        self._token, self._at = match[self._kind], match.end()
+        self._begin = match.start(self._kind)
+
+    def _error(self, what: str) -> ValueError:
+        return ValueError(f"is {self._text!r}, which is no formula: {what}, at {self._begin + 1}")
+
+    def _take(self, *signs: str) -> str:
+        if self._kind != "sign" or self._token not in signs:
+            return ""
+        token = self._token
+        self._advance()
+        return token
+
+    def _sum(self) -> _Tree:
+        tree = self._product()
+        while sign := self._take("+", "-"):
+            tree = (sign, tree, self._product())
+        return tree
+
+    def _product(self) -> _Tree:
+        tree = self._signed()
+        while sign := self._take("*", "/"):
+            tree = (sign, tree, self._signed())
+        return tree
+
+    def _signed(self) -> _Tree:
+        if sign := self._take("-", "+"):
+            operand = self._signed()
+            return ("negative", operand) if sign == "-" else operand
+        base = self._atom()
+        return ("**", base, self._signed()) if self._take("**", "^") else base
+
+    def _atom(self) -> _Tree:
+        self._depth += 1
+        if self._depth > _DEEPEST:
+            raise self._error(f"more than {_DEEPEST} brackets")
+        kind, token = self._kind, self._token
+        if kind == "number":
+            self._advance()
+            tree: _Tree = ("number", float(token))
+        elif kind == "name":
+            self._advance()
+            tree = self._call(token) if self._take("(") else ("name", token)
+        elif self._take("("):
+            tree = self._sum()
+            self._close()
+        else:
+            raise self._error(f"a number or a name is missing before {token!r}")
+        self._depth -= 1
+        return tree
+
+    def _call(self, name: str) -> _Tree:
+        if name not in _FUNCTIONS:
+            near = difflib.get_close_matches(name, _FUNCTIONS, n=1)
+            hint = f"did you mean {near[0]}?" if near else f"there is {', '.join(_FUNCTIONS)}"
+            raise self._error(f"there is no function {name!r}; {hint}")
+        arguments = [self._sum()]
+        while self._take(","):
+            arguments.append(self._sum())
+        self._close()
+        if len(arguments) > 1 and name not in _SEVERAL:
+            raise self._error(f"{name} has one argument, not {len(arguments)}")
+        return ("call", name, *arguments)
+
+    def _close(self) -> None:
+        if not self._take(")"):
+            raise self._error(f"')' is missing before {self._token!r}")
+
+
+def _names(tree: _Tree) -> list[str]:
+    if tree[0] == "name":
+        return [] if tree[1] in _CONSTANTS else [tree[1]]
+    return [name for part in tree[1:] if isinstance(part, tuple) for name in _names(part)]
+
+
+def _value(tree: _Tree, values: Mapping[str, Any]) -> Any:
+    kind = tree[0]
+    if kind == "number":
+        return np.float64(tree[1])
+    if kind == "name":
+        value = values[tree[1]] if tree[1] in values else _CONSTANTS[tree[1]]
+        return value if isinstance(value, np.ndarray) else np.float64(value)
+    if kind == "call":
+        return _FUNCTIONS[tree[1]](*(_value(part, values) for part in tree[2:]))
+    left = _value(tree[1], values)
+    if kind == "negative":
+        return -left
+    right = _value(tree[2], values)
+    if kind == "+":
+        return left + right
+    if kind == "-":
+        return left - right
+    if kind == "*":
+        return left * right
+    if kind == "/":
+        return left / right
+    return left**right

@@ -1,0 +1,170 @@
+"""The model of a study: a CommandModel, what its templates need beside the parameters, and curves.
+
+Values of formulas, and tables whose rows are formulas (a hardening curve of its law), take the
+place of the few lines of Python that would otherwise stand between parameters and deck.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .._curves import Array
+from ..calibration import CommandModel
+from .curve_sources import CurveSource
+from .formulas import Formula
+
+__all__ = ["DeckTable", "DeckValue", "FormulaOfParameters", "OutputReader", "Picked", "StudyModel"]
+
+
+class FormulaOfParameters:
+    """A tied parameter: a formula of those listed before it."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.formula = Formula(text)
+
+    def __call__(self, parameters: Mapping[str, float]) -> float:
+        """Return its value."""
+        return float(self.formula(parameters))
+
+
+@dataclass(frozen=True)
+class DeckValue:
+    """A number for the templates: a formula of the parameters."""
+
+    name: str
+    formula: Formula
+
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """The names that have to have a value."""
+        return self.formula.names
+
+    def value(self, values: Mapping[str, Any]) -> float:
+        """Return the number."""
+        return float(self.formula(values))
+
+
+@dataclass(frozen=True)
+class DeckTable:
+    """Lines for the templates: formulas of the parameters and of a list of numbers.
+
+    Parameters
+    ----------
+    name : str
+        Of its placeholder.
+    over : str
+        What the formulas call the numbers.
+    points : tuple of float
+        The numbers, one a line.
+    line : tuple of Formula
+        What stands in a line.
+    format, separator : str
+        Of the numbers, and between them.
+    """
+
+    name: str
+    over: str
+    points: tuple[float, ...]
+    line: tuple[Formula, ...]
+    format: str
+    separator: str
+
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """The names that have to have a value."""
+        names = [name for formula in self.line for name in formula.names]
+        return tuple(dict.fromkeys(name for name in names if name != self.over))
+
+    def value(self, values: Mapping[str, Any]) -> str:
+        """Return the lines."""
+        known = {**values, self.over: np.array(self.points)}
+        columns = [
+            np.broadcast_to(np.asarray(formula(known), dtype=np.float64), len(self.points))
+            for formula in self.line
+        ]
+        rows = zip(*(column.tolist() for column in columns), strict=True)
+        return "\n".join(
+            self.separator.join(format(number, self.format) for number in row) for row in rows
+        )
+
+
+class OutputReader:
+    """Reads the curves of all tests of a model from a run's folder.
+
+    Parameters
+    ----------
+    sources : tuple of CurveSource
+        One for each test.
+    success : (file, text) or None
+        A text that the file must hold, or the run has failed.
+    """
+
+    def __init__(
+        self, sources: tuple[CurveSource, ...], success: tuple[str, str] | None = None
+    ) -> None:
+        self.sources, self.success = sources, success
+        self.text = repr((sources, success))  # by which a store tells readers apart
+
+    def __call__(self, folder: Path) -> list[Array]:
+        """Return the curves; raise where the run is not complete."""
+        if self.success is not None:
+            file, wanted = self.success
+            path = folder / file
+            if not path.is_file():
+                raise FileNotFoundError(f"the run has written no {file}, which says how it ended")
+            if wanted not in path.read_text(encoding="latin-1"):
+                raise ValueError(f"{file} does not hold {wanted!r}: the run is not complete")
+        return [source.read(folder) for source in self.sources]
+
+
+class Picked:
+    """The curve of one test among those that a model returns; a number for a test of one."""
+
+    def __init__(self, place: int, is_number: bool) -> None:
+        self.place, self.is_number = place, is_number
+
+    def __call__(self, curves: Any) -> Any:
+        """Return it."""
+        curve = curves[self.place] if isinstance(curves, list) else curves
+        return float(curve[0, 0]) if self.is_number else curve
+
+
+class StudyModel:
+    """The model of a study, a function of its parameters.
+
+    Parameters
+    ----------
+    command_model : CommandModel
+        Fills in the templates, runs the solver, reads the curves.
+    values : tuple of (DeckValue or DeckTable)
+        What the templates need beside the parameters, each made of what stands before it.
+
+    Attributes
+    ----------
+    identity : str
+        What a store knows its runs by.
+    """
+
+    def __init__(
+        self, command_model: CommandModel, values: tuple[DeckValue | DeckTable, ...]
+    ) -> None:
+        self.command_model, self.values = command_model, values
+        self.identity = command_model.identity
+        if values:
+            digest = hashlib.sha256(repr(values).encode()).hexdigest()[:16]
+            self.identity += f", values {digest}"
+
+    def __call__(self, parameters: Mapping[str, float]) -> Any:
+        """Run the solver and return its curves."""
+        known: dict[str, Any] = dict(parameters)
+        for value in self.values:
+            known[value.name] = value.value(known)
+        wanted = {name: known[name] for name in self.command_model.parameters}
+        return self.command_model(wanted)

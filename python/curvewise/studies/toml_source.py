@@ -1,0 +1,259 @@
+"""A TOML file with the line of every key, and all that is wrong with it.
+
+tomllib, which is Python's own from 3.11 on, gives values without their lines. A second walk over
+the text, which is valid TOML by then, finds where each key, each table and each item of an array
+begins. What is wrong is collected, so that one look at the file mends all of it.
+Cost: linear in the file.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from .._extras import extra
+
+__all__ = ["KeyPath", "Source", "StudyError"]
+
+KeyPath: TypeAlias = tuple["str | int", ...]
+
+_TOKEN = re.compile(
+    r'(?P<text>"""(?:\\.|(?!""").)*"{3,5}|\'\'\'(?:(?!\'\'\').)*\'{3,5}'
+    r'|"(?:\\.|[^"\\\n])*"|\'[^\'\n]*\')'
+    r"|(?P<comment>#[^\n]*)|(?P<line>\n)|(?P<sign>[][{}=,.])|(?P<bare>[^\s\[\]{}=,.#\"']+)",
+    re.DOTALL,
+)
+
+
+class StudyError(ValueError):
+    """A study file is wrong; the text has a line for every problem, with its line in the file.
+
+    Attributes
+    ----------
+    problems : tuple of str
+        One for each thing that is wrong.
+    """
+
+    def __init__(self, problems: list[str]) -> None:
+        super().__init__("\n".join(problems))
+        self.problems = tuple(problems)
+
+
+class Source:
+    """The content of a TOML file, where it stands, and what is wrong with it.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+
+    Attributes
+    ----------
+    values : dict
+        What tomllib makes of it.
+    folder : Path
+        Where it is: what paths in it are relative to.
+
+    Raises
+    ------
+    StudyError
+        The file is no TOML.
+    OSError
+        It cannot be read.
+    ImportError
+        Python 3.10 without tomli.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = Path(path)
+        self.folder = self.path.parent.resolve()
+        self._found: list[tuple[int, str]] = []
+        content = self.path.read_bytes()
+        try:
+            text = content.decode("utf-8-sig").replace("\r\n", "\n")
+        except UnicodeDecodeError as error:
+            line = content.count(b"\n", 0, error.start) + 1
+            raise StudyError([f"{path}, line {line}: not UTF-8; save the file as UTF-8"]) from None
+        if sys.version_info >= (3, 11):
+            import tomllib
+        else:
+            with extra("calibration", "a study file needs tomli with Python 3.10"):
+                import tomli as tomllib
+        try:
+            self.values: dict[str, Any] = tomllib.loads(text)
+        except tomllib.TOMLDecodeError as error:
+            raise StudyError([_syntax_error(self.path, str(error), text)]) from None
+        self._lines = _Locator(text).lines
+
+    def line(self, path: KeyPath) -> int:
+        """Return the line of a key, or of the innermost thing around it that has one."""
+        while path and path not in self._lines:
+            path = path[:-1]
+        return self._lines.get(path, 1)
+
+    def problem(self, path: KeyPath, message: str) -> None:
+        """Note that something is wrong with a key."""
+        line = self.line(path)
+        self._found.append((line, f"{self.path}, line {line}: {dotted(path)} {message}"))
+
+    def resolved(self, value: Any) -> Path:
+        """Return a path, with ~ and variables filled in, from the file's own folder on.
+
+        Raises
+        ------
+        ValueError
+            It is no text, or the environment has no such variable.
+        """
+        if not isinstance(value, str) or not value.strip():
+            raise ValueError(f"is {value!r}; give a path")
+        text = os.path.expandvars(os.path.expanduser(value))
+        if missing := re.search(r"\$\{?(\w+)", text):
+            raise ValueError(f"is {value!r}, and no variable {missing[1]} is set; set it")
+        return self.folder / text
+
+    @property
+    def problems(self) -> list[str]:
+        """What is wrong, in the order of the lines."""
+        return [text for _, text in sorted(self._found, key=lambda problem: problem[0])]
+
+    def raise_problems(self) -> None:
+        """Raise StudyError if there are any."""
+        if self.problems:
+            raise StudyError(self.problems)
+
+
+def dotted(path: KeyPath) -> str:
+    """Return a path of keys as one would write it, items numbered from 1."""
+    text = ""
+    for key in path:
+        text += f"[{key + 1}]" if isinstance(key, int) else f".{key}" if text else key
+    return text
+
+
+def _syntax_error(path: Path, message: str, text: str) -> str:
+    """Return tomllib's message with the line first, and what is most often behind it."""
+    found = re.search(r"\s*\(at line (\d+), column \d+\)$", message)
+    lines = text.split("\n")
+    number = int(found[1]) if found else len(lines)
+    if found:
+        message = message[: found.start()]
+    hint = ""
+    line = lines[number - 1] if number <= len(lines) else ""
+    value = line.partition("=")[2].strip()
+    if re.match(r"[A-Za-z_./~$(]", value) and not re.match(r"(true|false)\b", value):
+        hint = f'; texts and formulas stand in quotes: "{value}"'
+    elif "\\" in line and '"' in line:
+        hint = "; a path with \\ stands in single quotes: '...'"
+    elif re.search(r"(?<!\d)\.\d|\d\.(?!\d)", value):
+        hint = "; a number has digits on both sides of its point: 0.5, 1.0e5"
+    elif re.search(r"\d,\d", value) and "[" not in value:
+        hint = "; numbers have a decimal point"
+    return f"{path}, line {number}: {message}{hint}"
+
+
+class _Locator:
+    """The lines of all keys of a text that is valid TOML."""
+
+    def __init__(self, text: str) -> None:
+        self.lines: dict[KeyPath, int] = {}
+        self._tokens = list(_tokens(text))
+        self._at = 0
+        self._arrays: dict[KeyPath, int] = {}
+        table: KeyPath = ()
+        while self._skip_lines():
+            if self._next_is("["):
+                table = self._header()
+            else:
+                path = (*table, *self._key(table))
+                self._expect("=")
+                self._value(path)
+
+    def _header(self) -> KeyPath:
+        is_array = self._at + 1 < len(self._tokens) and self._tokens[self._at + 1][0] == "["
+        line = self._tokens[self._at][1]
+        self._at += 2 if is_array else 1
+        path = self._inside(self._names())
+        self._at += 2 if is_array else 1
+        if is_array:
+            self._arrays[path] = self._arrays.get(path, -1) + 1
+            self.lines.setdefault(path, line)
+            path = (*path, self._arrays[path])
+        self.lines.setdefault(path, line)
+        return path
+
+    def _inside(self, names: list[str]) -> KeyPath:
+        """Return the path of a header, in the last item of every array of tables on its way."""
+        path: KeyPath = ()
+        for i, name in enumerate(names):
+            path = (*path, name)
+            if i < len(names) - 1 and path in self._arrays:
+                path = (*path, self._arrays[path])
+        return path
+
+    def _key(self, table: KeyPath) -> list[str]:
+        line = self._tokens[self._at][1]
+        names = self._names()
+        for i in range(len(names)):
+            self.lines.setdefault((*table, *names[: i + 1]), line)
+        return names
+
+    def _names(self) -> list[str]:
+        names = [_unquoted(self._tokens[self._at][0])]
+        self._at += 1
+        while self._next_is("."):
+            names.append(_unquoted(self._tokens[self._at + 1][0]))
+            self._at += 2
+        return names
+
+    def _value(self, path: KeyPath) -> None:
+        if self._next_is("["):
+            self._at += 1
+            item = 0
+            while self._skip_lines() and not self._next_is("]"):
+                self.lines.setdefault((*path, item), self._tokens[self._at][1])
+                self._value((*path, item))
+                item += 1
+                if self._skip_lines() and self._next_is(","):
+                    self._at += 1
+            self._at += 1
+        elif self._next_is("{"):
+            self._at += 1
+            while self._skip_lines() and not self._next_is("}"):
+                names = self._key(path)
+                self._expect("=")
+                self._value((*path, *names))
+                if self._skip_lines() and self._next_is(","):
+                    self._at += 1
+            self._at += 1
+        else:  # a date or a number may be several tokens
+            while self._at < len(self._tokens) and self._tokens[self._at][0] not in "\n,]}":
+                self._at += 1
+
+    def _skip_lines(self) -> bool:
+        while self._next_is("\n"):
+            self._at += 1
+        return self._at < len(self._tokens)
+
+    def _next_is(self, token: str) -> bool:
+        return self._at < len(self._tokens) and self._tokens[self._at][0] == token
+
+    def _expect(self, token: str) -> None:
+        assert self._next_is(token)
+        self._at += 1
+
+
+def _tokens(text: str) -> Iterator[tuple[str, int]]:
+    """Yield what a text consists of, without blanks and comments, with its line."""
+    line = 1
+    for match in _TOKEN.finditer(text):
+        if match.lastgroup != "comment":
+            yield match[0], line
+        line += match[0].count("\n")
+
+
+def _unquoted(name: str) -> str:
+    return name[1:-1] if name[0] in "\"'" else name

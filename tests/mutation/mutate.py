@@ -1,0 +1,121 @@
+"""Make the mutants of mutants.toml one after the other, and say which the C++ tests catch.
+
+    python tests/mutation/mutate.py                  # all; some minutes
+    python tests/mutation/mutate.py --only pruned    # those whose description or file says so
+
+Works on a copy of the sources in build/mutants, so nothing here is touched; builds no more than the
+tests that a mutant names, and ends at the first that fails. A mutant that does not
+compile, or whose text is not there exactly once, is an error of the list. Ends with 1 where one
+survives. Needs Python 3.11, CMake and Ninja; ccache is used if CMAKE_CXX_COMPILER_LAUNCHER says so.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import tomllib
+
+ROOT = Path(__file__).resolve().parents[2]
+COPY = ROOT / "build" / "mutants"
+TREES = ("cpp", "tests/cpp", "tests/stress", "CMakeLists.txt")
+TIME_LIMIT = 120.0  # seconds a test; one that never ends has caught its mutant
+
+
+def copy_sources() -> None:
+    """Bring the copy up to date, leaving alone what has not changed, so that little is built."""
+    for tree in TREES:
+        source = ROOT / tree
+        for path in [source] if source.is_file() else sorted(source.rglob("*")):
+            copy = COPY / path.relative_to(ROOT)
+            if path.is_dir():
+                copy.mkdir(parents=True, exist_ok=True)
+            elif not copy.exists() or copy.read_bytes() != path.read_bytes():
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(path, copy)
+
+
+def configure() -> None:
+    """Configure the copy."""
+    options = ["-DCMAKE_BUILD_TYPE=Release"]
+    options += ["-DCURVEWISE_BUILD_TESTS=ON", "-DCURVEWISE_INSTALL=OFF"]
+    subprocess.run(
+        ["cmake", "-S", COPY, "-B", COPY / "build", "-G", "Ninja", *options],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
+
+
+def build(tests: list[str], jobs: int) -> str:
+    """Build tests; return what went wrong, or nothing."""
+    targets = [f"test_{name}" for name in tests]
+    built = subprocess.run(
+        ["ninja", "-C", COPY / "build", f"-j{jobs}", *targets],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return built.stdout[-2000:] if built.returncode else ""
+
+
+def caught_by(tests: list[str]) -> str:
+    """Return the first of the tests that fails, or nothing."""
+    for name in tests:
+        try:
+            program = COPY / "build" / "tests" / "cpp" / f"test_{name}"
+            run = subprocess.run([program], capture_output=True, timeout=TIME_LIMIT, check=False)
+        except subprocess.TimeoutExpired:
+            return f"{name} (never ends)"
+        if run.returncode:
+            return name if run.returncode == 1 else f"{name} (status {run.returncode})"
+    return ""
+
+
+def verdict(mutant: dict[str, object], jobs: int) -> str:
+    """Make one mutant, build and run its tests, and undo it."""
+    tests = [str(name) for name in mutant["tests"]]
+    path = COPY / str(mutant["file"])
+    text = path.read_text(encoding="utf-8")
+    if text.count(str(mutant["from"])) != 1:
+        return f"ERROR: its text is there {text.count(str(mutant['from']))} times"
+    path.write_text(text.replace(str(mutant["from"]), str(mutant["to"])), encoding="utf-8")
+    try:
+        failure = build(tests, jobs)
+        if failure:
+            return f"ERROR: does not compile\n{failure}"
+        caught = caught_by(tests)
+        return f"caught by {caught}" if caught else "SURVIVED"
+    finally:
+        path.write_text(text, encoding="utf-8")
+
+
+def main() -> int:
+    """Run as the module's documentation says."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--only", default="", help="mutants whose description or file holds this")
+    parser.add_argument("--jobs", type=int, default=2, help="of the compiler at a time")
+    args = parser.parse_args()
+    listed = tomllib.loads((Path(__file__).with_name("mutants.toml")).read_text("utf-8"))["mutant"]
+    mutants = [m for m in listed if args.only in m["what"] or args.only in m["file"]]
+    copy_sources()
+    configure()
+    failure = build(sorted({str(name) for m in mutants for name in m["tests"]}), args.jobs)
+    if failure:
+        print(f"the tests do not build:\n{failure}")
+        return 1
+    caught = 0
+    for mutant in mutants:
+        begun = time.monotonic()
+        said = verdict(mutant, args.jobs)
+        caught += said.startswith("caught")
+        print(f"{time.monotonic() - begun:5.0f} s  {mutant['what']}: {said}", flush=True)
+    print(f"{caught} caught of {len(mutants)}")
+    return 0 if caught == len(mutants) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

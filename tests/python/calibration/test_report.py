@@ -1,0 +1,280 @@
+"""Reports: the same page from the search, its store and its history, and what is on it."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import sqlite3
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from curvewise import cli
+from curvewise.calibration import Case, Log, Tied, identify, identify_each
+from curvewise.calibration.report import figures, page, records_of
+from curvewise.calibration.report.branches import branches_of
+from curvewise.calibration.report.repeating import code_to_repeat
+from curvewise.calibration.report.sections import most_points
+from curvewise.named_curve import NamedCurve
+
+CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
+X = np.linspace(0.0, 1.0, 20)
+BOUNDS = {"a": (0.5, 10.0), "b": Log(0.1, 10.0), "c": 3.0, "d": Tied(lambda p: 2.0 * p["a"])}
+QUICK = {"measure": "sum_of_squares", "preset": "raw", "method": "sdrm", "progress": False}
+NAMES = ("strain <1>", "stress & more")
+
+
+def line(parameters):
+    if parameters["a"] > 7.0:
+        raise ValueError("too <steep>")
+    return np.column_stack((X, parameters["a"] * X + parameters["b"]))
+
+
+def model(parameters):
+    return [line(parameters)] * 2
+
+
+def experiments():
+    noise = np.random.default_rng(0).normal(0.0, 0.05, (2, len(X)))
+    curve = line({"a": 2.0, "b": 1.0})
+    first, second = (curve + np.column_stack([np.zeros(len(X)), one]) for one in noise)
+    return [NamedCurve(first, NAMES), second]
+
+
+@pytest.fixture(scope="module")
+def search(tmp_path_factory):
+    """Return a search, its folder, and the page that it wrote itself."""
+    folder = tmp_path_factory.mktemp("report")
+    files = {"store": folder / "s.db", "history": folder / "h.csv"}
+    found = identify(model, experiments(), BOUNDS, version="1", **files, **QUICK)
+    before = page(list(records_of(files["store"]).values()))
+    found.report(folder / "found.html")
+    return found, folder, before
+
+
+def test_the_page_of_a_store_and_of_a_history_is_that_of_the_search(search):
+    _, folder, before = search
+    own = (folder / "found.html").read_bytes()
+    for file in ("s.db", "h.csv"):
+        assert cli.main(["report", str(folder / file), "-o", str(folder / "x.html")]) == 0
+        assert (folder / "x.html").read_bytes() == own
+    assert before.encode() == own  # the uncertainty, from what was written down
+
+
+def test_a_page_is_small_complete_and_loads_nothing(search):
+    found, folder, _ = search
+    text = (folder / "found.html").read_text()
+    assert 1e6 < len(text) < 5e6
+    visible = re.sub(r'<script type="text/plain".*?</script>', "", text, flags=re.DOTALL)
+    assert not re.search(r'(src|href)="(?!#|data:)', visible)
+    for title in ("Parameters", "Residuals by branch", "Weakest directions", "Settings"):
+        assert f">{title}" in visible
+    assert found.failures
+    assert "too &lt;steep&gt;" in visible
+    assert "too <steep>" not in visible
+    assert "strain &lt;1&gt;" in visible
+    for name, error in found.uncertainty().standard_errors.items():
+        assert f"{found.parameters[name]:.6g}" in visible
+        assert f"{error:.3g}" in visible
+    assert found.recorder.details["versions"]["numpy"] == np.__version__
+
+
+def test_the_call_on_the_page_makes_the_search_again(search):
+    found, folder, _ = search
+    (record,) = records_of(folder / "s.db").values()
+    names = {"model": model, "experiments": experiments()}
+    code = code_to_repeat(record)
+    assert "# 'd': Tied(...)" in code
+    exec(code, names)
+    assert names["found"].parameters["a"] == found.parameters["a"]
+    assert names["found"].value == found.value
+
+
+def test_cases_are_written_down_too(tmp_path):
+    cases = [
+        Case("a curve", line, experiments()[0], "sum_of_squares", sigma=0.05),
+        Case(
+            "a number",
+            line,
+            1.1,
+            "sum_of_squares",
+            weight=2.0,
+            sigma=0.1,
+            response=lambda c: c[0, 1],
+        ),
+    ]
+    found = identify(
+        cases,
+        bounds={"a": (0.5, 8.0), "b": (0.1, 10.0)},
+        method="sdrm",
+        progress=False,
+        store=tmp_path / "s.db",
+        version="1",
+    )
+    before = page(list(records_of(tmp_path / "s.db").values()))
+    found.report(tmp_path / "found.html")
+    assert (tmp_path / "found.html").read_text() == before
+    assert "a number" in before
+
+
+def test_an_interrupted_search_has_a_page(tmp_path):
+    calls = []
+
+    def interrupted(parameters):
+        calls.append(parameters)
+        if len(calls) == 8:
+            raise KeyboardInterrupt
+        return model(parameters)
+
+    with pytest.raises(KeyboardInterrupt):
+        identify(interrupted, experiments(), BOUNDS, store=tmp_path / "s.db", version="1", **QUICK)
+    (record,) = records_of(tmp_path / "s.db").values()
+    assert record.ending is None
+    assert 0 < len(record.evaluations) < 8
+    assert len(record.curves) == 2  # of the best so far, from the store
+    text = page([record])
+    assert "The search has not ended" in text
+    again = identify(
+        interrupted, experiments(), BOUNDS, store=tmp_path / "s.db", version="1", **QUICK
+    )
+    (record,) = records_of(tmp_path / "s.db").values()  # it takes the place of its former self
+    assert record.ending is not None
+    assert len(record.evaluations) == again.evaluations
+
+
+def test_several_searches_of_a_store_on_one_page(tmp_path, capsys):
+    # A single design over all of the bounds leaves no runs near the optimum: no intervals.
+    keywords = {"method": "sdrm", "preset": "raw", "progress": False, "max_evaluations": 5}
+    keywords["method_options"] = {"initial_range": 1.0}
+    store = str(tmp_path / "s.db")
+    bounds = {"a": (0.5, 8.0), "b": (0.1, 10.0)}
+    each = identify_each(
+        model,
+        experiments(),
+        bounds,
+        measures=["sum_of_squares", "curve_length"],
+        store=store,
+        version="1",
+        **keywords,
+    )
+    assert cli.main(["report", store, "--list"]) == 0
+    assert "2  curve_length (raw), sdrm: 5 evaluations" in capsys.readouterr().out
+    one = tmp_path / "one.html"
+    assert cli.main(["report", store, "--search", "1", "-o", str(one)]) == 0
+    each["sum_of_squares"].report(tmp_path / "found.html")
+    assert one.read_bytes() == (tmp_path / "found.html").read_bytes()
+    assert cli.main(["report", store, "--search", "7"]) == 1
+    assert "has no search 7; it has 1, 2" in capsys.readouterr().err
+    text = page(list(records_of(store).values()))
+    assert "Search 2: curve_length" in text
+    assert "Intervals would take runs of the model" in text
+    each.report(tmp_path / "each.html")
+    assert (tmp_path / "each.html").read_text() == text
+
+
+def test_a_function_as_a_measure_is_not_written_down(tmp_path):
+    def distance(P, Q):
+        return float(np.abs(P[:, 1] - Q[:, 1]).mean())
+
+    keywords = {**QUICK, "measure": distance, "method": "trust-region"}
+    bounds = {"a": (0.5, 8.0), "b": (0.1, 10.0)}
+    found = identify(
+        line, experiments()[0], bounds, store=tmp_path / "s.db", version="1", **keywords
+    )
+    (record,) = records_of(tmp_path / "s.db").values()
+    assert found.uncertainty_runs == 0
+    assert "The measure is a function" in page([record])
+    found.report(tmp_path / "found.html", uncertainty=found.uncertainty(samples=20))
+    (record,) = records_of(tmp_path / "s.db").values()
+    assert (tmp_path / "found.html").read_text() == page([record])
+    assert "95 % interval" in page([record])
+
+
+def test_files_from_before_reports_open_and_say_what_to_do(tmp_path, capsys):
+    """A store of the first format, and a history without the tests."""
+    store, history = tmp_path / "old.db", tmp_path / "old.csv"
+    identify(line, experiments()[0], BOUNDS, store=store, version="1", **QUICK, history=history)
+    with sqlite3.connect(store) as database:
+        database.executescript("DROP TABLE searches; DROP TABLE evaluations;")
+    database.close()
+    assert cli.main(["report", str(store)]) == 1
+    assert "runs are looked up, and none is made again" in capsys.readouterr().err
+    found = identify(line, experiments()[0], BOUNDS, store=store, version="1", **QUICK)
+    assert found.runs == 0
+    assert len(records_of(store)) == 1
+    text = tmp_path / "text.csv"
+    text.write_text("strain,stress\n0,0\n1,2\n")
+    assert cli.main(["report", str(text)]) == 1
+    assert "is not a history" in capsys.readouterr().err
+    assert cli.main(["report", str(tmp_path / "none.db")]) == 1
+    assert not (tmp_path / "none.db").exists()
+
+
+def test_a_history_without_its_tests_is_resumed_but_not_reported(tmp_path):
+    from curvewise.calibration import history
+
+    file = tmp_path / "h.csv"
+    first = identify(line, experiments()[0], BOUNDS, history=file, **QUICK)
+    title, *lines = file.read_text().splitlines()
+    settings = re.sub(r', "report": \{.*\}\}$', "}", title.rpartition(",")[0])
+    assert settings != title.rpartition(",")[0]
+    kept = [one for one in lines if not one.startswith("# ended")]
+    file.write_text(history._with_checksum(settings) + "\n".join(kept) + "\n")
+    with pytest.raises(ValueError, match="did not write the tests down"):
+        records_of(file)
+    again = identify(line, experiments()[0], BOUNDS, history=file, **QUICK)
+    assert again.parameters == first.parameters
+
+
+def test_without_plotly_the_message_says_what_to_install(search, monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "plotly.offline", None)
+    with pytest.raises(ImportError, match=r'pip install "curvewise\[report\]"'):
+        search[0].report(tmp_path / "x.html")
+
+
+def test_many_and_long_curves_are_thinned(search):
+    record = next(iter(records_of(search[1] / "s.db").values()))
+    assert most_points([record], 120_000) == 3000
+    assert most_points([record] * 40, 120_000) == 120_000 // (7 * 2 * 40)
+    long = np.column_stack([np.arange(100_000.0), np.zeros(100_000)])
+    trace = figures.loop(long, None, ["x", "y"], "", 3000)["data"][0]
+    assert len(trace["x"]) == 3000
+    assert (trace["x"][0], trace["x"][-1]) == (0.0, 99_999.0)
+
+
+def test_residuals_are_told_apart_by_branch():
+    x = np.concatenate([X, np.linspace(1.0, -1.0, 41)[1:]])
+    test = np.column_stack([x, 2.0 * x])
+    branches = branches_of(test, test - (0.0, 0.001), 1)
+    assert [len(branch.x) for branch in branches] == [20, 41]  # the turning point is in both
+    assert branches[1].name == "branch 2"
+    for branch in branches:
+        np.testing.assert_allclose(branch.residual, 0.001)
+    timed = np.column_stack([x, 2.0 * x, np.arange(len(x))])
+    np.testing.assert_allclose(
+        branches_of(timed, timed + np.array([0.0, 0.001, 0.0]), 1)[0].residual, -0.001
+    )
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no chromium to open the page in")
+def test_a_browser_draws_and_prints_the_page(search, tmp_path):
+    _, folder, before = search
+    count = len(re.findall(r'id="figure-\d+"', before))
+    assert count >= 8
+    flags = ["--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=30000"]
+    flags += [f"--user-data-dir={tmp_path / 'profile'}", "--enable-logging=stderr"]
+    url = (folder / "found.html").as_uri()
+    shown = subprocess.run(
+        [CHROMIUM, *flags, "--dump-dom", url], capture_output=True, text=True, timeout=120
+    )
+    assert f'data-drawn="{count}"' in shown.stdout[:200]
+    assert shown.stdout.count('class="main-svg"') >= count
+    assert "CONSOLE" not in shown.stderr
+    printed = tmp_path / "page.pdf"
+    subprocess.run(
+        [CHROMIUM, *flags, f"--print-to-pdf={printed}", url], capture_output=True, timeout=120
+    )
+    assert printed.stat().st_size > 30_000
+    assert printed.read_bytes().count(b"/Type /Page\n") >= 2
