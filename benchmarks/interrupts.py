@@ -84,9 +84,7 @@ def chosen(only: str, part: str) -> list[str]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--times", type=int, default=20)
-    parser.add_argument(
-        "--longest", type=float, default=4.0, help="seconds of a call to choose from"
-    )
+    parser.add_argument("--longest", type=float, default=4.0, help="seconds of a call to choose from")
     parser.add_argument("--only", default="", help="calls whose name holds this text")
     parser.add_argument("--part", default="1/1", help="k/n: every n-th call, from the k-th on")
     arguments = parser.parse_args()

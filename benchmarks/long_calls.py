@@ -188,7 +188,9 @@ BATCHES: Calls = {
     "pdist, 10 x 10,000 points, 2 workers": on(
         curvewise.pdist, partial(many, 10, 10_000), workers=2
     ),
-    "cdist of one pair, 2 workers": on(lambda P, Q: curvewise.cdist([P], [Q], workers=2), A, B),
+    "cdist of one pair, 2 workers": on(
+        lambda P, Q: curvewise.cdist([P], [Q], workers=2), A, B
+    ),
     "cdist of pcm, 2 workers": on(
         curvewise.cdist, partial(many, 300, 100), measure="pcm", workers=2
     ),
@@ -246,11 +248,8 @@ NEAREST: Calls = {
     ),
     "subsequence": on(curvewise.subsequence, partial(walk, 10_000), partial(walk, 100_000, 2), k=3),
     "subsequence, of frechet, 2 workers": on(
-        curvewise.subsequence,
-        partial(walk, 10_000),
-        partial(walk, 100_000, 2),
-        measure="frechet",
-        workers=2,
+        curvewise.subsequence, partial(walk, 10_000), partial(walk, 100_000, 2),
+        measure="frechet", workers=2,
     ),
     "subsequence, path": on(
         curvewise.subsequence, partial(walk, 1_000), partial(walk, 1_000_000, 2), path=True
