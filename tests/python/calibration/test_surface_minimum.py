@@ -51,6 +51,16 @@ def test_gradient_of_differences_over_time(turned):
     np.testing.assert_allclose(gradient, expected, atol=1e-6 * np.abs(expected).max())
 
 
+def test_gradient_point_by_point():
+    """Of a loop, whose simulation may be off in x by a little."""
+    loop = np.column_stack((np.sin(6.0 * X), np.cos(5.0 * X)))
+    objective = Objective(loop, "sum_of_squares", over="points")
+    simulation = loop + np.column_stack((0.002 * X, 0.1 * X))
+    _, (gradient,) = objective.value_and_gradient(simulation)
+    expected = numerical(lambda c: objective.predicted(c).value, simulation)
+    np.testing.assert_allclose(gradient, expected, atol=1e-6 * np.abs(expected).max())
+
+
 def test_gradient_of_numbers():
     cases = [
         Case("strength", abs, 600.0, sigma=10.0, weight=2.0),
