@@ -47,12 +47,16 @@ class ReadingError(Exception):
 
 def check(data: bytes, path: Path) -> None:
     """Write bytes to a file, read it, and hold the two parsers against each other."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TimeColumnWarning)
+        _check(data, path)
+
+
+def _check(data: bytes, path: Path) -> None:
     columns = COLUMNS[data[0] % len(COLUMNS)] if data else None
     path.write_bytes(data[1:])
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", TimeColumnWarning)
-            curve = read_curve(path, columns)
+        curve = read_curve(path, columns)
     except ValueError as error:
         text = str(error)
         if "\n" in text or path.name not in text:

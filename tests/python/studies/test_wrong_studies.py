@@ -54,6 +54,9 @@ WRONG = {
     "a misspelt key": (
         'columns = ["strain", "stress"]',
         'colums = ["strain", "stress"]',
+        "study.toml, line 5: tests[1].file cannot be used: the first two of the 3 columns of "
+        "{folder}/test.csv are time and strain; name those wanted: "
+        'columns = ["strain", "stress"]\n'
         "study.toml, line 6: tests[1].colums is no key of a study; did you mean 'columns'?",
     ),
     "a column that is not there": (
@@ -195,9 +198,8 @@ def test_a_wrong_study_says_where_and_what_to_write(
 ) -> None:
     right, wrong, message = case
     assert STUDY.count(right) == 1
-    assert problems(tmp_path, STUDY.replace(right, wrong)) == [
-        message.replace("{folder}", str(tmp_path.resolve()))
-    ]
+    expected = message.replace("{folder}", str(tmp_path.resolve())).splitlines()
+    assert problems(tmp_path, STUDY.replace(right, wrong)) == expected
 
 
 def test_all_problems_are_named_at_once(tmp_path: Path) -> None:
