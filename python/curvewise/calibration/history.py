@@ -94,18 +94,13 @@ class History:
         text = json.dumps(settings, default=repr)
         header = ("evaluation", *names, "value", "failed", "seconds", "message", "simulations")
         if not self._load(Path(path), json.loads(text), header):
-<<<<<<< HEAD
+            title = {**settings, _DETAILS: details}
+            title_line = _with_checksum(_TITLE + json.dumps(title, default=repr))
             try:
                 with open(path, "w", encoding="utf-8", newline="") as file:
-                    file.write(_with_checksum(_TITLE + text) + _line([*header, _CHECKSUM]))
+                    file.write(title_line + _line([*header, _CHECKSUM]))
             except OSError as error:
                 raise OSError(f"the history {path} cannot be written: {error}") from error
-=======
-            with open(path, "w", encoding="utf-8", newline="") as file:
-                title = {**settings, _DETAILS: details}
-                title_line = _with_checksum(_TITLE + json.dumps(title, default=repr))
-                file.write(title_line + _line([*header, _CHECKSUM]))
->>>>>>> main
         self._file = open(path, "a", encoding="utf-8", newline="")  # noqa: SIM115 (close() does)
 
     def close(self) -> None:
