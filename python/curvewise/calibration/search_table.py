@@ -16,20 +16,23 @@ from typing import Any
 
 from .history import Evaluation
 from .search_record import Ending, SearchRecord, as_json
+from .transactions import transaction
 
 __all__ = ["SearchTable"]
 
-_TABLES = """
+_TABLES = (
+    """
 CREATE TABLE IF NOT EXISTS searches (
     number INTEGER PRIMARY KEY, key TEXT NOT NULL UNIQUE,
     settings TEXT NOT NULL, details TEXT NOT NULL, ending TEXT NOT NULL
-);
+)""",
+    """
 CREATE TABLE IF NOT EXISTS evaluations (
     search INTEGER NOT NULL, number INTEGER NOT NULL, point TEXT NOT NULL, value REAL NOT NULL,
     failed INTEGER NOT NULL, seconds REAL NOT NULL, message TEXT NOT NULL,
     PRIMARY KEY (search, number)
-) WITHOUT ROWID;
-"""
+) WITHOUT ROWID""",
+)
 
 
 class SearchTable:
@@ -49,18 +52,18 @@ class SearchTable:
         """Make a search known, without evaluations or ending, and return its number."""
         text = as_json(settings)
         key = hashlib.sha256(as_json(json.loads(text)).encode()).hexdigest()
-        self._database.executescript(f"BEGIN IMMEDIATE; {_TABLES} COMMIT;")
-        self._database.execute("BEGIN IMMEDIATE")
-        self._database.execute(
-            "INSERT INTO searches (key, settings, details, ending) VALUES (?, ?, ?, '') "
-            "ON CONFLICT (key) DO UPDATE SET details = excluded.details, ending = ''",
-            (key, text, as_json(details)),
-        )
-        (number,) = self._database.execute(
-            "SELECT number FROM searches WHERE key = ?", (key,)
-        ).fetchone()
-        self._database.execute("DELETE FROM evaluations WHERE search = ?", (number,))
-        self._database.execute("COMMIT")
+        with transaction(self._database):
+            for table in _TABLES:
+                self._database.execute(table)
+            self._database.execute(
+                "INSERT INTO searches (key, settings, details, ending) VALUES (?, ?, ?, '') "
+                "ON CONFLICT (key) DO UPDATE SET details = excluded.details, ending = ''",
+                (key, text, as_json(details)),
+            )
+            (number,) = self._database.execute(
+                "SELECT number FROM searches WHERE key = ?", (key,)
+            ).fetchone()
+            self._database.execute("DELETE FROM evaluations WHERE search = ?", (number,))
         return int(number)
 
     def note(self, search: int, evaluation: Evaluation) -> None:
@@ -87,9 +90,10 @@ class SearchTable:
 
     def end(self, search: int, ending: Ending) -> None:
         """Write how a search ended."""
-        self._database.execute(
-            "UPDATE searches SET ending = ? WHERE number = ?", (ending.to_json(), search)
-        )
+        with transaction(self._database):
+            self._database.execute(
+                "UPDATE searches SET ending = ? WHERE number = ?", (ending.to_json(), search)
+            )
 
     def records(self) -> dict[int, SearchRecord]:
         """Return all searches by their numbers, in the order in which they were begun."""

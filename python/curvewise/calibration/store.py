@@ -31,6 +31,7 @@ from .history import Evaluation
 from .model_identity import ModelIdentity
 from .model_pool import Outcome
 from .search_table import SearchTable
+from .transactions import transaction
 
 __all__ = ["SimulationStore", "StoredRun"]
 
@@ -193,10 +194,8 @@ class SimulationStore:
         ValueError
             The store has runs under this identity and another fingerprint.
         """
-        try:
+        with transaction(self._database):
             self._database.execute("INSERT OR IGNORE INTO models VALUES (?, ?)", model)
-        except sqlite3.Error as error:
-            raise self._unwritable(error) from error
         (stored,) = self._database.execute(
             "SELECT fingerprint FROM models WHERE identity = ?", (model.text,)
         ).fetchone()
@@ -241,27 +240,13 @@ class SimulationStore:
     def _write(self) -> None:
         if not self._unwritten and not self.searches.has_unwritten:
             return
-        try:
-            self._database.execute("BEGIN IMMEDIATE")
+        with transaction(self._database):
             rows = self._unwritten.values()
             self._database.executemany("INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?)", rows)
             self.searches.write()
-            self._database.execute("COMMIT")
-        except BaseException as error:  # Ctrl-C, too: whatever comes next begins anew
-            if self._database.in_transaction:
-                self._database.execute("ROLLBACK")
-            if isinstance(error, sqlite3.Error):
-                raise self._unwritable(error) from error
-            raise
         self._unwritten.clear()
         self.searches.committed()
         self._written = time.monotonic()
-
-    def _unwritable(self, error: sqlite3.Error) -> OSError:
-        return OSError(
-            f"the store {self.path} cannot be written: {error}; what it held before is whole, and "
-            "a search that is started again goes on from there"
-        )
 
 
 def _key(parameters: Mapping[str, Any]) -> str:
