@@ -12,28 +12,27 @@ import hashlib
 import json
 import sqlite3
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from .history import Evaluation
 from .search_record import Ending, SearchRecord, as_json
-from .transaction import writing
+from .transactions import transaction
 
 __all__ = ["SearchTable"]
 
-_SEARCHES = """
+_TABLES = (
+    """
 CREATE TABLE IF NOT EXISTS searches (
     number INTEGER PRIMARY KEY, key TEXT NOT NULL UNIQUE,
     settings TEXT NOT NULL, details TEXT NOT NULL, ending TEXT NOT NULL
-)
-"""
-_EVALUATIONS = """
+)""",
+    """
 CREATE TABLE IF NOT EXISTS evaluations (
     search INTEGER NOT NULL, number INTEGER NOT NULL, point TEXT NOT NULL, value REAL NOT NULL,
     failed INTEGER NOT NULL, seconds REAL NOT NULL, message TEXT NOT NULL,
     PRIMARY KEY (search, number)
-) WITHOUT ROWID
-"""
+) WITHOUT ROWID""",
+)
 
 
 class SearchTable:
@@ -43,22 +42,19 @@ class SearchTable:
     ----------
     database : sqlite3.Connection
         That of the store.
-    path : Path
-        Its file, for messages.
     """
 
-    def __init__(self, database: sqlite3.Connection, path: Path) -> None:
+    def __init__(self, database: sqlite3.Connection) -> None:
         self._database = database
-        self._path = path
         self._unwritten: list[tuple[Any, ...]] = []
 
     def begin(self, settings: Mapping[str, Any], details: Mapping[str, Any]) -> int:
         """Make a search known, without evaluations or ending, and return its number."""
         text = as_json(settings)
         key = hashlib.sha256(as_json(json.loads(text)).encode()).hexdigest()
-        with writing(self._database, self._path):
-            self._database.execute(_SEARCHES)
-            self._database.execute(_EVALUATIONS)
+        with transaction(self._database):
+            for table in _TABLES:
+                self._database.execute(table)
             self._database.execute(
                 "INSERT INTO searches (key, settings, details, ending) VALUES (?, ?, ?, '') "
                 "ON CONFLICT (key) DO UPDATE SET details = excluded.details, ending = ''",
@@ -94,7 +90,7 @@ class SearchTable:
 
     def end(self, search: int, ending: Ending) -> None:
         """Write how a search ended."""
-        with writing(self._database, self._path):
+        with transaction(self._database):
             self._database.execute(
                 "UPDATE searches SET ending = ? WHERE number = ?", (ending.to_json(), search)
             )

@@ -31,7 +31,7 @@ from .history import Evaluation
 from .model_identity import ModelIdentity
 from .model_pool import Outcome
 from .search_table import SearchTable
-from .transaction import writing
+from .transactions import transaction
 
 __all__ = ["SimulationStore", "StoredRun"]
 
@@ -137,7 +137,7 @@ class SimulationStore:
         except ValueError:
             self._database.close()
             raise
-        self.searches = SearchTable(self._database, self.path)
+        self.searches = SearchTable(self._database)
 
     def __enter__(self) -> SimulationStore:
         return self
@@ -194,7 +194,7 @@ class SimulationStore:
         ValueError
             The store has runs under this identity and another fingerprint.
         """
-        with writing(self._database, self.path):
+        with transaction(self._database):
             self._database.execute("INSERT OR IGNORE INTO models VALUES (?, ?)", model)
         (stored,) = self._database.execute(
             "SELECT fingerprint FROM models WHERE identity = ?", (model.text,)
@@ -232,7 +232,7 @@ class SimulationStore:
             self._write()
 
     def note(self, search: int, evaluation: Evaluation) -> None:
-        """Take down an evaluation of a search; see ``SearchTable``."""
+        """Take down an evaluation of a search; see :class:`SearchTable`."""
         self.searches.note(search, evaluation)
         if time.monotonic() - self._written > _PAUSE:
             self._write()
@@ -240,7 +240,7 @@ class SimulationStore:
     def _write(self) -> None:
         if not self._unwritten and not self.searches.has_unwritten:
             return
-        with writing(self._database, self.path):
+        with transaction(self._database):
             rows = self._unwritten.values()
             self._database.executemany("INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?)", rows)
             self.searches.write()
