@@ -78,11 +78,11 @@ def pytest_report_header(config: pytest.Config) -> list[str]:
     lines = []
     if config.args == config.getini("testpaths"):
         lines.append(
-            "curvewise: some 4200 tests; they also build the C++ library twice, its own "
+            "curvewise: some 5500 tests; they also build the C++ library twice, its own "
             "tests, and programs that use it"
         )
         lines.append(
-            "curvewise: about 4 minutes on two cores; without the builds (-m 'not embed') 2"
+            "curvewise: about 5 minutes on two cores; without the builds (-m 'not embed') 3"
         )
     if not DATA.is_dir():
         lines.append(f"curvewise: no golden data in {DATA} (CURVEWISE_DATA): its tests are skipped")
