@@ -20,15 +20,16 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 DATA = Path(os.environ.get("CURVEWISE_DATA", ROOT.parent / "shared" / "data"))
 
-# What takes longest, to be begun first; and of those, files whose tests share nothing that is long
-# to make.
+# What takes longest, to be begun first: what builds the libraries, then what does without them, so
+# that nobody waits for them. And of those, files whose tests share nothing that is long to make.
 LONGEST_FIRST = (
     "embedding/test_cpp.py",
+    "embedding/test_embed.py::test_fetch_content",
     "package/test_cli.py::test_selfcheck_passes_on_this_machine",
-    "embedding/",
     "calibration/",
+    "embedding/",
 )
-TEST_BY_TEST = ("embedding/test_embed.py", "package/test_docs.py", *LONGEST_FIRST[1:2])
+TEST_BY_TEST = ("embedding/test_embed.py", "package/test_docs.py", LONGEST_FIRST[2])
 
 
 def place(nodeid: str) -> str:
