@@ -128,7 +128,7 @@ linkcheck_ignore = [r"https://doi\.org/.*"]
 
 
 def only_rst_heads_a_gallery(app: Sphinx) -> None:
-    """Keep the gallery from taking examples/studies, which has a README.md, for a part of itself."""
+    """Keep the gallery from taking examples/studies, with its README.md, for a part of itself."""
     app.config.sphinx_gallery_conf["source_suffix"] = {".rst": "restructuredtext"}
 
 

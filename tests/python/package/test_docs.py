@@ -160,7 +160,7 @@ def test_the_reference_has_c_and_fortran() -> None:
 
 
 def test_the_reference_has_every_command(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit, match="^0$"):
+    with pytest.raises(SystemExit, match=r"^0$"):
         cli.main(["--help"])
     commands = re.findall(r"^    (\w+)(?: {2,}|$)", capsys.readouterr().out, flags=re.MULTILINE)
     page = (DOCS / "api/command_line.rst").read_text(encoding="utf-8")
