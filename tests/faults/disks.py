@@ -74,8 +74,9 @@ def kept(kind: str, file: Path) -> int:
     """Return how many runs a history, or a store, holds."""
     if not file.exists():
         return 0
-    if kind == "history":
-        return max(file.read_bytes().count(b"\n") - 2, 0)
+    if kind == "history":  # beside its runs it has a title, a header, and how the search ended
+        lines = file.read_bytes().splitlines(keepends=True)
+        return sum(line[:1].isdigit() and line.endswith(b"\n") for line in lines)
     with SimulationStore(file) as store:
         return len(store)
 
