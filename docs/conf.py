@@ -72,7 +72,7 @@ repository_folders = {
     "benchmarks/paper": "docs/paper/index.md",
 }
 
-# Python. Types stand in the docstrings, in words.
+# Python. Types stand in the docstrings, in words; attributes of a result stand before its methods.
 autodoc_typehints = "none"
 autodoc_member_order = "groupwise"
 autosummary_generate = True
