@@ -90,6 +90,7 @@ def main() -> None:
     parser.add_argument("--only", default="", help="calls whose name holds this text")
     parser.add_argument("--part", default="1/1", help="k/n: every n-th call, from the k-th on")
     arguments = parser.parse_args()
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in the background
     P, Q = walk(500, 5), walk(400, 6)
     expected = curvewise.dtw(P, Q), curvewise.frechet(P, Q)
     rng = random.Random(1)

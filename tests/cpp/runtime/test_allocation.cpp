@@ -1,7 +1,7 @@
 // Every call when memory runs out: each of its allocations fails in turn. The call then throws
 // std::bad_alloc, or does without (a thread that cannot be started, say) and has the same value;
 // in either case nothing is leaked, and no other exception is thrown. The global operators new and
-// delete are replaced.
+// delete are replaced; Windows has functions of its own for memory that is aligned.
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
@@ -16,6 +16,9 @@
 #include "curves.hpp"
 #include "curvewise/curvewise.h"
 #include "curvewise/curvewise.hpp"
+#ifdef _WIN32
+#include <malloc.h>
+#endif
 
 namespace {
 
@@ -24,9 +27,13 @@ std::atomic<std::int64_t> living{0};
 
 void* allocated(std::size_t size, std::size_t alignment) noexcept {
     if (until_failure.load() >= 0 && until_failure.fetch_sub(1) == 0) return nullptr;
-    // Before the memory its length, for nothing but to have a place of its own.
-    const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-    void* const memory = std::aligned_alloc(alignment, rounded > 0 ? rounded : alignment);
+    const std::size_t whole = size > 0 ? size : 1;  // a place of its own for nothing, too
+#ifdef _WIN32
+    void* const memory = _aligned_malloc(whole, alignment);
+#else
+    const std::size_t rounded = (whole + alignment - 1) / alignment * alignment;
+    void* const memory = std::aligned_alloc(alignment, rounded);
+#endif
     if (memory != nullptr) ++living;
     return memory;
 }
@@ -34,7 +41,11 @@ void* allocated(std::size_t size, std::size_t alignment) noexcept {
 void freed(void* memory) noexcept {
     if (memory == nullptr) return;
     --living;
+#ifdef _WIN32
+    _aligned_free(memory);
+#else
     std::free(memory);
+#endif
 }
 
 constexpr std::size_t usual = alignof(std::max_align_t);
