@@ -19,6 +19,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import tomllib
 
@@ -91,14 +92,14 @@ def time_limits(tests: list[str]) -> dict[str, float]:
     return limits
 
 
-def verdict(mutant: dict[str, object], limits: dict[str, float], jobs: int) -> str:
+def verdict(mutant: dict[str, Any], limits: dict[str, float], jobs: int) -> str:
     """Make one mutant, build and run its tests, and undo it."""
-    tests = [str(name) for name in mutant["tests"]]
-    path = COPY / str(mutant["file"])
+    tests = mutant["tests"]
+    path = COPY / mutant["file"]
     text = path.read_text(encoding="utf-8")
-    if text.count(str(mutant["from"])) != 1:
-        return f"ERROR: its text is there {text.count(str(mutant['from']))} times"
-    path.write_text(text.replace(str(mutant["from"]), str(mutant["to"])), encoding="utf-8")
+    if text.count(mutant["from"]) != 1:
+        return f"ERROR: its text is there {text.count(mutant['from'])} times"
+    path.write_text(text.replace(mutant["from"], mutant["to"]), encoding="utf-8")
     try:
         failure = build(tests, jobs)
         if failure:
@@ -119,7 +120,7 @@ def main() -> int:
     mutants = [m for m in listed if args.only in m["what"] or args.only in m["file"]]
     copy_sources()
     configure()
-    tests = sorted({str(name) for m in mutants for name in m["tests"]})
+    tests = sorted({name for m in mutants for name in m["tests"]})
     failure = build(tests, args.jobs)
     if failure:
         sys.exit(f"the tests do not build:\n{failure}")
@@ -129,7 +130,7 @@ def main() -> int:
         begun = time.monotonic()
         said = verdict(mutant, limits, args.jobs)
         caught += said.startswith("caught")
-        name = Path(str(mutant["file"])).name
+        name = Path(mutant["file"]).name
         print(f"{time.monotonic() - begun:5.0f} s  {name}: {mutant['what']}: {said}", flush=True)
     print(f"{caught} caught of {len(mutants)}")
     return 0 if caught == len(mutants) else 1

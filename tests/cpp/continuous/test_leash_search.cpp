@@ -75,12 +75,14 @@ std::vector<double> divided(const std::vector<double>& heights, int parts) {
     return result;
 }
 
-// P climbs to 3, runs along the plain, falls into a pit of 1.6, climbs to 5, and to 3 again. Q climbs
-// two peaks of 5. Who waits before Q's first peak until P climbs to 5 has waited at 3 - r at least,
-// and is that and 1.6 above the pit. Who crosses it while P is at 3 needs a leash of 2 and no more at
-// any later time. Since a search that begins at the lowest place behind P's first peak, and with the
-// leash of 1.2 that the ends need, has no reason to look further, it learns of the pit only there.
-// Both come from afar, P in steps and Q at once, so that no walk from vertex to vertex is of use.
+// P climbs to 3, runs along a plain, falls into a pit of 1.6, climbs to 5, and to 3 again. Q climbs
+// two peaks of 5. A walk that leaves Q's first peak for P's climb to 5 has waited for it at a
+// height of 3 - r or more, and is too far above the pit. One that crosses it while P is at 3 needs
+// a leash of 2, and at no later time a longer one: that is the distance, and the way to it begins
+// `plain` rows before the pit. The search does not know, since no walk with a shorter leash gets
+// there: the ends need 1.2, and P's first climb 1.55 because of the low place behind it.
+//
+// Both come from afar, P in steps and Q at once, so that walks from vertex to vertex are of no use.
 void corridors_that_part() {
     Random random(21);
     const std::vector<double> approach{-50.0, -40.0, -30.0, -20.0, -10.0};
