@@ -40,7 +40,11 @@ CALIBRATION = "tests/python/calibration"
 # The tests of each module, the fastest first.
 TESTS: dict[str, tuple[str, ...]] = {
     "reference/ground_distance.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_errors.py"),
-    "reference/dtw.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_errors.py"),
+    "reference/dtw.py": (
+        f"{MEASURES}/test_reference.py",
+        f"{MEASURES}/test_errors.py",
+        f"{MEASURES}/test_dtw_conventions.py",
+    ),
     "reference/frechet.py": (f"{MEASURES}/test_reference.py",),
     "reference/frechet_continuous.py": (
         f"{MEASURES}/test_reference.py",
@@ -51,7 +55,10 @@ TESTS: dict[str, tuple[str, ...]] = {
     "reference/pcm.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
     "reference/curve_length.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
     "reference/arc_length.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
-    "reference/matching.py": (f"{MEASURES}/test_matched_area.py",),
+    "reference/matching.py": (
+        f"{MEASURES}/test_matched_area.py",
+        f"{MEASURES}/test_deviations.py",
+    ),
     "reference/scaling.py": (
         f"{MEASURES}/test_reference.py",
         f"{MEASURES}/test_extreme_scales.py",
@@ -61,14 +68,29 @@ TESTS: dict[str, tuple[str, ...]] = {
         "tests/python/nearest/test_averages.py",
     ),
     "reference/checks.py": (f"{MEASURES}/test_errors.py",),
-    "_curves.py": (f"{MEASURES}/test_errors.py", f"{MEASURES}/test_inputs.py"),
+    "_curves.py": (
+        f"{MEASURES}/test_errors.py",
+        f"{MEASURES}/test_inputs.py",
+        f"{MEASURES}/test_column_names.py",
+        f"{MEASURES}/test_foreign_curves.py",
+    ),
     "pairwise.py": (
         "tests/python/pairwise/test_pairwise_errors.py",
         "tests/python/pairwise/test_pairwise.py",
     ),
-    "calibration/parameters.py": (f"{CALIBRATION}/test_identify.py",),
-    "calibration/objective.py": (f"{CALIBRATION}/test_objective.py",),
-    "calibration/uncertainty.py": (f"{CALIBRATION}/test_uncertainty.py",),
+    "calibration/parameters.py": (
+        f"{CALIBRATION}/test_cases.py",
+        f"{CALIBRATION}/test_identify.py",
+    ),
+    "calibration/objective.py": (
+        f"{CALIBRATION}/test_objective.py",
+        f"{CALIBRATION}/test_cases.py",
+        f"{CALIBRATION}/test_identify.py",
+    ),
+    "calibration/uncertainty.py": (
+        f"{CALIBRATION}/test_uncertainty.py",
+        f"{CALIBRATION}/test_cases.py",
+    ),
     "calibration/history.py": (f"{CALIBRATION}/test_history.py",),
     "calibration/store.py": (f"{CALIBRATION}/test_store.py",),
     "calibration/trust_region.py": (f"{CALIBRATION}/test_methods.py",),
