@@ -93,7 +93,10 @@ TESTS: dict[str, tuple[str, ...]] = {
     ),
     "calibration/history.py": (f"{CALIBRATION}/test_history.py",),
     "calibration/store.py": (f"{CALIBRATION}/test_store.py",),
-    "calibration/trust_region.py": (f"{CALIBRATION}/test_methods.py",),
+    "calibration/trust_region.py": (
+        f"{CALIBRATION}/test_trust_region.py",
+        f"{CALIBRATION}/test_methods.py",
+    ),
 }
 STRESS = "tests/python/package/test_stress.py"  # last, for the reference
 
