@@ -86,6 +86,7 @@ TESTS: dict[str, tuple[str, ...]] = {
         f"{CALIBRATION}/test_objective.py",
         f"{CALIBRATION}/test_cases.py",
         f"{CALIBRATION}/test_identify.py",
+        f"{CALIBRATION}/test_uncertainty.py",
     ),
     "calibration/uncertainty.py": (
         f"{CALIBRATION}/test_uncertainty.py",

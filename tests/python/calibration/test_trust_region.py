@@ -1,4 +1,4 @@
-"""The trust region's steps alone: when the region grows and shrinks, and when the search ends."""
+"""The trust region without a model: how the region grows and shrinks, and what slopes come from."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from curvewise.calibration.trust_region import _descend
+from curvewise.calibration.history import Evaluation
+from curvewise.calibration.trust_region import _descend, _Search
 
 REACH = 0.8  # of the region, by every step
 
@@ -65,3 +66,41 @@ def test_the_region_follows_how_well_gains_are_predicted(gain, factor):
 
 def test_the_region_is_never_more_than_the_bounds():
     assert radii_of([1.0, 1.0], 0.6) == pytest.approx([0.6, 0.96, 1.0])
+
+
+SLOPES = np.array([[3.0, 0.0], [-1.0, 2.0], [0.0, 0.5], [4.0, -4.0]])  # of two points' coordinates
+
+
+def run_at(point: Any, wrong: float = 0.0) -> Evaluation:
+    curve = (SLOPES @ point + wrong).reshape(2, 2)
+    return Evaluation(1, tuple(point), 1.0, failed=False, seconds=0.0, simulations=(curve,))
+
+
+class Known:
+    """Evaluations, of which some are known around every point."""
+
+    def __init__(self, steps: Any, wrong: Sequence[float]) -> None:
+        self.steps, self.wrong = np.array(steps), wrong
+        self.run = 0
+
+    def known_near(self, unit: Any) -> tuple[Any, list[Evaluation]]:
+        points = unit + self.steps
+        return points, [run_at(p, wrong) for p, wrong in zip(points, self.wrong, strict=True)]
+
+    def evaluated(self, points: Any, *, keep_simulations: bool) -> list[Evaluation]:
+        self.run += len(points)
+        return [run_at(point) for point in points]
+
+
+@pytest.mark.parametrize("wrong", [0.0, 0.5])
+def test_slopes_come_from_earlier_runs_the_nearest_first(wrong):
+    """Two that are further away differ from the others; they count by 1 / (distance + 0.02)^2."""
+    steps = [(0.02, 0.0), (-0.02, 0.0), (0.0, 0.02), (0.0, -0.02), (0.1, 0.0), (-0.1, 0.0)]
+    known: Any = Known(steps, [0.0, 0.0, 0.0, 0.0, wrong, -wrong])
+    search = _Search(known, np.random.default_rng(1), 0.02, None)
+    search.begin(np.array([0.4, 0.3]), 0.5)
+    assert known.run == 1
+    np.testing.assert_array_equal(search.centre, [0.4, 0.3])
+    near, far = 1.0 / 0.04**2, 1.0 / 0.12**2
+    steeper = far * 0.1 * wrong / (near * 0.02**2 + far * 0.1**2)
+    assert search._surfaces.slopes == pytest.approx(np.add(SLOPES, (steeper, 0.0)), abs=1e-9)
