@@ -7,8 +7,8 @@ Each is made in a copy of the installed package in build/mutants, so nothing her
 tests of its module then run in a process that was forked after the imports that take long, and end
 at their first failure. Before the first mutant of a module its tests must pass; where they then
 take far longer than they did, they have caught theirs, too. Operators for `|`, which stands in
-annotations here, are left out. What survives is a list to be read, not a mark: some mutants change
-nothing. Ends with 0 whatever survives.
+annotations here, are left out, as are mutants that are no Python. What survives is a list to be
+read, not a mark: some mutants change nothing. Ends with 0 whatever survives.
 """
 
 from __future__ import annotations
@@ -181,6 +181,15 @@ def verdict(module: str, limit: float) -> str:
     return {0: "SURVIVED", 1: "caught", 2: "caught"}.get(status, f"caught (status {status})")
 
 
+def is_python(text: str) -> bool:
+    """Tell whether a module can be compiled: a `*` of a signature is no product."""
+    try:
+        compile(text, "mutant", "exec")
+    except SyntaxError:
+        return False
+    return True
+
+
 def changed_lines(text: str, mutated: str) -> list[str]:
     """Return what a mutant takes away and what it adds."""
     lines = difflib.unified_diff(text.splitlines(), mutated.splitlines(), n=0)
@@ -205,13 +214,16 @@ def main() -> None:
     for slow in ("hypothesis", "pandas", "pytest", "scipy.optimize"):
         importlib.import_module(slow)  # once, before the forks
     limits: dict[str, float] = {}
-    caught = 0
+    made = caught = 0
     for module, name, occurrence in sample:
-        if module not in limits:
-            limits[module] = time_limit(module)
         path = COPY / "curvewise" / module
         text = path.read_text("utf-8")
         mutated = mutate_code(text, cosmic_ray.plugins.get_operator(name)(), occurrence)
+        if not is_python(mutated):
+            continue
+        if module not in limits:
+            limits[module] = time_limit(module)
+        made += 1
         path.write_text(mutated, "utf-8")
         begun = time.monotonic()
         said = verdict(module, limits[module])
@@ -219,7 +231,7 @@ def main() -> None:
         caught += said.startswith("caught")
         print(f"{said} after {time.monotonic() - begun:.0f} s: {module} {name.partition('/')[2]}")
         print(*changed_lines(text, mutated), sep="\n", flush=True)
-    print(f"{caught} caught of {len(sample)}")
+    print(f"{caught} caught of {made}")
 
 
 if __name__ == "__main__":
