@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from curvewise.calibration.evaluations import Finish
 from curvewise.calibration.history import Evaluation
-from curvewise.calibration.trust_region import _descend, _Search
+from curvewise.calibration.trust_region import _descend, _Search, _simplex, trust_region
 
 REACH = 0.8  # of the region, by every step
 
@@ -104,3 +105,38 @@ def test_slopes_come_from_earlier_runs_the_nearest_first(wrong):
     near, far = 1.0 / 0.04**2, 1.0 / 0.12**2
     steeper = far * 0.1 * wrong / (near * 0.02**2 + far * 0.1**2)
     assert search._surfaces.slopes == pytest.approx(np.add(SLOPES, (steeper, 0.0)), abs=1e-9)
+
+
+@pytest.mark.parametrize("centre", [(0.5, 0.5), (0.0, 1.0), (0.01, 0.99), (1.0, 0.0)])
+def test_a_simplex_has_a_whole_step_along_every_axis(centre):
+    for seed in range(8):
+        points = _simplex(np.array(centre), 0.02, np.random.default_rng(seed))
+        assert np.abs(points - centre) == pytest.approx(0.02 * np.eye(2))
+        assert points.min() >= 0.0
+        assert points.max() <= 1.0
+
+
+@pytest.mark.parametrize(
+    ("values", "alike"),
+    [([5.0, 5.04, 5.06], 2), ([5.06, 5.0, 4.0], 1), ([9e-4, 0.0, 2e-3], 2), ([1.0, 1.0, 1.0], 3)],
+)
+def test_how_many_starts_end_alike(values, alike, monkeypatch):
+    """Within 1 % of the best, or all but perfect."""
+
+    class Ended:
+        responses = None
+
+        def __init__(self, *_: Any) -> None:
+            self.value = values.pop(0)
+
+        def begin(self, start: Any, radius: float) -> None: ...
+
+    monkeypatch.setattr("curvewise.calibration.trust_region._Search", Ended)
+    monkeypatch.setattr(
+        "curvewise.calibration.trust_region._descend",
+        lambda search, *_: Finish(True, f"ended at {search.value}"),
+    )
+    best = min(values)
+    evaluations: Any = SimpleNamespace(dimensions=2, negligible=1e-6)
+    finish = trust_region(evaluations, None, 1)
+    assert finish.message == f"{alike} of 3 starts within 1 %; ended at {best}"
