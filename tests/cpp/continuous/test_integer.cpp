@@ -1,6 +1,7 @@
 // Whole numbers of any size: against 64-bit ones where those suffice, and by the laws of a ring
 // where they do not. And the comparisons that are made with them, against roots in long double, of
-// numbers that are far enough apart for it.
+// numbers that are far enough apart for it. And distances, which must be the real ones rounded up,
+// against their squares as whole numbers.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,9 +12,11 @@
 #include "continuous/exact_signs.hpp"
 #include "continuous/integer.hpp"
 #include "curves.hpp"
+#include "curvewise/frechet_continuous.hpp"
 
 namespace {
 
+using curvewise::frechet_continuous;
 using curvewise::detail::ExactSigns;
 using curvewise::detail::Integer;
 using curvewise::detail::Reach;
@@ -116,10 +119,48 @@ void signs_of_roots() {
     CHECK(compared > 1000);
 }
 
+// The sign of x^2 factor - square, for 0 < x < 2^53.
+int compare(double x, const Integer& factor, const Integer& square) {
+    int exponent = 0;
+    const Integer mantissa =
+        whole(static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53)));
+    return (mantissa * mantissa * factor - square.times_power_of_two(2 * (53 - exponent))).sign();
+}
+
+// The square of a value, times a factor, is known.
+void check_rounded_up(double value, const Integer& factor, const Integer& square) {
+    CHECK(compare(value, factor, square) >= 0);
+    CHECK(compare(std::nextafter(value, 0.0), factor, square) < 0);
+}
+
+// Coordinates of so many bits that their squares are rounded: of two points, and of an edge and a
+// curve that leaves it for a point beside it, on which side of the radius they are is not seen in
+// doubles.
+void distances_are_rounded_up() {
+    test::Random random(4);
+    for (int round = 0; round < 2000; ++round) {
+        const std::int64_t most = std::int64_t{1} << (30 + round % 12);
+        const auto coordinate = [&] { return 1 + random.index(most); };
+        const std::int64_t x = coordinate(), y = coordinate();
+        const auto of = [](std::int64_t a) { return static_cast<double>(a); };
+        check_rounded_up(frechet_continuous(Curve{{0.0, 0.0}}, Curve{{of(x), of(y)}}), whole(1),
+                         whole(x) * whole(x) + whole(y) * whole(y));
+        // The foot of (p, q) lies inside the edge to (2 x, 2 y), or nearly on it.
+        const std::int64_t p = x + random.index(x), q = y + random.index(y);
+        const Integer cross = whole(x) * whole(q) - whole(y) * whole(p);
+        if (cross.sign() == 0) continue;
+        const Curve edge{{0.0, 0.0}, {of(2 * x), of(2 * y)}};
+        const Curve beside{{0.0, 0.0}, {of(p), of(q)}, {of(2 * x), of(2 * y)}};
+        check_rounded_up(frechet_continuous(edge, beside),
+                         whole(x) * whole(x) + whole(y) * whole(y), cross * cross);
+    }
+}
+
 }  // namespace
 
 int main() {
     return check::run({{"small numbers", small_numbers},
                        {"large numbers", large_numbers},
-                       {"signs of roots", signs_of_roots}});
+                       {"signs of roots", signs_of_roots},
+                       {"distances are rounded up", distances_are_rounded_up}});
 }

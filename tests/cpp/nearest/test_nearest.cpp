@@ -208,6 +208,13 @@ void runs_are_those_of_open_ends() {
     CHECK_THROWS(subsequences(P, P, 0), std::invalid_argument, "k is 0; give a whole number >= 1");
 }
 
+void the_mean_of_points_is_theirs() {
+    const Curve zero{{0.0}}, four{{4.0}}, start{{1.0}};
+    const DtwMean mean = dtw_mean({zero, four}, {1.0, 3.0}, start);
+    CHECK_EQUAL(mean.points, std::vector<double>{3.0});
+    CHECK_EQUAL(mean.costs.back(), 1.0 * 9.0 + 3.0 * 1.0);
+}
+
 void the_mean_lowers_the_sum() {
     Random random(5);
     const std::vector<Curve> curves = random_curves(random, 9, 40);
@@ -241,5 +248,6 @@ int main() {
          {"a control ends a search", a_control_ends_a_search},
          {"refusals name the curve", refusals_name_the_curve},
          {"runs are those of open ends", runs_are_those_of_open_ends},
+         {"the mean of points is theirs", the_mean_of_points_is_theirs},
          {"the mean lowers the sum", the_mean_lowers_the_sum}});
 }

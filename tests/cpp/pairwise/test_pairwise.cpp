@@ -148,6 +148,30 @@ void any_number_of_workers() {
     CHECK_EQUAL(dtw(X[0], X[1], options), value);
 }
 
+// Pairs of 2^24 steps and more are shared by two threads one after the other if they are few, and
+// computed side by side if they are many.
+void pairs_that_are_worth_all_threads() {
+    Random random(5);
+    const Curve all = random.curve(4200, 1), other = random.curve(4200, 1),
+                small = other.part(0, 9);
+    FrechetOptions options;
+    options.prune = false;
+    for (const std::ptrdiff_t count : {1, 3, 17}) {
+        const check::Note note(std::to_string(count) + " large pairs");
+        std::vector<CurveView> rows{small};
+        for (std::ptrdiff_t k = 0; k < count; ++k)
+            rows.emplace_back(all.values().data() + k, 4100, 1);
+        std::vector<double> expected;
+        for (const CurveView& P : rows) {
+            expected.push_back(frechet(P, small, options));
+            expected.push_back(frechet(P, other, options));
+        }
+        std::vector<double> out(expected.size(), -1.0);
+        cdist(rows, {small, other}, options, out.data(), {2});
+        CHECK_EQUAL(out, expected);
+    }
+}
+
 void cutoff_gives_infinity() {
     const std::vector<Curve> curves = random_curves({300, 600, 2, 700, 40, 1}, 3);
     const std::vector<CurveView> X = views_of(curves);
@@ -249,6 +273,7 @@ int main() {
                        {"prepared equals single calls", prepared_equals_single_calls},
                        {"symmetry is known", symmetry_is_known},
                        {"any number of workers", any_number_of_workers},
+                       {"pairs that are worth all threads", pairs_that_are_worth_all_threads},
                        {"cutoff gives infinity", cutoff_gives_infinity},
                        {"errors name the curve", errors_name_the_curve},
                        {"reports go up to the total", reports_go_up_to_the_total},

@@ -178,6 +178,26 @@ void along_the_edge_of_the_band() {
     }
 }
 
+// The path of cost 0 goes along a run of equal points of Q in the last row of a strip, to the edge
+// of the band there, and enters the next strip by the diagonal behind it, where nothing else is
+// live. Wherever a sweep looks whether a strip is finished, some run ends there.
+void runs_that_end_with_a_strip_and_the_band() {
+    constexpr std::ptrdiff_t n = 400, last_of_strip = n / 2 - 1;
+    for (std::ptrdiff_t window = 1; window <= 34; ++window) {
+        std::vector<double> p, q;
+        for (std::ptrdiff_t i = 0; i < n; ++i) {
+            p.push_back(static_cast<double>(std::min(i, n - 1 - window)));
+            const std::ptrdiff_t behind = std::clamp<std::ptrdiff_t>(i - last_of_strip, 0, window);
+            q.push_back(static_cast<double>(i - behind));
+        }
+        Setup setup;
+        setup.window = window;
+        setup.options.gives_up = false;
+        setup.options.decimation = 4;
+        compare({Curve(p, 1), Curve(q, 1)}, setup);
+    }
+}
+
 // Several strips, and coarse tables that give up or not.
 void large_pairs() {
     Random random(2);
@@ -282,10 +302,12 @@ void progress_counts_the_table() {
 
 int main(int argc, char** argv) {
     if (argc > 1) pairs = std::atol(argv[1]);
-    return check::run({{"random pairs", random_pairs},
-                       {"along the edge of the band", along_the_edge_of_the_band},
-                       {"large pairs", large_pairs},
-                       {"least distances are bounds", least_distances_are_bounds},
-                       {"gives up where it should", gives_up_where_it_should},
-                       {"progress counts the table", progress_counts_the_table}});
+    return check::run(
+        {{"random pairs", random_pairs},
+         {"along the edge of the band", along_the_edge_of_the_band},
+         {"runs that end with a strip and the band", runs_that_end_with_a_strip_and_the_band},
+         {"large pairs", large_pairs},
+         {"least distances are bounds", least_distances_are_bounds},
+         {"gives up where it should", gives_up_where_it_should},
+         {"progress counts the table", progress_counts_the_table}});
 }

@@ -144,6 +144,27 @@ void magnitudes() {
     CHECK_CLOSE(frechet(Curve{{3e307, -1e308}}, Curve{{0.0, -1.4e308}}), 5e307, 1e-15);
 }
 
+// The first points decide, so that a row of the table that is looked at early has nothing smaller,
+// and its last value, far from the end of P, is not the answer. The table of the Euclidean distance
+// holds squares, and that of the cutoff may be rounded to below that of the distance.
+void a_cutoff_that_is_the_distance() {
+    Random random(25);
+    for (int round = 0; round < 40; ++round) {
+        Curve P(std::vector<double>(600), 2), Q(std::vector<double>(40), 2);
+        for (std::ptrdiff_t i = 0; i < P.size(); ++i) P(i, 0) = 0.1 * static_cast<double>(i);
+        for (std::ptrdiff_t j = 0; j < Q.size(); ++j) Q(j, 0) = 1.5 * static_cast<double>(j);
+        P(0, 0) = -random.uniform(5.0, 8.0);
+        P(0, 1) = random.uniform(2.0, 5.0);
+        FrechetOptions options;
+        options.ground.metric = round % 4 == 0 ? Metric::cityblock : Metric::euclidean;
+        options.cutoff = frechet(P, Q, options);
+        CHECK_EQUAL(options.cutoff, frechet(P.part(0, 1), Q.part(0, 1), {options.ground}));
+        CHECK_EQUAL(frechet(P, Q, options), options.cutoff);
+        options.cutoff = std::nextafter(options.cutoff, 0.0);
+        CHECK_EQUAL(frechet(P, Q, options), infinity);
+    }
+}
+
 void messages() {
     const Curve P{{0.0, 0.0}, {1.0, 1.0}}, none({}, 2);
     const auto refuses = [](const Curve& A, const Curve& B, const FrechetOptions& options,
@@ -174,5 +195,6 @@ int main() {
                        {"root of the squares", root_of_the_squares},
                        {"symmetry", symmetry},
                        {"magnitudes", magnitudes},
+                       {"a cutoff that is the distance", a_cutoff_that_is_the_distance},
                        {"messages", messages}});
 }

@@ -271,6 +271,43 @@ void sizes_around_a_block() {
     }
 }
 
+// A search counts all of the table where it finds the value, and nothing where it gives up, which
+// may be after a pass over blocks: the full sweep then counts it.
+void steps_are_counted_once() {
+    Random random(5);
+    int late = 0;
+    for (int k = 0; k < 40; ++k) {
+        const Curve P = loops(1000, 2, random.uniform(0.5, 6.0), 0.0, false);
+        Curve Q = test::walk(950, 2, 0.02 * static_cast<double>(1 + k % 4), random);
+        for (std::ptrdiff_t j = 0; j < Q.size(); ++j) {
+            for (std::ptrdiff_t c = 0; c < 2; ++c) Q(j, c) += P(j * 999 / 949, c);
+        }
+        const PackedCurve rows(P, RangeScale(1.0), PointOrder::forward, unpolled);
+        const PackedCurve columns(Q, RangeScale(1.0), PointOrder::reversed, unpolled);
+        const std::int64_t cells = P.size() * Q.size();
+        curvewise::Control control;
+        Poller poller(&control);
+        poller.begin(cells);
+        SweepMemory memory;
+        const SweepProblem problem{*available_levels().back().kernels,
+                                   {rows, columns},
+                                   Recurrence::frechet,
+                                   {Metric::sqeuclidean, false},
+                                   2.0,
+                                   Band(P.size(), Q.size(), std::nullopt),
+                                   false,
+                                   1,
+                                   poller,
+                                   memory};
+        PruningRecord record;
+        const bool is_found = frechet_pruned(problem, {infinity, true, cells}, record).has_value();
+        poller.poll();
+        CHECK_EQUAL(control.done(), is_found ? cells : 0);
+        late += !is_found && record.reach_passes > 0;
+    }
+    CHECK(late > 0);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -280,5 +317,6 @@ int main(int argc, char** argv) {
                        {"mazes", mazes},
                        {"turn in a free block", turn_in_a_free_block},
                        {"through a free block", through_a_free_block},
-                       {"sizes around a block", sizes_around_a_block}});
+                       {"sizes around a block", sizes_around_a_block},
+                       {"steps are counted once", steps_are_counted_once}});
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import os
 import sqlite3
@@ -22,6 +23,8 @@ from curvewise.calibration import (
     identify,
     rescore,
 )
+from curvewise.calibration.history import Evaluation
+from curvewise.calibration.model_pool import Outcome
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
@@ -327,6 +330,29 @@ def test_other_files_are_refused(tmp_path):
         SimulationStore(tmp_path / "other.db")
     with pytest.raises(OSError, match="cannot be opened"):
         SimulationStore(tmp_path / "no" / "folder.db")
+
+
+def test_what_is_new_is_written_at_once_after_a_pause(tmp_path, monkeypatch):
+    """What a killed search loses is what came within the pause after it last wrote."""
+    file = tmp_path / "s.db"
+    outcome = Outcome([EXPERIMENT], "", 1.0)
+
+    def written():
+        with contextlib.closing(sqlite3.connect(file)) as other:
+            counts = (f"SELECT count(*) FROM {table}" for table in ("runs", "evaluations"))
+            return [other.execute(count).fetchone()[0] for count in counts]
+
+    with SimulationStore(file) as store:
+        search = store.searches.begin({}, {})
+        monkeypatch.setattr("curvewise.calibration.store._PAUSE", 1e9)
+        store.save("line", {"a": 1.0}, outcome)
+        store.note(search, Evaluation(1, (1.0,), 0.0, failed=False, seconds=1.0))
+        assert written() == [0, 0]
+        monkeypatch.setattr("curvewise.calibration.store._PAUSE", -1.0)
+        store.note(search, Evaluation(2, (2.0,), 0.0, failed=False, seconds=1.0))
+        assert written() == [1, 2]
+        store.save("line", {"a": 2.0}, outcome)
+        assert written() == [2, 2]
 
 
 # Processes.

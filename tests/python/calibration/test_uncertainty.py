@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 
 import numpy as np
 import pytest
@@ -57,6 +58,10 @@ def test_a_linear_model_has_the_errors_of_least_squares(sigma):
     assert uncertainty.sigma == pytest.approx(deviation, rel=1e-3)
     assert uncertainty.runs == 0
     assert set(uncertainty.bias.values()) == {0.0}
+    step = list(uncertainty.weakest_direction.values())
+    move = np.sqrt(np.mean((DESIGN @ step / np.ptp(TEST[:, 1])) ** 2) / 2)  # of x and y
+    said = re.search(r"the loops move by (\S+) % of their size$", uncertainty.in_words)
+    assert float(said[1]) == pytest.approx(100.0 * move, rel=0.06)  # has two digits
 
 
 def test_the_bootstrap_of_a_measure_is_near_least_squares():

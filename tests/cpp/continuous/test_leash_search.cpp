@@ -1,0 +1,138 @@
+// The search for the continuous Fréchet distance against plain bisection over decisions, which look
+// at the whole free-space diagram. The curves are made so that the search is led astray: where a
+// walk dies, the way out begins hundreds of rows before, so that what a window around the blockade
+// shows is not the value. frechet_within() decides without a search, and is trusted here.
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "curves.hpp"
+#include "curvewise/frechet_continuous.hpp"
+
+namespace {
+
+using curvewise::frechet_continuous;
+using curvewise::frechet_within;
+using test::Curve;
+using test::Random;
+
+double double_of(std::uint64_t bits) {
+    double x = 0.0;
+    std::memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+// The least double within which two curves are. Doubles have the order of their bits.
+double least_within(const Curve& P, const Curve& Q) {
+    std::uint64_t low = 0, high = 0;
+    const double most = std::numeric_limits<double>::max();
+    std::memcpy(&high, &most, sizeof high);
+    if (frechet_within(P, Q, 0.0)) return 0.0;
+    while (high - low > 1) {
+        const std::uint64_t middle = low + (high - low) / 2;
+        (frechet_within(P, Q, double_of(middle)) ? high : low) = middle;
+    }
+    return double_of(high);
+}
+
+void check_value(const Curve& P, const Curve& Q) {
+    const double value = frechet_continuous(P, Q);
+    CHECK_EQUAL(value, least_within(P, Q));
+    CHECK(frechet_within(P, Q, value));
+    if (value > 0.0) CHECK(!frechet_within(P, Q, std::nextafter(value, 0.0)));
+    CHECK_EQUAL(frechet_continuous(Q, P), value);
+}
+
+// Heights above a line, made a curve of the plane: the line is short, and not along an axis, so
+// that values are no round numbers.
+Curve along_a_line(const std::vector<double>& heights, Random& random) {
+    std::vector<double> values;
+    for (const double height : heights) {
+        values.push_back(0.8 * height + random.uniform(-0.01, 0.01));
+        values.push_back(0.6 * height + random.uniform(-0.01, 0.01));
+    }
+    return {values, 2};
+}
+
+void append_plain(std::vector<double>& heights, std::ptrdiff_t rows, Random& random) {
+    for (std::ptrdiff_t k = 0; k < rows; ++k) heights.push_back(random.uniform(-0.02, 0.02));
+}
+
+// As many points on every edge, which changes nothing of the curve except for rounding.
+std::vector<double> divided(const std::vector<double>& heights, int parts) {
+    std::vector<double> result;
+    for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
+        for (int part = 0; part < parts; ++part) {
+            const double t = static_cast<double>(part) / parts;
+            result.push_back((1.0 - t) * heights[k] + t * heights[k + 1]);
+        }
+    }
+    result.push_back(heights.back());
+    return result;
+}
+
+// P climbs to 3, runs along a plain, falls into a pit of 1.6, climbs to 5, and to 3 again. Q climbs
+// two peaks of 5. A walk that leaves Q's first peak for P's climb to 5 has waited for it at a
+// height of 3 - r or more, and is too far above the pit. One that crosses it while P is at 3 needs
+// a leash of 2, and at no later time a longer one: that is the distance, and the way to it begins
+// `plain` rows before the pit. The search does not know, since no walk with a shorter leash gets
+// there: the ends need 1.2, and P's first climb 1.55 because of the low place behind it.
+//
+// Both come from afar, P in steps and Q at once, so that walks from vertex to vertex are of no use.
+void corridors_that_part() {
+    Random random(21);
+    const std::vector<double> approach{-50.0, -40.0, -30.0, -20.0, -10.0};
+    const std::vector<double> peaks{0.0, 5.0, -1.0, 5.0, 1.2};
+    for (const std::ptrdiff_t plain : {10, 60, 140, 200, 320, 420, 1200}) {
+        for (const int parts : {1, 20}) {
+            const check::Note note(std::to_string(plain) + " rows between, Q's edges in " +
+                                   std::to_string(parts));
+            std::vector<double> p = approach;
+            append_plain(p, 30, random);
+            p.insert(p.end(), {3.0, -0.1});
+            append_plain(p, plain, random);
+            p.push_back(-1.6);
+            append_plain(p, 20, random);
+            p.push_back(5.0);
+            append_plain(p, 20, random);
+            p.push_back(3.0);
+            append_plain(p, 30, random);
+            std::vector<double> q = divided(peaks, parts);
+            q.insert(q.begin(), approach.front());
+            const Curve P = along_a_line(p, random), Q = along_a_line(q, random);
+            check_value(P, Q);
+            CHECK(std::abs(frechet_continuous(P, Q) - 2.0) < 0.05);
+        }
+    }
+}
+
+// Peaks and pits of any height at any row: bottlenecks, blind alleys, ways that part and meet.
+void peaks_and_pits() {
+    Random random(22);
+    for (int round = 0; round < 60; ++round) {
+        const check::Note note("round " + std::to_string(round));
+        std::vector<double> p, q{0.0};
+        const std::ptrdiff_t events = 3 + random.index(8);
+        for (std::ptrdiff_t k = 0; k < events; ++k) {
+            append_plain(p, 1 + random.index(500 / events), random);
+            p.push_back(random.uniform(-3.0, 5.0));
+            if (random.index(3) > 0) q.push_back(p.back() + random.uniform(-1.0, 1.0));
+            if (random.index(2) > 0) q.push_back(random.uniform(-1.0, 1.0));
+        }
+        append_plain(p, 20, random);
+        q.push_back(0.0);
+        const Curve P = along_a_line(p, random);
+        check_value(P, along_a_line(divided(q, 1 + 9 * (round % 2)), random));
+    }
+}
+
+}  // namespace
+
+int main() {
+    return check::run(
+        {{"corridors that part", corridors_that_part}, {"peaks and pits", peaks_and_pits}});
+}

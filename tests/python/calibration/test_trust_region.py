@@ -1,0 +1,142 @@
+"""The trust region without a model: how the region grows and shrinks, and what slopes come from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from curvewise.calibration.evaluations import Finish
+from curvewise.calibration.history import Evaluation
+from curvewise.calibration.trust_region import _descend, _Search, _simplex, trust_region
+
+REACH = 0.8  # of the region, by every step
+
+
+class Scripted:
+    """A search whose surfaces promise a gain of 1 each time, and whose runs gain what is listed."""
+
+    centre = np.zeros(2)
+    value = 10.0
+
+    def __init__(self, gains: Sequence[float]) -> None:
+        self.gains = list(gains)
+        self.radii: list[float] = []
+        self.is_fresh = False
+
+    def lowest(self, radius: float) -> tuple[Any, float]:
+        self.radii.append(radius)
+        return np.array([0.1 * radius, -REACH * radius]), 1.0 if self.gains else 0.0
+
+    def step(self, candidate: Any) -> float:
+        return self.gains.pop(0)
+
+    def renew(self, step: float) -> None:
+        self.is_fresh = True
+
+
+def radii_of(gains: Sequence[float], radius: float) -> list[float]:
+    """Return the regions of steps that gain so much of what was promised."""
+    search: Any = Scripted(gains)
+    evaluations: Any = SimpleNamespace(negligible=0.0)
+    finish = _descend(search, evaluations, radius, 0.02, 1e-3, 1e-3, 50)
+    assert finish.converged
+    assert not search.gains
+    radii: list[float] = search.radii
+    return radii[: len(gains) + 1]
+
+
+@pytest.mark.parametrize(
+    ("gain", "factor"),
+    [
+        (1.0, 2.0 * REACH),
+        (0.7, 2.0 * REACH),
+        (0.69, 1.0),
+        (0.1, 1.0),
+        (0.09, 0.3 * REACH),
+        (-3.0, 0.3 * REACH),
+        (-np.inf, 0.3 * REACH),
+    ],
+)
+def test_the_region_follows_how_well_gains_are_predicted(gain, factor):
+    assert radii_of([gain], 0.2) == pytest.approx([0.2, 0.2 * factor])
+
+
+def test_the_region_is_never_more_than_the_bounds():
+    assert radii_of([1.0, 1.0], 0.6) == pytest.approx([0.6, 0.96, 1.0])
+
+
+SLOPES = np.array([[3.0, 0.0], [-1.0, 2.0], [0.0, 0.5], [4.0, -4.0]])  # of two points' coordinates
+
+
+def run_at(point: Any, wrong: float = 0.0) -> Evaluation:
+    curve = (SLOPES @ point + wrong).reshape(2, 2)
+    return Evaluation(1, tuple(point), 1.0, failed=False, seconds=0.0, simulations=(curve,))
+
+
+class Known:
+    """Evaluations, of which some are known around every point."""
+
+    def __init__(self, steps: Any, wrong: Sequence[float]) -> None:
+        self.steps, self.wrong = np.array(steps), wrong
+        self.run = 0
+
+    def known_near(self, unit: Any) -> tuple[Any, list[Evaluation]]:
+        points = unit + self.steps
+        return points, [run_at(p, wrong) for p, wrong in zip(points, self.wrong, strict=True)]
+
+    def evaluated(self, points: Any, *, keep_simulations: bool) -> list[Evaluation]:
+        self.run += len(points)
+        return [run_at(point) for point in points]
+
+
+@pytest.mark.parametrize("wrong", [0.0, 0.5])
+def test_slopes_come_from_earlier_runs_the_nearest_first(wrong):
+    """Two that are further away differ from the others; they count by 1 / (distance + 0.02)^2."""
+    steps = [(0.02, 0.0), (-0.02, 0.0), (0.0, 0.02), (0.0, -0.02), (0.1, 0.0), (-0.1, 0.0)]
+    known: Any = Known(steps, [0.0, 0.0, 0.0, 0.0, wrong, -wrong])
+    search = _Search(known, np.random.default_rng(1), 0.02, None)
+    search.begin(np.array([0.4, 0.3]), 0.5)
+    assert known.run == 1
+    np.testing.assert_array_equal(search.centre, [0.4, 0.3])
+    near, far = 1.0 / 0.04**2, 1.0 / 0.12**2
+    steeper = far * 0.1 * wrong / (near * 0.02**2 + far * 0.1**2)
+    assert search._surfaces.slopes == pytest.approx(np.add(SLOPES, (steeper, 0.0)), abs=1e-9)
+
+
+@pytest.mark.parametrize("centre", [(0.5, 0.5), (0.0, 1.0), (0.01, 0.99), (1.0, 0.0)])
+def test_a_simplex_has_a_whole_step_along_every_axis(centre):
+    for seed in range(8):
+        points = _simplex(np.array(centre), 0.02, np.random.default_rng(seed))
+        assert np.abs(points - centre) == pytest.approx(0.02 * np.eye(2))
+        assert points.min() >= 0.0
+        assert points.max() <= 1.0
+
+
+@pytest.mark.parametrize(
+    ("values", "alike"),
+    [([5.0, 5.04, 5.06], 2), ([5.06, 5.0, 4.0], 1), ([9e-4, 0.0, 2e-3], 2), ([1.0, 1.0, 1.0], 3)],
+)
+def test_how_many_starts_end_alike(values, alike, monkeypatch):
+    """Within 1 % of the best, or all but perfect."""
+
+    class Ended:
+        responses = None
+
+        def __init__(self, *_: Any) -> None:
+            self.value = values.pop(0)
+
+        def begin(self, start: Any, radius: float) -> None: ...
+
+    monkeypatch.setattr("curvewise.calibration.trust_region._Search", Ended)
+    monkeypatch.setattr(
+        "curvewise.calibration.trust_region._descend",
+        lambda search, *_: Finish(True, f"ended at {search.value}"),
+    )
+    best = min(values)
+    evaluations: Any = SimpleNamespace(dimensions=2, negligible=1e-6)
+    finish = trust_region(evaluations, None, 1)
+    assert finish.message == f"{alike} of 3 starts within 1 %; ended at {best}"
