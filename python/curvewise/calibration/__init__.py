@@ -12,11 +12,12 @@ from .cases import Case
 from .command_model import CommandModel, SolverError
 from .cross_validation import CrossValidation, Fold, cross_validate
 from .evaluations import Progress
-from .identification import Identification, identify
+from .identification import Identification
 from .line_plot import LinePlot, line_plot
 from .objective import MEASURES, Objective, Score
 from .parameters import Below, Log, Tied
 from .rescoring import Rescored, rescore
+from .search import identify
 from .several_measures import SeveralMeasures, identify_each
 from .store import SimulationStore, StoredRun
 from .uncertainty import Uncertainty

@@ -19,12 +19,13 @@ import numpy as np
 from .._curves import Array
 from .._options import Preset
 from .curve_list import as_points, curve_list
-from .identification import Identification, identify
+from .identification import Identification
 from .loop_selection import Selection
 from .model_identity import model_identity
 from .model_pool import Model
 from .objective import Objective
 from .parameters import Bounds
+from .search import identify
 from .store import SimulationStore
 
 __all__ = ["CrossValidation", "Fold", "cross_validate"]
