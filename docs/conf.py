@@ -12,6 +12,7 @@ import sys
 from importlib.metadata import version as installed_version
 from pathlib import Path
 
+from sphinx.application import Sphinx
 from sphinx.errors import ConfigError
 
 DOCS = Path(__file__).resolve().parent
@@ -71,7 +72,7 @@ repository_folders = {
     "benchmarks/paper": "docs/paper/index.md",
 }
 
-# Python. Types stand in the docstrings, in words.
+# Python. Types stand in the docstrings, in words; attributes of a result stand before its methods.
 autodoc_typehints = "none"
 autodoc_member_order = "groupwise"
 autosummary_generate = True
@@ -124,3 +125,13 @@ html_sidebars = {"index": [], "getting_started": []}
 # "sphinx-build -b linkcheck" asks these servers; publishers' refuse what is no browser.
 linkcheck_timeout = 20
 linkcheck_ignore = [r"https://doi\.org/.*"]
+
+
+def only_rst_heads_a_gallery(app: Sphinx) -> None:
+    """Keep the gallery from taking examples/studies, with its README.md, for a part of itself."""
+    app.config.sphinx_gallery_conf["source_suffix"] = {".rst": "restructuredtext"}
+
+
+def setup(app: Sphinx) -> None:
+    """Come between the gallery's reading of its settings (10) and its run (500)."""
+    app.connect("builder-inited", only_rst_heads_a_gallery, priority=100)

@@ -4,9 +4,10 @@ Tension–compression tests of DP780 sheet to 3 and 6 %, a finite element of com
 CalculiX (benchmarks/paper/calculix_cube.py), seven parameters. One test, then both, by three
 measures, with one store; what is determined, and what is not; how far the modulus is a number at
 all; and the same with the parameters fixed that the tests do not have. Writes what it prints to
-worked_example.txt, and the pictures of the page to docs/images. Started again, it runs the solver
-for nothing that is in its store.
+worked_example.txt, the pictures of the page to docs/images, and the report to --scratch. Started
+again, it runs the solver for nothing that is in its store.
 
+    pip install ".[calibration,plot,report]"
     CURVEWISE_DATA=... python benchmarks/answer/worked_example.py
 """
 
@@ -108,8 +109,10 @@ def main() -> None:
     fixed = {**BOUNDS, **fixed_parameters(raw)}
     start = inside(both["area"].parameters, fixed)
     fewer = identify(model, tests, fixed, **search | {"start": start})
-    say("E and H fixed", fewer, "", fewer.uncertainty(samples=options.samples))
+    uncertainty = fewer.uncertainty(samples=options.samples)
+    say("E and H fixed", fewer, "", uncertainty)
     say("The price of fixing", price(both["area"], fewer))
+    fewer.report(options.scratch / "dp780.html", uncertainty=uncertainty)
     (text / "worked_example.txt").write_text(written.getvalue())
 
 

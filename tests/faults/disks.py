@@ -17,13 +17,16 @@ import resource
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 import numpy as np
 
 from curvewise.calibration import Identification, SimulationStore, identify
+
+# Leaves a folder's files so many bytes.
+Full = Callable[[Path, int], AbstractContextManager[None]]
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
@@ -74,17 +77,18 @@ def kept(kind: str, file: Path) -> int:
     """Return how many runs a history, or a store, holds."""
     if not file.exists():
         return 0
-    if kind == "history":
-        return max(file.read_bytes().count(b"\n") - 2, 0)
+    if kind == "history":  # beside its runs it has a title, a header, and how the search ended
+        lines = file.read_bytes().splitlines(keepends=True)
+        return sum(line[:1].isdigit() and line.endswith(b"\n") for line in lines)
     with SimulationStore(file) as store:
         return len(store)
 
 
-def tried_once(kind: str, file: Path, room: int, full: object, whole: Identification) -> str:
+def tried_once(kind: str, file: Path, room: int, full: Full, whole: Identification) -> str:
     """Search on a full disk, then again with room; return "full", "enough", or what is wrong."""
     result = "enough"
     try:
-        with full(file.parent, room):  # type: ignore[operator]
+        with full(file.parent, room):
             search(Line(), **{kind: file})
     except OSError as error:
         result = "full"
@@ -102,7 +106,7 @@ def tried_once(kind: str, file: Path, room: int, full: object, whole: Identifica
     return result
 
 
-def tried(name: str, folder: Path, full: object, most: int, times: int) -> int:
+def tried(name: str, folder: Path, full: Full, most: int, times: int) -> int:
     """Try both kinds of files; return how many went wrong."""
     rng = random.Random(times)
     whole = search(Line())

@@ -121,8 +121,11 @@ def killed_and_resumed(
         _, errors = process.communicate(timeout=60)
         if is_group_left(process.pid):
             return "a process is left"
-        if number == signal.SIGINT and "KeyboardInterrupt" not in errors and process.returncode:
-            return f"Ctrl-C ended in {errors}"
+        # Before Python has a handler for it, and after, the signal ends a process without a word.
+        is_wordless = process.returncode == -number and not errors
+        is_ended = process.returncode == 0 or is_wordless or "KeyboardInterrupt" in errors
+        if number == signal.SIGINT and not is_ended:
+            return f"Ctrl-C ended in status {process.returncode}, {errors!r}"
     before = stored(searches.folder / f"{name}.db")
     if before < 0:
         return "the database is damaged"

@@ -202,11 +202,19 @@ def _parsed(row: list[str]) -> Evaluation:
 
 def append_ending(path: str | os.PathLike[str], ending: str) -> None:
     """Add how a search ended, as JSON, unless that is what the file says already."""
-    line = _with_checksum(_ENDING + ending)
-    with open(path, "r+", encoding="utf-8", newline="") as file:
-        content = file.read()
-        if not content.endswith("\n" + line):
-            file.write(line)
+    line = _with_checksum(_ENDING + ending).encode()
+    try:
+        with open(path, "r+b") as file:
+            content = file.read()
+            if not content.endswith(b"\n" + line):
+                # Half a line is one for which there was no room, when it was written before.
+                file.truncate(file.seek(content.rfind(b"\n") + 1))
+                file.write(line)
+    except OSError as error:
+        raise OSError(
+            f"the history {path} cannot be written: {error}; the runs that it holds are whole, "
+            "and a search that is started again makes none of them again"
+        ) from error
 
 
 def read_history(

@@ -244,8 +244,8 @@ def identify_each(
 
     Notes
     -----
-    Runs: for the four measures of `benchmarks/answer/shared_runs.py`, 7 parameters, some 150,
-    where four searches by "sdrm" take 751.
+    Runs: for the four measures of `benchmarks/answer/shared_runs.py`, 7 parameters, 231, where four
+    searches by "sdrm" take 751.
 
     Examples
     --------

@@ -232,7 +232,7 @@ class SimulationStore:
             self._write()
 
     def note(self, search: int, evaluation: Evaluation) -> None:
-        """Take down an evaluation of a search; see :class:`SearchTable`."""
+        """Take down an evaluation of a search; see ``SearchTable``."""
         self.searches.note(search, evaluation)
         if time.monotonic() - self._written > _PAUSE:
             self._write()

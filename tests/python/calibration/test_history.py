@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from curvewise.calibration import identify
-from curvewise.calibration.history import Evaluation, History
+from curvewise.calibration.history import Evaluation, History, append_ending, read_history
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
@@ -100,6 +100,17 @@ def test_half_a_line_at_the_end_is_cut_off(tmp_path, method, cut):
     again = identify(line, EXPERIMENT, BOUNDS, history=file, **keywords)
     assert_same(whole, again)
     assert len(file.read_bytes().splitlines()) == len(lines)
+
+
+def test_an_ending_for_which_there_was_no_room_is_written_later(tmp_path):
+    file = tmp_path / "history.csv"
+    identify(line, EXPERIMENT, BOUNDS, history=file, **QUICK)
+    whole = file.read_bytes()
+    file.write_bytes(whole[:-20])
+    append_ending(file, '{"converged": true}')
+    _, _, evaluations, ending = read_history(file)
+    assert ending == '{"converged": true}'
+    assert len(evaluations) == whole.count(b"\n") - 3
 
 
 def test_a_history_of_another_search_is_refused(tmp_path):

@@ -159,6 +159,17 @@ def test_the_reference_has_c_and_fortran() -> None:
     assert ".. literalinclude:: ../../cpp/fortran/curvewise.f90" in fortran
 
 
+def test_the_reference_has_every_command(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match=r"^0$"):
+        cli.main(["--help"])
+    commands = re.findall(r"^    (\w+)(?: {2,}|$)", capsys.readouterr().out, flags=re.MULTILINE)
+    page = (DOCS / "api/command_line.rst").read_text(encoding="utf-8")
+    sections = re.findall(r"^(\w+)\n-+$", page, flags=re.MULTILINE)
+    assert sections == re.findall(r"^\.\. command-help:: (\w+)$", page, flags=re.MULTILINE)
+    assert sections == commands
+    assert len(sections) > 5
+
+
 def test_every_link_to_a_file_leads_to_one() -> None:
     """The build refuses such a link too; here it is found without one."""
     broken = []

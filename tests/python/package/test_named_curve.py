@@ -152,5 +152,10 @@ def test_identifications_name_their_axes():
     assert labels(found.plot(names=["u", "F"]).axes[0]) == ("u", "F")
     uncertain = found.uncertainty().plot()
     assert NAMES in [labels(ax) for part in uncertain.subfigs for ax in part.axes]
+    uncertain.draw_without_rendering()
+    lower = uncertain.subfigs[1]  # its title stands above the loops, its legend below
+    (legend,), (panel,), title = lower.legends, lower.axes, lower.texts[0]
+    boxes = [artist.get_window_extent() for artist in (legend, panel, title)]
+    assert boxes[0].y1 <= boxes[1].y0 < boxes[1].y1 <= boxes[2].y0
     several = identify_each(line, test, measures=["sum_of_squares", "area"], **keywords)
     assert labels(several.plot().axes[0]) == NAMES

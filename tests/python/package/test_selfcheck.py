@@ -1,0 +1,44 @@
+"""selfcheck finds what differs, also at a level that it does not compare with the reference."""
+
+from __future__ import annotations
+
+import io
+
+import pytest
+
+from curvewise import selfcheck
+from curvewise.measures.registry import MEASURES
+
+CHECK = (MEASURES["frechet"], {"metric": "euclidean"})
+NAME = "frechet euclidean"
+
+
+@pytest.fixture(autouse=True)
+def one_check(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(selfcheck, "_checks", lambda: iter([CHECK]))
+
+
+def break_one_bit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have the compiled library be wrong in the last bit of one distance in a hundred."""
+    right, calls = selfcheck._results, iter(range(10**6))
+
+    def wrong(*arguments):
+        results = right(*arguments)
+        return [results[0] * (1.0 + 2.0**-52), *results[1:]] if next(calls) == 7 else results
+
+    monkeypatch.setattr(selfcheck, "_results", wrong)
+
+
+def test_a_level_with_the_bits_of_one_that_was_confirmed_needs_no_reference(monkeypatch) -> None:
+    known = selfcheck._check_active_level(io.StringIO(), {})
+    assert known[NAME]
+    monkeypatch.setattr(selfcheck, "_agree", None)  # would fail if it were called
+    assert selfcheck._check_active_level(io.StringIO(), known) == known
+
+
+def test_a_wrong_bit_is_found(monkeypatch) -> None:
+    known = selfcheck._check_active_level(io.StringIO(), {})
+    break_one_bit(monkeypatch)
+    said = io.StringIO()
+    assert selfcheck._check_active_level(said, known) == {NAME: ""}
+    assert "DIFFERS for 1 pairs" in said.getvalue()
