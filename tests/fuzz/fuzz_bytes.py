@@ -115,6 +115,6 @@ def _try_steered(check: Check, seeds: Path, change: Change, args: argparse.Names
     options = [f"-max_total_time={args.seconds}", f"-seed={args.seed}", f"-max_len={_LONGEST}"]
     with tempfile.TemporaryDirectory() as found:  # what is new goes to the first folder
         folders = [found, str(seeds)]
-        arguments = [sys.argv[0], *options, "-print_final_stats=1", "-timeout=60", *folders]
+        arguments = [sys.argv[0], *options, "-print_final_stats=1", "-timeout=20", *folders]
         atheris.Setup(arguments, check, custom_mutator=mutate)
         atheris.Fuzz()

@@ -23,6 +23,7 @@ with atheris.instrument_imports(include=READERS) if atheris else contextlib.null
     from curvewise import csv_curves, read_curve
     from curvewise.column_choice import TimeColumnWarning
 
+SEEDS = Path(__file__).parent / "corpus" / "read_curve"
 WORDS = (b"1,5", b"-0.5e3", b"nan", b"inf", b";", b"\t", b",", b'"', b"\r\n", b"\n", b"#", b"//")
 WORDS += (b"\xff\xfe", b"\xef\xbb\xbf", b"strain [%]", b"#N/A", b"1_000", b"0x10", b"1e400")
 WORDS += ("\u0661\u0662".encode(), "\u2028".encode(), b"\x0c", b"\x1c", b"\xa0", b"+1.", b".5d0")
@@ -66,5 +67,4 @@ def change(data: bytes, choices: random.Random) -> bytes:
 
 
 if __name__ == "__main__":
-    seeds = Path(__file__).parent / "corpus" / "read_curve"
-    run(__doc__.splitlines()[0], make_check, seeds, change)
+    run(__doc__.splitlines()[0], make_check, SEEDS, change)
