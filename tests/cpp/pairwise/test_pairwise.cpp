@@ -148,6 +148,17 @@ void any_number_of_workers() {
     CHECK_EQUAL(dtw(X[0], X[1], options), value);
 }
 
+// Pairs that are worth all threads, among others that are not.
+void large_pairs_are_shared() {
+    Random random(6);
+    const Curve large = random.walk(4200), other = random.walk(4100), small = random.walk(50);
+    const std::vector<CurveView> X{large, small}, Y{other, small};
+    std::vector<double> shared(4), single(4);
+    cdist(X, Y, FrechetOptions{}, shared.data(), {2});
+    cdist(X, Y, FrechetOptions{}, single.data(), {1});
+    CHECK_EQUAL(shared, single);
+}
+
 void cutoff_gives_infinity() {
     const std::vector<Curve> curves = random_curves({300, 600, 2, 700, 40, 1}, 3);
     const std::vector<CurveView> X = views_of(curves);
@@ -177,6 +188,10 @@ void errors_name_the_curve() {
                  "options is not; use cdist");
     CHECK_THROWS(pdist({P, P}, DtwOptions{}, out, {0}), std::invalid_argument,
                  "workers is 0; give a whole number >= 1, or -1 for all cores");
+    CHECK_THROWS(check_batch({P, bad}, DtwOptions{}), std::invalid_argument,
+                 "XA[1][1, 0] is inf; curves must be finite");
+    check_batch({P, P}, DtwOptions{});
+    check_batch(std::vector<CurveView>{}, DtwOptions{});
     CHECK_THROWS(Prepared(P, AreaOptions{})(solid), std::invalid_argument,
                  "P has shape (2, 2) and Q has shape (1, 3); both need the same number of "
                  "coordinates");
@@ -217,7 +232,9 @@ void a_stopped_call_throws() {
     FrechetOptions slow{{Metric::minkowski, 3.0}};
     DtwOptions threaded;
     threaded.workers = 3;
+    const std::vector<CurveView> tiny(20'000, small.part(0, 3));
     const std::vector<std::function<void(Control*)>> calls{
+        [&](Control* control) { pdist(tiny, AreaOptions{}, out.data(), {2}, control); },
         [&](Control* control) { frechet(P, P, slow, control); },
         [&](Control* control) { dtw(P, P, threaded, control); },
         [&](Control* control) { dtw_path(P, P, threaded, control); },
@@ -249,6 +266,7 @@ int main() {
                        {"prepared equals single calls", prepared_equals_single_calls},
                        {"symmetry is known", symmetry_is_known},
                        {"any number of workers", any_number_of_workers},
+                       {"large pairs are shared", large_pairs_are_shared},
                        {"cutoff gives infinity", cutoff_gives_infinity},
                        {"errors name the curve", errors_name_the_curve},
                        {"reports go up to the total", reports_go_up_to_the_total},
