@@ -27,7 +27,7 @@ __all__ = ["FoundError", "atheris", "changed_bytes", "run"]
 
 Check = Callable[[bytes], None]
 Change = Callable[[bytes, random.Random], bytes]
-_LONGEST = 4000
+_LONGEST = 8000  # bytes
 
 
 class FoundError(Exception):
