@@ -232,7 +232,8 @@ void a_stopped_call_throws() {
     FrechetOptions slow{{Metric::minkowski, 3.0}};
     DtwOptions threaded;
     threaded.workers = 3;
-    const std::vector<CurveView> tiny(20'000, small.part(0, 3));
+    const Curve three = small.part(0, 3);
+    const std::vector<CurveView> tiny(20'000, three);
     const std::vector<std::function<void(Control*)>> calls{
         [&](Control* control) { pdist(tiny, AreaOptions{}, out.data(), {2}, control); },
         [&](Control* control) { frechet(P, P, slow, control); },
