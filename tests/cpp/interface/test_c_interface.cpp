@@ -97,8 +97,7 @@ void the_version_is_that_of_the_library() {
 void no_such_level() {
     const Answer failed = answer(curvewise_dtw, static_cast<curvewise_dtw_options*>(nullptr));
     CHECK_EQUAL(failed.status, int{CURVEWISE_FAILED});
-    CHECK_EQUAL(failed.message.substr(0, 48),
-                "CURVEWISE_ISA is 'v9'; this machine has baseline");
+    CHECK_EQUAL(failed.message.substr(0, 48), "CURVEWISE_ISA is 'v9'; this machine has baseline");
     CHECK_EQUAL(failed.value, untouched);
 }
 
