@@ -269,15 +269,16 @@ class LeashSearch {
                 continue;
             }
             const Radius radius = radius_of(found);
+            const std::ptrdiff_t from = stretch.mark.row;  // marks move when the trail grows
             runs_ = stretch.mark.runs;
-            trail_.forget_from(stretch.mark.row + 1);
+            trail_.forget_from(from + 1);
             trail_radius_ = none;
-            const std::ptrdiff_t reached = walk(stretch.mark.row, last_, radius, &trail_);
+            const std::ptrdiff_t reached = walk(from, last_, radius, &trail_);
             if (reached == last_ && diagram_.is_through(runs_, radius)) return found;
             if (reached < stretch.goal + window) {
                 // Pushed on into a blind alley: the way out of it begins earlier.
                 window *= 4;
-                trail_.forget_from(stretch.mark.row + 1);
+                trail_.forget_from(from + 1);
             } else {
                 low = found;
                 dead = reached;

@@ -76,8 +76,6 @@ void keep(Comparison& found, const DtwOptions& /*of*/, double value) { found.dtw
 void keep(Comparison& found, const CurveLengthOptions& /*of*/, double value) {
     found.curve_length = value;
 }
-template <class Options>
-void keep(Comparison& /*found*/, const Options& /*of*/, double /*value*/) noexcept {}
 
 }  // namespace
 
@@ -101,10 +99,11 @@ Comparison compare(const CurveView& P, const CurveView& Q, Preset preset, Contro
     for (const Condition& given : conditions(preset)) {
         std::visit(
             [&](const auto& options) {
-                if (!is_compared<std::decay_t<decltype(options)>>) return;
-                if (options.is_planar && P.dim() != 2) return;
-                result.values.push_back({options.measure, value(options, given.scaled)});
-                keep(result, options, result.values.back().value);
+                if constexpr (is_compared<std::decay_t<decltype(options)>>) {
+                    if (options.is_planar && P.dim() != 2) return;
+                    result.values.push_back({options.measure, value(options, given.scaled)});
+                    keep(result, options, result.values.back().value);
+                }
             },
             given.measure);
     }

@@ -76,10 +76,10 @@ CornerGradient area_gradient(const Quad& quad, Figure figure) noexcept {
         case Figure::split_ab_cd:
             return split_gradient(quad);
         case Figure::split_bc_da:
-            gradient = split_gradient({quad.b, quad.c, quad.d, quad.a});
-            return {gradient[3], gradient[0], gradient[1], gradient[2]};
+            break;
     }
-    return gradient;
+    gradient = split_gradient({quad.b, quad.c, quad.d, quad.a});
+    return {gradient[3], gradient[0], gradient[1], gradient[2]};
 }
 
 }  // namespace curvewise::detail

@@ -31,7 +31,6 @@ namespace curvewise::detail {
 struct Runs {
     std::ptrdiff_t first;
     std::ptrdiff_t end;
-    std::ptrdiff_t count() const noexcept { return end - first; }
 };
 
 inline constexpr std::ptrdiff_t block_level = 3;

@@ -40,8 +40,8 @@ def check_together(study: Study, source: Source) -> None:
     if study.has_cases and "failure_value" in study.search.objective:
         source.problem(("search", "failure_value"), "does not go with tests of their own kinds")
     models: dict[str, StudyModel] = {}
-    try:
-        models = study.study_models()
+    try:  # in a folder that is there: reading a study makes none
+        models = study.study_models(kept_in=source.folder)
     except (OSError, ValueError) as error:
         source.problem(("model",) if "" in study.models else ("models",), str(error))
         return

@@ -46,13 +46,15 @@ class Table:
         The file, where problems are noted.
     path : tuple of str and int
         Where the table is.
-    values : mapping
-        What is in it; anything else is a problem.
+    values : mapping, or None
+        What is in it, None where the table is missing; anything else is a problem.
     """
 
     def __init__(self, source: Source, path: KeyPath, values: Any) -> None:
         self.source, self.path = source, path
         self._known: list[str] = []
+        if values is None:
+            values = {}
         if not isinstance(values, Mapping):
             source.problem(path, f"is {values!r}; it is a table, [{path[-1]}]")
             values = {}
@@ -60,6 +62,11 @@ class Table:
 
     def __contains__(self, key: str) -> bool:
         return key in self._values
+
+    @property
+    def keys(self) -> list[str]:
+        """The keys that the file gives, in its order."""
+        return list(self._values)
 
     def take(self, key: str, read: Callable[[Any], T], default: D, *, required: str = "") -> T | D:
         """Return a key's value as `read` gives it; the default where it is missing or wrong.

@@ -53,7 +53,7 @@ def read_contents(source: Source) -> Contents:
     models = _models(source, top, tuple(bounds))
     tests = _tests(source, top.raw("tests"), models)
     search = read_search(source, top.raw("search"), start, _beside(source, ".db"))
-    results = Table(source, ("results",), top.raw("results") or {})
+    results = Table(source, ("results",), top.raw("results"))
     folder = results.take("folder", source.resolved, _beside(source, ""))
     results.refuse_unknown()
     top.refuse_unknown()
@@ -76,7 +76,7 @@ def _models(source: Source, top: Table, parameters: tuple[str, ...]) -> dict[str
         tables = {"": (("model",), one)}
     else:
         named = Table(source, ("models",), several)
-        tables = {name: (("models", name), named.raw(name)) for name in dict(several or {})}
+        tables = {name: (("models", name), named.raw(name)) for name in named.keys}
     found = {
         name: read_model(source, path, name, values, parameters)
         for name, (path, values) in tables.items()

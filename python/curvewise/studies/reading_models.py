@@ -45,13 +45,12 @@ def read_model(
         (key, str(value))
         for key, value in table.take("environment", keys.mapping, dict[str, Any]()).items()
     )
-    scratch = table.take("scratch", source.resolved, None)
+    scratch = table.take("scratch", _scratch(source), None)
     keep = table.take("keep", keys.flag, False)
     success = _success(table)
-    made: tuple[DeckValue | DeckTable, ...] = (
-        *_values(table, parameters),
-        *_tables(table, parameters),
-    )
+    numbers = _values(table, parameters)
+    tables = _tables(table, parameters, [value.name for value in numbers])
+    made: tuple[DeckValue | DeckTable, ...] = (*numbers, *tables)
     table.refuse_unknown()
     used = _check_templates(table, templates, parameters, made) if templates else set()
     used |= {use for value in made for use in value.uses}
@@ -78,6 +77,18 @@ def _command(source: Source) -> Callable[[Any], tuple[str, ...]]:
     return read
 
 
+def _scratch(source: Source) -> Callable[[Any], Path]:
+    """Return what reads a folder that is there, or can be made when a run needs it."""
+
+    def read(value: Any) -> Path:
+        folder = source.resolved(value)
+        if folder.exists() and not folder.is_dir():
+            raise ValueError(f"is {folder}, which is no folder")
+        return folder
+
+    return read
+
+
 def _success(table: Table) -> tuple[str, str] | None:
     """Return the file and the text by which a run says that it is complete."""
     given = table.raw("success")
@@ -96,9 +107,9 @@ def _success(table: Table) -> tuple[str, str] | None:
 
 def _values(table: Table, parameters: tuple[str, ...]) -> list[DeckValue]:
     """Return the numbers that formulas make for the templates, in their order."""
-    inner = Table(table.source, (*table.path, "values"), table.raw("values") or {})
+    inner = Table(table.source, (*table.path, "values"), table.raw("values"))
     found: list[DeckValue] = []
-    for name in list(table.raw("values") or {}):
+    for name in inner.keys:
         given = inner.raw(name)
         known = [*parameters, *(value.name for value in found)]
         formula = Formula("0")  # for what is checked beside a formula that is none
@@ -113,13 +124,12 @@ def _values(table: Table, parameters: tuple[str, ...]) -> list[DeckValue]:
     return found
 
 
-def _tables(table: Table, parameters: tuple[str, ...]) -> list[DeckTable]:
+def _tables(table: Table, parameters: tuple[str, ...], values: list[str]) -> list[DeckTable]:
     """Return the tables of lines that formulas make for the templates."""
-    given = table.raw("tables") or {}
-    outer = Table(table.source, (*table.path, "tables"), given)
-    known = [*parameters, *(table.raw("values") or {})]
+    outer = Table(table.source, (*table.path, "tables"), table.raw("tables"))
+    known = [*parameters, *values]
     found = []
-    for name in list(given):
+    for name in outer.keys:
         inner = Table(table.source, (*outer.path, name), outer.raw(name))
         problems = len(table.source.problems)
         over = inner.take("over", keys.name, "", required="what the formulas call the numbers")

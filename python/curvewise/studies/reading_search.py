@@ -23,7 +23,7 @@ def read_search(
     source: Source, values: Any, start: Mapping[str, float], store: Path
 ) -> SearchEntry:
     """Return how to search; every key has a default."""
-    table = Table(source, ("search",), {} if values is None else values)
+    table = Table(source, ("search",), values)
     measure = table.take("measure", keys.choice(MEASURES), "area")
     measures = table.take("measures", _measures, (measure,))
     if "measure" in table and "measures" in table:

@@ -46,7 +46,7 @@ def read_test(
         measured = _source(table, str(path), "columns")
         if len(source.problems) == problems:
             experiment, axes = _read_curve(table, measured, every)
-    output_table = Table(source, ("tests", index, "output"), table.raw("output") or {})
+    output_table = Table(source, ("tests", index, "output"), table.raw("output"))
     output = _output(output_table)
     named = table.take("axes", keys.texts, ())
     model = table.take("model", keys.choice(tuple(models)), next(iter(models), ""))

@@ -258,13 +258,14 @@ class Study:
         Parameters
         ----------
         kept_in : Path, optional
-            Where the folders of runs are made and kept, whatever the file says.
+            Where the folders of runs are made and kept, whatever the file says. The folder that
+            is used is made if it is not there.
         """
         made = {}
         for name, entry in self.models.items():
             sources = tuple(test.output for test in self.tests if test.model == name)
             scratch = kept_in or entry.scratch
-            if scratch is not None:
+            if scratch is not None and not scratch.is_dir():
                 scratch.mkdir(parents=True, exist_ok=True)
             given = [value.name for value in entry.values]
             command_model = CommandModel(

@@ -85,9 +85,17 @@ class Source:
                 import tomli as tomllib
         try:
             self.values: dict[str, Any] = tomllib.loads(text)
+            self._lines = _Locator(text).lines
         except tomllib.TOMLDecodeError as error:
             raise StudyError([_syntax_error(self.path, str(error), text)]) from None
-        self._lines = _Locator(text).lines
+        except ValueError:  # Python's own limit of digits; _refuse_long_numbers sees to the others
+            line = _line_of_longest_number(text)
+            raise StudyError([f"{path}, line {line}: a number of thousands of digits"]) from None
+        except RecursionError:
+            line = _line_of_deep_bracket(text)
+            raise StudyError([f"{path}, line {line}: too many brackets within brackets"]) from None
+        self._refuse_long_numbers((), self.values)
+        self.raise_problems()
 
     def line(self, path: KeyPath) -> int:
         """Return the line of a key, or of the innermost thing around it that has one."""
@@ -98,7 +106,19 @@ class Source:
     def problem(self, path: KeyPath, message: str) -> None:
         """Note that something is wrong with a key."""
         line = self.line(path)
-        self._found.append((line, f"{self.path}, line {line}: {dotted(path)} {message}"))
+        text = f"{dotted(path)} {message}".replace("\n", "\\n").replace("\r", "\\r")
+        self._found.append((line, f"{self.path}, line {line}: {text}"))
+
+    def _refuse_long_numbers(self, path: KeyPath, value: Any) -> None:
+        """Note whole numbers beyond 64 bits: none of TOML, though tomllib reads them."""
+        if isinstance(value, dict):
+            for key, item in value.items():
+                self._refuse_long_numbers((*path, key), item)
+        elif isinstance(value, list):
+            for i, item in enumerate(value):
+                self._refuse_long_numbers((*path, i), item)
+        elif isinstance(value, int) and not -(2**63) <= value < 2**63:
+            self.problem(path, "is a whole number beyond 64 bits; write it with a point or an e")
 
     def resolved(self, value: Any) -> Path:
         """Return a path, with ~ and variables filled in, from the file's own folder on.
@@ -111,6 +131,8 @@ class Source:
         if not isinstance(value, str) or not value.strip():
             raise ValueError(f"is {value!r}; give a path")
         text = os.path.expandvars(os.path.expanduser(value))
+        if "\0" in text:
+            raise ValueError(f"is {value!r}; no path has a character \\0")
         if missing := re.search(r"\$\{?(\w+)", text):
             raise ValueError(f"is {value!r}, and no variable {missing[1]} is set; set it")
         return self.folder / text
@@ -153,6 +175,20 @@ def _syntax_error(path: Path, message: str, text: str) -> str:
     elif re.search(r"\d,\d", value) and "[" not in value:
         hint = "; numbers have a decimal point"
     return f"{path}, line {number}: {message}{hint}"
+
+
+def _line_of_longest_number(text: str) -> int:
+    longest = max(re.finditer(r"[0-9_]+", text), key=lambda match: match.end() - match.start())
+    return text.count("\n", 0, longest.start()) + 1
+
+
+def _line_of_deep_bracket(text: str) -> int:
+    depth, deep = 0, 50  # no study has that many; Python's own limit is some hundreds
+    for token, line in _tokens(text):
+        depth += (token in "[{") - (token in "]}")
+        if depth > deep:
+            return line
+    return 1
 
 
 class _Locator:

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "check.hpp"
@@ -248,6 +249,57 @@ void a_blind_alley() {
     check_matching(P, Q);
 }
 
+// Curves whose free space has rooms, one for each pair of runs of equal points, between which leash
+// and room stand: squares of distances are d^2 / 2 and a constant, for a table of d. A third of the
+// rooms are walls, and some open at nearly the same leash, so that what opens first is often a
+// blind alley, or a way that begins elsewhere.
+void rooms(std::uint64_t seed) {
+    Random random(seed);
+    const std::ptrdiff_t height = 4 + random.index(6), width = 3 + random.index(5);
+    std::vector<double> table;
+    for (std::ptrdiff_t k = 0; k < height * width; ++k) {
+        const std::ptrdiff_t kind = random.index(10);
+        table.push_back(kind < 5 ? 0.0 : kind < 7 ? 1.0 + 1e-5 * double(random.index(10)) : 3.0);
+    }
+    table.front() = table.back() = 0.0;
+    const auto square = [&](std::ptrdiff_t a, std::ptrdiff_t b) {
+        const double d = table[static_cast<std::size_t>(a * width + b)];
+        return d * d;
+    };
+    const std::ptrdiff_t dim = height * width + 2;
+    // A run of points whose coordinates of their row, or column, are half of the table's, and whose
+    // last ones make all of the same length.
+    const auto add_run = [&](std::vector<double>& curve, bool is_row, std::ptrdiff_t line,
+                             std::ptrdiff_t count) {
+        std::vector<double> point(static_cast<std::size_t>(dim), 0.0);
+        double sum = 0.0;
+        for (std::ptrdiff_t k = 0; k < (is_row ? width : height); ++k) {
+            const std::ptrdiff_t a = is_row ? line : k, b = is_row ? k : line;
+            sum += square(a, b);
+            point[static_cast<std::size_t>(a * width + b)] =
+                (is_row ? 0.5 : -0.5) * std::sqrt(square(a, b));
+        }
+        const double most = 9.0 * double(std::max(height, width));
+        point[static_cast<std::size_t>(dim - (is_row ? 2 : 1))] = 0.5 * std::sqrt(most - sum);
+        for (; count > 0; --count) curve.insert(curve.end(), point.begin(), point.end());
+    };
+    std::vector<double> p, q;
+    for (std::ptrdiff_t a = 0; a < height; ++a) add_run(p, true, a, 4 + random.index(20));
+    for (std::ptrdiff_t b = 0; b < width; ++b) add_run(q, false, b, 1 + random.index(20));
+    const Curve P(p, dim), Q(q, dim);
+    check_decisions(P, Q);
+    check_decisions(Q, P);
+}
+
+// With the first of these seeds the search begins in a blind alley whose way out lies before the
+// stretch of rows that it looks at.
+void rooms_and_blind_alleys() {
+    for (const std::uint64_t seed : {4684, 1, 2, 3}) {
+        const check::Note note("seed " + std::to_string(seed));
+        rooms(seed);
+    }
+}
+
 void ends_of_the_range() {
     const Curve P{{0.0, 0.0}, {1.0, 0.0}}, Q{{0.0, 0.5}, {1.0, 0.25}};
     for (const int exponent : {-1070, -1000, 1000, 1022}) {
@@ -321,6 +373,7 @@ int main() {
                        {"longer curves", longer_curves},
                        {"curves that nearly coincide", curves_that_nearly_coincide},
                        {"a blind alley", a_blind_alley},
+                       {"rooms and blind alleys", rooms_and_blind_alleys},
                        {"ends of the range", ends_of_the_range},
                        {"batches", batches},
                        {"stopping", stopping},

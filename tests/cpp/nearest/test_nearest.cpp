@@ -176,6 +176,41 @@ void refusals_name_the_curve() {
                  "n_neighbors is 2; give a whole number from 1 to 1, the curves of the index");
 }
 
+// Without distances where a measure has no faster decision, of all curves of the index, moved.
+void radius_neighbors_of_the_index() {
+    Random random(7);
+    const std::vector<Curve> owned = random_curves(random, 8, 30);
+    const std::vector<CurveView> C = views_of(owned);
+    SearchOptions alone;
+    alone.sort_results = alone.with_distances = false;
+    for (const Measure& measure : measures()) {
+        Index first(C, measure);
+        Index index = std::move(first);
+        std::vector<double> all(C.size() * C.size());
+        cdist(C, C, measure, all.data());
+        std::vector<double> sorted = all;
+        std::sort(sorted.begin(), sorted.end());
+        const double radius = sorted[sorted.size() / 2];
+        const auto found = index.radius_neighbors(radius, alone);
+        for (std::size_t i = 0; i < C.size(); ++i) {
+            std::vector<std::int64_t> expected, indices;
+            for (std::size_t j = 0; j < C.size(); ++j) {
+                if (j != i && all[i * C.size() + j] <= radius) {
+                    expected.push_back(static_cast<std::int64_t>(j));
+                }
+            }
+            for (const Neighbor& neighbor : found[i]) indices.push_back(neighbor.index);
+            CHECK_EQUAL(indices, expected);
+        }
+        first = std::move(index);
+        CHECK_EQUAL(first.curves().size(), C.size());
+        CHECK_EQUAL(first.curves()[3].size(), C[3].size());
+        CHECK_EQUAL(first.curves()[3](1, 1), C[3](1, 1));
+        CHECK_THROWS(first.radius_neighbors(-1.0), std::invalid_argument,
+                     "radius is -1.000000; give a number >= 0");
+    }
+}
+
 void runs_are_those_of_open_ends() {
     Random random(4);
     DtwOptions open;
@@ -236,6 +271,15 @@ void the_mean_lowers_the_sum() {
     control.stop();
     CHECK_THROWS(dtw_mean(C, weights, C[1], options, &control), Stopped,
                  "stopped before the work was done");
+    CHECK_THROWS(dtw_mean(C, {1, 2}, C[1], {}), std::invalid_argument,
+                 "weights has 2 entries for 9 curves; give one for each");
+    CHECK_THROWS(dtw_mean(C, {1, 2, 0, 1, -1, 3, 1, 1, 1}, C[1], {}), std::invalid_argument,
+                 "weights[4] is -1.000000; give a finite number >= 0");
+    CHECK_THROWS(dtw_mean(C, std::vector<double>(9, 0.0), C[1], {}), std::invalid_argument,
+                 "all weights are 0; give one that is not");
+    options.tolerance = -0.5;
+    CHECK_THROWS(dtw_mean(C, weights, C[1], options), std::invalid_argument,
+                 "tolerance is -0.500000; give a number >= 0");
 }
 
 }  // namespace
@@ -247,6 +291,7 @@ int main() {
          {"a bound that is the distance is looked at", a_bound_that_is_the_distance_is_looked_at},
          {"a control ends a search", a_control_ends_a_search},
          {"refusals name the curve", refusals_name_the_curve},
+         {"radius neighbors of the index", radius_neighbors_of_the_index},
          {"runs are those of open ends", runs_are_those_of_open_ends},
          {"the mean of points is theirs", the_mean_of_points_is_theirs},
          {"the mean lowers the sum", the_mean_lowers_the_sum}});

@@ -201,6 +201,10 @@ void errors_name_the_curve() {
                  "options is not; use cdist");
     CHECK_THROWS(pdist({P, P}, DtwOptions{}, out, {0}), std::invalid_argument,
                  "workers is 0; give a whole number >= 1, or -1 for all cores");
+    CHECK_THROWS(check_batch({P, bad}, DtwOptions{}), std::invalid_argument,
+                 "XA[1][1, 0] is inf; curves must be finite");
+    check_batch({P, P}, DtwOptions{});
+    check_batch(std::vector<CurveView>{}, DtwOptions{});
     CHECK_THROWS(Prepared(P, AreaOptions{})(solid), std::invalid_argument,
                  "P has shape (2, 2) and Q has shape (1, 3); both need the same number of "
                  "coordinates");
@@ -241,7 +245,10 @@ void a_stopped_call_throws() {
     FrechetOptions slow{{Metric::minkowski, 3.0}};
     DtwOptions threaded;
     threaded.workers = 3;
+    const Curve three = small.part(0, 3);
+    const std::vector<CurveView> tiny(20'000, three);
     const std::vector<std::function<void(Control*)>> calls{
+        [&](Control* control) { pdist(tiny, AreaOptions{}, out.data(), {2}, control); },
         [&](Control* control) { frechet(P, P, slow, control); },
         [&](Control* control) { dtw(P, P, threaded, control); },
         [&](Control* control) { dtw_path(P, P, threaded, control); },

@@ -124,10 +124,11 @@ void batches() {
 // A call that waits for another thread's, which keeps the index to itself.
 void an_index_that_is_busy() {
     Random random(5);
-    const Curve P = random.walk(20'000), Q = random.walk(20'000);
+    const Curve P = random.walk(40'000), Q = random.walk(40'000);  // a second
     Index index({Q}, DtwOptions{});
-    Control search([](std::int64_t, std::int64_t) { return true; });
-    std::atomic<bool> is_over{false};
+    std::atomic<bool> is_searching{false}, is_over{false};
+    Control search([&](std::int64_t, std::int64_t) { return is_searching = true; },
+                   std::chrono::milliseconds(0));
     std::thread searching([&] {
         double distance = 0.0;
         std::int64_t place = 0;
@@ -137,8 +138,13 @@ void an_index_that_is_busy() {
             is_over = true;
         }
     });
-    while (search.done() == 0) std::this_thread::yield();
-    Control adding([](std::int64_t, std::int64_t) { return false; }, std::chrono::milliseconds(0));
+    while (!is_searching) std::this_thread::yield();
+    // Stopped once it waits: it has read its curve long before.
+    Control adding;
+    std::thread stopping([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        adding.stop();
+    });
     bool is_stopped = false;
     try {
         index.add({Q}, &adding);
@@ -147,6 +153,7 @@ void an_index_that_is_busy() {
     }
     CHECK(is_stopped);
     CHECK(!is_over);
+    stopping.join();
     search.stop();
     searching.join();
     CHECK_EQUAL(index.size(), std::size_t{1});

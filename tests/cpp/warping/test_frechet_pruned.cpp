@@ -259,6 +259,16 @@ void mazes() {
     }
 }
 
+// What has no bounds is never asked for blocks: there is no kernel to call by mistake.
+void kernels_of_the_others() {
+    for (const Level& level : available_levels()) {
+        for (const Metric metric : {Metric::euclidean, Metric::minkowski}) {
+            CHECK(level.kernels->reach(metric, 2) == nullptr);
+            CHECK(level.kernels->values(metric, 2) == nullptr);
+        }
+    }
+}
+
 // On and beside the points where one block ends and the next begins.
 void sizes_around_a_block() {
     Random random(2);
@@ -317,6 +327,7 @@ int main(int argc, char** argv) {
                        {"mazes", mazes},
                        {"turn in a free block", turn_in_a_free_block},
                        {"through a free block", through_a_free_block},
+                       {"kernels of the others", kernels_of_the_others},
                        {"sizes around a block", sizes_around_a_block},
                        {"steps are counted once", steps_are_counted_once}});
 }

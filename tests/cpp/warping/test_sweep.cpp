@@ -3,9 +3,10 @@
 // paths found in one table and by divide and conquer, and with the columns narrowed to what a path
 // of the given cost may visit. The sizes are those around a SIMD vector of 2, 4 or 8 doubles and
 // around the strips' heights (32 rows with a table, 256 without); half of the data is small
-// integers, so that most cells have equal predecessors.
+// integers, so that most cells have equal predecessors. `test_sweep 7` makes a seventh of it.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -290,7 +291,11 @@ std::string described(const Setup& setup) {
            (setup.open_begin ? ", open_begin" : "") + ", workers " + std::to_string(setup.workers);
 }
 
+std::ptrdiff_t every = 1;  // comparison of so many is made, of those in one thread
+
 void compare(const Curve& P, const Curve& Q, const Setup& setup) {
+    static std::ptrdiff_t count = 0;
+    if (setup.workers == 1 && ++count % every != 0) return;
     const check::Note note(test::described(P, Q) + ", " + described(setup));
     Comparison(P, Q, setup).run();
 }
@@ -398,7 +403,8 @@ void several_threads() {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+    if (argc > 1) every = std::atol(argv[1]);
     return check::run({{"sizes around a vector", sizes_around_a_vector},
                        {"sizes around a strip", sizes_around_a_strip},
                        {"bands across strips", bands_across_strips},

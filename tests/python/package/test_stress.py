@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import random
 import sys
 from pathlib import Path
@@ -32,12 +33,33 @@ def test_nasty_pairs_agree_with_the_reference(monkeypatch) -> None:
     assert record.compared["frechet_continuous"] > 5
 
 
-def test_any_bytes_are_read_or_refused(monkeypatch, tmp_path) -> None:
-    fuzz_read_curve = program(monkeypatch, "fuzz", "fuzz_read_curve")
+@pytest.mark.parametrize("name", ["fuzz_read_curve", "fuzz_study"])
+def test_any_bytes_are_read_or_refused(monkeypatch, tmp_path, name) -> None:
+    target = program(monkeypatch, "fuzz", name)
+    check = target.make_check(tmp_path)
     choices = random.Random(1)
-    seeds = [path.read_bytes() for path in sorted(fuzz_read_curve.SEEDS.iterdir())]
+    seeds = [path.read_bytes() for path in sorted(target.SEEDS.iterdir())]
     for seed in seeds:
-        fuzz_read_curve.check(seed, tmp_path / "any.csv")
-    for _ in range(400):
-        data = fuzz_read_curve.changed(choices.choice(seeds), choices)
-        fuzz_read_curve.check(data, tmp_path / "any.csv")
+        check(seed)
+    for _ in range(300):
+        check(target.change(choices.choice(seeds), choices))
+
+
+def write_beside(path: Path) -> None:
+    path.with_name("other.txt").write_text("")
+
+
+WRONG_READERS = {
+    "starts a process": lambda path: os.system("true"),
+    "writes a file": write_beside,
+    "makes a folder": lambda path: (path.parent / "made").mkdir(),
+}
+
+
+@pytest.mark.parametrize("name", WRONG_READERS)
+def test_the_study_target_sees_what_a_reader_must_not_do(monkeypatch, tmp_path, name) -> None:
+    target = program(monkeypatch, "fuzz", "fuzz_study")
+    check = target.make_check(tmp_path)
+    monkeypatch.setattr(target.Study, "read", WRONG_READERS[name])
+    with pytest.raises(target.FoundError, match="reading a study does"):
+        check(b"")

@@ -184,6 +184,39 @@ WRONG = {
         "",
         "study.toml, line 11: model has no timeout; give the seconds that a run may take",
     ),
+    # What tests/fuzz/fuzz_study.py has found: errors that were none of a study's.
+    "a number that is longer than Python reads": (
+        "b = [-5, 5]",
+        f"b = [0, {5000 * '9'}]",
+        "study.toml, line 18: a number of thousands of digits",
+    ),
+    "a whole number that no double holds": (
+        "b = [-5, 5]",
+        f"b = [0, 1{400 * '0'}]",
+        "study.toml, line 18: parameters.b[2] is a whole number beyond 64 bits; write it with a "
+        "point or an e",
+    ),
+    "brackets without end": (
+        "b = [-5, 5]",
+        f"b = {3000 * '['}",
+        "study.toml, line 18: too many brackets within brackets",
+    ),
+    "a character that no path has": (
+        'file = "out.csv"',
+        'file = "out.csv"\n[results]\nfolder = "a\\u0000b"',
+        "study.toml, line 11: results.folder is 'a\\x00b'; no path has a character \\0",
+    ),
+    "a key with a line break": (
+        "b = [-5, 5]",
+        'b = [-5, 5]\n"c\\nd" = 1',
+        "study.toml, line 16: parameters.c\\nd is 'c\\nd'; a name has letters, digits and _, and "
+        "no digit first",
+    ),
+    "scratch that is a file": (
+        "timeout = 60",
+        'timeout = 60\nscratch = "test.csv"',
+        "study.toml, line 15: model.scratch is {folder}/test.csv, which is no folder",
+    ),
     "workers that nobody is": (
         "workers = 1",
         "workers = 0",
@@ -200,6 +233,36 @@ def test_a_wrong_study_says_where_and_what_to_write(
     assert STUDY.count(right) == 1
     expected = message.replace("{folder}", str(tmp_path.resolve())).splitlines()
     assert problems(tmp_path, STUDY.replace(right, wrong)) == expected
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ("values = 3", "line 15: model.values is 3; it is a table, [values]"),
+        ("tables = ['a']", "line 15: model.tables is ['a']; it is a table, [tables]"),
+        ("values = false", "line 15: model.values is False; it is a table, [values]"),
+    ],
+)
+def test_what_is_no_table_is_named(tmp_path: Path, wrong: str, message: str) -> None:
+    text = STUDY.replace("timeout = 60", f"timeout = 60\n{wrong}")
+    assert problems(tmp_path, text) == [f"study.toml, {message}"]
+
+
+def test_models_that_are_no_table(tmp_path: Path) -> None:
+    text = STUDY[: STUDY.index("[model]")] + STUDY[STUDY.index("[parameters]") :]
+    found = problems(tmp_path, f"models = ['bar']\n{text}")
+    assert found[0] == "study.toml, line 1: models is ['bar']; it is a table, [models]"
+
+
+def test_reading_a_study_makes_no_folder(tmp_path: Path) -> None:
+    (tmp_path / "test.csv").write_text(TEST)
+    (tmp_path / "deck.py").write_text(DECK)
+    text = STUDY.replace("timeout = 60", 'timeout = 60\nscratch = "runs/of/it"')
+    (tmp_path / "study.toml").write_text(text)
+    study = Study.read(tmp_path / "study.toml")
+    assert not (tmp_path / "runs").exists()
+    study.study_models()
+    assert (tmp_path / "runs" / "of" / "it").is_dir()
 
 
 def test_all_problems_are_named_at_once(tmp_path: Path) -> None:

@@ -53,7 +53,7 @@ LeastFunction select_least(Metric metric, std::ptrdiff_t dim) noexcept {
         case Metric::chebyshev:
             return select_least_in<AbsoluteMaximum>(dim);
         case Metric::minkowski:
-            return nullptr;
+            break;
     }
     return nullptr;
 }

@@ -139,7 +139,7 @@ CostFunction select_fill(Cost cost) noexcept {
         case Metric::chebyshev:
             return fill_cost<AbsoluteMaximum>;
         case Metric::minkowski:
-            return fill_minkowski;
+            break;
     }
-    return nullptr;
+    return fill_minkowski;
 }

@@ -198,9 +198,9 @@ AdvanceFunction select_output(Cost cost, std::ptrdiff_t dim, Output output) noex
         case Output::codes:  // bound by what they write: one form is enough
             return advance<Rule, BufferedCost, KeepCodes>;
         case Output::table:
-            return advance<Rule, BufferedCost, KeepTable>;
+            break;
     }
-    return nullptr;
+    return advance<Rule, BufferedCost, KeepTable>;
 }
 
 AdvanceFunction select_advance(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
@@ -211,7 +211,7 @@ AdvanceFunction select_advance(Recurrence recurrence, Cost cost, std::ptrdiff_t 
         case Recurrence::dtw_symmetric2:
             return select_output<DtwSymmetric2>(cost, dim, output);
         case Recurrence::frechet:
-            return select_output<DiscreteFrechet>(cost, dim, output);
+            break;
     }
-    return nullptr;
+    return select_output<DiscreteFrechet>(cost, dim, output);
 }

@@ -1,0 +1,112 @@
+// What the C functions return and say of what they refuse; what they compute, the C and Fortran
+// programs of tests/python/embedding hold against Python.
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "curvewise/curvewise.h"
+#include "curvewise/version.hpp"
+
+namespace {
+
+constexpr double untouched = -1.0;
+const double points[] = {0.0, 0.0, 1.0, 2.0, 3.0, 1.0};
+
+struct Answer {
+    int status;
+    double value;
+    std::string message;
+};
+
+// Of three points against two of them.
+template <class Function, class Options>
+Answer answer(Function function, const Options* options) {
+    const curvewise_curve P = curvewise_rows(points, 3, 2), Q = curvewise_rows(points, 2, 2);
+    Answer found{-1, untouched, ""};
+    curvewise_error error;
+    found.status = function(&P, &Q, options, &found.value, &error);
+    found.message = error.message;
+    return found;
+}
+
+void refused(const Answer& given, const std::string& message) {
+    CHECK_EQUAL(given.status, int{CURVEWISE_INVALID_ARGUMENT});
+    CHECK_EQUAL(given.message, message);
+    CHECK_EQUAL(given.value, untouched);
+}
+
+void options_are_those_given() {
+    const Answer chosen = answer(curvewise_frechet_continuous,
+                                 static_cast<curvewise_frechet_continuous_options*>(nullptr));
+    CHECK_EQUAL(chosen.status, int{CURVEWISE_OK});
+    CHECK_EQUAL(chosen.value, std::sqrt(5.0));
+    CHECK_EQUAL(chosen.message, "");
+    curvewise_frechet_continuous_options continuous = CURVEWISE_FRECHET_CONTINUOUS_DEFAULTS;
+    CHECK_EQUAL(answer(curvewise_frechet_continuous, &continuous).value, chosen.value);
+    continuous.workers = 0;
+    refused(answer(curvewise_frechet_continuous, &continuous),
+            "workers is 0; give a whole number >= 1, or -1 for all cores");
+    curvewise_area_options area = CURVEWISE_AREA_DEFAULTS;
+    area.spacing = 9;
+    refused(answer(curvewise_area, &area), "unknown spacing 9; choose from 0 to 3");
+    curvewise_dtw_options dtw = CURVEWISE_DTW_DEFAULTS;
+    dtw.step_pattern = -1;
+    refused(answer(curvewise_dtw, &dtw), "unknown step_pattern -1; choose from 0 to 1");
+}
+
+void null_pointers_are_named() {
+    const curvewise_curve P = curvewise_rows(points, 3, 2), none = curvewise_rows(nullptr, 3, 2);
+    double value = untouched;
+    curvewise_error error;
+    CHECK_EQUAL(curvewise_dtw(nullptr, &P, nullptr, &value, &error),
+                int{CURVEWISE_INVALID_ARGUMENT});
+    CHECK_EQUAL(std::string(error.message), "P is a null pointer");
+    CHECK_EQUAL(curvewise_dtw(&P, &none, nullptr, &value, &error), int{CURVEWISE_INVALID_ARGUMENT});
+    CHECK_EQUAL(std::string(error.message), "Q->data is a null pointer");
+    CHECK_EQUAL(curvewise_dtw(&P, &P, nullptr, nullptr, nullptr), int{CURVEWISE_INVALID_ARGUMENT});
+    CHECK_EQUAL(value, untouched);
+}
+
+void batches_refuse_what_is_none() {
+    const std::vector<curvewise_curve> X(2, curvewise_rows(points, 3, 2));
+    double out[4] = {untouched, untouched, untouched, untouched};
+    curvewise_error error;
+    CHECK_EQUAL(
+        curvewise_cdist(X.data(), 2, X.data(), -2, CURVEWISE_DTW, nullptr, nullptr, out, &error),
+        int{CURVEWISE_INVALID_ARGUMENT});
+    CHECK_EQUAL(std::string(error.message), "XB has -2 curves; give a whole number >= 0");
+    CHECK_EQUAL(curvewise_pdist(X.data(), 2, 77, nullptr, nullptr, out, &error),
+                int{CURVEWISE_INVALID_ARGUMENT});
+    CHECK_EQUAL(std::string(error.message), "unknown measure 77; choose from 0 to 5");
+    CHECK_EQUAL(out[0], untouched);
+    const curvewise_frechet_continuous_options options = CURVEWISE_FRECHET_CONTINUOUS_DEFAULTS;
+    CHECK_EQUAL(
+        curvewise_pdist(X.data(), 2, CURVEWISE_FRECHET_CONTINUOUS, &options, nullptr, out, &error),
+        int{CURVEWISE_OK});
+    CHECK_EQUAL(out[0], 0.0);
+}
+
+void the_version_is_that_of_the_library() {
+    CHECK_EQUAL(std::string(curvewise_version()), curvewise::version);
+}
+
+// Run with CURVEWISE_ISA=v9.
+void no_such_level() {
+    const Answer failed = answer(curvewise_dtw, static_cast<curvewise_dtw_options*>(nullptr));
+    CHECK_EQUAL(failed.status, int{CURVEWISE_FAILED});
+    CHECK_EQUAL(failed.message.substr(0, 48), "CURVEWISE_ISA is 'v9'; this machine has baseline");
+    CHECK_EQUAL(failed.value, untouched);
+}
+
+}  // namespace
+
+int main(int argc, char** /*argv*/) {
+    if (argc > 1) return check::run({{"no such level", no_such_level}});
+    return check::run({{"options are those given", options_are_those_given},
+                       {"null pointers are named", null_pointers_are_named},
+                       {"batches refuse what is none", batches_refuse_what_is_none},
+                       {"the version is that of the library", the_version_is_that_of_the_library}});
+}
