@@ -70,7 +70,8 @@ def identify(
         The objective: see :class:`Objective`.
     method : {"sdrm+de", "trust-region", "de", "sdrm", "nelder-mead", "least_squares"}
         "trust-region": linear surfaces of the curves, on which the measure is minimised within a
-        region around the best run: local, for expensive models. "de": differential evolution,
+        region around the best run: local, for expensive models; with the option slopes="fresh"
+        Gauss and Newton's method on these surfaces, for any measure. "de": differential evolution,
         global. "sdrm": successive linear response surfaces with domain reduction, few evaluations
         and robust to noise. "sdrm+de": the best point of "sdrm" joins the first population of
         "de". "nelder-mead": local, from `start`. "least_squares": local, fast and exact where the
@@ -120,7 +121,9 @@ def identify(
         `scipy.optimize.least_squares`, e.g. loss and f_scale for a robust sum, of which the result
         is then the minimum (residuals are in units of the experiment's height). "trust-region":
         starts (3, where none is given), initial_range (0.5), diff_step (0.02), tol (1e-3), gain
-        (1e-3: the least that is worth going on for), maxiter.
+        (1e-3: the least that is worth going on for), maxiter, and slopes: "broyden", of the runs
+        that are made anyway, renewed by k runs for k parameters where they mislead, or "fresh",
+        renewed after every step, which pays with k workers or more, as these k run side by side.
         "sdrm+de": a mapping for each, ``{"sdrm": {...}, "de": {...}}``.
 
     Returns

@@ -235,7 +235,7 @@ def test_the_default_starts_three_times():
     found = quiet_identify(model, experiment, BOUNDS, seed=3)
     assert (found.method, found.message.split(";")[0]) == (
         "trust-region",
-        "3 of 3 starts within 1 %",
+        "3 of 3 starts within 1 % of the best",
     )
     one = quiet_identify(model, experiment, BOUNDS, method_options={"starts": 1})
     near = quiet_identify(model, experiment, BOUNDS, start=NEAR)
