@@ -29,11 +29,14 @@ from .surfaces import Responses, Rows, Surfaces
 
 __all__ = ["SurfaceMinimum"]
 
-_MOST_POINTS = 400  # of thinned curves; those of up to half as many again are taken as they are
+# Of thinned curves; those of up to half as many again are taken as they are. The minimum of thinned
+# curves is that of all points to some 1e-3 of the value: for less they have more points.
+_MOST_POINTS, _MORE_POINTS, _LESS = 400, 1600, 1e-3
 _MOST, _POLISHING = 150, 8  # evaluations with a gradient, and those after thinned curves
 # Without one, for each parameter; and those after thinned curves.
 _SIMPLEX, _POLISHING_SIMPLEX = 40, 5
 _OF_NEGLIGIBLE = 1e-4
+_PLACES, _FEWER_PLACES = 8, 4  # from which to search elsewhere, with a gradient and without
 
 
 class SurfaceMinimum:
@@ -51,6 +54,8 @@ class SurfaceMinimum:
         Gains of the whole search below this do not count.
     thinking : callable
         Called before every evaluation on predicted curves, to show that something moves.
+    gain : float
+        The smallest gain that counts, as a fraction of the value.
     """
 
     def __init__(
@@ -60,6 +65,7 @@ class SurfaceMinimum:
         random: np.random.Generator,
         negligible: float,
         thinking: Callable[[], None],
+        gain: float = _LESS,
     ) -> None:
         self._random = random
         # Of squares the root counts, and a step on the surfaces costs little.
@@ -68,8 +74,9 @@ class SurfaceMinimum:
         self._thinned: _Predicted | None = None
         if not objective.can_be_thinned:
             return
-        rows = responses.thinned_rows(_MOST_POINTS)
-        thinned = objective.thinned(_MOST_POINTS)
+        most = _MORE_POINTS if gain < _LESS else _MOST_POINTS
+        rows = responses.thinned_rows(most)
+        thinned = objective.thinned(most)
         if thinned is not None or rows is not None:
             self._thinned = _Predicted(thinned or objective, responses, rows, thinking)
 
@@ -80,6 +87,7 @@ class SurfaceMinimum:
         region: tuple[Array, Array],
         *,
         thoroughly: bool = False,
+        elsewhere: bool = False,
     ) -> Array:
         """Return where in a box around a centre the surfaces are lowest.
 
@@ -91,18 +99,33 @@ class SurfaceMinimum:
             Whether a simplex search has to confirm what gradients have found on thinned curves:
             before a search says that there is nothing left to gain. Where no curve is thinned it
             always does, for gradients alone halt at kinks.
+        elsewhere : bool
+            Whether to search from other places in the box, too: a measure may have several minima
+            on surfaces that are linear.
         """
         low, high = region
         width = high - low
         start = (centre - low) / np.where(width > 0, width, 1.0)
+        best = self._lowest_from(surfaces, region, start, thoroughly)
+        value = self._exact.on(surfaces, region)
+        places = (_PLACES if self._exact.has_gradient else _FEWER_PLACES) if elsewhere else 0
+        for place in self._random.random((places, start.size)):
+            other = self._lowest_from(surfaces, region, place, thoroughly=False)
+            best = other if value(other) < value(best) else best
+        return low + best * width
+
+    def _lowest_from(
+        self, surfaces: Surfaces, region: tuple[Array, Array], start: Array, thoroughly: bool
+    ) -> Array:
+        """Return the minimum that is found from a place in the box, which is a unit cube here."""
         if self._thinned is not None:
             best = self._minimised(self._thinned, surfaces, region, start, thoroughly)
             value = self._exact.on(surfaces, region)
             if value(best) < value(start):
-                return low + self._polished(surfaces, region, best) * width
+                return self._polished(surfaces, region, best)
         # Without thinned curves, or where they mislead: noise has a length, which pcm measures.
         thoroughly = thoroughly or self._thinned is None
-        return low + self._minimised(self._exact, surfaces, region, start, thoroughly) * width
+        return self._minimised(self._exact, surfaces, region, start, thoroughly)
 
     def value(self, surfaces: Surfaces, point: Array) -> float:
         """Return the objective that surfaces predict at a point, with all points."""

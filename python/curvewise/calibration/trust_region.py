@@ -42,6 +42,9 @@ _SHRINKING = 0.5  # of the region, as a fraction of the step that failed
 _SMALLEST_STEP = 0.5  # of the differences, as a fraction of the largest
 _PERFECT = 1e3  # values below this multiple of what is negligible are alike: perfect fits
 _DRAWN = (0.1, 0.9)  # where starts are drawn, between the bounds
+# Before it ends, a search looks for other minima of the surfaces, which costs no runs, and tries so
+# many of those that it finds.
+_ATTEMPTS = 3
 _AFTER_RENEWAL = 0.15  # fresh slopes deserve trust again
 
 
@@ -111,7 +114,7 @@ def trust_region(
     failure: RuntimeError | None = None
     responses: Responses | None = None
     for place in places:
-        search = _Search(evaluations, random, diff_step, responses)
+        search = _Search(evaluations, random, rules, responses)
         try:
             search.begin(place, initial_range)
         except RuntimeError as error:
@@ -150,6 +153,8 @@ def _descend(search: _Search, evaluations: Evaluations, rules: _Rules) -> Finish
         least = max(evaluations.negligible, rules.gain * search.value)
         if promised <= least or radius < rules.tol:
             if search.is_fresh:
+                if search.leaves_valley(rules.initial_range, least):
+                    continue
                 return Finish(True, _ending(radius, least, rules.tol))
             search.renew(radius)
             radius = max(radius, _AFTER_RENEWAL)
@@ -181,11 +186,11 @@ class _Search:
         self,
         evaluations: Evaluations,
         random: np.random.Generator,
-        diff_step: float,
+        rules: _Rules,
         responses: Responses | None,
     ) -> None:
         self._evaluations, self._random = evaluations, random
-        self._diff_step = diff_step
+        self._diff_step, self._gain = rules.diff_step, rules.gain
         self.responses = responses
         self._minimum: SurfaceMinimum | None = None
         self.is_fresh = False
@@ -232,7 +237,20 @@ class _Search:
             self._recentre(points[best], runs[best])
         self.is_fresh = True
 
-    def lowest(self, radius: float) -> tuple[Array, float]:
+    def leaves_valley(self, radius: float, least: float) -> bool:
+        """Try other minima of the surfaces, which promise a gain; return whether one is better.
+
+        The surfaces learn from each that is not, so that the next is another one.
+        """
+        for _ in range(_ATTEMPTS):
+            candidate, promised = self.lowest(radius, elsewhere=True)
+            if promised <= least:
+                return False
+            if self.step(candidate) > 0:
+                return True
+        return False
+
+    def lowest(self, radius: float, elsewhere: bool = False) -> tuple[Array, float]:
         """Return where the surfaces are lowest within the region, and the gain they promise."""
         assert self.responses is not None
         if self._minimum is None:
@@ -242,12 +260,15 @@ class _Search:
                 self._random,
                 self._evaluations.negligible,
                 self._evaluations.thinking,
+                self._gain,
             )
         region = (
             np.clip(self.centre - radius, 0.0, 1.0),
             np.clip(self.centre + radius, 0.0, 1.0),
         )
-        best = self._minimum.lowest(self._surfaces, self.centre, region, thoroughly=self.is_fresh)
+        best = self._minimum.lowest(
+            self._surfaces, self.centre, region, thoroughly=self.is_fresh, elsewhere=elsewhere
+        )
         return best, self.value - self._minimum.value(self._surfaces, best)
 
     def step(self, candidate: Array) -> float:
