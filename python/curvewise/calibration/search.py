@@ -147,9 +147,10 @@ def identify(
 
     Notes
     -----
-    Evaluations: "trust-region" takes 10 to 15 for 3 parameters, 30 for 7. "sdrm" takes 5, 9 or 17
-    an iteration (for up to 3, 7 or 15 parameters), in 14 to some 30 iterations with its default
-    options (50 at most); "de" takes 15 k a generation for k parameters, in some 100 generations.
+    Evaluations: "trust-region" takes 10 to 30 a start for 3 parameters, 45 to 95 for 7. "sdrm"
+    takes 5, 9 or 17 an iteration (for up to 3, 7 or 15 parameters), in 14 to some 30 iterations
+    with its default options (50 at most); "de" takes 15 k a generation for k parameters, in some
+    100 generations.
     Memory: the history. The search is over the unit cube, so that the units of parameters do not
     matter. Sources: Storn & Price (1997) for "de", in the place of the paper's genetic algorithm;
     Stander & Craig (2002) for "sdrm"; Nelder & Mead (1965). Failures are logged under

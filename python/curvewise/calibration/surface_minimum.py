@@ -36,7 +36,7 @@ _MOST, _POLISHING = 150, 8  # evaluations with a gradient, and those after thinn
 # Without one, for each parameter; and those after thinned curves.
 _SIMPLEX, _POLISHING_SIMPLEX = 40, 5
 _OF_NEGLIGIBLE = 1e-4
-_PLACES, _FEWER_PLACES = 8, 4  # from which to search elsewhere, with a gradient and without
+_PLACES = 4  # from which to search elsewhere
 
 
 class SurfaceMinimum:
@@ -87,7 +87,6 @@ class SurfaceMinimum:
         region: tuple[Array, Array],
         *,
         thoroughly: bool = False,
-        elsewhere: bool = False,
     ) -> Array:
         """Return where in a box around a centre the surfaces are lowest.
 
@@ -99,33 +98,34 @@ class SurfaceMinimum:
             Whether a simplex search has to confirm what gradients have found on thinned curves:
             before a search says that there is nothing left to gain. Where no curve is thinned it
             always does, for gradients alone halt at kinks.
-        elsewhere : bool
-            Whether to search from other places in the box, too: a measure may have several minima
-            on surfaces that are linear.
         """
         low, high = region
         width = high - low
         start = (centre - low) / np.where(width > 0, width, 1.0)
-        best = self._lowest_from(surfaces, region, start, thoroughly)
-        value = self._exact.on(surfaces, region)
-        places = (_PLACES if self._exact.has_gradient else _FEWER_PLACES) if elsewhere else 0
-        for place in self._random.random((places, start.size)):
-            other = self._lowest_from(surfaces, region, place, thoroughly=False)
-            best = other if value(other) < value(best) else best
-        return low + best * width
-
-    def _lowest_from(
-        self, surfaces: Surfaces, region: tuple[Array, Array], start: Array, thoroughly: bool
-    ) -> Array:
-        """Return the minimum that is found from a place in the box, which is a unit cube here."""
         if self._thinned is not None:
             best = self._minimised(self._thinned, surfaces, region, start, thoroughly)
             value = self._exact.on(surfaces, region)
             if value(best) < value(start):
-                return self._polished(surfaces, region, best)
+                return low + self._polished(surfaces, region, best) * width
         # Without thinned curves, or where they mislead: noise has a length, which pcm measures.
         thoroughly = thoroughly or self._thinned is None
-        return self._minimised(self._exact, surfaces, region, start, thoroughly)
+        return low + self._minimised(self._exact, surfaces, region, start, thoroughly) * width
+
+    def elsewhere(self, surfaces: Surfaces, region: tuple[Array, Array]) -> Array:
+        """Return the lowest of what is found from places that are drawn in the box.
+
+        A measure may have several minima on surfaces that are linear.
+        """
+        low, high = region
+        predicted = self._thinned or self._exact
+        found = [
+            self._minimised(predicted, surfaces, region, place, thoroughly=False)
+            for place in self._random.random((_PLACES, low.size))
+        ]
+        best = min(found, key=predicted.on(surfaces, region))
+        if self._thinned is not None:
+            best = self._polished(surfaces, region, best)
+        return low + best * (high - low)
 
     def value(self, surfaces: Surfaces, point: Array) -> float:
         """Return the objective that surfaces predict at a point, with all points."""

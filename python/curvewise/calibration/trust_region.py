@@ -243,15 +243,22 @@ class _Search:
         The surfaces learn from each that is not, so that the next is another one.
         """
         for _ in range(_ATTEMPTS):
-            candidate, promised = self.lowest(radius, elsewhere=True)
+            candidate = self._minimum_on_surfaces().elsewhere(self._surfaces, self._region(radius))
+            promised = self._promised(candidate)
             if promised <= least:
                 return False
             if self.step(candidate) > 0:
                 return True
         return False
 
-    def lowest(self, radius: float, elsewhere: bool = False) -> tuple[Array, float]:
+    def lowest(self, radius: float) -> tuple[Array, float]:
         """Return where the surfaces are lowest within the region, and the gain they promise."""
+        best = self._minimum_on_surfaces().lowest(
+            self._surfaces, self.centre, self._region(radius), thoroughly=self.is_fresh
+        )
+        return best, self._promised(best)
+
+    def _minimum_on_surfaces(self) -> SurfaceMinimum:
         assert self.responses is not None
         if self._minimum is None:
             self._minimum = SurfaceMinimum(
@@ -262,14 +269,13 @@ class _Search:
                 self._evaluations.thinking,
                 self._gain,
             )
-        region = (
-            np.clip(self.centre - radius, 0.0, 1.0),
-            np.clip(self.centre + radius, 0.0, 1.0),
-        )
-        best = self._minimum.lowest(
-            self._surfaces, self.centre, region, thoroughly=self.is_fresh, elsewhere=elsewhere
-        )
-        return best, self.value - self._minimum.value(self._surfaces, best)
+        return self._minimum
+
+    def _region(self, radius: float) -> tuple[Array, Array]:
+        return np.clip(self.centre - radius, 0.0, 1.0), np.clip(self.centre + radius, 0.0, 1.0)
+
+    def _promised(self, point: Array) -> float:
+        return self.value - self._minimum_on_surfaces().value(self._surfaces, point)
 
     def step(self, candidate: Array) -> float:
         """Run a candidate, learn from it, move there if it is better; return the gain."""
