@@ -1,12 +1,9 @@
-"""Methods that `identify` does not have: what they would cost, for methods.py.
+"""A method that `identify` does not have, "gaussian-process": what it would cost, for methods.py.
 
-"gauss-newton": surfaces of the curves with fresh slopes, by k runs, before every step; on these the
-measure itself is minimised, whichever it is, within a region of trust. "trust-region" is the same
-with Broyden's update in the place of most of these runs.
-
-"gaussian-process": a Gaussian process (scikit-learn) for each principal component of the curves, of
-a Latin hypercube and of what is run after it; the exact measure is minimised on the curves that the
-processes predict. Every fifth run goes where they know least.
+A Gaussian process (scikit-learn) for each principal component of the curves, of a Latin hypercube
+and of what is run after it; the exact measure is minimised on the curves that the processes
+predict. Every fifth run goes where they know least. Their length scales are fitted anew after
+every fifth run: each time would take an hour of fitting for a search of some dozen runs.
 """
 
 from __future__ import annotations
@@ -24,43 +21,25 @@ from curvewise.calibration.evaluations import Finish
 from curvewise.calibration.methods import METHODS
 from curvewise.calibration.nelder_mead import nelder_mead
 from curvewise.calibration.surfaces import Responses
-from curvewise.calibration.trust_region import _Search
 
 COMPONENTS = 8
 CANDIDATES = 300
+TURN = 5  # runs between two fits of the length scales, and between two runs that explore
 
 
-def gauss_newton(evaluations, start, seed, *, radius=0.5, diff_step=0.02, gain=1e-3, maxiter=50):
-    """Minimise on surfaces that are measured anew before every step."""
-    search = _Search(evaluations, np.random.default_rng(seed), diff_step, None)
-    search.begin(np.full(evaluations.dimensions, 0.5) if start is None else start, radius)
-    for _ in range(maxiter):
-        before = search.value
-        candidate, promised = search.lowest(radius)
-        length = float(np.abs(candidate - search.centre).max())
-        if promised > 0.0:
-            ratio = search.step(candidate) / promised
-            radius = max(radius, 2.0 * length) if ratio > 0.7 else radius
-            radius = 0.3 * length if ratio < 0.1 else radius
-        search.renew(min(diff_step, max(radius, 0.5 * diff_step)))
-        if before - search.value <= max(evaluations.negligible, gain * search.value):
-            if radius <= diff_step or promised <= gain * search.value:
-                return Finish(True, "fresh slopes promise nothing")
-            radius *= 0.3
-    return Finish(False, f"{maxiter} steps")
-
-
-def gaussian_process(evaluations, start, seed, *, maxiter=80):
+def gaussian_process(evaluations, start, seed, *, maxiter=60):
     """Minimise the measure of the curves that Gaussian processes predict, run by run."""
     k = evaluations.dimensions
     random = np.random.default_rng(seed)
     units = qmc.LatinHypercube(k, seed=random).random(2 * k + 3)
     runs = evaluations.evaluated(units, keep_simulations=True)
+    kernels = None
     for number in range(maxiter):
         good = [i for i, run in enumerate(runs) if not run.failed]
         responses = Responses(runs[good[0]].simulations)
         vectors = np.array([responses.vector(runs[i].simulations) for i in good])
-        curves = _Curves(units[good], vectors, random)
+        curves = _Curves(units[good], vectors, random, kernels if number % TURN else None)
+        kernels = curves.kernels
         next_unit = _lowest(curves, responses, evaluations, units, random, number)
         units = np.vstack((units, next_unit))
         runs += evaluations.evaluated(next_unit[np.newaxis], keep_simulations=True)
@@ -70,20 +49,29 @@ def gaussian_process(evaluations, start, seed, *, maxiter=80):
 class _Curves:
     """Curves as Gaussian processes of the place in the unit cube."""
 
-    def __init__(self, units, vectors, random):
+    def __init__(self, units, vectors, random, kernels):
         width = np.ptp(vectors, axis=0)
         self._width = np.where(width > 0, width, 1.0)
         self._pca = PCA(min(COMPONENTS, len(units) - 1)).fit(vectors / self._width)
         scores = self._pca.transform(vectors / self._width)
         self._scale = scores.std(axis=0) + 1e-12
         k = units.shape[1]
-        kernel = ConstantKernel(1.0) * RBF(np.full(k, 0.5), (0.05, 20.0)) + WhiteKernel(1e-6)
+        first = ConstantKernel(1.0) * RBF(np.full(k, 0.5), (0.05, 20.0)) + WhiteKernel(1e-6)
+        components = (scores / self._scale).T
+        optimizer = "fmin_l_bfgs_b"
+        if kernels is not None and len(kernels) == len(components):
+            optimizer = None
+        else:
+            kernels = [first] * len(components)
         self._processes = []
-        for component in (scores / self._scale).T:
-            process = GaussianProcessRegressor(kernel, random_state=int(random.integers(2**31)))
+        for component, kernel in zip(components, kernels, strict=True):
+            process = GaussianProcessRegressor(
+                kernel, optimizer=optimizer, random_state=int(random.integers(2**31))
+            )
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", ConvergenceWarning)
                 self._processes.append(process.fit(units, component))
+        self.kernels = [process.kernel_ for process in self._processes]
 
     def mean(self, units):
         scores = np.column_stack([p.predict(units) for p in self._processes]) * self._scale
@@ -102,7 +90,7 @@ def _lowest(curves, responses, evaluations, units, random, number):
     best = evaluations.best_unit
     near = np.clip(best + random.normal(0.0, 0.1, (CANDIDATES // 2, k)), 0.0, 1.0)
     places = np.vstack((near, random.random((CANDIDATES // 2, k))))
-    if number % 5 == 4:
+    if number % TURN == TURN - 1:
         return places[np.argmax(curves.spread(places))]
 
     def value(unit):
@@ -128,5 +116,4 @@ def _lowest(curves, responses, evaluations, units, random, number):
     return found
 
 
-METHODS["gauss-newton"] = {"gauss-newton": gauss_newton}
 METHODS["gaussian-process"] = {"gaussian-process": gaussian_process}

@@ -190,8 +190,8 @@ class CaseObjective(Objective):
         pairs = zip(self.cases, experiments, strict=True)
         return CaseObjective([replace(case, experiment=other) for case, other in pairs])
 
-    def by_case(self, simulations: Any) -> dict[str, float]:
-        """Return the term of every case, with its weight; nan where it failed."""
+    def by_measure(self, simulations: Any) -> dict[str, float]:
+        """Return the term of every case, by its name and with its weight; nan where it failed."""
         score = self.predicted(simulations)
         failed = score.terms >= self.failure_value
         values = np.where(failed, np.nan, self.weights * score.terms)

@@ -16,13 +16,11 @@ import numpy as np
 from .._curves import Array
 from .._options import Preset
 from ..deviations import Deviation, deviation
-from ..measures.registry import Condition, default_measures
-from .cases import CaseObjective
+from ..measures.registry import Condition
 from .curve_list import points_of
 from .determined import determined_by
 from .history import Evaluation, as_records
 from .loop_measure import Part
-from .objective import Objective
 from .pictures import axes_of, loops_and_convergence, titles_of
 from .recorder import Recorder
 from .report.ending import write_down
@@ -362,7 +360,7 @@ def identification_of(study: Study, plan: Plan, ended: Ended) -> Identification:
     found = Identification(
         parameters=study.space.dictionary(best.point),
         value=best.value,
-        measures=_measures(objective, ended.simulations, best.value),
+        measures=objective.by_measure(ended.simulations),
         simulations=points_of(ended.simulations),
         experiments=objective.experiments,
         history=as_records(done, study.space.names),
@@ -383,30 +381,3 @@ def identification_of(study: Study, plan: Plan, ended: Ended) -> Identification:
     )
     write_down(found)
     return found
-
-
-def _measures(objective: Objective, simulations: Any, value: float) -> dict[str, float]:
-    """Return the value of simulations under every measure; of cases, what each contributes."""
-    if isinstance(objective, CaseObjective):
-        return objective.by_case(simulations)
-    values = {}
-    for name in default_measures(objective.experiments[0]):
-        if name == objective.measure:
-            values[name] = value
-            continue
-        try:
-            other = Objective(
-                objective.experiments,
-                name,
-                preset=objective.preset,
-                weights=objective.weights.tolist(),
-                min_coverage=objective.min_coverage,
-                part=objective.part if name == "pcm" else "experiment",
-            )
-        except ValueError:  # e.g. curve_length, raw, of a loop centred on zero
-            values[name] = np.nan
-            continue
-        score = other.score(simulations)
-        values[name] = np.nan if score.failures else score.value
-    values.setdefault(objective.measure, value)
-    return values

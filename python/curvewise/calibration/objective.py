@@ -10,7 +10,7 @@ parameters will cure. Cost: that of the measure, for every loop.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,7 +19,7 @@ from .._curves import Array
 from .._docstrings import filled, listed
 from .._options import Preset
 from ..measures import registry
-from ..measures.registry import PRESETS
+from ..measures.registry import PRESETS, default_measures
 from .curve_list import curve_list
 from .loop import FailedSimulationError, Loop
 from .loop_measure import (
@@ -30,6 +30,7 @@ from .loop_measure import (
     measure_name,
     unknown_options_explained,
 )
+from .loops import Loops
 from .near_names import meant
 from .surfaces import thinned_rows
 
@@ -65,7 +66,7 @@ class Score(NamedTuple):
 
 
 @filled(measures=listed(MEASURES))
-class Objective:
+class Objective(Loops):
     """The weighted sum of a measure over one or several loops; what an optimiser minimises.
 
     Parameters
@@ -233,11 +234,6 @@ class Objective:
                 failures.append(self._located(str(error), i))
         return Score(float(self.weights @ terms), terms, tuple(failures))
 
-    @property
-    def has_gradient(self) -> bool:
-        """Whether there is a gradient that is of use to a minimisation."""
-        return all(loop.has_gradient for loop in self._loops)
-
     def value_and_gradient(self, simulations: Any) -> tuple[float, list[Array]]:
         """Return what `predicted` returns as value, and its derivative by every coordinate.
 
@@ -264,14 +260,6 @@ class Objective:
             total += float(self.weights[i] * value)
             gradients.append(self.weights[i] * gradient)
         return total, gradients
-
-    @property
-    def can_be_thinned(self) -> bool:
-        """Whether some of the points of tests and simulations will do, for an estimate.
-
-        Not where y is compared at each point of the test, which costs little anyway.
-        """
-        return all(loop.can_be_thinned for loop in self._loops)
 
     def thinned(self, most: int) -> Objective | None:
         """Return the objective of about so many points a test at most; None if all have no more.
@@ -331,16 +319,6 @@ class Objective:
         """Whether the measure is a function of the user's."""
         return callable(self._measure)
 
-    @property
-    def names(self) -> list[tuple[str, ...]]:
-        """What the columns of every experiment are called; empty where that is not known."""
-        return [loop.names for loop in self._loops]
-
-    @property
-    def extents(self) -> list[Array]:
-        """The extent of every experiment in each coordinate, of a number the number itself."""
-        return [loop.extent for loop in self._loops]
-
     def fitted(self, simulations: Any) -> list[Array] | None:
         """Return the experiments with the simulated y, where y is compared at a common x."""
         if self.measure != "sum_of_squares" or not self._has_residuals:
@@ -352,55 +330,49 @@ class Objective:
             fitted.append(points)
         return fitted
 
-    @property
-    def y_columns(self) -> list[int]:
-        """The column of each experiment that noise is in."""
-        return [loop.y for loop in self._loops]
-
-    @property
-    def sigmas(self) -> list[float | None]:
-        """The noise of each loop, where it is given beforehand."""
-        return [None] * len(self._loops)
-
-    @property
-    def residual_counts(self) -> list[int]:
-        """How many residuals each loop has."""
-        return [loop.residual_count for loop in self._loops]
-
-    @property
-    def residual_factors(self) -> Array:
-        """By what a difference in y is multiplied to be a residual of "sum_of_squares"."""
-        heights = np.array([loop.height for loop in self._loops])
-        factors: Array = np.sqrt(self.weights) / heights
-        return factors
-
     def of_other_tests(self, experiments: Sequence[Array]) -> Objective:
         """Return the same objective of other experiments, one for each."""
+        return self._like(experiments, self._measure, self.part, self.options)
+
+    def by_measure(self, simulations: Any) -> dict[str, float]:
+        """Return the value of simulations under every measure that the curves' dimension allows.
+
+        This objective's own measure with its options, the others with the preset's; nan where one
+        refuses.
+        """
+        values = {}
+        for name in default_measures(self.experiments[0]):
+            if name == self.measure:
+                values[name] = self.predicted(simulations).value
+                continue
+            part = self.part if name == "pcm" else "experiment"
+            try:
+                score = self._like(self.experiments, name, part, {}).predicted(simulations)
+            except ValueError:  # e.g. curve_length, raw, of a loop centred on zero
+                values[name] = math.nan
+                continue
+            values[name] = math.nan if score.failures else score.value
+        if self.measure not in values:
+            values[self.measure] = self.predicted(simulations).value
+        return values
+
+    def _like(
+        self,
+        experiments: Sequence[Array],
+        measure: Measure,
+        part: Part,
+        options: Mapping[str, Any],
+    ) -> Objective:
+        """Return an objective of the same preset and weights."""
         return Objective(
             list(experiments),
-            self._measure,
+            measure,
             preset=self.preset,
             weights=self.weights.tolist(),
             min_coverage=self.min_coverage,
-            part=self.part,
-            **self.options,
+            part=part,
+            **options,
         )
-
-    def _matched(self, simulations: Any) -> list[Any]:
-        """Return one simulation for every experiment."""
-        count = len(self._loops)
-        if simulations is None or isinstance(simulations, BaseException):
-            return [simulations] * count
-        curves = curve_list(simulations)
-        if len(curves) != count:
-            raise ValueError(
-                f"there are {len(curves)} simulations and {count} experiments; "
-                "the model must return a curve for every experiment"
-            )
-        return curves
-
-    def _located(self, message: str, i: int) -> str:
-        return message if len(self._loops) == 1 else f"loop {i}: {message}"
 
 
 def _checked_weights(weights: Sequence[float] | None, count: int) -> Array:

@@ -70,7 +70,8 @@ def identify(
         The objective: see :class:`Objective`.
     method : {"sdrm+de", "trust-region", "de", "sdrm", "nelder-mead", "least_squares"}
         "trust-region": linear surfaces of the curves, on which the measure is minimised within a
-        region around the best run: local, for expensive models. "de": differential evolution,
+        region around the best run: local, for expensive models; with the option slopes="fresh"
+        Gauss and Newton's method on these surfaces, for any measure. "de": differential evolution,
         global. "sdrm": successive linear response surfaces with domain reduction, few evaluations
         and robust to noise. "sdrm+de": the best point of "sdrm" joins the first population of
         "de". "nelder-mead": local, from `start`. "least_squares": local, fast and exact where the
@@ -120,7 +121,9 @@ def identify(
         `scipy.optimize.least_squares`, e.g. loss and f_scale for a robust sum, of which the result
         is then the minimum (residuals are in units of the experiment's height). "trust-region":
         starts (3, where none is given), initial_range (0.5), diff_step (0.02), tol (1e-3), gain
-        (1e-3: the least that is worth going on for), maxiter.
+        (1e-3: the least that is worth going on for), maxiter, and slopes: "broyden", of the runs
+        that are made anyway, renewed by k runs for k parameters where they mislead, or "fresh",
+        renewed after every step, which pays with k workers or more, as these k run side by side.
         "sdrm+de": a mapping for each, ``{"sdrm": {...}, "de": {...}}``.
 
     Returns
@@ -144,9 +147,10 @@ def identify(
 
     Notes
     -----
-    Evaluations: "trust-region" takes 10 to 15 for 3 parameters, 30 for 7. "sdrm" takes 5, 9 or 17
-    an iteration (for up to 3, 7 or 15 parameters), in 14 to some 30 iterations with its default
-    options (50 at most); "de" takes 15 k a generation for k parameters, in some 100 generations.
+    Evaluations: "trust-region" takes 10 to 30 a start for 3 parameters, 45 to 95 for 7. "sdrm"
+    takes 5, 9 or 17 an iteration (for up to 3, 7 or 15 parameters), in 14 to some 30 iterations
+    with its default options (50 at most); "de" takes 15 k a generation for k parameters, in some
+    100 generations.
     Memory: the history. The search is over the unit cube, so that the units of parameters do not
     matter. Sources: Storn & Price (1997) for "de", in the place of the paper's genetic algorithm;
     Stander & Craig (2002) for "sdrm"; Nelder & Mead (1965). Failures are logged under

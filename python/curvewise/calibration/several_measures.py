@@ -48,7 +48,7 @@ _WARM_RANGE = 0.1
 # search has gained more than this fraction of its value.
 _WORTH_A_ROUND, _ROUNDS = 1e-3, 4
 # Of "trust-region": wider than where it began, to leave a valley of other measures.
-_CLOSER = {"initial_range": 0.3, "gain": 2e-4, "tol": 3e-4}
+_CLOSER = {"initial_range": 0.3, "gain": 2e-5, "tol": 1e-4}
 
 
 class SeveralMeasures(Mapping[str, Identification]):

@@ -29,11 +29,14 @@ from .surfaces import Responses, Rows, Surfaces
 
 __all__ = ["SurfaceMinimum"]
 
-_MOST_POINTS = 400  # of thinned curves; those of up to half as many again are taken as they are
+# Of thinned curves; those of up to half as many again are taken as they are. The minimum of thinned
+# curves is that of all points to some 1e-3 of the value: for less they have more points.
+_MOST_POINTS, _MORE_POINTS, _LESS = 400, 1600, 1e-3
 _MOST, _POLISHING = 150, 8  # evaluations with a gradient, and those after thinned curves
 # Without one, for each parameter; and those after thinned curves.
 _SIMPLEX, _POLISHING_SIMPLEX = 40, 5
 _OF_NEGLIGIBLE = 1e-4
+_PLACES = 4  # from which to search elsewhere
 
 
 class SurfaceMinimum:
@@ -51,6 +54,8 @@ class SurfaceMinimum:
         Gains of the whole search below this do not count.
     thinking : callable
         Called before every evaluation on predicted curves, to show that something moves.
+    gain : float
+        The smallest gain that counts, as a fraction of the value.
     """
 
     def __init__(
@@ -60,6 +65,7 @@ class SurfaceMinimum:
         random: np.random.Generator,
         negligible: float,
         thinking: Callable[[], None],
+        gain: float = _LESS,
     ) -> None:
         self._random = random
         # Of squares the root counts, and a step on the surfaces costs little.
@@ -68,8 +74,9 @@ class SurfaceMinimum:
         self._thinned: _Predicted | None = None
         if not objective.can_be_thinned:
             return
-        rows = responses.thinned_rows(_MOST_POINTS)
-        thinned = objective.thinned(_MOST_POINTS)
+        most = _MORE_POINTS if gain < _LESS else _MOST_POINTS
+        rows = responses.thinned_rows(most)
+        thinned = objective.thinned(most)
         if thinned is not None or rows is not None:
             self._thinned = _Predicted(thinned or objective, responses, rows, thinking)
 
@@ -103,6 +110,22 @@ class SurfaceMinimum:
         # Without thinned curves, or where they mislead: noise has a length, which pcm measures.
         thoroughly = thoroughly or self._thinned is None
         return low + self._minimised(self._exact, surfaces, region, start, thoroughly) * width
+
+    def elsewhere(self, surfaces: Surfaces, region: tuple[Array, Array]) -> Array:
+        """Return the lowest of what is found from places that are drawn in the box.
+
+        A measure may have several minima on surfaces that are linear.
+        """
+        low, high = region
+        predicted = self._thinned or self._exact
+        found = [
+            self._minimised(predicted, surfaces, region, place, thoroughly=False)
+            for place in self._random.random((_PLACES, low.size))
+        ]
+        best = min(found, key=predicted.on(surfaces, region))
+        if self._thinned is not None:
+            best = self._polished(surfaces, region, best)
+        return low + best * (high - low)
 
     def value(self, surfaces: Surfaces, point: Array) -> float:
         """Return the objective that surfaces predict at a point, with all points."""
