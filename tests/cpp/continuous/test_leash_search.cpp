@@ -150,20 +150,20 @@ void zigzags() {
 // Rows are dropped where there are too many, each with its runs; row 0 stays, and those that stay
 // are spread evenly.
 void a_trail_is_thinned_out() {
-    for (const std::size_t runs_of_a_row : {1, 3}) {
+    for (const std::ptrdiff_t runs_of_a_row : {1, 3}) {
+        const auto count = static_cast<std::size_t>(runs_of_a_row);
         Trail trail(60);
         for (std::ptrdiff_t row = 0; row < 2000; ++row) {
-            trail.note(row, Runs(runs_of_a_row, {row, row, {}}));
+            trail.note(row, Runs(count, {row, row, {}}));
             std::ptrdiff_t furthest = 0;
             for (std::ptrdiff_t asked = 0; asked <= row; asked += 7) {
                 const Trail::Mark& mark = trail.before(asked);
                 CHECK(mark.row <= asked);
-                CHECK_EQUAL(mark.runs.size(), runs_of_a_row);
+                CHECK_EQUAL(mark.runs.size(), count);
                 CHECK_EQUAL(mark.runs[0].first, mark.row);
                 furthest = std::max(furthest, asked - mark.row);
             }
-            const auto runs = static_cast<std::ptrdiff_t>(runs_of_a_row);
-            CHECK(furthest < 8 + 2 * (row + 8) * runs / 60);
+            CHECK(furthest < 8 + 2 * (row + 8) * runs_of_a_row / 60);
         }
         trail.forget_from(1);
         CHECK_EQUAL(trail.before(1999).row, 0);
