@@ -64,6 +64,7 @@ TESTS: dict[str, tuple[str, ...]] = {
         f"{MEASURES}/test_extreme_scales.py",
     ),
     "reference/nearest.py": (
+        "tests/python/nearest/test_index.py",
         "tests/python/nearest/test_subsequence.py",
         "tests/python/nearest/test_averages.py",
     ),

@@ -1,15 +1,18 @@
 // The search for the continuous Fréchet distance against plain bisection over decisions, which look
 // at the whole free-space diagram. The curves are made so that the search is led astray: where a
 // walk dies, the way out begins hundreds of rows before, so that what a window around the blockade
-// shows is not the value. frechet_within() decides without a search, and is trusted here.
+// shows is not the value. frechet_within() decides without a search, and is trusted here. And what
+// a search keeps of its walks.
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "check.hpp"
+#include "continuous/leash_search.hpp"
 #include "curves.hpp"
 #include "curvewise/frechet_continuous.hpp"
 
@@ -17,21 +20,17 @@ namespace {
 
 using curvewise::frechet_continuous;
 using curvewise::frechet_within;
+using curvewise::detail::bits_of;
+using curvewise::detail::double_of;
+using curvewise::detail::Runs;
+using curvewise::detail::Trail;
 using test::Curve;
 using test::Random;
 
-double double_of(std::uint64_t bits) {
-    double x = 0.0;
-    std::memcpy(&x, &bits, sizeof x);
-    return x;
-}
-
 // The least double within which two curves are. Doubles have the order of their bits.
 double least_within(const Curve& P, const Curve& Q) {
-    std::uint64_t low = 0, high = 0;
-    const double most = std::numeric_limits<double>::max();
-    std::memcpy(&high, &most, sizeof high);
     if (frechet_within(P, Q, 0.0)) return 0.0;
+    std::uint64_t low = 0, high = bits_of(std::numeric_limits<double>::max());
     while (high - low > 1) {
         const std::uint64_t middle = low + (high - low) / 2;
         (frechet_within(P, Q, double_of(middle)) ? high : low) = middle;
@@ -130,9 +129,52 @@ void peaks_and_pits() {
     }
 }
 
+// Up and down all the time, so that what is reached of a row is many pieces; and here and there a
+// summit that needs a longer leash than all before.
+void zigzags() {
+    Random random(23);
+    for (int round = 0; round < 12; ++round) {
+        const check::Note note("round " + std::to_string(round));
+        std::vector<double> p, q;
+        for (int k = 0; k < 4; ++k) {
+            for (int i = 0; i < 80; ++i) p.push_back(random.uniform(-1.0, 1.0));
+            for (int j = 0; j < 40; ++j) q.push_back(random.uniform(-1.5, 1.5));
+            p.push_back(4.0);
+            q.push_back(3.0 - 0.2 * k - random.uniform(0.0, 0.2));
+        }
+        const Curve P = along_a_line(p, random);
+        check_value(P, along_a_line(q, random));
+    }
+}
+
+// Rows are dropped where there are too many, each with its runs; row 0 stays, and those that stay
+// are spread evenly.
+void a_trail_is_thinned_out() {
+    for (const std::ptrdiff_t runs_of_a_row : {1, 3}) {
+        const auto count = static_cast<std::size_t>(runs_of_a_row);
+        Trail trail(60);
+        for (std::ptrdiff_t row = 0; row < 2000; ++row) {
+            trail.note(row, Runs(count, {row, row, {}}));
+            std::ptrdiff_t furthest = 0;
+            for (std::ptrdiff_t asked = 0; asked <= row; asked += 7) {
+                const Trail::Mark& mark = trail.before(asked);
+                CHECK(mark.row <= asked);
+                CHECK_EQUAL(mark.runs.size(), count);
+                CHECK_EQUAL(mark.runs[0].first, mark.row);
+                furthest = std::max(furthest, asked - mark.row);
+            }
+            CHECK(furthest < 8 + 2 * (row + 8) * runs_of_a_row / 60);
+        }
+        trail.forget_from(1);
+        CHECK_EQUAL(trail.before(1999).row, 0);
+    }
+}
+
 }  // namespace
 
 int main() {
-    return check::run(
-        {{"corridors that part", corridors_that_part}, {"peaks and pits", peaks_and_pits}});
+    return check::run({{"corridors that part", corridors_that_part},
+                       {"peaks and pits", peaks_and_pits},
+                       {"zigzags", zigzags},
+                       {"a trail is thinned out", a_trail_is_thinned_out}});
 }

@@ -218,7 +218,7 @@ void runs_are_those_of_open_ends() {
     for (int i = 0; i < 200; ++i) {
         const std::ptrdiff_t dim = 1 + random.index(3);
         const Curve P = random.lattice_curve(1 + random.index(8), dim);
-        const Curve Q = random.lattice_curve(1 + random.index(40), dim);
+        const Curve Q = random.lattice_curve(1 + random.index(i % 8 == 0 ? 400 : 40), dim);
         const check::Note note(test::described(P, Q));
         const std::vector<Subsequence> found = subsequences(P, Q, 6);
         CHECK_EQUAL(found[0].distance, dtw(P, Q, open));

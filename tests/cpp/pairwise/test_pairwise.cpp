@@ -22,7 +22,7 @@ using test::Random;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::vector<Curve> random_curves(std::initializer_list<std::ptrdiff_t> sizes, std::ptrdiff_t dim) {
+std::vector<Curve> random_curves(const std::vector<std::ptrdiff_t>& sizes, std::ptrdiff_t dim) {
     Random random(7);
     std::vector<Curve> curves;
     for (const std::ptrdiff_t n : sizes) curves.push_back(random.curve(n, dim));
@@ -146,6 +146,27 @@ void any_number_of_workers() {
     const double value = dtw(X[0], X[1], options);
     options.workers = most;
     CHECK_EQUAL(dtw(X[0], X[1], options), value);
+}
+
+// So many that threads take several pairs at a time.
+void many_small_curves() {
+    std::vector<std::ptrdiff_t> sizes;
+    for (std::ptrdiff_t k = 0; k < 101; ++k) sizes.push_back(1 + k * k % 7);
+    const std::vector<Curve> curves = random_curves(sizes, 6);
+    const std::vector<CurveView> X = views_of(curves);
+    const FrechetOptions options;
+    std::vector<double> matrix, condensed, out(X.size() * X.size(), -1.0);
+    for (std::size_t i = 0; i < X.size(); ++i) {
+        for (std::size_t j = 0; j < X.size(); ++j) {
+            matrix.push_back(frechet(X[i], X[j]));
+            if (i < j) condensed.push_back(matrix.back());
+        }
+    }
+    cdist(X, X, options, out.data());
+    CHECK(out == matrix);
+    out.assign(condensed.size(), -1.0);
+    pdist(X, options, out.data());
+    CHECK(out == condensed);
 }
 
 // Pairs of 2^24 steps and more are shared by two threads one after the other if they are few, and
@@ -280,6 +301,7 @@ int main() {
                        {"prepared equals single calls", prepared_equals_single_calls},
                        {"symmetry is known", symmetry_is_known},
                        {"any number of workers", any_number_of_workers},
+                       {"many small curves", many_small_curves},
                        {"pairs that are worth all threads", pairs_that_are_worth_all_threads},
                        {"cutoff gives infinity", cutoff_gives_infinity},
                        {"errors name the curve", errors_name_the_curve},

@@ -10,6 +10,7 @@ from test_history import assert_same
 
 from curvewise import datasets
 from curvewise.calibration import Below, Case, Log, Tied, identify
+from curvewise.calibration.parameters import Space
 
 CYCLE = np.concatenate(
     [np.linspace(a, b, 20, endpoint=False) for a, b in itertools.pairwise((0.0, 0.02, -0.02, 0.02))]
@@ -219,6 +220,13 @@ def test_ordered_fixed_and_tied_parameters(method):
     assert lines["E"].endswith("fixed")
     assert lines["gamma1"].endswith("tied")
     found.uncertainty(samples=20)
+
+
+def test_a_parameter_stays_below_by_a_millionth_of_its_range():
+    space = Space({"a": (100.0, 200.0), "b": Below("a", 50.0, 200.0)})
+    for unit in (0.0, 0.3, 1.0):
+        above, below = space.point(np.array([unit, 1.0]))
+        assert above - below == pytest.approx(150e-6, rel=1e-6)
 
 
 def test_a_start_among_ordered_and_logarithmic_parameters():

@@ -32,6 +32,7 @@ class Scripted:
         return np.array([0.1 * radius, -REACH * radius]), 1.0 if self.gains else 0.0
 
     def step(self, candidate: Any) -> float:
+        self.is_fresh = False
         return self.gains.pop(0)
 
     def renew(self, step: float) -> None:
@@ -67,6 +68,14 @@ def test_the_region_follows_how_well_gains_are_predicted(gain, factor):
 
 def test_the_region_is_never_more_than_the_bounds():
     assert radii_of([1.0, 1.0], 0.6) == pytest.approx([0.6, 0.96, 1.0])
+
+
+def test_a_region_below_tol_has_its_slopes_renewed():
+    search: Any = Scripted([-1.0, -1.0])
+    evaluations: Any = SimpleNamespace(negligible=0.0)
+    finish = _descend(search, evaluations, 0.2, 0.02, 0.05, 1e-3, 50)
+    assert search.radii == pytest.approx([0.2, 0.048, 0.15, 0.036, 0.15])
+    assert finish == (True, "nothing within 0.15 of the bounds promises a gain of 0.01")
 
 
 SLOPES = np.array([[3.0, 0.0], [-1.0, 2.0], [0.0, 0.5], [4.0, -4.0]])  # of two points' coordinates

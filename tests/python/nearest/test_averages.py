@@ -40,6 +40,14 @@ def test_equal_to_the_reference(options, dim):
         assert found.converged == expected.converged
 
 
+def test_the_mean_of_series_is_a_series():
+    series = [curve[:, 0] for curve in waves(4, 1)]
+    expected = reference.nearest.dtw_mean(series, series[1])
+    found = curvewise.dtw_mean(series, initial=series[1])
+    assert found.curve.shape == series[1].shape
+    np.testing.assert_array_equal(found.curve, expected.curve)
+
+
 def test_the_cost_is_the_sum_of_the_distances_and_never_rises():
     curves = waves(12)
     mean = curvewise.dtw_mean(curves)
