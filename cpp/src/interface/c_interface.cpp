@@ -202,7 +202,7 @@ int guarded(curvewise_error* error, Function function) noexcept {
     } catch (const std::exception& failure) {
         report(error, failure.what());
         return CURVEWISE_FAILED;
-    } catch (...) {
+    } catch (...) {  // the library throws none: so that nothing ever passes through C
         report(error, "an exception of unknown type");
         return CURVEWISE_FAILED;
     }

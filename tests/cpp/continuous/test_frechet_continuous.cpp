@@ -294,7 +294,7 @@ void rooms(std::uint64_t seed) {
 // With the first of these seeds the search begins in a blind alley whose way out lies before the
 // stretch of rows that it looks at.
 void rooms_and_blind_alleys() {
-    for (const std::uint64_t seed : {4684, 1, 2, 3}) {
+    for (const std::uint64_t seed : {4684U, 1U, 2U, 3U}) {
         const check::Note note("seed " + std::to_string(seed));
         rooms(seed);
     }

@@ -270,6 +270,7 @@ void a_stopped_call_throws() {
     const std::vector<CurveView> tiny(20'000, three);
     const std::vector<std::function<void(Control*)>> calls{
         [&](Control* control) { pdist(tiny, AreaOptions{}, out.data(), {2}, control); },
+        [&](Control* control) { pdist(tiny, FrechetOptions{}, out.data(), {2}, control); },
         [&](Control* control) { frechet(P, P, slow, control); },
         [&](Control* control) { dtw(P, P, threaded, control); },
         [&](Control* control) { dtw_path(P, P, threaded, control); },
