@@ -5,9 +5,9 @@ parameters at which the curves that they predict are nearest to the tests, withi
 trust around the best run, are run next, and the surfaces learn from every run (Broyden's update).
 Where a step gains clearly less than they promised, k runs nearby measure the slopes afresh; where
 fresh slopes have promised it too, the region shrinks. The search ends when fresh slopes promise
-nothing more, nearby or in another minimum that the measure has on these surfaces. With slopes="fresh" they are measured before every step: for a sum of squares that is
-Gauss and Newton's method, and here the exact measure, whichever it is, stands in the place of the
-squares.
+nothing more, nearby or in another minimum that the measure has on these surfaces. With
+slopes="fresh" they are measured before every step: for a sum of squares that is Gauss and Newton's
+method, and here the exact measure, whichever it is, stands in the place of the squares.
 
 A region that shrank around slopes grown stale was the way this search used to fail: on seven
 parameters with noise it halted high up in a valley from 3 of 10 starts that nothing was tuned on,
