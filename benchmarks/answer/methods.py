@@ -280,7 +280,7 @@ def draw(results: dict) -> Figure:
         ax.set_xlabel("runs of the model")
     panels[0].set_ylabel("share of searches within 1 %")
     handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper left", ncols=4, frameon=False)
+    figure.legend(handles, labels, loc="outside upper left", ncols=5, frameon=False)
     return figure
 
 

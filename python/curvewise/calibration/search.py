@@ -123,7 +123,7 @@ def identify(
         starts (3, where none is given), initial_range (0.5), diff_step (0.02), tol (1e-3), gain
         (1e-3: the least that is worth going on for), maxiter, and slopes: "broyden", of the runs
         that are made anyway, renewed by k runs for k parameters where they mislead, or "fresh",
-        renewed after every step, which pays with k workers or more, as these k run side by side.
+        renewed after every step; with k workers, which run these side by side, it may be faster.
         "sdrm+de": a mapping for each, ``{"sdrm": {...}, "de": {...}}``.
 
     Returns
