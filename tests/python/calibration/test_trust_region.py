@@ -11,9 +11,10 @@ import pytest
 
 from curvewise.calibration.evaluations import Finish
 from curvewise.calibration.history import Evaluation
-from curvewise.calibration.trust_region import _descend, _Search, _simplex, trust_region
+from curvewise.calibration.trust_region import _descend, _Rules, _Search, _simplex, trust_region
 
 REACH = 0.8  # of the region, by every step
+RULES = _Rules(initial_range=0.2, diff_step=0.02, tol=1e-3, gain=1e-3, maxiter=50, slopes="broyden")
 
 
 class Scripted:
@@ -22,60 +23,86 @@ class Scripted:
     centre = np.zeros(2)
     value = 10.0
 
-    def __init__(self, gains: Sequence[float]) -> None:
+    def __init__(self, gains: Sequence[float], *, is_fresh: bool = False, valleys: int = 0) -> None:
         self.gains = list(gains)
-        self.radii: list[float] = []
-        self.is_fresh = False
+        self.is_fresh = is_fresh
+        self.valleys = valleys
+        self.looked: list[tuple[float, bool]] = []  # in which regions, with fresh slopes or not
 
     def lowest(self, radius: float) -> tuple[Any, float]:
-        self.radii.append(radius)
+        self.looked.append((pytest.approx(radius), self.is_fresh))
         return np.array([0.1 * radius, -REACH * radius]), 1.0 if self.gains else 0.0
 
     def step(self, candidate: Any) -> float:
         self.is_fresh = False
         return self.gains.pop(0)
 
-    def renew(self, step: float) -> None:
+    def renew(self, radius: float) -> None:
         self.is_fresh = True
 
+    def leaves_valley(self, radius: float, least: float) -> bool:
+        self.valleys -= 1
+        self.is_fresh = False
+        return self.valleys >= 0
 
-def radii_of(gains: Sequence[float], radius: float) -> list[float]:
-    """Return the regions of steps that gain so much of what was promised."""
-    search: Any = Scripted(gains)
+
+def descended(search: Any, rules: _Rules = RULES) -> list[tuple[float, bool]]:
+    """Return in which regions a search looked for minima, and whether with fresh slopes."""
     evaluations: Any = SimpleNamespace(negligible=0.0)
-    finish = _descend(search, evaluations, radius, 0.02, 1e-3, 1e-3, 50)
+    finish = _descend(search, evaluations, rules)
     assert finish.converged
     assert not search.gains
-    radii: list[float] = search.radii
-    return radii[: len(gains) + 1]
+    looked: list[tuple[float, bool]] = search.looked
+    return looked
 
 
 @pytest.mark.parametrize(
-    ("gain", "factor"),
+    ("is_fresh", "gain", "factor", "is_renewed"),
     [
-        (1.0, 2.0 * REACH),
-        (0.7, 2.0 * REACH),
-        (0.69, 1.0),
-        (0.1, 1.0),
-        (0.09, 0.3 * REACH),
-        (-3.0, 0.3 * REACH),
-        (-np.inf, 0.3 * REACH),
+        (False, 1.0, 2.0 * REACH, False),
+        (False, 0.7, 2.0 * REACH, False),
+        (False, 0.69, 1.0, True),
+        (False, 0.09, 1.0, True),
+        (False, -np.inf, 1.0, True),
+        (True, 0.7, 2.0 * REACH, False),
+        (True, 0.69, 1.0, False),
+        (True, 0.1, 1.0, False),
+        (True, 0.09, 0.5 * REACH, False),
+        (True, -3.0, 0.5 * REACH, False),
+        (True, -np.inf, 0.5 * REACH, False),
     ],
 )
-def test_the_region_follows_how_well_gains_are_predicted(gain, factor):
-    assert radii_of([gain], 0.2) == pytest.approx([0.2, 0.2 * factor])
+def test_the_region_follows_how_well_gains_are_predicted(is_fresh, gain, factor, is_renewed):
+    """Slopes that mislead are measured afresh; only fresh ones that mislead shrink the region."""
+    looked = descended(Scripted([gain], is_fresh=is_fresh))
+    assert looked[:2] == [(0.2, is_fresh), (0.2 * factor, is_renewed)]
+
+
+def test_fresh_slopes_before_every_step():
+    looked = descended(Scripted([1.0, 0.5, 0.05]), RULES._replace(slopes="fresh"))
+    assert looked == [(0.2, False), (0.32, True), (0.32, True), (0.128, True)]
 
 
 def test_the_region_is_never_more_than_the_bounds():
-    assert radii_of([1.0, 1.0], 0.6) == pytest.approx([0.6, 0.96, 1.0])
+    looked = descended(Scripted([1.0, 1.0]), RULES._replace(initial_range=0.6))
+    assert [radius for radius, _ in looked[:3]] == [0.6, 0.96, 1.0]
 
 
 def test_a_region_below_tol_has_its_slopes_renewed():
-    search: Any = Scripted([-1.0, -1.0])
+    search: Any = Scripted([-1.0, -1.0, -1.0])
     evaluations: Any = SimpleNamespace(negligible=0.0)
-    finish = _descend(search, evaluations, 0.2, 0.02, 0.05, 1e-3, 50)
-    assert search.radii == pytest.approx([0.2, 0.048, 0.15, 0.036, 0.15])
-    assert finish == (True, "nothing within 0.15 of the bounds promises a gain of 0.01")
+    finish = _descend(search, evaluations, RULES._replace(tol=0.1))
+    assert [radius for radius, _ in search.looked] == [0.2, 0.2, 0.08, 0.15, 0.06, 0.15]
+    assert finish == (
+        True,
+        "fresh slopes promise to gain less than 0.01 within 15 % of the bounds' range",
+    )
+
+
+def test_a_search_that_leaves_a_valley_goes_on():
+    search = Scripted([], is_fresh=True, valleys=1)
+    assert descended(search) == [(0.2, True), (0.2, False), (0.2, True)]
+    assert search.valleys == -1
 
 
 SLOPES = np.array([[3.0, 0.0], [-1.0, 2.0], [0.0, 0.5], [4.0, -4.0]])  # of two points' coordinates
@@ -107,7 +134,7 @@ def test_slopes_come_from_earlier_runs_the_nearest_first(wrong):
     """Two that are further away differ from the others; they count by 1 / (distance + 0.02)^2."""
     steps = [(0.02, 0.0), (-0.02, 0.0), (0.0, 0.02), (0.0, -0.02), (0.1, 0.0), (-0.1, 0.0)]
     known: Any = Known(steps, [0.0, 0.0, 0.0, 0.0, wrong, -wrong])
-    search = _Search(known, np.random.default_rng(1), 0.02, None)
+    search = _Search(known, np.random.default_rng(1), RULES, None)
     search.begin(np.array([0.4, 0.3]), 0.5)
     assert known.run == 1
     np.testing.assert_array_equal(search.centre, [0.4, 0.3])
@@ -148,4 +175,4 @@ def test_how_many_starts_end_alike(values, alike, monkeypatch):
     best = min(values)
     evaluations: Any = SimpleNamespace(dimensions=2, negligible=1e-6)
     finish = trust_region(evaluations, None, 1)
-    assert finish.message == f"{alike} of 3 starts within 1 %; ended at {best}"
+    assert finish.message == f"{alike} of 3 starts within 1 % of the best; ended at {best}"
