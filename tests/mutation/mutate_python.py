@@ -158,7 +158,7 @@ def pytest_status(tests: list[str], limit: float) -> int | None:
         done, status = os.waitpid(pid, os.WNOHANG)
         if done:
             return os.waitstatus_to_exitcode(status)
-        time.sleep(0.02)
+        time.sleep(0.02)  # waitpid has no time limit of its own
     os.killpg(pid, signal.SIGKILL)
     os.waitpid(pid, 0)
     return None
