@@ -13,7 +13,7 @@ import numpy as np
 
 import curvewise
 from curvewise.datasets import kinematic_hardening
-from curvewise.plotting.palette import P_COLOUR, Q_COLOUR
+from curvewise.drawing.palette import P_COLOUR, Q_COLOUR
 
 IMAGES = Path(__file__).parents[1] / "docs" / "images"
 GREY = "0.75"

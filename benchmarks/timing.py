@@ -203,17 +203,17 @@ def peak_bytes() -> int:
 
 def levels() -> list[str]:
     """Return the instruction-set levels of this machine, the fastest first."""
-    return curvewise.build_info()["instruction_sets"][::-1]
+    return curvewise.installation.build_info()["instruction_sets"][::-1]
 
 
 def active_level() -> str:
     """Return the level at which curvewise runs in this process."""
-    return curvewise.build_info()["active"]
+    return curvewise.installation.build_info()["active"]
 
 
 def machine(packages: Sequence[str]) -> dict[str, object]:
     """Describe where and with what the numbers were measured."""
-    build = curvewise.build_info()
+    build = curvewise.installation.build_info()
     return {
         "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
         "commit": _commit(),

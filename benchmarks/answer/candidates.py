@@ -11,16 +11,16 @@ from __future__ import annotations
 import warnings
 
 import numpy as np
+from curvewise.calibration.methods.registry.registry import METHODS
+from curvewise.calibration.surfaces.surfaces.nelder_mead import nelder_mead
+from curvewise.calibration.surfaces.surfaces.surfaces import Responses
 from scipy.stats import qmc
 from sklearn.decomposition import PCA
 from sklearn.exceptions import ConvergenceWarning
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
 
-from curvewise.calibration.evaluations import Finish
-from curvewise.calibration.methods import METHODS
-from curvewise.calibration.nelder_mead import nelder_mead
-from curvewise.calibration.surfaces import Responses
+from curvewise.calibration.problem.evaluations import Finish
 
 COMPONENTS = 8
 CANDIDATES = 300

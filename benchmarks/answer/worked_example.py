@@ -26,13 +26,7 @@ from matplotlib.figure import Figure
 from paper_problems import cube
 
 from curvewise import read_curve
-from curvewise.calibration import (
-    Case,
-    Identification,
-    Uncertainty,
-    identify,
-    identify_each,
-)
+from curvewise.calibration import Case, Identification, Uncertainty, identify, identify_each
 from curvewise.curves import resample, smooth, turning_points
 
 HERE = Path(__file__).resolve().parent

@@ -32,7 +32,7 @@ from matplotlib.figure import Figure
 
 from curvewise import read_curve
 from curvewise.calibration import Identification, identify
-from curvewise.named_curve import NamedCurve
+from curvewise.curves.named_curve import NamedCurve
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]

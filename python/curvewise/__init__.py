@@ -13,11 +13,14 @@ from typing import TYPE_CHECKING, Any
 from . import _environment as _environment  # looks before the compiled module is loaded
 
 # isort: split
-from . import _core, curves, datasets
-from .averages import dtw_mean, medoid
-from .compare import Comparison, compare
-from .curve_files import read_curve
-from .embedding import get_include
+from . import curves, datasets
+from ._core import build_info as _build_info
+from .comparing.comparison import Comparison, compare
+from .files.curve_files import read_curve
+from .many.averages import dtw_mean, medoid
+from .many.nearest import Index
+from .many.pairwise import Prepared, available_measures, cdist, pdist
+from .many.subsequences import subsequence
 from .measures import (
     area,
     area_quads,
@@ -42,9 +45,7 @@ from .measures import (
     sum_of_squares,
     value_and_gradient,
 )
-from .nearest import Index
-from .pairwise import Prepared, available_measures, cdist, pdist
-from .results import (
+from .measures.results import (
     Alignment,
     AreaQuads,
     DtwMean,
@@ -53,12 +54,12 @@ from .results import (
     Subsequence,
     WarpingInfo,
 )
-from .subsequence import subsequence
 
 if TYPE_CHECKING:
     from . import calibration as calibration
     from . import compat as compat
     from . import dask as dask
+    from . import installation as installation
     from . import plotting as plotting
     from . import reference as reference
     from . import sklearn as sklearn
@@ -80,7 +81,6 @@ __all__ = [
     "area",
     "area_quads",
     "available_measures",
-    "build_info",
     "cdist",
     "compare",
     "curve_length",
@@ -99,7 +99,6 @@ __all__ = [
     "frechet_path",
     "frechet_table",
     "frechet_within",
-    "get_include",
     "mae",
     "medoid",
     "mse",
@@ -118,6 +117,7 @@ _LAZY = (
     "calibration",
     "compat",
     "dask",
+    "installation",
     "plotting",
     "reference",
     "sklearn",
@@ -137,25 +137,7 @@ if not TYPE_CHECKING:
 
 def __dir__() -> list[str]:
     # help() imports all of these, and the import of some fails where their packages are missing.
-    return sorted({*globals(), *_LAZY} - {"dask", "sklearn"})
+    return sorted({*__all__, *_LAZY} - {"dask", "sklearn"})
 
 
-def build_info() -> _core.BuildInfo:
-    """Return how the compiled library was built and what it uses on this machine.
-
-    Returns
-    -------
-    dict
-        "version", "compiler", "eigen", "instruction_sets" (those this machine has, the slowest
-        first) and "active" (the one in use).
-
-    Examples
-    --------
-    >>> import curvewise
-    >>> curvewise.build_info()["active"] in curvewise.build_info()["instruction_sets"]
-    True
-    """
-    return _core.build_info()
-
-
-__version__: str = _core.build_info()["version"]
+__version__: str = _build_info()["version"]

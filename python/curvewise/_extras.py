@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib import import_module
+from typing import Any
 
-__all__ = ["extra"]
+__all__ = ["extra", "required"]
 
 
 @contextmanager
@@ -18,3 +20,9 @@ def extra(name: str, needed: str, advice: str = "") -> Iterator[None]:
         yield
     except ImportError as error:
         raise ImportError(f'{needed}: pip install "curvewise[{name}]"{advice}') from error
+
+
+def required(module: str) -> Any:
+    """Return a module of the extra `calibration`, or say how to install it."""
+    with extra("calibration", f"curvewise.calibration needs {module.partition('.')[0]}"):
+        return import_module(module)

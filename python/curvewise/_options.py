@@ -8,6 +8,7 @@ together.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Final, Literal, SupportsFloat, SupportsIndex, TypeAlias
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "StepPattern",
     "WarpingName",
     "Window",
+    "check_choice",
 ]
 
 MeasureName: TypeAlias = Literal[
@@ -61,3 +63,9 @@ class Default:
     workers: Final[SupportsIndex] = 1
     prune: Final[bool] = True
     cutoff: Final[SupportsFloat | None] = None
+
+
+def check_choice(option: str, value: object, choices: Sequence[str]) -> None:
+    """Refuse a `value` that is not one of the strings in `choices`."""
+    if not (isinstance(value, str) and value in choices):
+        raise ValueError(f"unknown {option} {value!r}; choose from {', '.join(choices)}")

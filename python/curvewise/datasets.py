@@ -16,7 +16,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from .named_curve import NamedCurve
+from .curves.named_curve import NamedCurve
 
 __all__ = ["hysteresis_pair", "kinematic_hardening"]
 

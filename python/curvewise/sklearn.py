@@ -13,11 +13,11 @@ from typing import Any, Literal, SupportsIndex, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from ._curves import Array
 from ._extras import extra
 from ._options import Default, MeasureName
-from .nearest import Index, Places
-from .pairwise import Curves
+from .curves.inputs import Array
+from .many.nearest import Index, Places
+from .many.pairwise import Curves
 
 with extra("sklearn", "curvewise.sklearn needs scikit-learn >= 1.6"):
     # Absolute, so these are the packages of that name and not this module. They have no types.

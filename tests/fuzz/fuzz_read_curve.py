@@ -18,10 +18,15 @@ from pathlib import Path
 import numpy as np
 from fuzz_bytes import FoundError, atheris, changed_bytes, run
 
-READERS = ["curvewise.csv_curves", "curvewise.column_choice", "curvewise.curve_files"]
+READERS = [
+    "curvewise.files.csv_curves",
+    "curvewise.files.column_choice",
+    "curvewise.files.curve_files",
+]
 with atheris.instrument_imports(include=READERS) if atheris else contextlib.nullcontext():
-    from curvewise import csv_curves, read_curve
-    from curvewise.column_choice import TimeColumnWarning
+    from curvewise import read_curve
+    from curvewise.files import csv_curves
+    from curvewise.files.column_choice import TimeColumnWarning
 
 SEEDS = Path(__file__).parent / "corpus" / "read_curve"
 WORDS = (b"1,5", b"-0.5e3", b"nan", b"inf", b";", b"\t", b",", b'"', b"\r\n", b"\n", b"#", b"//")

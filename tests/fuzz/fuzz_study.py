@@ -22,9 +22,13 @@ from typing import Any
 
 from fuzz_bytes import FoundError, atheris, changed_bytes, run
 
-READERS = ["curvewise.studies", "curvewise.column_choice", "curvewise.calibration.deck_templates"]
+READERS = [
+    "curvewise.studies",
+    "curvewise.files.column_choice",
+    "curvewise.calibration.models.templates",
+]
 with atheris.instrument_imports(include=READERS) if atheris else contextlib.nullcontext():
-    from curvewise.calibration.parameters import Space
+    from curvewise.calibration.problem.space import Space
     from curvewise.studies import Study, StudyError
 
 SEEDS = Path(__file__).parent / "corpus" / "study"

@@ -14,7 +14,9 @@ from matplotlib.figure import Figure
 
 import curvewise
 import curvewise.compat as similaritymeasures
-from curvewise import cli, curves, datasets, plotting, read_curve, reference, selfcheck
+from curvewise import curves, datasets, plotting, read_curve, reference
+from curvewise.commands import command_line as cli
+from curvewise.commands import selfcheck
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -83,10 +85,10 @@ comparison: curvewise.Comparison = curvewise.compare(P, Q, preset="paper", measu
 number = comparison["dtw"]
 values: dict[str, float] = comparison.to_dict()
 figure: Figure = comparison.plot()
-compiler: str = curvewise.build_info()["compiler"]
-levels: list[str] = curvewise.build_info()["instruction_sets"]
+compiler: str = curvewise.installation.build_info()["compiler"]
+levels: list[str] = curvewise.installation.build_info()["instruction_sets"]
 version: str = curvewise.__version__
-include: str = curvewise.get_include()
+include: str = curvewise.installation.get_include()
 
 axes = figure.subplots()
 plotting.plot_area(P, Q, axes, spacing="x")

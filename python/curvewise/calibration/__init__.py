@@ -8,19 +8,20 @@ hysteresis loops using inverse analysis", Int. J. Material Forming (2018). scipy
 needed: ``pip install "curvewise[calibration]"``.
 """
 
-from .cases import Case
-from .command_model import CommandModel, SolverError
+from .answers.identification import Identification
+from .answers.several_measures import SeveralMeasures
 from .cross_validation import CrossValidation, Fold, cross_validate
-from .evaluations import Progress
-from .identification import Identification
+from .identify import identify
+from .identify_each import identify_each
 from .line_plot import LinePlot, line_plot
-from .objective import MEASURES, Objective, Score
-from .parameters import Below, Log, Tied
+from .models.command import CommandModel, SolverError
+from .objective.cases import Case
+from .objective.objective import MEASURES, Objective, Score
+from .problem.evaluations import Progress
+from .problem.space import Below, Log, Tied
+from .records.store import SimulationStore, StoredRun
 from .rescoring import Rescored, rescore
-from .search import identify
-from .several_measures import SeveralMeasures, identify_each
-from .store import SimulationStore, StoredRun
-from .uncertainty import Uncertainty
+from .uncertainty.uncertainty import Uncertainty
 
 __all__ = [
     "MEASURES",

@@ -16,17 +16,18 @@ from typing import Any
 
 import numpy as np
 
-from .._curves import Array
 from .._options import Preset
-from .curve_list import as_points, curve_list
-from .identification import Identification
-from .loop_selection import Selection
-from .model_identity import model_identity
-from .model_pool import Model
-from .objective import Objective
-from .parameters import Bounds
-from .search import identify
-from .store import SimulationStore
+from ..curves.inputs import Array
+from ..curves.several_curves import as_points, curve_list
+from ..showing.notebook import table
+from .answers.identification import Identification
+from .identify import identify
+from .models.identity import model_identity
+from .models.pool import Model
+from .objective.objective import Objective
+from .problem.selection import Selection
+from .problem.space import Bounds
+from .records.store import SimulationStore
 
 __all__ = ["CrossValidation", "Fold", "cross_validate"]
 
@@ -85,9 +86,8 @@ class CrossValidation:
         return f"CrossValidation({len(self.folds)} folds, measure={self.measure!r})"
 
     def _repr_html_(self) -> str:
-        from .in_notebooks import cross_validation_html
-
-        return cross_validation_html(self)
+        header, *rows = self.rows()
+        return table(rows, header)
 
     def rows(self) -> list[list[str]]:
         """Return the summary's rows, the header first."""

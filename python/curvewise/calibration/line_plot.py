@@ -12,17 +12,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from .._curves import Array
+from .._extras import required
 from .._options import Preset
+from ..curves.inputs import Array
+from ..drawing import figures as drawing
+from ..drawing.palette import series_colours
 from ..measures.registry import default_measures
-from ..plotting import drawing
-from ..plotting.palette import series_colours
-from ._extra import required
-from .model_pool import Model, ModelPool
-from .objective import Objective
+from .models.pool import Model, ModelPool
+from .objective.objective import Objective
 
 if TYPE_CHECKING:
-    from ..plotting.picture import Picture
+    from ..drawing.picture import Picture
 
 __all__ = ["LinePlot", "line_plot"]
 

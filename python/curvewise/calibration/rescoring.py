@@ -12,14 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from .._curves import Array
 from .._options import Preset
-from .curve_list import as_points, curve_list
-from .history import Evaluation, as_records
-from .loop_measure import Measure, Part
-from .model_identity import model_identity
-from .objective import Objective
-from .store import SimulationStore, StoredRun, StorePath
+from ..curves.inputs import Array
+from ..curves.several_curves import as_points, curve_list
+from .models.identity import model_identity
+from .objective.loop_measure import Measure, Part
+from .objective.objective import Objective
+from .records.evaluation import Evaluation, as_records
+from .records.store import SimulationStore, StoredRun, StorePath
 
 __all__ = ["Rescored", "rescore"]
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .._curves import Array, CurveLike
+from ..curves.inputs import Array, CurveLike
 from ._arrays import RealArray, plane_curve, vector
 
 __all__ = ["curve_length_measure", "get_length", "normalizeTwoCurves", "pcm"]

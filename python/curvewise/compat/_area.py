@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import Array, CurveLike
+from ..curves.inputs import Array, CurveLike
 from ._arrays import RealArray, plane_curve, real_array, vector
 
 __all__ = [

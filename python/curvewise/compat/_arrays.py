@@ -2,7 +2,7 @@
 
 Unlike the rest of curvewise, this keeps the dtype of integer and float32 arrays: there, midpoints
 inserted in an integer curve are truncated and float32 curves are computed in float32, and the
-numbers follow from it. What is accepted at all is decided by :mod:`curvewise._curves`.
+numbers follow from it. What is accepted at all is decided by :mod:`curvewise.curves.inputs`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import CurveLike, as_curve
+from ..curves.inputs import CurveLike, as_curve
 
 __all__ = ["RealArray", "plane_curve", "real_array", "vector"]
 

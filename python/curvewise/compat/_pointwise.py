@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .._curves import CurveLike
+from ..curves.inputs import CurveLike
 from ._arrays import RealArray, real_array
 
 __all__ = ["mae", "mse"]

@@ -17,7 +17,7 @@ from typing import Any, cast, get_args
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import Array, CurveLike, as_curve
+from ..curves.inputs import Array, CurveLike, as_curve
 from ..measures import Metric, dtw_table, frechet
 from ._arrays import RealArray
 

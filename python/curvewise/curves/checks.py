@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import Array, CurveLike, as_curve
+from .inputs import Array, CurveLike, as_curve
 
 __all__ = ["Turns", "branch_slices", "check_column", "checked_curve"]
 

@@ -12,9 +12,9 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import Array, CurveLike
-from ..named_curve import renamed
 from .checks import Turns, branch_slices, check_column, checked_curve
+from .inputs import Array, CurveLike
+from .named_curve import renamed
 
 __all__ = ["Along", "resample", "trim"]
 

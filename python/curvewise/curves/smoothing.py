@@ -12,10 +12,10 @@ from importlib import import_module
 
 import numpy as np
 
-from .._curves import Array, CurveLike
 from .._extras import extra
-from ..named_curve import renamed
 from .checks import Turns, branch_slices, check_column, checked_curve
+from .inputs import Array, CurveLike
+from .named_curve import renamed
 
 __all__ = ["smooth"]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._curves import Array, CurveLike
-from ..named_curve import renamed
 from .checks import checked_curve
+from .inputs import Array, CurveLike
+from .named_curve import renamed
 
 __all__ = ["engineering_to_true", "shift_to_origin"]
 

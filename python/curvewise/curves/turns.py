@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import CurveLike
 from .checks import check_column, checked_curve
+from .inputs import CurveLike
 
 __all__ = ["turning_points"]
 

@@ -5,10 +5,11 @@ Algorithm 1 of the paper. Time O(n + m + abs(n - m) log m), memory O(n + m).
 
 from __future__ import annotations
 
-from .. import _core
-from .._curves import CurveLike, as_curves
+from .._core import area as compiled_area
+from .._core import area_quads as compiled_area_quads
 from .._options import Crossing, Default, Spacing
-from ..results import AreaQuads
+from ..curves.inputs import CurveLike, as_curves
+from .results import AreaQuads
 
 __all__ = ["area", "area_quads"]
 
@@ -111,7 +112,7 @@ def area(
     (2.0, 1.0)
     """
     P, Q = as_curves(P, Q)
-    return _core.area(P, Q, {"spacing": spacing, "crossing": crossing, "squared": squared})
+    return compiled_area(P, Q, {"spacing": spacing, "crossing": crossing, "squared": squared})
 
 
 def area_quads(
@@ -153,4 +154,4 @@ def area_quads(
     ((2, 4, 2), [1.0, 1.0])
     """
     P, Q = as_curves(P, Q)
-    return AreaQuads(*_core.area_quads(P, Q, {"spacing": spacing, "crossing": crossing}))
+    return AreaQuads(*compiled_area_quads(P, Q, {"spacing": spacing, "crossing": crossing}))

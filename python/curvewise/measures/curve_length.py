@@ -5,9 +5,10 @@ OF2 of Andrade-Campos, de-Carvalho & Valente (2012); section 2.5 of the paper. T
 
 from __future__ import annotations
 
-from .. import _core
-from .._curves import Array, CurveLike, as_curves
+from .._core import curve_length as compiled_curve_length
+from .._core import curve_length_residuals as compiled_curve_length_residuals
 from .._options import Default, LengthScale
+from ..curves.inputs import Array, CurveLike, as_curves
 
 __all__ = ["curve_length", "curve_length_residuals"]
 
@@ -53,7 +54,7 @@ def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.sca
     1.200566
     """
     P, Q = as_curves(P, Q)
-    return _core.curve_length(P, Q, {"scale": scale})
+    return compiled_curve_length(P, Q, {"scale": scale})
 
 
 def curve_length_residuals(
@@ -87,4 +88,4 @@ def curve_length_residuals(
     [[0.0, 0.0], [0.0, 0.0]]
     """
     P, Q = as_curves(P, Q)
-    return _core.curve_length_residuals(P, Q, {"scale": scale})
+    return compiled_curve_length_residuals(P, Q, {"scale": scale})

@@ -7,12 +7,15 @@ from __future__ import annotations
 
 from typing import SupportsFloat, SupportsIndex
 
-from .. import _core
-from .._curves import Array, CurveLike, as_curves
+from .._core import dtw as compiled_dtw
+from .._core import dtw_info as compiled_dtw_info
+from .._core import dtw_path as compiled_dtw_path
+from .._core import dtw_table as compiled_dtw_table
 from .._docstrings import filled
 from .._options import Default, Metric, Order, StepPattern, Window
-from ..named_curve import copied
-from ..results import Alignment, WarpingInfo
+from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.named_curve import copied
+from .results import Alignment, WarpingInfo
 
 __all__ = ["dtw", "dtw_info", "dtw_path", "dtw_table"]
 
@@ -102,7 +105,7 @@ def dtw(
     0.0
     """
     P, Q = as_curves(P, Q)
-    return _core.dtw(
+    return compiled_dtw(
         P,
         Q,
         {
@@ -164,7 +167,7 @@ def dtw_info(
     """
     P, Q = as_curves(P, Q)
     return WarpingInfo(
-        *_core.dtw_info(
+        *compiled_dtw_info(
             P,
             Q,
             {
@@ -226,7 +229,7 @@ def dtw_path(
     """
     A, B = as_curves(P, Q)
     return Alignment(
-        *_core.dtw_path(
+        *compiled_dtw_path(
             A,
             B,
             {
@@ -286,7 +289,7 @@ def dtw_table(
     [[0.0, 2.0, 5.0], [1.0, 1.0, 3.0]]
     """
     P, Q = as_curves(P, Q)
-    return _core.dtw_table(
+    return compiled_dtw_table(
         P,
         Q,
         {

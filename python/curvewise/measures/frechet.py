@@ -7,12 +7,15 @@ from __future__ import annotations
 
 from typing import SupportsFloat, SupportsIndex
 
-from .. import _core
-from .._curves import Array, CurveLike, as_curves
+from .._core import frechet as compiled_frechet
+from .._core import frechet_info as compiled_frechet_info
+from .._core import frechet_path as compiled_frechet_path
+from .._core import frechet_table as compiled_frechet_table
 from .._docstrings import filled
 from .._options import Default, Metric, Order
-from ..named_curve import copied
-from ..results import Alignment, WarpingInfo
+from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.named_curve import copied
+from .results import Alignment, WarpingInfo
 
 __all__ = ["frechet", "frechet_info", "frechet_path", "frechet_table"]
 
@@ -66,7 +69,7 @@ def frechet(
     3.0
     """
     P, Q = as_curves(P, Q)
-    return _core.frechet(
+    return compiled_frechet(
         P,
         Q,
         {"metric": metric, "p": p, "workers": workers, "prune": prune, "cutoff": cutoff},
@@ -113,7 +116,7 @@ def frechet_info(
     """
     P, Q = as_curves(P, Q)
     options = {"metric": metric, "p": p, "workers": workers, "prune": prune}
-    return WarpingInfo(*_core.frechet_info(P, Q, options))
+    return WarpingInfo(*compiled_frechet_info(P, Q, options))
 
 
 def frechet_path(
@@ -157,7 +160,7 @@ def frechet_path(
     """
     A, B = as_curves(P, Q)
     options = {"metric": metric, "p": p, "workers": workers, "prune": prune}
-    return Alignment(*_core.frechet_path(A, B, options), (copied(P, A), copied(Q, B)))
+    return Alignment(*compiled_frechet_path(A, B, options), (copied(P, A), copied(Q, B)))
 
 
 def frechet_table(
@@ -193,4 +196,4 @@ def frechet_table(
     [[0.0, 2.0], [1.0, 1.0], [2.0, 1.0]]
     """
     P, Q = as_curves(P, Q)
-    return _core.frechet_table(P, Q, {"metric": metric, "p": p})
+    return compiled_frechet_table(P, Q, {"metric": metric, "p": p})

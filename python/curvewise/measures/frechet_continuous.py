@@ -8,12 +8,15 @@ from __future__ import annotations
 
 from typing import Literal, SupportsFloat, SupportsIndex, overload
 
-from .. import _core
-from .._curves import CurveLike, as_curves
+from .._core import frechet_continuous as compiled_frechet_continuous
+from .._core import frechet_continuous_bounds as compiled_frechet_continuous_bounds
+from .._core import frechet_continuous_path as compiled_frechet_continuous_path
+from .._core import frechet_within as compiled_frechet_within
 from .._docstrings import filled
 from .._options import Default
-from ..named_curve import copied
-from ..results import Matching
+from ..curves.inputs import CurveLike, as_curves
+from ..curves.named_curve import copied
+from .results import Matching
 
 __all__ = ["frechet_continuous", "frechet_continuous_path", "frechet_within"]
 
@@ -87,7 +90,7 @@ def frechet_continuous(
     2.0
     """
     P, Q = as_curves(P, Q)
-    compute = _core.frechet_continuous_bounds if bounds else _core.frechet_continuous
+    compute = compiled_frechet_continuous_bounds if bounds else compiled_frechet_continuous
     return compute(P, Q, {"workers": workers})
 
 
@@ -131,7 +134,7 @@ def frechet_continuous_path(
     [[0.0, 0.0], [0.5, 1.0], [1.0, 2.0]]
     """
     p, q = as_curves(P, Q)
-    found = _core.frechet_continuous_path(p, q, {"workers": workers})
+    found = compiled_frechet_continuous_path(p, q, {"workers": workers})
     return Matching(*found, (copied(P, p), copied(Q, q)))
 
 
@@ -176,4 +179,4 @@ def frechet_within(
     (True, False)
     """
     P, Q = as_curves(P, Q)
-    return _core.frechet_within(P, Q, float(distance), bool(continuous))
+    return compiled_frechet_within(P, Q, float(distance), bool(continuous))

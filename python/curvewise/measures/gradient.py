@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import Any, get_args
 
-from .. import _core
-from .._curves import Array, CurveLike, as_curves
+from .._core import value_and_gradient as compiled_value_and_gradient
 from .._options import Differentiable
+from ..curves.inputs import Array, CurveLike, as_curves
 
 __all__ = ["value_and_gradient"]
 
@@ -75,4 +75,4 @@ def value_and_gradient(
         raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(names)}")
     if measure == "sum_of_squares" and options:
         raise TypeError(f"sum_of_squares has no options, but {', '.join(options)} given")
-    return _core.value_and_gradient(measure, P, Q, options)
+    return compiled_value_and_gradient(measure, P, Q, options)

@@ -5,11 +5,12 @@ Witowski & Stander (2012), as section 2.1 of the paper describes it. Time O(n + 
 
 from __future__ import annotations
 
-from .. import _core
-from .._curves import CurveLike, as_curves
+from .._core import pcm as compiled_pcm
+from .._core import pcm_match as compiled_pcm_match
 from .._options import Default, Offsets
-from ..named_curve import copied
-from ..results import PcmMatch
+from ..curves.inputs import CurveLike, as_curves
+from ..curves.named_curve import copied
+from .results import PcmMatch
 
 __all__ = ["pcm", "pcm_match"]
 
@@ -65,7 +66,7 @@ def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> fl
     0.0
     """
     P, Q = as_curves(P, Q)
-    return _core.pcm(P, Q, {"offsets": offsets})
+    return compiled_pcm(P, Q, {"offsets": offsets})
 
 
 def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> PcmMatch:
@@ -102,5 +103,5 @@ def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets)
     ('Q', 0.25)
     """
     p, q = as_curves(P, Q)
-    found = _core.pcm_match(p, q, {"offsets": offsets})
+    found = compiled_pcm_match(p, q, {"offsets": offsets})
     return PcmMatch(*found, (copied(P, p), copied(Q, q)))

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from .. import _core
-from .._curves import (
-    Array,
-    CurveLike,
-    as_curve,
-    as_curves,
-    check_column_names,
-    column_names,
-)
+from .._core import mae as compiled_mae
+from .._core import mse as compiled_mse
+from .._core import normalize as compiled_normalize
+from .._core import sum_of_squares as compiled_sum_of_squares
+from ..curves.inputs import Array, CurveLike, as_curve, as_curves, check_column_names, column_names
 
 __all__ = ["mae", "mse", "normalize", "sum_of_squares"]
 
@@ -46,7 +42,7 @@ def sum_of_squares(P: CurveLike, Q: CurveLike) -> float:
     5.0
     """
     P, Q = as_curves(P, Q)
-    return _core.sum_of_squares(P, Q)
+    return compiled_sum_of_squares(P, Q)
 
 
 def mse(P: CurveLike, Q: CurveLike) -> float:
@@ -78,7 +74,7 @@ def mse(P: CurveLike, Q: CurveLike) -> float:
     1.25
     """
     P, Q = as_curves(P, Q)
-    return _core.mse(P, Q)
+    return compiled_mse(P, Q)
 
 
 def mae(P: CurveLike, Q: CurveLike) -> float:
@@ -110,7 +106,7 @@ def mae(P: CurveLike, Q: CurveLike) -> float:
     0.75
     """
     P, Q = as_curves(P, Q)
-    return _core.mae(P, Q)
+    return compiled_mae(P, Q)
 
 
 def normalize(P: CurveLike, *others: CurveLike) -> list[Array]:
@@ -152,4 +148,4 @@ def normalize(P: CurveLike, *others: CurveLike) -> list[Array]:
     for curve, name in zip(others, names[1:], strict=True):
         check_column_names(column_names(P), "P", column_names(curve), name)
     curves = [box, *(as_curve(curve, name) for curve, name in zip(others, names[1:], strict=True))]
-    return [_core.normalize(box, curve, name) for curve, name in zip(curves, names, strict=True)]
+    return [compiled_normalize(box, curve, name) for curve, name in zip(curves, names, strict=True)]

@@ -8,19 +8,18 @@ and its reference, are named and not imported, so that ``import curvewise`` stay
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from importlib import import_module
 from typing import Any, NamedTuple
 
-from .. import _core
-from .._curves import Array
+from .._core import presets
 from .._options import MeasureName
-from ..results import Alignment
+from ..curves.inputs import Array
 from .area import area
 from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_path, dtw_table
 from .frechet import frechet, frechet_path, frechet_table
 from .frechet_continuous import frechet_continuous
 from .pcm import pcm
+from .results import Alignment
 
 __all__ = [
     "MEASURES",
@@ -84,12 +83,6 @@ class MeasureInfo(NamedTuple):
     residuals: Callable[..., Array] | None = None
     scales_itself: bool = False
     by_default: bool = True
-
-    @property
-    def reference(self) -> Callable[..., float]:
-        """The same in plain numpy."""
-        function: Callable[..., float] = getattr(import_module("curvewise.reference"), self.name)
-        return function
 
 
 MEASURES: Mapping[str, MeasureInfo] = {
@@ -155,7 +148,7 @@ WARPINGS = {name: info.warping for name, info in MEASURES.items() if info.warpin
 
 PRESETS: dict[str, dict[str, Condition]] = {
     preset: {name: Condition(*condition) for name, condition in conditions.items()}
-    for preset, conditions in _core.presets().items()
+    for preset, conditions in presets().items()
 }
 
 

@@ -11,12 +11,12 @@ analysis", Int. J. Material Forming (2018), and their like for the other measure
 
 from __future__ import annotations
 
+from ..drawing.figures import CurveArtists
 from .alignment import plot_alignment
 from .animation import animate_alignment
 from .area import plot_area
 from .comparison import plot_comparison
 from .curve_length import plot_curve_length
-from .drawing import CurveArtists
 from .matching import plot_free_space, plot_matching
 from .pcm import plot_pcm
 from .table import plot_table

@@ -8,16 +8,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import Array, CurveLike
 from .._options import Default, Metric, Order, WarpingName
-from ..reference.ground_distance import check_metric, ground_distances
-from . import drawing
-from .drawing import CurveArtists
+from ..curves.ground_distance import check_metric, ground_distances
+from ..curves.inputs import Array, CurveLike
+from ..drawing import figures as drawing
+from ..drawing.figures import CurveArtists
+from ..drawing.links import draw_path
+from .measured import measured_and_drawn, warping_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["draw_path", "plot_alignment"]
+__all__ = ["plot_alignment"]
 
 
 def plot_alignment(
@@ -77,10 +79,10 @@ def plot_alignment(
     >>> len(artists.between.get_segments()), artists.accent.get_label()
     (3, 'Fréchet distance')
     """
-    warping = drawing.warping(measure)
+    warping = warping_of(measure)
     if every is not None and (every < 1 or every % 1):
         raise ValueError(f"every is {every}; give a whole number >= 1, or None")
-    measured, drawn = drawing.measured_and_drawn(P, Q, normalized)
+    measured, drawn = measured_and_drawn(P, Q, normalized)
     if drawn[0].shape[1] > 2:
         raise ValueError(
             f"P has shape {drawn[0].shape}; plot_alignment draws 1 or 2 coordinates, "
@@ -106,22 +108,6 @@ def plot_alignment(
         label="Fréchet distance",
     )
     return artists._replace(accent=accent)
-
-
-def draw_path(
-    ax: Axes,
-    drawn: tuple[Array, Array],
-    path: npt.NDArray[np.int64],
-    axes: Sequence[str],
-    *,
-    every: int | None = None,
-) -> CurveArtists:
-    """Draw curves of shapes (n, d), d = 1 or 2, and lines between the points of a path's pairs."""
-    lines = drawing.draw_curves(ax, *drawn, axes, apart=True)
-    points = [np.asarray(line.get_xydata()) for line in lines]
-    links = np.stack([points[k][path[:, k]] for k in (0, 1)], axis=1)
-    shown = links[:: int(every)] if every else drawing.evenly(links)
-    return CurveArtists(*lines, drawing.draw_links(ax, shown, "matched points"))
 
 
 def _farthest_pair(

@@ -13,10 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from .._curves import CurveLike
 from .._options import WarpingName
-from . import drawing
-from .alignment import draw_path
+from ..curves.inputs import CurveLike
+from ..drawing import figures as drawing
+from ..drawing.links import draw_path
+from .measured import measured_and_drawn, warping_of
 
 __all__ = ["animate_alignment"]
 
@@ -79,8 +80,8 @@ def animate_alignment(
         raise ValueError(f"frames is {frames}; give a whole number >= 2")
     if not 0.0 < seconds < np.inf:
         raise ValueError(f"seconds is {seconds}; it must be finite and above 0")
-    warping = drawing.warping(measure)
-    measured, drawn = drawing.measured_and_drawn(P, Q, normalized)
+    warping = warping_of(measure)
+    measured, drawn = measured_and_drawn(P, Q, normalized)
     dim = drawn[0].shape[1]
     if dim > 2:
         raise ValueError(

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from .._curves import CurveLike
 from .._options import Crossing, Default, Spacing
+from ..curves.inputs import CurveLike
+from ..curves.scaling import box
+from ..drawing import figures as drawing
+from ..drawing.figures import CurveArtists
 from ..measures import area_quads
-from ..reference.scaling import box
-from . import drawing
-from .drawing import CurveArtists
+from .measured import measured_and_drawn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -68,7 +69,7 @@ def plot_area(
     >>> len(artists.between.get_paths())
     2
     """
-    measured, drawn = drawing.measured_and_drawn(P, Q, normalized)
+    measured, drawn = measured_and_drawn(P, Q, normalized)
     axes = drawing.axis_names(drawn[0].shape[1], names, P, Q)
     quads = area_quads(*measured, spacing=spacing, crossing=crossing).quads
     if normalized:

@@ -2,26 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
-from ..measures.registry import MEASURES
-from . import drawing
+from ..curves.inputs import Array
+from ..drawing import figures as drawing
+from ..measures.registry import MEASURES, Condition
 from .matching import plot_free_space
+from .measured import measured_and_drawn
 from .table import plot_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
-    from ..compare import Comparison
-    from .picture import Picture
+    from ..drawing.picture import Picture
 
 __all__ = ["plot_comparison"]
 
 
-def plot_comparison(comparison: Comparison, *, names: Sequence[str] | None = None) -> Picture:
+class Compared(Protocol):
+    """What is drawn of a :class:`curvewise.Comparison`."""
+
+    @property
+    def P(self) -> Array: ...
+    @property
+    def Q(self) -> Array: ...
+    @property
+    def preset(self) -> str: ...
+    @property
+    def values(self) -> Mapping[str, float]: ...
+    @property
+    def conditions(self) -> Mapping[str, Condition]: ...
+
+
+def plot_comparison(comparison: Compared, *, names: Sequence[str] | None = None) -> Picture:
     """Draw both curves, and for each measure of a comparison its value and its picture.
 
     In the plane the curves fill the large panel and each measure has a small one. For series
@@ -62,7 +78,7 @@ def plot_comparison(comparison: Comparison, *, names: Sequence[str] | None = Non
     ['Area: 0.5', 'Partial curve mapping: 0.3953']
     """
     P, Q = comparison.P, comparison.Q
-    _, drawn = drawing.measured_and_drawn(P, Q, normalized=False)
+    _, drawn = measured_and_drawn(P, Q, normalized=False)
     dim = drawn[0].shape[1]
     axes = drawing.axis_names(dim, names, P, Q)
     figure = drawing.new_figure(layout="constrained")
@@ -79,9 +95,7 @@ def plot_comparison(comparison: Comparison, *, names: Sequence[str] | None = Non
     return figure
 
 
-def _draw_measure(
-    comparison: Comparison, name: str, ax: Axes, axes: Sequence[str]
-) -> Line2D | None:
+def _draw_measure(comparison: Compared, name: str, ax: Axes, axes: Sequence[str]) -> Line2D | None:
     """Draw the picture of one measure into a small panel, and return its accent."""
     dim = len(axes)
     info, condition = MEASURES[name], comparison.conditions[name]

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._curves import CurveLike
 from .._options import Default, LengthScale
+from ..curves.arc_length import corresponding_positions, interpolate
+from ..curves.inputs import CurveLike
+from ..drawing import figures as drawing
+from ..drawing.figures import CurveArtists
 from ..measures import curve_length
-from ..reference.arc_length import interpolate
-from ..reference.curve_length import corresponding_positions
-from . import drawing
-from .drawing import CurveArtists
+from .measured import measured_and_drawn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -71,7 +71,7 @@ def plot_curve_length(
     >>> artists.between.get_segments()[1].tolist()
     [[1.0, 1.0], [2.0, 1.0]]
     """
-    measured, drawn = drawing.measured_and_drawn(P, Q, normalized)
+    measured, drawn = measured_and_drawn(P, Q, normalized)
     curve_length(*measured, scale=scale)  # for its checks
     counterparts = interpolate(drawn[1], *corresponding_positions(*measured))
     links = np.stack([drawn[0], counterparts], axis=1)

@@ -7,18 +7,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._curves import Array, CurveLike
+from ..curves.arc_length import points_at
+from ..curves.inputs import CurveLike
+from ..drawing import figures as drawing
+from ..drawing.figures import CurveArtists
+from ..drawing.links import draw_matching
 from ..measures import frechet_continuous_path
-from ..results import Matching
-from . import drawing
-from .drawing import CurveArtists
+from .measured import measured_and_drawn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.image import AxesImage
     from matplotlib.lines import Line2D
 
-__all__ = ["draw_matching", "plot_free_space", "plot_matching"]
+__all__ = ["plot_free_space", "plot_matching"]
 
 _LINES = 60  # of a curve; more vertices than this are not marked in a diagram
 _PIXELS = 600  # of a side of the diagram
@@ -70,43 +72,15 @@ def plot_matching(
     >>> artists.accent.get_xydata().tolist()
     [[5.0, 0.0], [5.0, 3.0]]
     """
-    measured, drawn = drawing.measured_and_drawn(P, Q, normalized)
+    measured, drawn = measured_and_drawn(P, Q, normalized)
     if drawn[0].shape[1] > 2:
         raise ValueError(
             f"P has shape {drawn[0].shape}; plot_matching draws 1 or 2 coordinates, "
             "plot_free_space any number"
         )
     axes = drawing.axis_names(drawn[0].shape[1], names, P, Q)
-    return draw_matching(ax, measured, drawn, frechet_continuous_path(*measured), axes)
-
-
-def draw_matching(
-    ax: Axes,
-    measured: tuple[Array, Array],
-    drawn: tuple[Array, Array],
-    matching: Matching,
-    axes: Sequence[str],
-) -> CurveArtists:
-    """Draw a matching of the curves that were measured on the curves to be drawn."""
-    matched = matching.parameters
-    lengths = _leashes(*measured, matched)
-    lines = drawing.draw_curves(ax, *drawn, axes, apart=True)
-    points = [np.asarray(line.get_xydata()) for line in lines]
-    shown = _evenly(matched)
-    links = np.stack([_points_at(points[k], shown[:, k]) for k in (0, 1)], axis=1)
-    between = drawing.draw_links(ax, links, "matched points")
-    longest = matched[np.argmax(lengths)]
-    ends = [_points_at(points[k], longest[k : k + 1])[0] for k in (0, 1)]
-    (accent,) = ax.plot(
-        *np.transpose(ends),
-        color=drawing.ACCENT_COLOUR,
-        linewidth=2,
-        marker="o",  # a leash of length 0 is not seen
-        markersize=4,
-        zorder=3,
-        label="continuous Fréchet distance",
-    )
-    return CurveArtists(*lines, between, accent)
+    walks = frechet_continuous_path(*measured).parameters
+    return draw_matching(ax, measured, drawn, walks, axes)
 
 
 def plot_free_space(
@@ -160,13 +134,13 @@ def plot_free_space(
     """
     with drawing.matplotlib_required():
         from matplotlib.colors import ListedColormap
-    (P, Q), _ = drawing.measured_and_drawn(P, Q, normalized)
+    (P, Q), _ = measured_and_drawn(P, Q, normalized)
     points = [curve.reshape(len(curve), -1) for curve in (P, Q)]
     matching = frechet_continuous_path(P, Q)
     leash = matching.distance if distance is None else float(distance)
     n, m = (max(len(curve) - 1, 1) for curve in points)
     sides = [(np.arange(_PIXELS) + 0.5) / _PIXELS * edges for edges in (n, m)]
-    p, q = (_points_at(curve, side) for curve, side in zip(points, sides, strict=True))
+    p, q = (points_at(curve, side) for curve, side in zip(points, sides, strict=True))
     square = sum((p[:, np.newaxis, c] - q[:, c]) ** 2 for c in range(p.shape[1]))
     image = ax.imshow(
         square <= leash**2,
@@ -192,30 +166,3 @@ def plot_free_space(
         )
     drawing.label_axes(ax, "vertex of Q", "vertex of P")
     return image, path
-
-
-def _points_at(curve: Array, parameters: Array) -> Array:
-    """Return the points at parameters of a curve, vertex index plus fraction."""
-    first = np.minimum(parameters.astype(np.intp), max(len(curve) - 2, 0))
-    t = (parameters - first)[:, np.newaxis]
-    following = np.minimum(first + 1, len(curve) - 1)
-    points: Array = (1 - t) * curve[first] + t * curve[following]
-    return points
-
-
-def _leashes(P: Array, Q: Array, matched: Array) -> Array:
-    """Return the lengths of the leashes of a matching."""
-    P, Q = (curve.reshape(len(curve), -1) for curve in (P, Q))
-    lengths: Array = np.linalg.norm(
-        _points_at(P, matched[:, 0]) - _points_at(Q, matched[:, 1]), axis=1
-    )
-    return lengths
-
-
-def _evenly(matched: Array) -> Array:
-    """Return parameters of a matching that are evenly spread along its path."""
-    shares = matched / np.maximum(matched[-1], 1)  # both curves count alike
-    steps = np.abs(np.diff(shares, axis=0)).sum(axis=1)
-    walked = np.concatenate([[0.0], np.cumsum(steps)])
-    places = np.linspace(0, walked[-1], drawing.MAX_LINKS)
-    return np.column_stack([np.interp(places, walked, matched[:, k]) for k in (0, 1)])

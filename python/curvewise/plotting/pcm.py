@@ -5,20 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from .._curves import Array, CurveLike, as_curves
 from .._options import Default, Offsets
-from ..measures import normalize, pcm_match
-from ..reference.arc_length import arc_lengths
-from ..results import PcmMatch
-from . import drawing
-from .drawing import CurveArtists
+from ..curves.inputs import CurveLike, as_curves
+from ..drawing import figures as drawing
+from ..drawing.figures import CurveArtists
+from ..drawing.links import draw_placement
+from ..measures import pcm_match
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["draw_match", "plot_pcm"]
+__all__ = ["plot_pcm"]
 
 
 def plot_pcm(
@@ -67,28 +64,5 @@ def plot_pcm(
     [[1.0, 1.0], [3.0, 3.0]]
     """
     match = pcm_match(P, Q, offsets=offsets)
-    return draw_match(ax, as_curves(P, Q), match, drawing.axis_names(2, names, P, Q))
-
-
-def draw_match(
-    ax: Axes, curves: tuple[Array, Array], match: PcmMatch, axes: Sequence[str]
-) -> CurveArtists:
-    """Draw curves and where one of them has been placed on the other."""
-    shorter, longer = (0, 1) if match.mapped == "P" else (1, 0)
-    lengths = [arc_lengths(curve) for curve in normalize(*curves)]
-    end = match.offset + lengths[shorter][-1]
-    inside = curves[longer][(lengths[longer] > match.offset) & (lengths[longer] < end)]
-    stretch = np.concatenate([match.points[:1], inside, match.points[-1:]])
-    lines = drawing.draw_curves(ax, *curves, axes)
-    links = np.stack([curves[shorter], match.points], axis=1)
-    between = drawing.draw_links(ax, drawing.evenly(links), "mapped points")
-    (accent,) = ax.plot(
-        *stretch.T,
-        color=drawing.ACCENT_COLOUR,
-        linewidth=5,
-        alpha=0.25,
-        solid_capstyle="butt",
-        zorder=1.5,
-        label=f"stretch of {'PQ'[longer]} in use",
-    )
-    return CurveArtists(*lines, between, accent)
+    axes = drawing.axis_names(2, names, P, Q)
+    return draw_placement(ax, as_curves(P, Q), match.mapped, match.offset, match.points, axes)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .._curves import CurveLike
 from .._options import WarpingName
-from . import drawing
-from .palette import TABLE_MAP
+from ..curves.inputs import CurveLike
+from ..drawing import figures as drawing
+from ..drawing.palette import TABLE_MAP
+from .measured import measured_and_drawn, warping_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -72,8 +73,8 @@ def plot_table(
     """
     with drawing.matplotlib_required():
         from matplotlib.patheffects import withStroke
-    warping = drawing.warping(measure)
-    measured, _ = drawing.measured_and_drawn(P, Q, normalized)
+    warping = warping_of(measure)
+    measured, _ = measured_and_drawn(P, Q, normalized)
     table = warping.table(*measured, **options)
     path = warping.path(*measured, **options).path
     n, m = table.shape

@@ -30,9 +30,9 @@ from .dtw import dtw, dtw_path, dtw_table
 from .frechet import frechet, frechet_path, frechet_table
 from .frechet_continuous import frechet_continuous, frechet_continuous_path, frechet_within
 from .gradient import value_and_gradient
+from .normalize import normalize
 from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, sum_of_squares
-from .scaling import normalize
 
 __all__ = [
     "area",

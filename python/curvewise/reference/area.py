@@ -17,13 +17,13 @@ from typing import NamedTuple, get_args
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import Array, CurveLike, as_curves
-from .._options import Crossing, Default, Spacing
-from ..results import AreaQuads
-from .checks import check_choice, check_pair
+from .._options import Crossing, Default, Spacing, check_choice
+from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.scaling import range_exponent, times_power_of_two
+from ..measures.results import AreaQuads
+from .checks import check_pair
 from .matching import Indices, matched_curves
 from .refinement import facing_curves
-from .scaling import range_exponent, times_power_of_two
 
 __all__ = ["area", "area_quads"]
 

@@ -7,26 +7,18 @@ compiled library uses the same words.
 from __future__ import annotations
 
 import operator
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from .._curves import Array
+from ..curves.inputs import Array
 
 __all__ = [
-    "check_choice",
     "check_length",
     "check_pair",
     "check_same_shape",
     "whole_number",
 ]
-
-
-def check_choice(option: str, value: object, choices: Sequence[str]) -> None:
-    """Refuse a `value` that is not one of the strings in `choices`."""
-    if not (isinstance(value, str) and value in choices):
-        raise ValueError(f"unknown {option} {value!r}; choose from {', '.join(choices)}")
 
 
 def whole_number(option: str, value: Any, least: int, advice: str) -> int:

@@ -12,13 +12,13 @@ from typing import get_args
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import Array, CurveLike, as_curves
-from .._options import Default, LengthScale
-from .arc_length import arc_lengths, interpolate, locate
-from .checks import check_choice, check_length, check_pair
-from .scaling import range_exponent, times_power_of_two
+from .._options import Default, LengthScale, check_choice
+from ..curves.arc_length import corresponding_positions, interpolate
+from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.scaling import range_exponent, times_power_of_two
+from .checks import check_length, check_pair
 
-__all__ = ["corresponding_positions", "curve_length", "curve_length_residuals"]
+__all__ = ["curve_length", "curve_length_residuals"]
 
 
 def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.scale) -> float:
@@ -44,20 +44,6 @@ def curve_length_residuals(
     check_length(Q, "Q", "curve_length")
     position = corresponding_positions(P, Q)
     return np.column_stack([_residuals(P[:, c], Q[:, c], position, "xy"[c], scale) for c in (0, 1)])
-
-
-def corresponding_positions(P: Array, Q: Array) -> tuple[npt.NDArray[np.intp], Array]:
-    """Return, for every point of P, segment of Q and fraction of it at the same arc length."""
-    s, t = _relative_arc_lengths(P), _relative_arc_lengths(Q)
-    position = np.minimum(s * (t[-1] / s[-1]), t[-1])
-    position[-1] = t[-1]  # whatever the rounding of the quotient
-    return locate(t, position)
-
-
-def _relative_arc_lengths(curve: Array) -> Array:
-    largest = np.abs(curve).max(axis=0)
-    # The original's number for a coordinate that is 0 throughout. It has no effect: 0 / 1e-15.
-    return arc_lengths(curve / np.where(largest > 0, largest, 1e-15))
 
 
 def _residuals(

@@ -17,12 +17,12 @@ from typing import Any, NamedTuple, get_args
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import Array, CurveLike, as_curves
-from .._options import Default, Metric, Order, StepPattern, Window
-from ..results import Alignment
-from .checks import check_choice, check_pair, whole_number
-from .ground_distance import check_metric, degree, ground_distances
-from .scaling import range_exponent, times_power_of_two
+from .._options import Default, Metric, Order, StepPattern, Window, check_choice
+from ..curves.ground_distance import check_metric, degree, ground_distances
+from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.scaling import range_exponent, times_power_of_two
+from ..measures.results import Alignment
+from .checks import check_pair, whole_number
 
 __all__ = ["dtw", "dtw_path", "dtw_table"]
 

@@ -18,12 +18,12 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import Array, CurveLike, as_curves
 from .._options import Default, Metric, Order
-from ..results import Alignment
+from ..curves.ground_distance import check_metric, degree, ground_distances
+from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.scaling import range_exponent, times_power_of_two
+from ..measures.results import Alignment
 from .checks import check_pair
-from .ground_distance import check_metric, degree, ground_distances
-from .scaling import range_exponent, times_power_of_two
 
 __all__ = ["frechet", "frechet_path", "frechet_table"]
 

@@ -24,8 +24,8 @@ from typing import Literal, SupportsFloat, TypeAlias, overload
 
 import numpy as np
 
-from .._curves import Array, CurveLike, as_curves
-from ..results import Matching
+from ..curves.inputs import Array, CurveLike, as_curves
+from ..measures.results import Matching
 from .checks import check_pair
 
 __all__ = ["frechet_continuous", "frechet_continuous_path", "frechet_within"]

@@ -12,10 +12,9 @@ from typing import Any, get_args
 
 import numpy as np
 
-from .._curves import Array, CurveLike, as_curves
-from .._options import Differentiable
+from .._options import Differentiable, check_choice
+from ..curves.inputs import Array, CurveLike, as_curves
 from .area import area
-from .checks import check_choice
 from .curve_length import curve_length
 from .dtw import dtw
 from .frechet import frechet

@@ -23,22 +23,18 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import Array
-from .arc_length import arc_lengths, interpolate, locate
+from ..curves.arc_length import arc_lengths, interpolate, locate
+from ..curves.inputs import Array
+from ..curves.scaling import box_scaled
+from ..curves.travel import GRID, on_grid, travel_on_grid
 from .dtw import dtw_path
-from .scaling import box_scaled
 
-__all__ = ["Matching", "matched_curves", "travel"]
+__all__ = ["Matching", "matched_curves"]
 
 Indices = npt.NDArray[np.intp]
 
 _PIECES_PER_SIDE = 10  # of the box
 _SAMPLES_PER_PIECE = 5
-# A reversal below this part of the box is noise, or an outlier, and no travel.
-_LEAST_REVERSAL = 1 / 3
-# 30 bits hold more than any measurement does, and leave room for sums of a million distances
-# without rounding.
-_GRID = 2.0**30
 # Further away, in boxes, than any point that could be matched to advantage; keeps sums finite.
 _FAR = 2.0**40
 
@@ -54,7 +50,7 @@ class Matching(NamedTuple):
 def matched_curves(P: Array, Q: Array) -> Matching:
     """Return P and Q with a vertex at every vertex of the other, and at every end of a piece."""
     scaled_p, scaled_q = _in_box(P, P, Q), _in_box(Q, P, Q)
-    boxes = sum(_travel_on_grid(scaled_p[:, c]) for c in range(2)) / _GRID
+    boxes = sum(travel_on_grid(scaled_p[:, c]) for c in range(2)) / GRID
     pieces = max(1, math.ceil(_PIECES_PER_SIDE * boxes))
     samples = _SAMPLES_PER_PIECE * pieces
     at_p, at_q = _positions(scaled_p, samples), _positions(scaled_q, samples)
@@ -78,36 +74,6 @@ def _in_box(curve: Array, P: Array, Q: Array) -> Array:
     return np.clip(scaled, -_FAR, _FAR)
 
 
-def _on_grid(points: Array) -> Array:
-    return np.rint(points * _GRID)
-
-
-def travel(coordinate: Array) -> float:
-    """Return how far a coordinate travels, to and fro, without reversals below a third of it."""
-    low, extent = float(coordinate.min()), float(np.ptp(coordinate))
-    return _travel_on_grid((coordinate - low) / extent) / _GRID * extent if extent > 0 else 0.0
-
-
-def _travel_on_grid(coordinate: Array) -> float:
-    x: list[float] = _on_grid(coordinate).tolist()
-    least = _LEAST_REVERSAL * _GRID
-    total = 0.0
-    low = high = turn = x[0]
-    rises: bool | None = None  # not known until it has travelled far enough
-    for value in x:
-        low, high = min(low, value), max(high, value)
-        if rises is not False and value <= high - least:
-            total += high - turn
-            turn, low, rises = high, value, False
-        elif rises is not True and value >= low + least:
-            total += turn - low
-            turn, high, rises = low, value, True
-    if rises is None:
-        return abs(x[-1] - turn)
-    last = high if rises else low
-    return total + abs(last - turn) + abs(x[-1] - last)
-
-
 def _positions(points: Array, samples: int) -> Array:
     """Return where each vertex lies along its curve: 0 at the first, `samples` at the last."""
     lengths = arc_lengths(points)
@@ -119,7 +85,7 @@ def _positions(points: Array, samples: int) -> Array:
 
 def _sampled(points: Array, positions: Array, samples: int) -> Array:
     """Return the points at positions 0, 1, ..., on the grid."""
-    return _on_grid(interpolate(points, *locate(positions, np.arange(samples + 1.0))))
+    return on_grid(interpolate(points, *locate(positions, np.arange(samples + 1.0))))
 
 
 def _places(positions: Array, i: npt.NDArray[np.int64], j: npt.NDArray[np.int64]) -> Array:

@@ -15,13 +15,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .._curves import Array, CurveLike, as_curve
 from .._options import Default, MeasureName, Metric, Order, WarpingName, Window
-from ..results import DtwMean, Subsequence
+from ..curves.ground_distance import check_metric, degree, ground_distances
+from ..curves.inputs import Array, CurveLike, as_curve
+from ..curves.scaling import range_exponent, times_power_of_two
+from ..measures.results import DtwMean, Subsequence
 from .checks import check_pair
 from .dtw import dtw_path
-from .ground_distance import check_metric, degree, ground_distances
-from .scaling import range_exponent, times_power_of_two
 
 __all__ = ["dtw_mean", "kneighbors", "radius_neighbors", "subsequence"]
 

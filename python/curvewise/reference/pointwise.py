@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._curves import Array, CurveLike, as_curves
+from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.scaling import range_exponent, times_power_of_two
 from .checks import check_pair, check_same_shape
-from .scaling import range_exponent, times_power_of_two
 
 __all__ = ["mae", "mse", "sum_of_squares"]
 

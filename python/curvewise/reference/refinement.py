@@ -13,10 +13,10 @@ import math
 
 import numpy as np
 
-from .._curves import Array
 from .._options import Spacing
-from .arc_length import box_scaled_arc_lengths
-from .scaling import times_power_of_two
+from ..curves.arc_length import box_scaled_arc_lengths
+from ..curves.inputs import Array
+from ..curves.scaling import times_power_of_two
 
 __all__ = ["facing_curves"]
 

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._curves import Array
+from ..curves.inputs import Array
 
 __all__ = ["Row", "SolverOutput", "as_number", "lines_of"]
 

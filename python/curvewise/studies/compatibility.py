@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..calibration.running import Plan
+from ..calibration.methods.search import Plan
 from .study_model import StudyModel
 from .toml_source import KeyPath, Source
 

@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 
 from .. import solvers
-from .._curves import Array
-from ..column_choice import TimeColumnWarning
-from ..curve_files import read_curve, read_named_columns
+from ..curves.inputs import Array
+from ..files.column_choice import TimeColumnWarning
+from ..files.curve_files import read_curve, read_named_columns
 from ..solvers import SolverOutput
 from .formulas import Formula
 

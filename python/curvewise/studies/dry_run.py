@@ -16,12 +16,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._curves import Array
 from ..calibration import SimulationStore, SolverError
-from ..calibration.curve_list import points_of
-from ..calibration.model_identity import model_identity
-from ..calibration.model_pool import Outcome
-from ..calibration.parameters import Space
+from ..calibration.models.identity import model_identity
+from ..calibration.models.pool import Outcome
+from ..calibration.problem.space import Space
+from ..curves.inputs import Array
+from ..curves.several_curves import points_of
 from .entries import TestEntry
 from .study_model import StudyModel
 

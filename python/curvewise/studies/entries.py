@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from .._curves import Array
+from ..curves.inputs import Array
 from .curve_sources import CurveSource
 from .study_model import DeckTable, DeckValue
 

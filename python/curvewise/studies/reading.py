@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..calibration import Below, Log, Tied
-from ..calibration.parameters import Space
+from ..calibration.problem.space import Space
 from . import keys
 from .entries import ModelEntry, SearchEntry, TestEntry
 from .formulas import Formula, undefined_name

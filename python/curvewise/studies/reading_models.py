@@ -9,8 +9,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ..calibration.command_model import LOG
-from ..calibration.deck_templates import read_templates
+from ..calibration.models.command import LOG
+from ..calibration.models.templates import read_templates
 from . import keys
 from .entries import ModelEntry
 from .formulas import Formula, undefined_name

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..calibration import MEASURES
-from ..calibration.methods import METHODS
+from ..calibration.methods.registry import METHODS
 from ..measures.registry import PRESETS
 from . import keys
 from .entries import SearchEntry

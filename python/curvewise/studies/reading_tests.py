@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from .._curves import Array
 from ..calibration import MEASURES
+from ..curves.inputs import Array
 from ..measures.registry import PRESETS
 from . import keys
 from .curve_sources import FORMATS, CurveSource, Quantity, format_of

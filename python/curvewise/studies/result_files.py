@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .. import __version__
 from ..calibration import Identification, Uncertainty
+from ..installation import build_info
 
 if TYPE_CHECKING:
     from .study import Found, Study
@@ -68,7 +68,7 @@ def _contents(study: Study, found: Found) -> dict[str, Any]:
     return {
         "study": study.path.name,
         "title": study.title,
-        "curvewise": __version__,
+        "curvewise": build_info()["version"],
         "numpy": np.__version__,
         "tests": [test.name for test in study.tests],
         "found": {

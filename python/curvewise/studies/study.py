@@ -26,11 +26,11 @@ from ..calibration import (
     identify,
     identify_each,
 )
-from ..calibration.cases import CaseObjective
-from ..calibration.command_model import LOG
-from ..calibration.deck_templates import read_templates
-from ..calibration.model_identity import model_identity
-from ..plotting import drawing
+from ..calibration.models.command import LOG
+from ..calibration.models.identity import model_identity
+from ..calibration.models.templates import read_templates
+from ..calibration.objective.cases import CaseObjective
+from ..drawing import figures as drawing
 from .compatibility import check_together
 from .dry_run import DryRun, dry_run
 from .entries import ModelEntry, SearchEntry, TestEntry

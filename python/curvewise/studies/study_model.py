@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from .._curves import Array
 from ..calibration import CommandModel
+from ..curves.inputs import Array
 from .curve_sources import CurveSource
 from .formulas import Formula
 

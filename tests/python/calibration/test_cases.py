@@ -10,7 +10,7 @@ from test_history import assert_same
 
 from curvewise import datasets
 from curvewise.calibration import Below, Case, Log, Tied, identify
-from curvewise.calibration.parameters import Space
+from curvewise.calibration.problem.space import Space
 
 CYCLE = np.concatenate(
     [np.linspace(a, b, 20, endpoint=False) for a, b in itertools.pairwise((0.0, 0.02, -0.02, 0.02))]

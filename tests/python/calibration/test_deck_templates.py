@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from curvewise.calibration import CommandModel
-from curvewise.calibration.deck_templates import placeholder_spans
+from curvewise.calibration.models.templates import placeholder_spans
 
 
 def filled(folder: Path, text: str, value: float | str) -> str:

@@ -14,7 +14,8 @@ import numpy as np
 import pytest
 
 from curvewise.calibration import identify
-from curvewise.calibration.history import Evaluation, History, append_ending, read_history
+from curvewise.calibration.records.evaluation import Evaluation
+from curvewise.calibration.records.history import History, append_ending, read_history
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}

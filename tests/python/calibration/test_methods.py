@@ -120,7 +120,7 @@ def test_a_model_driven_by_the_tests_own_strains(method):
     found = quiet_identify(model, noisy, BOUNDS, **keywords)
     squares = ((found.simulations[0] - noisy)[:, 1] ** 2).sum()
     assert found.value == pytest.approx(squares / np.ptp(noisy[:, 1]) ** 2, rel=1e-12)
-    residuals = found.study.objective.residuals(found.simulations)
+    residuals = found.problem.objective.residuals(found.simulations)
     assert residuals.shape == (len(noisy),)
     uncertainty = found.uncertainty(sigma=4.0)
     for name, error in uncertainty.standard_errors.items():
@@ -319,7 +319,7 @@ def test_one_start_does_not_halt_with_stale_slopes(slopes):
         method_options={"starts": 1, "slopes": slopes},
     )
     assert found.converged
-    assert found.value < 1.01 * found.study.objective(two_cycles(truth))
+    assert found.value < 1.01 * found.problem.objective(two_cycles(truth))
     assert found.evaluations < 100
 
 

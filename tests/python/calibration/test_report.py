@@ -12,13 +12,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from curvewise import cli
 from curvewise.calibration import Case, Log, Tied, identify, identify_each
 from curvewise.calibration.report import figures, page, records_of
 from curvewise.calibration.report.branches import branches_of
 from curvewise.calibration.report.repeating import code_to_repeat
 from curvewise.calibration.report.sections import most_points
-from curvewise.named_curve import NamedCurve
+from curvewise.commands import command_line as cli
+from curvewise.curves.named_curve import NamedCurve
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 X = np.linspace(0.0, 1.0, 20)
@@ -238,7 +238,7 @@ def test_files_from_before_reports_open_and_say_what_to_do(tmp_path, capsys):
 
 
 def test_a_history_without_its_tests_is_resumed_but_not_reported(tmp_path):
-    from curvewise.calibration import history
+    from curvewise.calibration.records import history
 
     file = tmp_path / "h.csv"
     first = identify(line, experiments()[0], BOUNDS, history=file, **QUICK)

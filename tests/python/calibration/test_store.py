@@ -23,8 +23,8 @@ from curvewise.calibration import (
     identify,
     rescore,
 )
-from curvewise.calibration.history import Evaluation
-from curvewise.calibration.model_pool import Outcome
+from curvewise.calibration.models.pool import Outcome
+from curvewise.calibration.records.evaluation import Evaluation
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
@@ -344,11 +344,11 @@ def test_what_is_new_is_written_at_once_after_a_pause(tmp_path, monkeypatch):
 
     with SimulationStore(file) as store:
         search = store.searches.begin({}, {})
-        monkeypatch.setattr("curvewise.calibration.store._PAUSE", 1e9)
+        monkeypatch.setattr("curvewise.calibration.records.store._PAUSE", 1e9)
         store.save("line", {"a": 1.0}, outcome)
         store.note(search, Evaluation(1, (1.0,), 0.0, failed=False, seconds=1.0))
         assert written() == [0, 0]
-        monkeypatch.setattr("curvewise.calibration.store._PAUSE", -1.0)
+        monkeypatch.setattr("curvewise.calibration.records.store._PAUSE", -1.0)
         store.note(search, Evaluation(2, (2.0,), 0.0, failed=False, seconds=1.0))
         assert written() == [1, 2]
         store.save("line", {"a": 2.0}, outcome)

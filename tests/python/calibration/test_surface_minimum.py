@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from curvewise.calibration.objective.objective.cases import CaseObjective
+from curvewise.calibration.surfaces.surfaces.nonsmooth_descent import nonsmooth_descent
+from curvewise.calibration.surfaces.surfaces.surface_minimum import SurfaceMinimum
+from curvewise.calibration.surfaces.surfaces.surfaces import Responses, Surfaces, thinned_rows
 
 from curvewise.calibration import Case, Objective, identify
-from curvewise.calibration.cases import CaseObjective
-from curvewise.calibration.nonsmooth_descent import nonsmooth_descent
-from curvewise.calibration.surface_minimum import SurfaceMinimum
-from curvewise.calibration.surfaces import Responses, Surfaces, thinned_rows
 
 X = np.linspace(0.0, 1.0, 31)
 TEST = np.column_stack((X, np.sin(3.0 * X)))
@@ -244,7 +244,7 @@ def test_progress_moves_between_runs(monkeypatch):
             shown.append((refresh, values.get("predicted")))
 
     monkeypatch.setattr("tqdm.auto.tqdm", Bar)
-    monkeypatch.setattr("curvewise.calibration.evaluations._PAUSE", 0.0)
+    monkeypatch.setattr("curvewise.calibration.problem.evaluations._PAUSE", 0.0)
     x = np.linspace(0.0, 1.0, 1000)
 
     def line(p):

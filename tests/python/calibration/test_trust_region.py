@@ -8,10 +8,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from curvewise.calibration.methods.registry.trust_region import (
+    _descend,
+    _Rules,
+    _Search,
+    _simplex,
+    trust_region,
+)
 
-from curvewise.calibration.evaluations import Finish
-from curvewise.calibration.history import Evaluation
-from curvewise.calibration.trust_region import _descend, _Rules, _Search, _simplex, trust_region
+from curvewise.calibration.problem.evaluations import Finish
+from curvewise.calibration.records.evaluation import Evaluation
 
 REACH = 0.8  # of the region, by every step
 RULES = _Rules(initial_range=0.2, diff_step=0.02, tol=1e-3, gain=1e-3, maxiter=50, slopes="broyden")
@@ -167,9 +173,9 @@ def test_how_many_starts_end_alike(values, alike, monkeypatch):
 
         def begin(self, start: Any, radius: float) -> None: ...
 
-    monkeypatch.setattr("curvewise.calibration.trust_region._Search", Ended)
+    monkeypatch.setattr("curvewise.calibration.methods.trust_region._Search", Ended)
     monkeypatch.setattr(
-        "curvewise.calibration.trust_region._descend",
+        "curvewise.calibration.methods.trust_region._descend",
         lambda search, *_: Finish(True, f"ended at {search.value}"),
     )
     best = min(values)

@@ -133,7 +133,7 @@ def python(*arguments: str) -> str:
 @pytest.fixture
 def wheel() -> None:
     try:
-        curvewise.get_include()
+        curvewise.installation.get_include()
     except FileNotFoundError:
         pytest.skip("curvewise runs from its source tree: pip install it to test the wheel")
 
@@ -152,8 +152,8 @@ def test_wheel(wheel, tmp_path) -> None:
 
 
 def test_wheel_says_where(wheel) -> None:
-    assert python("--includes") == f"-I{curvewise.get_include()}"
-    assert (Path(curvewise.get_include()) / "curvewise" / "curvewise.hpp").is_file()
+    assert python("--includes") == f"-I{curvewise.installation.get_include()}"
+    assert (Path(curvewise.installation.get_include()) / "curvewise" / "curvewise.hpp").is_file()
     assert (Path(python("--cmakedir")) / "curvewiseConfig.cmake").is_file()
 
 

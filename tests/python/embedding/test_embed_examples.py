@@ -211,7 +211,7 @@ def test_eigen_caller(examples) -> None:
 @pytest.mark.parametrize("cxx", ["g++", "clang++"])
 def test_eigen_caller_under_the_address_sanitizer(cxx, flag, prefix, tmp_path) -> None:
     # Eigen asks for -mfma where there is AVX-512.
-    levels = curvewise.build_info()["instruction_sets"]
+    levels = curvewise.installation.build_info()["instruction_sets"]
     if "avx512f" in flag and "v4" not in levels:
         pytest.skip("this machine has no AVX-512")
     if flag == "-mno-avx" and "v3" not in levels:

@@ -10,8 +10,8 @@ import numpy.typing as npt
 import pytest
 
 import curvewise
-from curvewise.compare import PRESETS
-from curvewise.deviations import Deviation, deviation
+from curvewise.comparing.comparison import PRESETS
+from curvewise.comparing.deviations import Deviation, deviation
 from curvewise.measures.registry import Condition
 
 Array = npt.NDArray[np.float64]
@@ -167,7 +167,7 @@ def test_compare_does_not_wait_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: Any) -> None:
         raise AssertionError("computed although nobody has asked")
 
-    monkeypatch.setattr(import_module("curvewise.compare"), "deviation", fail)
+    monkeypatch.setattr(import_module("curvewise.comparing.comparison"), "deviation", fail)
     compared = curvewise.compare(LOOP, SIMULATION)
     assert "area" in str(compared)
     with pytest.raises(AssertionError):

@@ -58,7 +58,7 @@ def differences(file: str) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("level", curvewise.build_info()["instruction_sets"])
+@pytest.mark.parametrize("level", curvewise.installation.build_info()["instruction_sets"])
 def test_workers_change_no_bit_at_any_level(level: str, expected: Path) -> None:
     done = subprocess.run(
         [sys.executable, __file__, str(expected)],
@@ -78,7 +78,7 @@ def test_a_level_that_the_machine_lacks_is_an_import_error() -> None:
         text=True,
         check=False,
     )
-    names = ", ".join(curvewise.build_info()["instruction_sets"])
+    names = ", ".join(curvewise.installation.build_info()["instruction_sets"])
     last_line = done.stderr.strip().splitlines()[-1]
     assert last_line == f"ImportError: CURVEWISE_ISA is 'v9'; this machine has {names}"
 
@@ -101,4 +101,7 @@ def test_workers_within_the_threads_of_a_caller() -> None:
 
 
 if __name__ == "__main__":
-    print(curvewise.build_info()["active"], " ".join(differences(sys.argv[1])) or "agrees")
+    print(
+        curvewise.installation.build_info()["active"],
+        " ".join(differences(sys.argv[1])) or "agrees",
+    )

@@ -105,7 +105,7 @@ def test_the_medoid_has_the_smallest_sum(measure, monkeypatch):
     table = curvewise.cdist(curves, measure=measure, **options)
     expected = int(np.argmin(table.sum(axis=0)))
     assert curvewise.medoid(curves, measure, **options) == expected
-    monkeypatch.setattr("curvewise.averages._BLOCK", 20)  # two curves at a time
+    monkeypatch.setattr("curvewise.many.averages._BLOCK", 20)  # two curves at a time
     assert curvewise.medoid(curves, measure, **options) == expected
 
 

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 import curvewise
-from curvewise import cli, read_curve
+from curvewise import read_curve
+from curvewise.commands import command_line as cli
 
 MEASURES = ["area", "pcm", "frechet", "dtw", "curve_length"]
 USAGE = 2
@@ -262,7 +263,7 @@ def test_without_matplotlib_a_picture_fails_first_and_the_rest_works(run, files,
 
 def test_matplotlib_is_imported_for_pictures_only(files):
     code = (
-        "import sys; from curvewise.cli import main; main(sys.argv[1:]);"
+        "import sys; from curvewise.commands import main; main(sys.argv[1:]);"
         "assert not any(name.startswith('matplotlib') for name in sys.modules)"
     )
     done = python("-c", code, "compare", *files)
@@ -333,7 +334,7 @@ def test_help_version_and_info(run):
     status, out, error = run("info")
     assert (status, error) == (0, "")
     information = dict(re.split("  +", line, maxsplit=1) for line in out.splitlines())
-    expected = curvewise.build_info()
+    expected = curvewise.installation.build_info()
     assert information["version"] == expected["version"]
     assert information["compiler"] == expected["compiler"]
     assert information["eigen"] == expected["eigen"]
@@ -347,14 +348,14 @@ def test_selfcheck_reports_what_it_found(run, monkeypatch, equal, expected):
         print("dtw baseline", file=stream)
         return equal
 
-    monkeypatch.setattr("curvewise.selfcheck.run", report)
+    monkeypatch.setattr("curvewise.commands.selfcheck.run", report)
     assert run("selfcheck") == (expected, "dtw baseline\n", "")
 
 
 def test_selfcheck_passes_on_this_machine(run):
     status, out, error = run("selfcheck")
     assert (status, error) == (0, "")
-    assert curvewise.build_info()["active"] in out
+    assert curvewise.installation.build_info()["active"] in out
 
 
 @pytest.mark.parametrize(

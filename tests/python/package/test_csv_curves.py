@@ -10,8 +10,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from curvewise import csv_curves, read_curve
-from curvewise.column_choice import TimeColumnWarning
+from curvewise import read_curve
+from curvewise.files import csv_curves
+from curvewise.files.column_choice import TimeColumnWarning
 
 POINTS = [[0.0, 0.0], [0.001, 199.5], [-0.0005, -1e-05]]
 

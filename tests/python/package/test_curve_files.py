@@ -10,8 +10,9 @@ import pandas as pd
 import pytest
 import scipy.io
 
-from curvewise import cli, read_curve
-from curvewise.column_choice import TimeColumnWarning
+from curvewise import read_curve
+from curvewise.commands import command_line as cli
+from curvewise.files.column_choice import TimeColumnWarning
 
 POINTS = [[0.0, 0.0], [0.001, 199.5], [-0.0005, -1e-05]]
 

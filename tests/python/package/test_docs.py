@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 import curvewise
-from curvewise import cli
+from curvewise.commands import command_line as cli
 
 ROOT = Path(__file__).resolve().parents[3]
 DOCS = ROOT / "docs"
@@ -106,7 +106,7 @@ def public_modules() -> set[str]:
     modules = {name for name in names if isinstance(getattr(curvewise, name), ModuleType)}
     return {
         "curvewise",
-        "curvewise.embedding",
+        "curvewise.installation",
         "curvewise.reference.nearest",
         *(f"curvewise.{name}" for name in modules),
     }

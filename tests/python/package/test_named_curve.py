@@ -10,9 +10,10 @@ import pytest
 from matplotlib.figure import Figure
 
 import curvewise
-from curvewise import cli, curves, plotting
+from curvewise import curves, plotting
 from curvewise.calibration import identify, identify_each
-from curvewise.named_curve import NamedCurve, axis_names
+from curvewise.commands import command_line as cli
+from curvewise.curves.named_curve import NamedCurve, axis_names
 
 NAMES = ("strain", "stress")
 P, Q = (NamedCurve(np.asarray(curve), NAMES) for curve in curvewise.datasets.hysteresis_pair())

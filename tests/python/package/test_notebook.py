@@ -12,7 +12,7 @@ import pytest
 
 import curvewise
 from curvewise.calibration import cross_validate, identify, identify_each, line_plot
-from curvewise.plotting.palette import P_COLOUR, Q_COLOUR, SERIES
+from curvewise.drawing.palette import P_COLOUR, Q_COLOUR, SERIES
 
 P, Q = curvewise.datasets.hysteresis_pair()
 X = np.linspace(0.0, 1.0, 12)

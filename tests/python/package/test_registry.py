@@ -94,7 +94,7 @@ def test_every_layer_has_the_same_options_and_defaults(name: str) -> None:
         if option in CHOICES:
             assert default in get_args(CHOICES[option][0])
     plain = {key: value for key, value in options.items() if key not in NOT_OF_THE_REFERENCE}
-    assert without_bounds(keyword_defaults(MEASURES[name].reference)) == plain
+    assert without_bounds(keyword_defaults(getattr(reference, name))) == plain
     expected = {option: written(option, default) for option, default in options.items()}
     # Where there are no unions, each kind of value has an option of its own.
     if name == "dtw":
@@ -156,7 +156,7 @@ def test_presets_have_a_condition_for_every_measure() -> None:
 @pytest.mark.parametrize("name", MEASURES)
 def test_the_registry_tells_the_truth(name: str) -> None:
     info = MEASURES[name]
-    assert info.name == name == info.function.__name__ == info.reference.__name__
+    assert info.name == name == info.function.__name__
     assert info.function is getattr(curvewise, name)
     assert callable(getattr(plotting, info.picture))
     assert _core.is_symmetric(name, {}) == info.symmetric
@@ -196,12 +196,12 @@ def test_the_reference_is_documented_as_the_measures_are(name: str) -> None:
 
 
 def test_the_reference_imports_nothing_compiled() -> None:
-    allowed = {"_curves", "_options", "results"}
+    allowed = ("_options", "curves.", "measures.results")
     folder = ROOT / "python" / "curvewise" / "reference"
     for file in set(folder.glob("*.py")) - {folder / "__init__.py"}:  # which takes docstrings
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
             if isinstance(node, ast.ImportFrom) and node.level == 2:
-                assert {node.module} <= allowed, file.name
+                assert str(node.module).startswith(allowed), file.name
 
 
 @pytest.mark.parametrize("name", curvewise._LAZY)

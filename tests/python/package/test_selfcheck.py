@@ -6,7 +6,7 @@ import io
 
 import pytest
 
-from curvewise import selfcheck
+from curvewise.commands import selfcheck
 from curvewise.measures.registry import MEASURES
 
 CHECK = (MEASURES["frechet"], {"metric": "euclidean"})

@@ -245,7 +245,7 @@ except KeyboardInterrupt:
     print("interrupted", flush=True)
 def running():
     modules = [frame.f_globals["__name__"] for frame in sys._current_frames().values()]
-    return "curvewise.pairwise" in modules
+    return "curvewise.many.pairwise" in modules
 if sys.argv[1] == "stay":
     while running():
         time.sleep(0.01)

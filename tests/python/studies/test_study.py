@@ -20,7 +20,7 @@ import numpy as np
 import pytest
 
 from curvewise.calibration import identify
-from curvewise.cli import main
+from curvewise.commands import main
 from curvewise.studies import Study, StudyError
 from curvewise.studies.keys import Table
 
@@ -317,7 +317,7 @@ def stopped(folder: Path, runs: int, how: signal.Signals) -> tuple[int, str]:
     (folder / "allowed").write_text(f"{before + runs}")
     code = (  # what a shell starts in the background ignores SIGINT, and so do its children
         "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
-        "from curvewise.cli import main; sys.exit(main(['identify', 'study.toml']))"
+        "from curvewise.commands import main; sys.exit(main(['identify', 'study.toml']))"
     )
     with subprocess.Popen(
         [sys.executable, "-c", code], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from curvewise.cli import main
+from curvewise.commands import main
 from curvewise.studies import Study, StudyError
 from curvewise.studies.toml_source import Source
 

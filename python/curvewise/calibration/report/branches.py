@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..._curves import Array
 from ...curves import turning_points
-from ..fitted_points import fitted_points
+from ...curves.inputs import Array
+from ..uncertainty.fitted_points import fitted_points
 
 __all__ = ["Branch", "branches_of"]
 

@@ -15,18 +15,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..._curves import Array
-from ...plotting.palette import (
-    ACCENT_COLOUR,
-    FILL_COLOUR,
-    GROUND_COLOUR,
-    P_COLOUR,
-    Q_COLOUR,
-    SERIES,
-)
-from ..history import Evaluation
-from ..parameters import Space
-from ..pictures import drawn, labels
+from ...curves.inputs import Array
+from ...drawing.loops import drawn, labels
+from ...drawing.palette import ACCENT_COLOUR, FILL_COLOUR, GROUND_COLOUR, P_COLOUR, Q_COLOUR, SERIES
+from ..problem.space import Space
+from ..records.evaluation import Evaluation
 
 __all__ = [
     "Figure",

@@ -18,7 +18,7 @@ from importlib import import_module, resources
 from pathlib import Path
 
 from ..._extras import extra
-from ..search_record import SearchRecord
+from ..records.search_record import SearchRecord
 from .figures import Figure
 from .sections import AddFigure, headline, most_points, overview, sections_of
 from .uncertainty_summary import summary_of_record

@@ -6,10 +6,10 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from ..._curves import Array
-from ..history import read_history
-from ..search_record import Ending, SearchRecord, canonical
-from ..store import SimulationStore
+from ...curves.inputs import Array
+from ..records.history import read_history
+from ..records.search_record import Ending, SearchRecord, canonical
+from ..records.store import SimulationStore
 
 __all__ = ["history_record", "records_of"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..search_record import SearchRecord
+from ..records.search_record import SearchRecord
 
 __all__ = ["code_to_repeat"]
 

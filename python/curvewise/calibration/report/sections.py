@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ...deviations import Deviation
-from ..search_record import SearchRecord
+from ...comparing.deviations import Deviation
+from ..records.search_record import SearchRecord
 from . import figures
 from .branches import branches_of
 from .figures import Figure

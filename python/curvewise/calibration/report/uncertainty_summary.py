@@ -11,18 +11,18 @@ from typing import Any
 
 import numpy as np
 
-from ..._curves import Array
-from ...named_curve import NamedCurve
-from ..cases import Case, CaseObjective
-from ..curve_text import curves_of, text_of
-from ..model_pool import Outcome
-from ..objective import Objective
-from ..parameters import Below, Bounds, Log, Space
-from ..search_record import SearchRecord
-from ..sensitivity import Optimum
-from ..study import Study
-from ..surfaces import Responses, Surfaces
-from ..uncertainty import Uncertainty, uncertainty_of
+from ...curves.inputs import Array
+from ...curves.named_curve import NamedCurve
+from ..models.pool import Outcome
+from ..objective.cases import Case, CaseObjective
+from ..objective.objective import Objective
+from ..problem.problem import Problem
+from ..problem.space import Below, Bounds, Log, Space
+from ..records.curve_text import curves_of, text_of
+from ..records.search_record import SearchRecord
+from ..surfaces.surfaces import Responses, Surfaces
+from ..uncertainty.sensitivity import Optimum
+from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
 
 __all__ = ["moved_curves", "space_of", "summary_of", "summary_of_record"]
 
@@ -54,7 +54,7 @@ def moved_curves(summary: dict[str, Any]) -> list[tuple[Array, ...]]:
 
 def _moved(uncertainty: Uncertainty) -> list[list[Array]]:
     optimum = uncertainty.optimum
-    differential = optimum.study.space.differential(optimum.unit)
+    differential = optimum.problem.space.differential(optimum.unit)
     step = np.linalg.solve(differential, np.array(list(uncertainty.weakest_direction.values())))
     return [optimum.curves(optimum.unit + sign * step) for sign in (1.0, -1.0)]
 
@@ -85,10 +85,10 @@ def _optimum(
     record: SearchRecord, simulations: tuple[Array, ...], unit: Array, slopes: Array
 ) -> Optimum:
     """Return the optimum of a search, made again of what was written down."""
-    study = Study((), _assemble_nothing, _objective(record), space_of(record))
+    problem = Problem((), _assemble_nothing, _objective(record), space_of(record))
     responses = Responses(simulations)
     base = responses.vector(simulations)
-    return Optimum(study, unit, responses, Surfaces(unit, base, slopes))
+    return Optimum(problem, unit, responses, Surfaces(unit, base, slopes))
 
 
 def _assemble_nothing(outcomes: list[Outcome]) -> Outcome:

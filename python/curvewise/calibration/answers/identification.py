@@ -1,0 +1,401 @@
+"""What a search has found: parameters, values under every measure, and what can be asked of them.
+
+Everything here is computed from the simulations that the search has kept; only `uncertainty` may
+run the model again, and says beforehand how often.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..._options import Preset
+from ...comparing.deviations import Deviation, deviation
+from ...curves.inputs import Array
+from ...curves.several_curves import points_of
+from ...drawing.loops import loops_and_convergence
+from ...measures.registry import Condition
+from ...showing.notebook import paragraph, picture, table
+from ..methods.search import Ended, Plan
+from ..objective.loop_measure import Part
+from ..problem.problem import Problem
+from ..records.evaluation import Evaluation, as_records
+from ..records.recorder import Recorder
+from ..uncertainty.determined import determined_by
+from ..uncertainty.sensitivity import design_runs, indifferent, optimum_surfaces
+from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
+from .ending import write_down
+
+if TYPE_CHECKING:
+    from ...drawing.picture import Picture
+
+__all__ = ["Identification", "identification_of"]
+
+# A parameter this near to a bound, as a fraction of the range, is said to be at the bound.
+_AT_BOUND = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Identification:
+    """Identified parameters and how they were found.
+
+    Attributes
+    ----------
+    parameters : dict of str to float
+        The best parameters found.
+    value : float
+        The objective there.
+    measures : dict of str to float
+        The optimum under every measure that the curves' dimension allows: the identification's
+        own with its options, the others with the preset's; nan where a measure refuses.
+    simulations : tuple of ndarray
+        The simulated curves at the optimum.
+    experiments : tuple of ndarray
+        The measured curves.
+    history : numpy.recarray
+        Every evaluation: its number, the parameters, value, failed and seconds.
+    failures : tuple of (int, str)
+        Number of every evaluation that failed, and why.
+    converged : bool
+        Whether the method met its tolerances.
+    message : str
+        How the search ended.
+    method, seed, bounds, measure, preset, part
+        As asked for.
+    runs : int
+        How many runs of the model were made for it; the others were looked up.
+    problem, kept, recorder
+        What was searched, the runs whose curves are known, and what writes the search down: for
+        what comes after the search.
+    condition : Condition or None
+        Whether the measure is computed on scaled curves, and its options, the preset's included;
+        None for "sum_of_squares" and for a function.
+    """
+
+    parameters: dict[str, float]
+    value: float
+    measures: dict[str, float]
+    simulations: tuple[Array, ...] = field(repr=False)
+    experiments: tuple[Array, ...] = field(repr=False)
+    history: np.recarray[Any, Any] = field(repr=False)
+    failures: tuple[tuple[int, str], ...] = field(repr=False)
+    converged: bool
+    message: str
+    method: str
+    seed: int
+    bounds: dict[str, tuple[float, float]]
+    measure: str
+    preset: Preset
+    runs: int
+    problem: Problem = field(repr=False)
+    kept: tuple[tuple[Array, Evaluation], ...] = field(repr=False)
+    part: Part
+    condition: Condition | None = field(repr=False)
+    recorder: Recorder = field(repr=False)
+
+    @property
+    def deviations(self) -> tuple[Deviation | None, ...]:
+        """How far each simulation is from its experiment, in units of y, as the measure sees it.
+
+        Computed when asked for. None for curve_length, sum_of_squares and functions, and where a
+        simulation has failed. See :class:`curvewise.comparing.deviations.Deviation`.
+        """
+        if self.condition is None or len(self.simulations) < len(self.experiments):
+            return (None,) * len(self.experiments)
+        pairs = zip(self.experiments, self.simulations, strict=True)
+        return tuple(self._deviation(self.condition, *pair) for pair in pairs)
+
+    def _deviation(self, condition: Condition, P: Array, Q: Array) -> Deviation | None:
+        try:
+            return deviation(self.measure, condition, P, Q, part=self.part)
+        except ValueError:  # the measure refuses the simulation, which the objective calls failed
+            return None
+
+    @property
+    def evaluations(self) -> int:
+        """How many parameter sets were evaluated."""
+        return len(self.history)
+
+    def __str__(self) -> str:
+        return self.summary()
+
+    def summary(self) -> str:
+        """Return a table of the parameters, of the measures, and of how the search went."""
+        width = max(map(len, (*self.parameters, *self.measures)))
+        lines = [f"{'parameter':<{width}}  {'value':>12}  {'from':>12}  {'to':>12}"]
+        for name, value in self.parameters.items():
+            if name not in self.bounds:
+                lines.append(
+                    f"{name:<{width}}  {value:>12.6g}  {self.problem.space.kind(name):>12}"
+                )
+                continue
+            low, high = self.bounds[name]
+            near = _AT_BOUND * (high - low)
+            note = "  at its lower bound" if value - low < near else ""
+            note = "  at its upper bound" if high - value < near else note
+            lines.append(f"{name:<{width}}  {value:>12.6g}  {low:>12.6g}  {high:>12.6g}{note}")
+        lines += ["", f"{'measure':<{width}}  {'value':>12}  (preset {self.preset})"]
+        for name, value in self.measures.items():
+            note = "  minimised" if name == self.measure else ""
+            lines.append(f"{name:<{width}}  {value:>12.6g}{note}")
+        deviations = [f"curve {k}: {d}" for k, d in enumerate(self.deviations) if d is not None]
+        if deviations:
+            lines += ["", f"deviation of {self.measure}, in units of y", *deviations]
+        failed = f", {len(self.failures)} failed" if self.failures else ""
+        lines += [
+            "",
+            f"{self.method}, seed {self.seed}: {self.evaluations} evaluations{failed}",
+            self._ending(),
+        ]
+        return "\n".join(lines)
+
+    def _ending(self) -> str:
+        """Say how the search ended; what is not determined has not converged to anything."""
+        determined = self.determined
+        loose = [name for name, good in (determined or {}).items() if not good]
+        if self.converged and loose:
+            return (
+                f"undetermined: {', '.join(loose)} (the objective hardly notices; see "
+                f"uncertainty()); the search ended: {self.message}"
+            )
+        text = f"{'converged' if self.converged else 'not converged'}: {self.message}"
+        if self.converged and determined is None:
+            runs = self.uncertainty_runs
+            text += f"\nare the parameters determined? uncertainty() says, after {runs} runs"
+        return text
+
+    @property
+    def uncertainty_runs(self) -> int:
+        """How many runs of the model `uncertainty` will make: 0, or 2 for every parameter."""
+        return design_runs(self.problem, self._unit, self.kept)
+
+    @property
+    def determined(self) -> dict[str, bool] | None:
+        """Whether the tests determine each parameter, as far as can be said without noise.
+
+        A parameter is determined if it cannot change by a tenth of its bounds' range or a fifth of
+        itself, others with it, before the objective rises by 1 %, and if twice its standard error
+        by linear theory is within the same. None if that would take runs (`uncertainty_runs`).
+        """
+        if self.uncertainty_runs:
+            return None
+        optimum = optimum_surfaces(self.problem, self._unit, self.simulations, self.kept)
+        return determined_by(optimum, indifferent(optimum)[2])
+
+    def uncertainty(
+        self,
+        *,
+        sigma: float | Sequence[float] | None = None,
+        level: float = 0.95,
+        samples: int = 1000,
+        seed: int = 0,
+    ) -> Uncertainty:
+        """Say how well the tests determine the parameters.
+
+        Parameters
+        ----------
+        sigma : float or sequence of float, optional
+            The standard deviation of the noise in y, of all loops or of each. By default the
+            residuals are taken for the noise, in blocks where neighbours are alike.
+        level : float, default 0.95
+            The probability of the intervals.
+        samples : int, default 1000
+            How many times the noise is drawn anew; "sum_of_squares" needs none.
+        seed : int, default 0
+            Of the draws.
+
+        Returns
+        -------
+        Uncertainty
+            Errors, intervals, correlations, sensitivities and what is not determined; prints as a
+            table, plots itself.
+
+        Raises
+        ------
+        ValueError
+            A level, sigma or number of samples out of range; fewer points than parameters.
+
+        Notes
+        -----
+        Runs of the model: `uncertainty_runs`, which is 0 after "trust-region" and "sdrm". Time:
+        that of `samples` minimisations on the response surfaces, some 20 evaluations of the measure
+        a parameter each. The surfaces are linear: intervals that are a large part of the bounds say
+        "not determined", and no more. Sources: see the module.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from curvewise.calibration import identify
+        >>> x = np.linspace(0, 1, 50)
+        >>> def line(p):
+        ...     return np.column_stack((x, p["slope"] * x + p["intercept"]))
+        >>> test = line({"slope": 2.0, "intercept": 1.0})
+        >>> test[:, 1] += np.random.default_rng(0).normal(0.0, 0.1, 50)
+        >>> found = identify(
+        ...     line,
+        ...     test,
+        ...     {"slope": (0, 10), "intercept": (-5, 5)},
+        ...     measure="sum_of_squares",
+        ...     method="trust-region",
+        ...     progress=False,
+        ... )
+        >>> errors = found.uncertainty().standard_errors
+        >>> {name: round(error, 3) for name, error in errors.items()}
+        {'slope': 0.041, 'intercept': 0.024}
+        """
+        runs = self.uncertainty_runs
+        optimum = optimum_surfaces(self.problem, self._unit, self.simulations, self.kept)
+        return uncertainty_of(
+            optimum, sigma=sigma, level=level, samples=samples, seed=seed, runs=runs
+        )
+
+    def report(
+        self, path: str | os.PathLike[str], *, uncertainty: Uncertainty | None = None
+    ) -> None:
+        """Write the identification down as one page of HTML, which opens without a network.
+
+        Tests and simulations to zoom into, residuals by branch, convergence, parameters with
+        intervals and correlations, the weakest directions, failures, versions, and the settings to
+        repeat it. ``curvewise report store.db`` makes the same file of the store, bit for bit.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; what is there is replaced.
+        uncertainty : Uncertainty, optional
+            What the page says of the parameters. By default what :meth:`uncertainty` gives, unless
+            it takes runs of the model (`uncertainty_runs`): then the page is without intervals.
+
+        Raises
+        ------
+        ImportError
+            plotly is not installed: ``pip install "curvewise[report]"``.
+        ValueError
+            As :meth:`uncertainty`.
+        OSError
+            The file cannot be written.
+
+        Notes
+        -----
+        Some 2 MB, of which plotly.js is most, and at most 5 MB: of many or long curves every k-th
+        point is drawn. Time: that of `uncertainty`, and of a warping path for every loop.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> import numpy as np
+        >>> from curvewise.calibration import identify
+        >>> x = np.linspace(0, 1, 20)
+        >>> def line(p):
+        ...     return np.column_stack((x, p["slope"] * x))
+        >>> found = identify(line, line({"slope": 2.0}), {"slope": (0, 10)}, progress=False)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     found.report(Path(folder, "report.html"))
+        ...     Path(folder, "report.html").stat().st_size < 5e6
+        True
+        """
+        from ..report import write_report
+        from .ending import record_of
+
+        write_report(path, [record_of(self, uncertainty)])
+
+    def followed_by(self, later: Identification) -> Identification:
+        """Return a later search of the same problem as the continuation of this one."""
+        best = later if later.value <= self.value else self
+        count = len(self.history)
+        history = np.concatenate([self.history, later.history])
+        history["evaluation"] = np.arange(1, len(history) + 1)
+        failures = [(count + number, message) for number, message in later.failures]
+        return replace(
+            best,
+            history=history.view(np.recarray),
+            failures=(*self.failures, *failures),
+            converged=later.converged,
+            message=later.message,
+            runs=self.runs + later.runs,
+            kept=later.kept,
+        )
+
+    @property
+    def _unit(self) -> Array:
+        return self.problem.space.unit_of(self.parameters)
+
+    def plot(self, *, names: Sequence[str] | None = None) -> Picture:
+        """Return a matplotlib Figure of the loops and of the convergence.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            What the coordinates are called on the axes; by default what the experiments' columns
+            were called, else x and y.
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        ValueError
+            Another number of names than of coordinates.
+        """
+        return loops_and_convergence(
+            self.experiments,
+            self.simulations,
+            self.history,
+            f"{self.measure} ({self.preset})",
+            self.problem.objective.axes(names),
+            self.problem.objective.titles,
+        )
+
+    def _repr_html_(self) -> str:
+        rows = []
+        for name, value in self.parameters.items():
+            low, high = self.bounds.get(name, (value, value))
+            rows.append([name, f"{value:.6g}", f"{low:.6g}", f"{high:.6g}"])
+        measures = [
+            [name, f"{value:.6g}", "minimised" if name == self.measure else ""]
+            for name, value in self.measures.items()
+        ]
+        # The last part of the summary says how the search ended, in words.
+        ending = self.summary().rpartition("\n\n")[2]
+        return "\n".join(
+            [
+                table(rows, ["parameter", "value", "from", "to"]),
+                table(measures, ["measure", f"value (preset {self.preset})", ""]),
+                paragraph(ending),
+                picture(self.plot, "The loops at the optimum, and the convergence"),
+            ]
+        )
+
+
+def identification_of(problem: Problem, plan: Plan, ended: Ended) -> Identification:
+    """Return what a search has found."""
+    evaluations, objective = ended.evaluations, problem.objective
+    done, best = evaluations.done, evaluations.best
+    found = Identification(
+        parameters=problem.space.dictionary(best.point),
+        value=best.value,
+        measures=objective.by_measure(ended.simulations),
+        simulations=points_of(ended.simulations),
+        experiments=objective.experiments,
+        history=as_records(done, problem.space.names),
+        failures=tuple((e.number, e.message) for e in done if e.failed),
+        converged=ended.finish.converged,
+        message=ended.finish.message,
+        method=plan.method,
+        seed=plan.seed,
+        bounds=problem.space.bounds,
+        measure=objective.measure,
+        preset=objective.preset,
+        runs=ended.runs,
+        problem=problem,
+        kept=evaluations.kept,
+        part=objective.part,
+        condition=objective.condition,
+        recorder=ended.recorder,
+    )
+    write_down(found)
+    return found

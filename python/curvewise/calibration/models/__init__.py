@@ -1,0 +1,1 @@
+"""Models: what runs them, what they are called, and solvers as models."""

@@ -1,0 +1,1 @@
+"""What is searched: models, objective and space, put together."""

@@ -1,0 +1,285 @@
+"""Between an optimiser and the model: runs each point once, records it, and stops in time.
+
+An optimiser asks for the values of a batch of points. Points that this search has already
+evaluated, or that its history file holds, are looked up; the others are run, in parallel if the
+pool has several processes. Numbers are given in the order in which the optimiser asked, so that
+nothing that it sees depends on the number of processes or on what was run before an interruption.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...curves.inputs import Array
+from ...curves.several_curves import as_points, curve_list
+from ..models.pool import Outcome
+from ..objective.objective import Objective
+from ..records.evaluation import Evaluation, Point
+from ..records.history import History
+from ..records.recorder import Recorder
+from .simulator import Simulator
+from .space import Space
+
+__all__ = ["Evaluations", "Finish", "Progress", "SearchEndedError"]
+
+# A fraction of the value of simulations that are wrong by their loops' heights. The smallest value
+# of an objective is 0, for a perfect model, so no tolerance relative to it alone is ever met.
+_NEGLIGIBLE = 1e-7
+
+# Earlier runs give the slopes at a point if none is further away than this, and if their spread in
+# every direction is at least this fraction of their reach.
+_NEAR, _FLATTEST = 0.25, 0.03
+
+_PAUSE = 0.2  # seconds between two refreshes of the bar while nothing is run
+
+_log = logging.getLogger("curvewise.calibration")
+
+
+class Progress(NamedTuple):
+    """What a callback is told after every batch.
+
+    Attributes
+    ----------
+    evaluations : int
+        How many parameter sets have been evaluated.
+    parameters : dict of str to float
+        The best of them.
+    value : float
+        Its value.
+    """
+
+    evaluations: int
+    parameters: dict[str, float]
+    value: float
+
+
+class Finish(NamedTuple):
+    """How a search, or a stage of it, ended."""
+
+    converged: bool
+    message: str
+
+
+class SearchEndedError(Exception):
+    """The search is over before its method has converged; the message says why."""
+
+
+class Evaluations:
+    """The objective as a function of points of the unit cube.
+
+    Parameters
+    ----------
+    simulator, objective, space, history, recorder
+        What runs the model, scores it, names the parameters, and keeps the records.
+    limit : int or None
+        How many parameter sets to evaluate at most.
+    callback : callable or None
+        Told the progress after every batch; a true result ends the search.
+    bar : object
+        A tqdm progress bar.
+    known : sequence of (ndarray, Evaluation)
+        Runs of the same models by earlier searches, with their places in the unit cube.
+    """
+
+    def __init__(
+        self,
+        simulator: Simulator,
+        objective: Objective,
+        space: Space,
+        history: History,
+        recorder: Recorder,
+        *,
+        limit: int | None,
+        callback: Callable[[Progress], Any] | None,
+        bar: Any,
+        known: Sequence[tuple[Array, Evaluation]] = (),
+    ) -> None:
+        self._known = known
+        self.objective = objective
+        self._simulator, self._space = simulator, space
+        self._history, self._recorder = history, recorder
+        self._limit, self._callback, self._bar = limit, callback, bar
+        self._done: dict[Point, Evaluation] = {}
+        self._units: dict[Point, Array] = {}
+        self._best: Point | None = None
+        self._best_simulations: Any = None
+        self._thoughts, self._shown = 0, time.monotonic()
+        self._log_level = logging.WARNING  # of the first failure; all are kept anyway
+
+    @property
+    def dimensions(self) -> int:
+        """How many parameters there are."""
+        return len(self._space.names)
+
+    @property
+    def negligible(self) -> float:
+        """Differences of the objective below this do not count."""
+        return _NEGLIGIBLE * float(self.objective.weights @ self.objective.scales)
+
+    @property
+    def done(self) -> list[Evaluation]:
+        """Every evaluation so far, in order."""
+        return list(self._done.values())
+
+    @property
+    def kept(self) -> tuple[tuple[Array, Evaluation], ...]:
+        """Every evaluation whose curves are known, earlier searches' too, with its place."""
+        own = [(self._units[point], e) for point, e in self._done.items() if e.simulations]
+        return (*self._known, *own)
+
+    @property
+    def best(self) -> Evaluation:
+        """The evaluation with the smallest value, the first among equals."""
+        assert self._best is not None
+        return self._done[self._best]
+
+    @property
+    def best_unit(self) -> Array:
+        """Where in the unit cube the best evaluation is."""
+        assert self._best is not None
+        return self._units[self._best]
+
+    def settle(self, unit: Array) -> None:
+        """Take a point that was evaluated for the best, where a method has a rule of its own."""
+        self._best = self._space.point(unit)
+        self._best_simulations = self._done[self._best].simulations
+
+    def stage(self, name: str) -> None:
+        """Show the name of a stage of the search beside the progress."""
+        self._bar.set_description(name)
+
+    def thinking(self) -> None:
+        """Show that a search is at work between runs, on what it predicts of them."""
+        self._thoughts += 1
+        now = time.monotonic()
+        if self._best is not None and now - self._shown > _PAUSE:
+            self._shown = now
+            self._bar.set_postfix(best=f"{self.best.value:.4g}", predicted=self._thoughts)
+
+    def known_near(self, unit: Array) -> tuple[Array, list[Evaluation]] | None:
+        """Return earlier runs around a point that determine the slopes there, if they do.
+
+        The 2 k + 1 nearest that succeeded, if they are within a quarter of the bounds' range and
+        not all in a plane.
+        """
+        k = self.dimensions
+        near = [(place, run) for place, run in self._known if run.simulations is not None]
+        near.sort(key=lambda item: float(np.abs(item[0] - unit).max()))
+        near = near[: 2 * k + 1]
+        if len(near) <= k + 1:
+            return None
+        places = np.array([place for place, _ in near])
+        reach = float(np.abs(places - unit).max())
+        spread = np.linalg.svd((places - places.mean(axis=0)) / reach, compute_uv=False)
+        if reach > _NEAR or spread[-1] < _FLATTEST * np.sqrt(len(near)):
+            return None
+        return places, [run for _, run in near]
+
+    def values(self, units: Array) -> Array:
+        """Return the objective at points of the unit cube, shape (count, dimensions)."""
+        return np.array([e.value for e in self.evaluated(units)])
+
+    def value(self, unit: Array) -> float:
+        """Return the objective at one point."""
+        return self.evaluated(unit[np.newaxis])[0].value
+
+    def best_simulations(self) -> Any:
+        """Return the simulations at the best point; runs the model again if it has to."""
+        if self._best_simulations is None:
+            ((_, outcome),) = self._simulator.run([self._space.dictionary(self.best.point)])
+            self._best_simulations = outcome.simulations
+        return self._best_simulations
+
+    def evaluated(self, units: Array, *, keep_simulations: bool = False) -> list[Evaluation]:
+        """Return the evaluations of points; run those that are not known.
+
+        Parameters
+        ----------
+        units : ndarray, shape (count, dimensions)
+            Points of the unit cube.
+        keep_simulations : bool
+            Keep the curves of simulations that succeed, in the history file too. A method that
+            wants them must ask for them every time.
+
+        Raises
+        ------
+        SearchEndedError
+            The limit is reached, or the callback asks for it.
+        RuntimeError
+            No simulation of the first batch has succeeded.
+        """
+        points = [self._space.point(unit) for unit in units]
+        new = list(dict.fromkeys(p for p in points if p not in self._done))
+        batch = new if self._limit is None else new[: self._limit - len(self._done)]
+        for point, unit in zip(points, units, strict=True):
+            self._units.setdefault(point, np.array(unit))
+        if batch:
+            is_first = not self._done
+            self._run(batch, keep_simulations)
+            if is_first and all(e.failed for e in self._done.values()):
+                raise RuntimeError(
+                    f"no simulation succeeded, of {len(self._done)} that the search begins with; "
+                    f"the first: {next(iter(self._done.values())).message}"
+                )
+            self._report()
+        if len(batch) < len(new):
+            raise SearchEndedError(f"max_evaluations = {self._limit} reached")
+        return [self._done[point] for point in points]
+
+    def _run(self, batch: list[Point], keep_simulations: bool) -> None:
+        first = len(self._done) + 1
+        finished: dict[Point, Evaluation] = {}
+        simulations: dict[Point, Any] = {}
+        for i, point in enumerate(batch):
+            saved = self._history.saved.get(point)
+            # A file that was written beside a store has no curves; the store has them.
+            if saved is not None and (saved.simulations or saved.failed or not keep_simulations):
+                finished[point] = replace(saved, number=first + i)
+        self._bar.update(len(finished))
+        missing = [(first + i, p) for i, p in enumerate(batch) if p not in finished]
+        parameters = [self._space.dictionary(point) for _, point in missing]
+        for k, outcome in self._simulator.run(parameters):
+            number, point = missing[k]
+            finished[point] = self._judged(number, point, outcome, keep_simulations)
+            simulations[point] = outcome.simulations
+            if point not in self._history.saved:
+                self._history.write(finished[point])
+            self._bar.update()
+        for point in batch:
+            self._done[point] = finished[point]
+            self._recorder.note(finished[point])
+            if self._best is None or finished[point].value < self.best.value:
+                self._best = point
+                self._best_simulations = simulations.get(point)
+
+    def _judged(
+        self, number: int, point: Point, outcome: Outcome, keep_simulations: bool
+    ) -> Evaluation:
+        simulations = outcome.simulations
+        if outcome.message:  # in full, as the objective would give it for an exception
+            simulations = None
+        score = self.objective.score(simulations)
+        message = outcome.message or "; ".join(score.failures)
+        if message:
+            _log.log(self._log_level, "evaluation %d failed: %s", number, message)
+            self._log_level = logging.DEBUG
+        curves = None
+        if keep_simulations and not message:
+            curves = tuple(as_points(curve, "Q").copy() for curve in curve_list(simulations))
+        seconds = outcome.seconds
+        return Evaluation(number, point, score.value, bool(message), seconds, message, curves)
+
+    def _report(self) -> None:
+        best = self.best
+        self._bar.set_postfix(best=f"{best.value:.4g}", refresh=False)
+        if self._callback is None:
+            return
+        parameters = self._space.dictionary(best.point)
+        if self._callback(Progress(len(self._done), parameters, best.value)):
+            raise SearchEndedError("the callback ended the search")

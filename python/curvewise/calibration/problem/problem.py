@@ -1,0 +1,84 @@
+"""What a search is about: models, objective and space, and where and how the models are run.
+
+A search runs a problem, and so does what comes after it (the runs of `Identification.uncertainty`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from ..models.identity import model_identity
+from ..models.pool import Model, ModelPool, Outcome
+from ..objective.cases import Cases
+from ..objective.objective import Objective
+from ..records.store import SimulationStore, StorePath
+from .selection import Selection
+from .simulator import Assemble, Dispatch, Simulator
+from .space import Space
+
+__all__ = ["Problem", "models_of"]
+
+
+def _only(outcomes: list[Outcome]) -> Outcome:
+    """Return the outcome of a problem's only model."""
+    (outcome,) = outcomes
+    return outcome
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Models, objective and space.
+
+    Attributes
+    ----------
+    models : sequence of callable
+        Each is run for every set of parameters.
+    assemble : callable
+        Makes the simulations of the objective of what the models gave.
+    objective : Objective
+        What is minimised.
+    space : Space
+        The parameters.
+    store, version, workers, executor
+        As for `identify`.
+    """
+
+    models: Sequence[Model]
+    assemble: Assemble
+    objective: Objective
+    space: Space
+    store: StorePath | None = None
+    version: str | None = None
+    workers: int = 1
+    executor: Executor | None = None
+
+    @contextmanager
+    def simulator(self) -> Iterator[Simulator]:
+        """Start what runs the models, and end it."""
+        with ExitStack() as stack:
+            pool = ModelPool(Dispatch(self.models), self.workers, self.executor)
+            stack.enter_context(pool)
+            store = None if self.store is None else SimulationStore(self.store)
+            if store is not None:
+                stack.enter_context(store)
+            yield Simulator(pool, self.models, self.assemble, store, self.version)
+
+    def identities(self) -> list[str] | None:
+        """Return what the models are known by, or None where nobody has said it."""
+        known = all(isinstance(getattr(model, "identity", None), str) for model in self.models)
+        if self.version is None and not known:
+            return None
+        return [model_identity(model, self.version).text for model in self.models]
+
+
+def models_of(model: Any) -> tuple[Sequence[Model], Assemble]:
+    """Return the models behind what a user, or a cross-validation, calls the model."""
+    if isinstance(model, Cases):
+        return model.models, model.assembled
+    if isinstance(model, Selection):
+        return (model.whole,), model.assembled
+    return (model,), _only

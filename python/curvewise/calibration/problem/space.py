@@ -1,0 +1,272 @@
+"""The space that is searched: names, bounds, and the unit cube that optimisers see.
+
+Optimisers work in the unit cube, so that a modulus of 10⁵ and an exponent of 0.1 weigh alike. A
+point is a tuple of Python floats in the order of the bounds; the same point of the cube always
+gives the same bits, which is what a resumed run finds its evaluations by. A parameter may also be
+searched for on a logarithmic scale, stay below another one, be fixed, or follow from the others.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ...curves.inputs import Array
+from ..models.identity import fingerprint
+from ..records.evaluation import Point
+
+__all__ = ["Below", "Bounds", "Log", "Space", "Tied"]
+
+# Columns of the history, beside the parameters.
+_RESERVED = ("evaluation", "value", "failed", "seconds", "message", "simulations")
+
+# How far a parameter stays below another one, as a fraction of its bounds' range.
+_GAP = 1e-6
+
+
+@dataclass(frozen=True)
+class Log:
+    """Bounds of a parameter that is searched for on a logarithmic scale.
+
+    Parameters
+    ----------
+    low, high : float
+        Above 0.
+
+    Examples
+    --------
+    >>> from curvewise.calibration import Log
+    >>> bounds = {"viscosity": Log(1e-2, 1e4)}
+    """
+
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Below:
+    """Bounds of a parameter that stays below another one, at every run.
+
+    Of two back stresses, say, which could change places: C1 > C2.
+
+    Parameters
+    ----------
+    other : str
+        A parameter with bounds of its own, listed before this one.
+    low, high : float
+        The bounds beside that.
+
+    Examples
+    --------
+    >>> from curvewise.calibration import Below
+    >>> bounds = {"C1": (1e3, 300e3), "C2": Below("C1", 1e3, 300e3)}
+    """
+
+    other: str
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Tied:
+    """A parameter that follows from the others.
+
+    Parameters
+    ----------
+    function : callable
+        Of the dict of parameters listed before it.
+
+    Examples
+    --------
+    >>> from curvewise.calibration import Tied
+    >>> bounds = {"E": (150e3, 230e3), "G": Tied(lambda p: p["E"] / 2.6)}
+    """
+
+    function: Callable[[dict[str, float]], float]
+
+
+Bounds: TypeAlias = Mapping[str, "tuple[float, float] | float | Log | Below | Tied"]
+
+
+class Space:
+    """Named parameters with bounds.
+
+    Parameters
+    ----------
+    bounds : mapping of str to (low, high), Log, Below, Tied or float
+        In the order in which parameters are listed from then on. A number, or low = high, is a
+        parameter that stays what it is.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Those that are searched for.
+    bounds : dict of str to (low, high)
+        Theirs.
+    is_log : tuple of bool
+        Whether each of them is searched for on a logarithmic scale.
+
+    Raises
+    ------
+    ValueError
+        No parameter to search for, a name that is reserved, or bounds that are not finite with
+        low < high, of a logarithm not above 0, or below a parameter that is not listed before.
+    """
+
+    def __init__(self, bounds: Bounds) -> None:
+        if not isinstance(bounds, Mapping):
+            raise ValueError(f"bounds is {type(bounds).__name__}; give a dict of name: (low, high)")
+        if not bounds:
+            raise ValueError("bounds is empty; give a dict of name: (low, high)")
+        self.bounds: dict[str, tuple[float, float]] = {}
+        self._given = dict(bounds)
+        self._others: list[tuple[int, int]] = []  # (parameter, the one that it stays below)
+        self._fixed: dict[str, float] = {}
+        is_log = []
+        for name, given in bounds.items():
+            if not isinstance(name, str) or not name or name in _RESERVED:
+                raise ValueError(f"a parameter cannot be called {name!r}; rename it")
+            if isinstance(given, Tied):
+                continue
+            low, high = _pair(name, given)
+            if low == high:
+                self._fixed[name] = low
+                continue
+            if isinstance(given, Below):
+                self._others.append((len(self.bounds), self._index(name, given.other)))
+            self.bounds[name] = (low, high)
+            is_log.append(isinstance(given, Log))
+        if not self.bounds:
+            raise ValueError("every parameter is fixed; give one of them bounds (low, high)")
+        self.names = tuple(self.bounds)
+        self.is_log = tuple(is_log)
+        self._low = np.array([low for low, _ in self.bounds.values()])
+        self._high = np.array([high for _, high in self.bounds.values()])
+        self._gaps = _GAP * (self._high - self._low)
+        for below, above in self._others:  # so that there is always room below
+            self._low[above] = max(self._low[above], self._low[below] + 2.0 * self._gaps[below])
+            if not self._low[above] < self._high[above]:
+                raise ValueError(
+                    f"{self.names[below]} cannot stay below {self.names[above]} within their bounds"
+                )
+        self._logs = [i for i, log in enumerate(self.is_log) if log]
+
+    def _index(self, name: str, other: str) -> int:
+        if other not in self.bounds:
+            raise ValueError(
+                f"{name} stays below {other!r}, which is no parameter with bounds before it"
+            )
+        return list(self.bounds).index(other)
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """What a history has to know; for plain bounds the bounds."""
+        settings: dict[str, Any] = {}
+        for name, given in self._given.items():
+            if isinstance(given, Tied):
+                settings[name] = ["tied", fingerprint(given.function)]
+            elif isinstance(given, Below):
+                settings[name] = ["below", given.other, *self.bounds[name]]
+            elif isinstance(given, Log):
+                settings[name] = ["log", *_pair(name, given)]
+            else:
+                settings[name] = self.bounds.get(name, self._fixed.get(name))
+        return settings
+
+    def kind(self, name: str) -> str:
+        """Return what is special about a parameter, in a word or two; empty if nothing is."""
+        given = self._given[name]
+        if name in self._fixed:
+            return "fixed"
+        if isinstance(given, Below):
+            return f"below {given.other}"
+        return {Tied: "tied", Log: "logarithmic"}.get(type(given), "")
+
+    def point(self, unit: Array) -> Point:
+        """Return the parameters at a point of the unit cube."""
+        unit = np.clip(unit, 0.0, 1.0)
+        scaled = self._low + unit * (self._high - self._low)
+        for i in self._logs:
+            scaled[i] = self._low[i] * (self._high[i] / self._low[i]) ** unit[i]
+        for below, above in self._others:
+            high = min(self._high[below], scaled[above] - self._gaps[below])
+            scaled[below] = self._low[below] + unit[below] * (high - self._low[below])
+        return tuple(np.clip(scaled, self._low, self._high).tolist())
+
+    def unit(self, parameters: Mapping[str, float], name: str = "start") -> Array:
+        """Return the point of the unit cube for parameters, which must lie within the bounds."""
+        if set(parameters) != set(self.names):
+            raise ValueError(
+                f"{name} has parameters {', '.join(map(str, parameters))}; "
+                f"give a value for each of {', '.join(self.names)}"
+            )
+        values = np.array([float(parameters[key]) for key in self.names])
+        for key, value, low, high in zip(self.names, values, self._low, self._high, strict=True):
+            if not low <= value <= high:
+                raise ValueError(f"{name}[{key!r}] is {value}; it must be from {low} to {high}")
+        unit: Array = (values - self._low) / (self._high - self._low)
+        for i in self._logs:
+            unit[i] = math.log(values[i] / self._low[i]) / math.log(self._high[i] / self._low[i])
+        for below, above in self._others:
+            high = min(self._high[below], values[above] - self._gaps[below])
+            if values[below] > high:
+                raise ValueError(
+                    f"{name}[{self.names[below]!r}] is {values[below]}; it must be below "
+                    f"{self.names[above]}, {values[above]}"
+                )
+            unit[below] = (values[below] - self._low[below]) / (high - self._low[below])
+        return unit
+
+    def unit_of(self, parameters: Mapping[str, float]) -> Array:
+        """Return where in the unit cube all that a model is called with lies."""
+        return self.unit({name: parameters[name] for name in self.names}, "parameters")
+
+    def differential(self, unit: Array) -> Array:
+        """Return the derivatives of the parameters by the place in the unit cube, shape (k, k)."""
+        if not self._logs and not self._others:
+            return np.diag(self._high - self._low)
+        step = 1e-6
+        columns = []
+        for axis in np.eye(len(unit)):
+            ends = np.clip((unit + step * axis, unit - step * axis), 0.0, 1.0)
+            difference = np.subtract(self.point(ends[0]), self.point(ends[1]))
+            columns.append(difference / float((ends[0] - ends[1]) @ axis))
+        return np.column_stack(columns)
+
+    def dictionary(self, point: Point) -> dict[str, float]:
+        """Return a point as the dict that a model is called with."""
+        free = dict(zip(self.names, point, strict=True))
+        values: dict[str, float] = {}
+        for name, given in self._given.items():
+            if name in free:
+                values[name] = free[name]
+            elif isinstance(given, Tied):
+                values[name] = float(given.function(dict(values)))
+            else:
+                values[name] = self._fixed[name]
+        return values
+
+
+def _pair(name: str, given: Any) -> tuple[float, float]:
+    """Return low and high; the same number twice for a parameter that is fixed."""
+    pair = (given.low, given.high) if isinstance(given, (Log, Below)) else given
+    if np.ndim(pair) == 0 and isinstance(pair, (int, float, np.number)) and math.isfinite(pair):
+        return float(pair), float(pair)
+    if np.shape(pair) != (2,):
+        raise ValueError(
+            f"bounds[{name!r}] is {given!r}; give (low, high), or a number that it stays"
+        )
+    low, high = pair
+    if not (math.isfinite(low) and math.isfinite(high) and low <= high):
+        raise ValueError(f"bounds[{name!r}] is {given!r}; they must be finite, low < high")
+    if not math.isfinite(high - low):
+        raise ValueError(f"bounds[{name!r}] is {given!r}; the range overflows")
+    if isinstance(given, (Log, Below)) and low == high:
+        raise ValueError(f"bounds[{name!r}] is {given!r}; they must be finite, low < high")
+    if isinstance(given, Log) and low <= 0:
+        raise ValueError(f"bounds[{name!r}] is {given!r}; a logarithm needs low above 0")
+    return float(low), float(high)

@@ -1,0 +1,143 @@
+"""What is written down of a search, beside its runs: enough to report on it, and to repeat it.
+
+A record has three parts: what was asked for (tests, objective, space, method, seed, versions), the
+evaluations as they came, and the ending. A store and a history keep all three; both give back what
+was written bit for bit, so that a report made of a file is that made by the search itself.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from ...curves.inputs import Array
+from .curve_text import curves_of, text_of
+from .evaluation import Evaluation
+
+__all__ = ["Ending", "SearchRecord", "as_json", "canonical"]
+
+_ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
+
+
+@dataclass(frozen=True)
+class Ending:
+    """How a search ended.
+
+    Attributes
+    ----------
+    converged, message, parameters, value, measures
+        As those of an :class:`Identification`.
+    deviations : list of (mean, largest, height), or None, for each loop
+        See :class:`curvewise.comparing.deviations.Deviation`.
+    simulations : tuple of ndarray
+        The curves at the optimum.
+    unit, slopes : ndarray, or None
+        Where in the unit cube the optimum is, and the slopes of the curves there; None where the
+        search has left no runs near the optimum to tell them from.
+    uncertainty : dict, or None
+        What :func:`curvewise.calibration.report.figures_of_uncertainty` says of an
+        :class:`Uncertainty` that has been computed.
+    """
+
+    converged: bool
+    message: str
+    parameters: dict[str, float]
+    value: float
+    measures: dict[str, float]
+    deviations: list[list[float] | None]
+    simulations: tuple[Array, ...]
+    unit: Array | None = None
+    slopes: Array | None = None
+    uncertainty: dict[str, Any] | None = None
+
+    def to_json(self) -> str:
+        """Return the ending as a line of JSON."""
+        plain = {name: getattr(self, name) for name in self.__dataclass_fields__}
+        for name in ("simulations", "unit", "slopes"):
+            value = plain[name]
+            if value is not None:
+                plain[name] = text_of(value if name == "simulations" else (value,))
+        return as_json(plain)
+
+    @classmethod
+    def from_json(cls, text: str) -> Ending:
+        """Return the ending that a line of JSON stands for."""
+        plain = json.loads(text)
+        plain["simulations"] = curves_of(plain["simulations"])
+        for name in ("unit", "slopes"):
+            if plain[name] is not None:
+                (plain[name],) = curves_of(plain[name])
+        return cls(**plain)
+
+
+@dataclass(frozen=True)
+class SearchRecord:
+    """A search: what was asked for, what was evaluated, how it ended.
+
+    Attributes
+    ----------
+    settings : dict
+        What decides the course of the search, as a history has it.
+    details : dict
+        What a report needs beside: see `details_of`.
+    evaluations : tuple of Evaluation
+        In the order of their numbers, without curves.
+    ending : Ending or None
+        None for a search that has been interrupted.
+    simulations : tuple of ndarray
+        The curves at the best point so far of a search without an ending, if they are known.
+    """
+
+    settings: dict[str, Any]
+    details: dict[str, Any]
+    evaluations: tuple[Evaluation, ...]
+    ending: Ending | None = None
+    simulations: tuple[Array, ...] = field(default=(), repr=False)
+
+    @property
+    def experiments(self) -> tuple[Array, ...]:
+        """The measured curves."""
+        return curves_of(self.details["experiments"])
+
+    @property
+    def curves(self) -> tuple[Array, ...]:
+        """The simulated curves at the best point; none where they are not known."""
+        return self.simulations if self.ending is None else self.ending.simulations
+
+    @property
+    def best(self) -> Evaluation | None:
+        """The evaluation with the smallest value, the first among equals."""
+        return min(self.evaluations, key=lambda one: one.value, default=None)
+
+    @property
+    def names(self) -> list[str]:
+        """The parameters that were searched for."""
+        return list(self.details["parameters"])
+
+
+def canonical(evaluation: Evaluation) -> Evaluation:
+    """Return an evaluation as a record has it: what a line of a history holds, without curves."""
+    return replace(
+        evaluation,
+        seconds=float(f"{evaluation.seconds:.6g}"),
+        message=" ".join(evaluation.message.split()),
+        simulations=None,
+    )
+
+
+def as_json(value: Mapping[str, Any]) -> str:
+    """Return JSON, with numpy's numbers as numbers and functions by their names."""
+    return json.dumps(value, default=_plain)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return _ADDRESS.sub("", repr(value))

@@ -1,0 +1,99 @@
+"""A small quasi-Newton search for functions that cost less than an optimiser's own bookkeeping.
+
+The method of Broyden, Fletcher, Goldfarb and Shanno with forward differences and backtracking,
+begun from an inverse Hessian of the right size, so that each of thousands of alike functions takes
+a few steps. J. Nocedal, S. J. Wright, "Numerical optimization", Springer
+(2006), chapter 6. Cost: k + 2 evaluations a step, or thereabouts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ...curves.inputs import Array
+
+__all__ = ["quasi_newton"]
+
+_ARMIJO = 1e-4
+_HALVINGS = 8
+
+
+def quasi_newton(
+    function: Callable[[Array], float],
+    start: Array,
+    inverse_hessian: Array,
+    *,
+    difference: float,
+    enough: float,
+    maxiter: int,
+) -> Array:
+    """Return where a function is lowest.
+
+    Parameters
+    ----------
+    function : callable
+        Of a point, shape (k,).
+    start : ndarray, shape (k,)
+    inverse_hessian : ndarray, shape (k, k)
+        Positive definite; of the right size.
+    difference : float
+        For derivatives.
+    enough : float
+        The search ends where a step promises to gain less than this.
+    maxiter : int
+        The most steps.
+    """
+    axes = difference * np.eye(start.size)
+    B, point, value = inverse_hessian, start, function(start)
+    gradient = _gradient(function, point, value, axes)
+    for _ in range(maxiter):
+        step = _step(function, point, value, gradient, B, enough)
+        if step is None and B is not inverse_hessian:  # kinks may have spoilt it: begin anew
+            B = inverse_hessian
+            step = _step(function, point, value, gradient, B, enough)
+        if step is None:
+            break
+        trial, value = step
+        after = _gradient(function, trial, value, axes)
+        B = _updated(B, trial - point, after - gradient)
+        point, gradient = trial, after
+    return point
+
+
+def _step(
+    function: Callable[[Array], float],
+    point: Array,
+    value: float,
+    gradient: Array,
+    B: Array,
+    enough: float,
+) -> tuple[Array, float] | None:
+    """Return the next point and its value, or None where no step is worth it."""
+    direction = -B @ gradient
+    slope = float(gradient @ direction)
+    if not slope < -2.0 * enough:
+        return None
+    length = 1.0
+    for _ in range(_HALVINGS):
+        trial = point + length * direction
+        there = function(trial)
+        if there <= value + _ARMIJO * length * slope:
+            return trial, there
+        length *= 0.4
+    return None
+
+
+def _gradient(function: Callable[[Array], float], point: Array, value: float, axes: Array) -> Array:
+    return np.array([(function(point + axis) - value) / axis.sum() for axis in axes])
+
+
+def _updated(B: Array, step: Array, change: Array) -> Array:
+    """Return the BFGS update of the inverse Hessian, none where the curvature is not positive."""
+    curvature = float(step @ change)
+    if curvature <= 1e-10 * float(np.linalg.norm(step) * np.linalg.norm(change)):
+        return B
+    moved = np.eye(step.size) - np.outer(step, change) / curvature
+    updated: Array = moved @ B @ moved.T + np.outer(step, step) / curvature
+    return updated

@@ -1,0 +1,166 @@
+"""Linear response surfaces of simulated curves: every coordinate of every point, in the parameters.
+
+What a measure makes of predicted curves is its exact value there, so that a surface serves every
+measure and none of its kinks is smoothed away. Simulations with another number of points than the
+first (a solver with adaptive steps) are resampled at equal fractions of their arc length, measured
+in units of the first one's box. Cost: O(k) for every coordinate, k parameters.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...curves.inputs import Array
+from ...curves.thinning import Rows, thinned_rows
+
+__all__ = ["Responses", "Surfaces", "regression"]
+
+_log = logging.getLogger("curvewise.calibration")
+
+
+class Responses:
+    """Turns the simulations of one run into one vector, and such a vector back into curves.
+
+    Parameters
+    ----------
+    simulations : sequence of ndarray, shape (n, d)
+        Of some run; the others are brought to its numbers of points.
+    """
+
+    def __init__(self, simulations: Sequence[Array]) -> None:
+        self._first = tuple(simulations)
+        self.shapes = [curve.shape for curve in simulations]
+        self._extents = [np.ptp(curve, axis=0) for curve in simulations]
+        self._ends = np.cumsum([curve.size for curve in simulations])[:-1]
+        self._warned = False
+
+    def vector(self, simulations: Sequence[Array]) -> Array:
+        """Return the coordinates of all points of all curves."""
+        curves = [
+            curve if curve.shape == shape else self._resampled(curve, shape[0], extent)
+            for curve, shape, extent in zip(simulations, self.shapes, self._extents, strict=True)
+        ]
+        return np.concatenate([curve.ravel() for curve in curves])
+
+    def curves(self, vector: Array) -> list[Array]:
+        """Return the curves that a vector stands for."""
+        parts = np.split(vector, self._ends)
+        return [part.reshape(shape) for part, shape in zip(parts, self.shapes, strict=True)]
+
+    def thinned_rows(self, most: int) -> list[Rows] | None:
+        """Return which points of each curve stand for it, or None where all have to.
+
+        See `thinned_rows`; by the curves of the first run.
+        """
+        rows = [thinned_rows(curve, most) for curve in self._first]
+        fewer = any(len(kept) < len(curve) for kept, curve in zip(rows, self._first, strict=True))
+        return rows if fewer else None
+
+    def of_rows(self, rows: Sequence[Rows]) -> Responses:
+        """Return the same for curves of some of the points alone."""
+        return Responses([curve[kept] for curve, kept in zip(self._first, rows, strict=True)])
+
+    def places_of_rows(self, rows: Sequence[Rows]) -> Rows:
+        """Return where in a vector the coordinates of some of the points are."""
+        parts = []
+        first = 0
+        for (count, dimension), kept in zip(self.shapes, rows, strict=True):
+            numbers = first + np.arange(count * dimension).reshape(count, dimension)
+            parts.append(numbers[kept].ravel())
+            first += count * dimension
+        return np.concatenate(parts)
+
+    def _resampled(self, curve: Array, count: int, extent: Array) -> Array:
+        if not self._warned:
+            _log.warning(
+                "simulations have different numbers of points (%d and %d); they are resampled by "
+                "arc length for the response surfaces, which is less exact: let the model return "
+                "a fixed number of points",
+                len(curve),
+                count,
+            )
+            self._warned = True
+        return resampled(curve, count, extent)
+
+
+def resampled(curve: Array, count: int, extent: Array) -> Array:
+    """Return points at equal fractions of the arc length, in units of an extent.
+
+    Parameters
+    ----------
+    curve : ndarray, shape (n, d)
+    count : int
+        How many points to return.
+    extent : ndarray, shape (d,)
+        By what coordinates are divided for the length; 0 counts as 1.
+    """
+    steps = np.diff(curve, axis=0) / np.where(extent > 0, extent, 1.0)
+    length = np.concatenate(([0.0], np.cumsum(np.linalg.norm(steps, axis=1))))
+    wanted = np.linspace(0.0, length[-1], count)
+    return np.column_stack([np.interp(wanted, length, column) for column in curve.T])
+
+
+class Surfaces:
+    """Curves as linear functions of a point of the unit cube.
+
+    Attributes
+    ----------
+    centre : ndarray, shape (k,)
+        Where the surfaces touch `base`.
+    base : ndarray, shape (coordinates,)
+        The response there.
+    slopes : ndarray, shape (coordinates, k)
+        Its derivatives.
+    """
+
+    def __init__(self, centre: Array, base: Array, slopes: Array) -> None:
+        self.centre, self.base, self.slopes = centre, base, slopes
+
+    def at(self, point: Array) -> Array:
+        """Return the response at a point."""
+        response: Array = self.base + self.slopes @ (point - self.centre)
+        return response
+
+    def learn(self, point: Array, response: Array, *, recentre: bool) -> None:
+        """Take a run into account: Broyden's rank-one change, after which it lies on the surfaces.
+
+        Parameters
+        ----------
+        point, response
+            The run.
+        recentre : bool
+            Whether it becomes the centre.
+        """
+        step = point - self.centre
+        square = float(step @ step)
+        if square > 0:
+            self.slopes = self.slopes + np.outer(response - self.at(point), step / square)
+        if recentre:
+            self.centre, self.base = point, response
+
+
+def regression(points: Array, responses: Array, centre: Array, weights: Array) -> Array:
+    """Return the slopes that fit runs best, by weighted least squares with a free intercept.
+
+    Parameters
+    ----------
+    points : ndarray, shape (m, k)
+    responses : ndarray, shape (m, coordinates)
+    centre : ndarray, shape (k,)
+    weights : ndarray, shape (m,)
+
+    Returns
+    -------
+    ndarray, shape (coordinates, k)
+    """
+    # Centred and scaled: runs may be 1e-3 apart.
+    width = np.ptp(points, axis=0)
+    width = np.where(width > 0, width, 1.0)
+    root = np.sqrt(weights)[:, np.newaxis]
+    design = root * np.column_stack((np.ones(len(points)), (points - centre) / width))
+    coefficients = np.linalg.lstsq(design, root * responses, rcond=None)[0]
+    slopes: Array = coefficients[1:].T / width
+    return slopes

@@ -1,0 +1,1 @@
+"""What the tests determine: noise, sensitivities, intervals."""

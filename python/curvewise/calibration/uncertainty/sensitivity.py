@@ -1,0 +1,178 @@
+"""Surfaces of the curves around an optimum, and what they say of it without any noise.
+
+Slopes come from the runs that a search has made nearby, weighted by nearness, or from two runs a
+parameter where there are too few of these. Their singular values say which combinations of
+parameters the loops notice, and along each of these directions how far one can go before the
+objective rises by a hundredth: parameters that may go far are not determined, whatever a search
+says of its convergence. Cost: no runs, or 2 k; some 40 k evaluations of the objective.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...curves.inputs import Array
+from ...curves.several_curves import points_of
+from ..problem.problem import Problem
+from ..records.evaluation import Evaluation
+from ..surfaces.surfaces import Responses, Surfaces, regression
+
+__all__ = ["Optimum", "design_runs", "indifferent", "optimum_surfaces"]
+
+_NEAR = 0.1  # runs further away than this fraction of the bounds' range are not looked at
+_STEP = 0.02  # runs nearer than this count alike; the step of fresh runs
+_LEAST = 0.15  # the smallest singular value of the places of the runs, in units of their distances
+_RISE = 0.01  # a rise of the objective by this fraction goes unnoticed
+
+
+@dataclass(frozen=True)
+class Optimum:
+    """Surfaces around an optimum.
+
+    Attributes
+    ----------
+    problem : Problem
+        What was searched.
+    unit : ndarray, shape (k,)
+        The optimum in the unit cube.
+    responses, surfaces
+        The curves as linear functions of the place in the unit cube.
+    """
+
+    problem: Problem
+    unit: Array
+    responses: Responses
+    surfaces: Surfaces
+
+    def curves(self, unit: Array) -> list[Array]:
+        """Return the predicted curves at a place."""
+        return self.responses.curves(self.surfaces.at(unit))
+
+    def scaled_slopes(self) -> Array:
+        """Return the slopes in units of each loop's box, each loop's points weighing 1 together.
+
+        Shape (coordinates, k): a column's norm over a loop is the root mean square distance by
+        which the loop moves as the parameter goes through its bounds.
+        """
+        parts = []
+        columns = [self.responses.curves(column) for column in self.surfaces.slopes.T]
+        for i, extent in enumerate(self.problem.objective.extents):
+            moves = np.array([column[i] / extent for column in columns])
+            parts.append(moves.reshape(len(columns), -1).T / np.sqrt(moves.shape[1]))
+        return np.concatenate(parts)
+
+    def loop_sensitivities(self) -> Array:
+        """Return the root mean square move of every loop, in units of its box; (loops, k)."""
+        counts = [len(curve) * curve.shape[1] for curve in self.curves(self.unit)]
+        parts = np.split(self.scaled_slopes(), np.cumsum(counts)[:-1])
+        return np.array([np.linalg.norm(part, axis=0) for part in parts])
+
+
+def design_runs(problem: Problem, unit: Array, kept: Sequence[tuple[Array, Evaluation]]) -> int:
+    """Return how many runs `optimum_surfaces` will make."""
+    return 0 if _nearby(unit, kept) is not None else 2 * len(problem.space.names)
+
+
+def optimum_surfaces(
+    problem: Problem,
+    unit: Array,
+    simulations: Sequence[Array],
+    kept: Sequence[tuple[Array, Evaluation]],
+) -> Optimum:
+    """Return the surfaces around an optimum, of kept runs or of fresh ones."""
+    responses = Responses(simulations)
+    base = responses.vector(simulations)
+    near = _nearby(unit, kept)
+    if near is None:
+        slopes = _differences(problem, unit, responses, base)
+    else:
+        points, runs = near
+        vectors = np.array([responses.vector(run.simulations or ()) for run in runs])
+        slopes = regression(points, vectors, unit, 1.0 / (_distances(points, unit) + _STEP) ** 2)
+    return Optimum(problem, unit, responses, Surfaces(unit, base, slopes))
+
+
+def _distances(points: Array, unit: Array) -> Array:
+    distances: Array = np.abs(points - unit).max(axis=1)
+    return distances
+
+
+def _nearby(
+    unit: Array, kept: Sequence[tuple[Array, Evaluation]]
+) -> tuple[Array, list[Evaluation]] | None:
+    """Return the runs near a place if they determine slopes there."""
+    near = [(place, run) for place, run in kept if np.abs(place - unit).max() <= _NEAR]
+    if len(near) < unit.size + 2:
+        return None
+    points = np.array([place for place, _ in near])
+    directions = (points - unit) / (_distances(points, unit) + _STEP)[:, np.newaxis]
+    if np.linalg.svd(directions, compute_uv=False)[-1] < _LEAST:
+        return None
+    return points, [run for _, run in near]
+
+
+def _differences(problem: Problem, unit: Array, responses: Responses, base: Array) -> Array:
+    """Return slopes by central differences; to one side at a bound and where a run fails."""
+    k = unit.size
+    places = np.clip(np.vstack((unit + _STEP * np.eye(k), unit - _STEP * np.eye(k))), 0.0, 1.0)
+    parameters = [problem.space.dictionary(problem.space.point(place)) for place in places]
+    with problem.simulator() as simulator:
+        outcomes = dict(simulator.run(parameters))
+    vectors: list[Array | None] = []
+    for i in range(2 * k):
+        simulations = outcomes[i].simulations
+        failed = outcomes[i].message or problem.objective.predicted(simulations).failures
+        vectors.append(None if failed else responses.vector(points_of(simulations)))
+    slopes = np.zeros((base.size, k))
+    for i in range(k):
+        ends = [(places[j, i], vectors[j] if places[j, i] != unit[i] else base) for j in (i, i + k)]
+        known = [(place, vector) for place, vector in ends if vector is not None]
+        (a, high), (b, low) = known if len(known) == 2 else [*known, (unit[i], base)][:2]
+        if a != b:
+            slopes[:, i] = (high - low) / (a - b)
+    return slopes
+
+
+def indifferent(optimum: Optimum) -> tuple[Array, Array, Array]:
+    """Return singular values, directions and how far each parameter may go unnoticed.
+
+    Returns
+    -------
+    singular_values : ndarray, shape (k,)
+        Of the scaled slopes, the largest first.
+    directions : ndarray, shape (k, k)
+        Row i is the direction of value i, in the unit cube.
+    reach : ndarray, shape (k,)
+        By how much each parameter changes, in units of its bounds' range, along the direction in
+        which it can go furthest before the objective rises by 1 %; at most 1.
+    """
+    slopes = optimum.scaled_slopes()
+    _, values, directions = np.linalg.svd(slopes, full_matrices=False)
+    objective = optimum.problem.objective
+    lowest = objective.predicted(optimum.curves(optimum.unit)).value
+    negligible = 1e-7 * float(objective.weights @ objective.scales)
+    least = lowest + max(_RISE * lowest, negligible)
+
+    def unnoticed(direction: Array, t: float) -> bool:
+        curves = optimum.curves(optimum.unit + t * direction)
+        return objective.predicted(curves).value <= least
+
+    reach = np.zeros(directions.shape[1])
+    for direction in directions:
+        furthest = max(_furthest(unnoticed, sign * direction) for sign in (1.0, -1.0))
+        reach = np.maximum(reach, furthest * np.abs(direction))
+    return values, directions, np.minimum(reach, 1.0)
+
+
+def _furthest(unnoticed: Callable[[Array, float], bool], direction: Array) -> float:
+    """Return how far one can go in a direction, at most through the whole cube."""
+    low, high = 0.0, 1.0 / float(np.abs(direction).max())
+    if unnoticed(direction, high):
+        return high
+    for _ in range(14):
+        middle = (low + high) / 2.0 if low > 0 else high / 4.0
+        low, high = (middle, high) if unnoticed(direction, middle) else (low, middle)
+    return low

@@ -1,0 +1,105 @@
+"""``curvewise identify study.toml``: a study from the shell, checked, run, interrupted, resumed.
+
+What is imported here is light; the study itself comes with scipy when it is run. Where standard
+error is no terminal, as in a batch job, the bar gives way to a line for every batch of runs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ..calibration import Progress
+    from ..studies import Study
+
+__all__ = ["add_identify"]
+
+
+def add_identify(commands: Any) -> None:
+    """Add the command to a parser's commands."""
+    command = commands.add_parser(
+        "identify",
+        help="find the parameters of a solver's model: a study in a TOML file",
+        description="Find the parameters with which a solver's curves are most like the measured "
+        "ones, as a study file says (docs/study.md has its keys). Ctrl-C ends it; the same command "
+        "again goes on where it was.",
+    )
+    command.set_defaults(run=_identify)
+    command.add_argument("study", metavar="STUDY.toml", help="the study file")
+    command.add_argument(
+        "--check",
+        action="store_true",
+        help="check the file, run the solver once, and say what was read and how long it will take",
+    )
+
+
+def _identify(arguments: argparse.Namespace) -> int:
+    from ..calibration import SolverError
+    from ..studies import Study, StudyError
+
+    try:
+        study = Study.read(arguments.study)
+        if arguments.check:
+            print(study.check())
+            return 0
+        return _run(study)
+    except StudyError as error:
+        for problem in error.problems:
+            print("curvewise:", problem, file=sys.stderr)
+        return 1
+    except (SolverError, RuntimeError) as error:
+        print("curvewise:", error, file=sys.stderr)
+        return 1
+
+
+def _run(study: Study) -> int:
+    title = f"{study.title}: " if study.title else ""
+    known = study.stored_runs()
+    held = f"; {study.search.store.name} holds {_runs(known)}, looked up" if known else ""
+    print(
+        f"{title}{len(study.tests)} test{'s' if len(study.tests) > 1 else ''}, "
+        f"{len(study.bounds)} parameters, {' and '.join(study.search.measures)}{held}",
+        flush=True,
+    )
+    if len(study.tests) > 1:
+        print(", ".join(f"curve {i}: {test.name}" for i, test in enumerate(study.tests)))
+    is_terminal = sys.stderr.isatty()
+    try:
+        found = study.run(
+            progress=is_terminal,
+            callback=None if is_terminal or len(study.search.measures) > 1 else _Reported(),
+        )
+    except KeyboardInterrupt:
+        print(
+            f"\ncurvewise: interrupted; {_runs(study.stored_runs())} in {study.search.store}. "
+            f"The same command goes on from there: curvewise identify {study.path}",
+            file=sys.stderr,
+        )
+        return 130
+    print(f"\n{found}\n\nresults: {study.results}")
+    return 0
+
+
+def _runs(count: int) -> str:
+    return "1 run" if count == 1 else f"{count} runs"
+
+
+class _Reported:
+    """Prints a line for every batch of runs, and never ends the search."""
+
+    def __init__(self) -> None:
+        self._begin = time.monotonic()
+        self._best = math.inf
+
+    def __call__(self, progress: Progress) -> None:
+        seconds = time.monotonic() - self._begin
+        line = f"{seconds:8.0f} s  {progress.evaluations:5d} evaluated, best {progress.value:.5g}"
+        if progress.value < self._best:
+            self._best = progress.value
+            values = (f"{name} {value:.5g}" for name, value in progress.parameters.items())
+            line += f": {', '.join(values)}"
+        print(line, file=sys.stderr, flush=True)

@@ -1,0 +1,218 @@
+"""All measures of a pair of curves at once, under conditions that make sense together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._docstrings import filled
+from .._options import Preset
+from ..curves.foreign_curves import warn
+from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.named_curve import copied, known_names
+from ..files.column_choice import is_time
+from ..measures import normalize
+from ..measures.registry import MEASURES, PRESETS, Condition, MeasureInfo, default_measures
+from ..showing.notebook import paragraph, picture, table
+from .deviations import Deviations, cells, deviation
+
+if TYPE_CHECKING:
+    from ..drawing.picture import Picture
+
+__all__ = ["PRESETS", "Comparison", "Preset", "compare"]
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """The values of several measures for one pair of curves.
+
+    ``comparison["dtw"]`` is one value, ``str(comparison)`` a table.
+
+    Attributes
+    ----------
+    P, Q : ndarray
+        The curves, in float64, not scaled; with the names of their columns, if they had any.
+    preset : {"scaled", "paper", "raw"}
+        The conditions under which the values were computed.
+    values : dict of str to float
+        In the order in which :func:`compare` lists the measures, or as asked for.
+    conditions : dict of str to Condition
+        How each value was computed: on curves scaled or not, and with which options.
+    """
+
+    P: Array = field(repr=False)
+    Q: Array = field(repr=False)
+    preset: Preset
+    values: dict[str, float]
+    conditions: dict[str, Condition] = field(repr=False)
+
+    def __getitem__(self, measure: str) -> float:
+        return self.values[measure]
+
+    def __str__(self) -> str:
+        width = max(map(len, self.values))
+        lines = [f"{name:<{width}}  {value:.6g}" for name, value in self.values.items()]
+        return "\n".join(lines)
+
+    @property
+    def deviations(self) -> Deviations:
+        """How far apart the points are that each measure compares, in units of y.
+
+        Of the measures that compare points: not of curve_length. Computed when asked for: dtw and
+        frechet need their paths. A dict of :class:`curvewise.comparing.deviations.Deviation`.
+        """
+        found = {
+            name: deviation(name, condition, self.P, self.Q)
+            for name, condition in self.conditions.items()
+        }
+        return Deviations({name: value for name, value in found.items() if value is not None})
+
+    def to_dict(self) -> dict[str, float]:
+        """Return the values by name, as a new dict of Python floats."""
+        return dict(self.values)
+
+    def plot(self, *, names: Sequence[str] | None = None) -> Picture:
+        """Return a matplotlib Figure of the curves and of what each measure saw.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            What the coordinates are called on the axes; by default what the curves' columns were
+            called, else x and y.
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        ValueError
+            Another number of names than of coordinates.
+        """
+        from ..plotting import plot_comparison
+
+        return plot_comparison(self, names=names)
+
+    def _repr_html_(self) -> str:
+        deviations = self.deviations
+        rows = []
+        for name, value in self.values.items():
+            rows.append([name, f"{value:.6g}", *cells(deviations.get(name))])
+        header = ["measure", "value", "mean deviation, in units of y", "largest"]
+        about = f"The curves, and what {', '.join(self.values)} saw in them"
+        return "\n".join(
+            [table(rows, header), paragraph(f"preset {self.preset}"), picture(self.plot, about)]
+        )
+
+
+@filled(
+    in_plane=", ".join(name for name, info in MEASURES.items() if info.by_default),
+    any_dimension=" and ".join(
+        name for name, info in MEASURES.items() if info.by_default and not info.planar
+    ),
+)
+def compare(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    preset: Preset = "scaled",
+    measures: Sequence[str] | None = None,
+    options: Mapping[str, Mapping[str, Any]] | None = None,
+) -> Comparison:
+    """Compute several measures of a pair of curves.
+
+    Parameters
+    ----------
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves; P is the reference. Every column is a coordinate: of three or more of which one
+        is time by its name, or alone increases from point to point in both curves, a warning says
+        so, unless `measures` is given.
+    preset : {"scaled", "paper", "raw"}
+        "scaled": everything on curves scaled by P's box, area with spacing="matched",
+        curve_length with scale="mean_abs".
+        "paper": the conditions of the paper's Table 4 (area raw with spacing="x"; frechet, and
+        dtw with step_pattern="symmetric2", on scaled curves; curve_length raw with
+        scale="mean"). "raw": every default on the curves as they are.
+    measures : sequence of str, optional
+        Of {measures}.
+        If not given: {in_plane} in the plane, {any_dimension} in other dimensions.
+    options : mapping of str to mapping, optional
+        Options of measures, in the place of the preset's: {"dtw": {"window": 0.1}}.
+
+    Returns
+    -------
+    Comparison
+        The values by name; prints as a table, plots itself.
+
+    Raises
+    ------
+    ValueError
+        An unknown preset or measure, options of a measure that is not computed, and whatever a
+        measure refuses.
+    TypeError
+        A curve does not hold real numbers; an option that the measure does not have.
+
+    Notes
+    -----
+    Time O(n m) for frechet and dtw, O(200 (n + m)) for pcm; memory O(n + m).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> print(curvewise.compare([(0, 0), (1, 1), (2, 0)], [(0, 1), (1, 2), (2, 1)]))
+    area          1
+    pcm           2.23607
+    frechet       1
+    dtw           3
+    curve_length  2.40113
+    >>> P, Q = curvewise.datasets.hysteresis_pair()
+    >>> print(curvewise.compare(P, Q, measures=["area"]).deviations["area"])
+    mean 54.09 (4 %), largest 99.3 (7.3 %)
+    """
+    columns = known_names(P, Q)
+    P, Q = map(copied, (P, Q), as_curves(P, Q))
+    if not isinstance(preset, str) or preset not in PRESETS:
+        raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
+    if measures is None:
+        measures = default_measures(P)
+        _warn_of_time(P, Q, columns, measures)
+    if isinstance(measures, str) or not (names := list(measures)):
+        raise ValueError(f"measures is {measures!r}; give a list of names, e.g. ['area', 'dtw']")
+    given = {} if options is None else options
+    for name in (*names, *given):
+        if not isinstance(name, str) or name not in MEASURES:
+            raise ValueError(f"unknown measure {name!r}; choose from {', '.join(MEASURES)}")
+    for name in given:
+        if name not in names:
+            raise ValueError(f"options are given for {name!r}, which is not among the measures")
+    conditions = {name: _changed(PRESETS[preset][name], given.get(name, {})) for name in names}
+    values = {name: _value(MEASURES[name], conditions[name], P, Q) for name in names}
+    return Comparison(P, Q, preset, values, conditions)
+
+
+def _warn_of_time(P: Array, Q: Array, names: Sequence[Any], measures: Sequence[str]) -> None:
+    """Warn of a column beside two others that is time: it would count as a coordinate."""
+    if P.ndim != 2 or Q.ndim != 2 or P.shape[1] != Q.shape[1] or P.shape[1] < 3:
+        return
+    times = [i for i, name in enumerate(names) if is_time(name)]
+    if not times and min(len(P), len(Q)) > 2:
+        rising = (np.diff(P, axis=0) > 0).all(axis=0) & (np.diff(Q, axis=0) > 0).all(axis=0)
+        times = [int(i) for i in np.flatnonzero(rising)] if rising.sum() == 1 else []
+    if times:
+        by_name = bool(names) and is_time(names[times[0]])
+        column = repr(names[times[0]]) if by_name else f"{times[0] + 1} of {P.shape[1]}"
+        warn(
+            f"column {column} counts as a coordinate, and looks like time; leave it out of P and Q,"
+            f" or say measures={list(measures)} if it shall count"
+        )
+
+
+def _changed(condition: Condition, options: Mapping[str, Any]) -> Condition:
+    return condition._replace(options={**condition.options, **options})
+
+
+def _value(info: MeasureInfo, condition: Condition, P: Array, Q: Array) -> float:
+    if condition.scaled:
+        P, Q = normalize(P, Q)
+    return info.function(P, Q, **condition.options)

@@ -1,0 +1,187 @@
+"""What a measure's value means in units of y: how far apart the points are that it compares.
+
+A value of 0.072 says little; "29 MPa in the mean, 3 % of the height, 88 MPa at most" says what a
+plot shows. Every measure but curve_length compares points of P with points of Q.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._options import Crossing
+from ..curves.arc_length import points_at
+from ..curves.inputs import Array
+from ..curves.travel import travel
+from ..measures import area, area_quads, frechet_continuous_path, normalize, pcm_match
+from ..measures.registry import MEASURES, Condition
+from ..showing.notebook import table
+
+__all__ = ["Deviation", "Deviations", "cells", "deviation"]
+
+
+class Deviation(NamedTuple):
+    """How far apart the points are that a measure compares, in units of y.
+
+    Where the measure is computed on scaled curves, a distance is a part of P's box, and that part
+    of its height is given.
+
+    Attributes
+    ----------
+    mean : float
+        area: the area by how far P travels along x, a mean difference in y; infinite where P does
+        not travel along x. dtw, frechet: the mean distance along the path. frechet_continuous: the
+        mean leash, by the lengths that both ends walk. pcm: the area by the length of the mapped
+        curve.
+    largest : float
+        The largest distance; area: of facing vertices. dtw, frechet: on the path; for both Fréchet
+        distances that is the value. pcm: of the mapped vertices.
+    height : float
+        The extent of P in y, its last coordinate.
+    """
+
+    mean: float
+    largest: float
+    height: float
+
+    def __str__(self) -> str:
+        return f"mean {self.mean_text}, largest {self.largest_text}"
+
+    @property
+    def mean_text(self) -> str:
+        """The mean as a text, with its part of the height."""
+        return self._text(self.mean)
+
+    @property
+    def largest_text(self) -> str:
+        """The largest as a text, with its part of the height."""
+        return self._text(self.largest)
+
+    def _text(self, value: float) -> str:
+        if not (0 < self.height < math.inf and value < math.inf):
+            return f"{value:.4g}"
+        share = 100 * (value / self.height)
+        return f"{value:.4g} ({share:.2g} %)" if share < 99.5 else f"{value:.4g} ({share:.0f} %)"
+
+
+class Deviations(dict[str, Deviation]):
+    """Deviations by measure; prints as a table."""
+
+    def __str__(self) -> str:
+        width = max(map(len, self), default=0)
+        return "\n".join(f"{name:<{width}}  {found}" for name, found in self.items())
+
+    def _repr_html_(self) -> str:
+        header = ["measure", "mean deviation, in units of y", "largest"]
+        return table([[name, *cells(found)] for name, found in self.items()], header)
+
+
+def cells(found: Deviation | None) -> list[str]:
+    """Return mean and largest as the cells of a table; empty where there is no deviation."""
+    return ["", ""] if found is None else [found.mean_text, found.largest_text]
+
+
+def deviation(
+    measure: str, condition: Condition, P: Array, Q: Array, *, part: str = "experiment"
+) -> Deviation | None:
+    """Return the deviation that belongs to a measure, or None for one that compares no points.
+
+    Parameters
+    ----------
+    measure : str
+        One of the registry.
+    condition : Condition
+        How it is computed.
+    P, Q : ndarray
+        The curves, not scaled.
+    part : {"experiment", "simulation"}
+        "simulation": the path of dtw is that of Q to a part of P, as in an objective.
+
+    Returns
+    -------
+    Deviation or None
+
+    Raises
+    ------
+    ValueError
+        As the measure.
+
+    Notes
+    -----
+    Time and memory of a path for dtw and the Fréchet distances, else of the measure.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from curvewise.measures.registry import PRESETS
+    >>> from curvewise.comparing.deviations import deviation
+    >>> P = np.array([(0.0, 0.0), (1.0, 200.0), (2.0, 400.0)])
+    >>> print(deviation("area", PRESETS["scaled"]["area"], P, P + (0.0, 20.0)))
+    mean 20 (5 %), largest 20 (5 %)
+    """
+    if (distances := _DISTANCES.get(measure)) is None:
+        return None
+    is_scaled = condition.scaled or MEASURES[measure].scales_itself
+    compared = normalize(P, Q) if is_scaled else [P, Q]
+    if part == "simulation":
+        compared.reverse()
+    with np.errstate(over="ignore", invalid="ignore"):  # beyond the range of a double: inf
+        height = float(np.ptp(P[:, -1] if P.ndim == 2 else P))
+        mean, largest = distances(measure, condition.options, *compared)
+    unit = height if is_scaled and height > 0 else 1.0
+    return Deviation(mean * unit, largest * unit, height)
+
+
+def _along_path(
+    measure: str, options: Mapping[str, Any], P: Array, Q: Array
+) -> tuple[float, float]:
+    warping = MEASURES[measure].warping
+    assert warping is not None
+    of_path = {key: value for key, value in options.items() if key not in ("normalize", "cutoff")}
+    i, j = warping.path(P, Q, **of_path).path.T
+    between = np.abs(P[i] - Q[j]).reshape(len(i), -1)
+    distances = np.hypot.reduce(between, axis=1)  # whose squares do not overflow
+    return float(distances.mean()), float(distances.max())
+
+
+def _along_matching(
+    measure: str, options: Mapping[str, Any], P: Array, Q: Array
+) -> tuple[float, float]:
+    match = frechet_continuous_path(P, Q)  # whose options, workers and bounds, do not change it
+    ends = [points_at(curve, at) for curve, at in zip((P, Q), match.parameters.T, strict=True)]
+    leashes = np.hypot.reduce(np.abs(ends[0] - ends[1]), axis=1)
+    walked = sum(np.hypot.reduce(np.abs(np.diff(end, axis=0)), axis=1) for end in ends)
+    if not np.any(walked):
+        return match.distance, match.distance
+    return float(np.average((leashes[:-1] + leashes[1:]) / 2, weights=walked)), match.distance
+
+
+def _between_facing(
+    measure: str, options: Mapping[str, Any], P: Array, Q: Array
+) -> tuple[float, float]:
+    plain = {key: value for key, value in options.items() if key != "squared"}
+    # A quadrilateral that was rearranged has lost the order in which vertices face each other.
+    in_order: dict[str, Crossing] = {"crossing": "split"}
+    quads, _ = area_quads(P, Q, **{**plain, **in_order})
+    leashes = np.hypot(*(quads[:, [0, 1]] - quads[:, [3, 2]]).reshape(-1, 2).T)
+    length = travel(P[:, 0])
+    return area(P, Q, **plain) / length if length > 0 else math.inf, float(leashes.max())
+
+
+def _of_mapped(measure: str, options: Mapping[str, Any], P: Array, Q: Array) -> tuple[float, float]:
+    match = pcm_match(P, Q, **options)
+    mapped = P if match.mapped == "P" else Q
+    length = float(np.linalg.norm(np.diff(mapped, axis=0), axis=1).sum())
+    return match.value / length, float(np.linalg.norm(mapped - match.points, axis=1).max())
+
+
+_DISTANCES: Mapping[str, Callable[..., tuple[float, float]]] = {
+    "area": _between_facing,
+    "pcm": _of_mapped,
+    "frechet": _along_path,
+    "frechet_continuous": _along_matching,
+    "dtw": _along_path,
+}

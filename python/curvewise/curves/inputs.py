@@ -1,0 +1,184 @@
+"""From what a user passes to a float64 array of one or two dimensions.
+
+This is the only place that knows about lists, DataFrames and dtypes; what other packages hold
+curves in is told apart in _foreign_curves.py, and docs/inputs.md has the table of it. What follows
+from the numbers themselves (finite, long enough, matching dimensions) is checked by whoever
+computes: the C++ library for the compiled functions, numpy code for the reference.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from .foreign_curves import advice, column_names, opened, warn
+
+__all__ = [
+    "Array",
+    "CurveLike",
+    "as_curve",
+    "as_curve_list",
+    "as_curves",
+    "check_column_names",
+    "column_names",
+    "copy_of",
+    "warn_if_transposed",
+]
+
+Array: TypeAlias = npt.NDArray[np.float64]
+CurveLike: TypeAlias = npt.ArrayLike
+"""Anything ``numpy.asarray`` turns into a real array of shape (n, d) or (n,)."""
+
+_FLOAT64 = np.dtype(np.float64)
+_ROWS_AT_ONCE = 2**20
+# What is taken for x and y in rows. The binding has the same two numbers (numpy_view.hpp).
+_FEW_POINTS, _MANY_COORDINATES = 3, 10
+_MAY_HOLD_MASKED = (np.ma.MaskedArray, list, tuple)
+
+
+def as_curve(curve: Any, name: str) -> Array:
+    """Return `curve` as an aligned, native float64 array of shape (n, d) or (n,).
+
+    A float64 array is returned as it is, without a copy, whatever its strides.
+
+    Raises
+    ------
+    TypeError
+        Complex numbers, text, objects, dates, or masked entries; an object of another package
+        that is no curve, or none in this memory, with what to write instead.
+    ValueError
+        Ragged lists, or an array of 0 or more than 2 dimensions.
+    """
+    if type(curve) is np.ndarray and curve.dtype is _FLOAT64 and 1 <= curve.ndim <= 2:
+        return _aligned(curve)
+    if _has_masked(curve):
+        what = "is a masked array" if isinstance(curve, np.ma.MaskedArray) else "is a list"
+        raise TypeError(f"{name} {what} with masked entries; drop or fill them first")
+    values = opened(curve, name)
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise ValueError(
+            f"{name} is ragged; a curve is n points with the same number of coordinates each"
+        ) from error
+    except TypeError as error:  # in the words of its package
+        raise TypeError(f"{name}, a {type(curve).__name__}, gives no array: {error}") from error
+    if array.dtype.kind == "c":
+        raise TypeError(f"{name} is complex; a curve is real: give real and imaginary as columns")
+    if array.dtype.kind not in "fiub":
+        instead = advice(curve, array, name)
+        raise TypeError(f"{name} has dtype {array.dtype}; a curve holds real numbers{instead}")
+    if not 1 <= array.ndim <= 2:
+        raise ValueError(
+            f"{name} has {array.ndim} array dimensions; give shape (n, d), or (n,) for d = 1"
+            f"{_advice_on_a_single(array.shape, name)}"
+        )
+    # astype, not asarray: float64 of the other byte order must be converted too.
+    with np.errstate(over="ignore"):  # a longdouble beyond float64 becomes inf: reported as such
+        return _aligned(array.astype(_FLOAT64, copy=False))
+
+
+def _advice_on_a_single(shape: tuple[int, ...], name: str) -> str:
+    """Return what to write for an array of one curve, with its points as rows or as columns."""
+    if len(shape) != 3 or shape[0] != 1 or shape[1] == shape[2]:
+        return ""
+    return f": {name}[0]" if shape[1] > shape[2] else f": {name}[0].T?"
+
+
+def warn_if_transposed(curve: Array, name: str, transpose: str = "{}.T") -> None:
+    """Warn of x and y in rows: few points of many coordinates are a curve that nobody has.
+
+    Of a pair, the binding finds out whether to ask this, which costs short curves nothing.
+    """
+    if curve.ndim == 2 and len(curve) <= _FEW_POINTS and curve.shape[1] > _MANY_COORDINATES:
+        warn(
+            f"{name} has shape {curve.shape}, as a curve {len(curve)} point"
+            f"{'s' if len(curve) > 1 else ''} in {curve.shape[1]} dimensions; if its points are "
+            f"columns, transpose: {transpose.format(name)}"
+        )
+
+
+def _has_masked(curve: Any, depth: int = 2) -> bool:
+    """Say whether entries are masked: of an array, or of the rows of a list.
+
+    Out of a list, numpy takes masked rows as if they were not.
+    """
+    if isinstance(curve, np.ma.MaskedArray):
+        return bool(np.ma.is_masked(curve))
+    if depth == 0 or not isinstance(curve, list | tuple):
+        return False
+    return any(isinstance(row, _MAY_HOLD_MASKED) and _has_masked(row, depth - 1) for row in curve)
+
+
+def _aligned(array: Array) -> Array:
+    return array if array.flags.aligned else copy_of(array)
+
+
+def copy_of(curve: Array) -> Array:
+    """Return a copy, made in pieces: Ctrl-C is heard between them, and never inside numpy."""
+    copy = np.empty(curve.shape)
+    for first in range(0, len(curve), _ROWS_AT_ONCE):
+        copy[first : first + _ROWS_AT_ONCE] = curve[first : first + _ROWS_AT_ONCE]
+    return copy
+
+
+def as_curves(P: Any, Q: Any) -> tuple[Array, Array]:
+    """Return both curves as arrays; DataFrames must have the same columns."""
+    # What is to be returned as it is, found without a call: short curves take a microsecond.
+    if (
+        type(P) is type(Q) is np.ndarray
+        and P.dtype is Q.dtype is _FLOAT64
+        and 1 <= P.ndim <= 2
+        and 1 <= Q.ndim <= 2
+        and P.flags.aligned
+        and Q.flags.aligned
+    ):
+        return P, Q
+    if type(P) is not np.ndarray and type(Q) is not np.ndarray:
+        check_column_names(column_names(P), "P", column_names(Q), "Q")
+    return as_curve(P, "P"), as_curve(Q, "Q")
+
+
+def as_curve_list(curves: Any, name: str, like: Any = None) -> list[Array]:
+    """Return the curves of an array of shape (k, n, d), or of a sequence, as a list of arrays.
+
+    Raises
+    ------
+    TypeError, ValueError
+        Not a list of curves; a curve that :func:`as_curve` refuses, named ``XA[3]``; DataFrames
+        whose columns differ from those of the first curve, or of the first of the list `like`.
+    """
+    if hasattr(curves, "columns") or (isinstance(curves, np.ndarray) and curves.dtype != object):
+        dimensions = np.ndim(curves)
+        if dimensions != 3:
+            raise ValueError(
+                f"{name} has {dimensions} array dimensions; give k curves as shape (k, n, d) or as "
+                f"a list: [{name}] for a single curve, list({name}) for k curves with d = 1"
+                + (f": {name}.geometry is one of shapes" if hasattr(curves, "geometry") else "")
+            )
+    elif isinstance(curves, str | bytes) or not isinstance(curves, Iterable):
+        raise TypeError(f"{name} is of type {type(curves).__name__}; give a list of curves")
+    given = list(curves)
+    first, first_name = column_names(given[0]) if given else [], f"{name}[0]"
+    if like is not None and len(like) > 0:
+        first, first_name = column_names(like[0]), "XA[0]"
+    for i, curve in enumerate(given):
+        check_column_names(first, first_name, column_names(curve), f"{name}[{i}]")
+    converted = [as_curve(curve, f"{name}[{i}]") for i, curve in enumerate(given)]
+    if converted and isinstance(curves, np.ndarray):
+        warn_if_transposed(converted[0], f"{name}[0]", f"{name}.transpose(0, 2, 1)")
+    elif converted:
+        warn_if_transposed(converted[0], f"{name}[0]")
+    return converted
+
+
+def check_column_names(first: list[Any], first_name: str, second: list[Any], name: str) -> None:
+    """Raise ValueError where both curves have named columns and the names differ."""
+    if first and second and first != second:
+        raise ValueError(
+            f"{first_name} has columns {first} and {name} has columns {second}; "
+            "name and order them alike"
+        )

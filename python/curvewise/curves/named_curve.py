@@ -1,0 +1,169 @@
+"""What the coordinates of a curve are called: for the axes of pictures, and for nothing else.
+
+A curve that was read from a file, or made by :mod:`curvewise.datasets`, is an array that remembers
+the names of its columns; a DataFrame does so by itself. No measure looks at these names, so that
+two files with different headers are compared as they always were. The names stay with the array
+where its columns stay what they are, that is, where rows are chosen (``curve[::10]``) and where it
+is copied. Whatever else numpy makes of it is a plain array without names, since a wrong name on an
+axis is worse than none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from .inputs import Array, column_names, copy_of
+
+__all__ = ["NamedCurve", "axis_names", "copied", "known_names", "renamed"]
+
+
+class NamedCurve(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
+    """An array of shape (n, d) that knows what its d columns are called.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n, d)
+        The curve, which is not copied.
+    names : sequence of str
+        One for each column.
+
+    Attributes
+    ----------
+    column_names : tuple of str
+        The names; empty where they are not known any more.
+
+    Raises
+    ------
+    ValueError
+        Another number of names than of columns.
+
+    Notes
+    -----
+    Nothing is computed. It prints, calculates and pickles as a plain array does.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from curvewise.curves.named_curve import NamedCurve
+    >>> curve = NamedCurve(np.zeros((3, 2)), ["strain", "stress"])
+    >>> curve[1:].column_names
+    ('strain', 'stress')
+    >>> type(2.0 * curve) is type(curve[:, 1]) is np.ndarray
+    True
+    """
+
+    column_names: tuple[str, ...]
+
+    def __new__(cls, values: Array, names: Sequence[str]) -> NamedCurve:
+        """Make a view of the values, with names."""
+        if values.ndim != 2 or values.shape[1] != len(names):
+            raise ValueError(f"there are {len(names)} names for an array of shape {values.shape}")
+        named = values.view(cls)
+        named.column_names = tuple(names)
+        return named
+
+    def __array_finalize__(self, made_of: Any) -> None:
+        self.column_names = ()
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **keywords: Any) -> Any:
+        if "out" in keywords:
+            keywords["out"] = tuple(map(_plain, keywords["out"]))
+        return getattr(ufunc, method)(*map(_plain, inputs), **keywords)
+
+    def __getitem__(self, key: Any) -> Any:
+        chosen = _plain(self)[key]
+        if isinstance(key, tuple) or np.ndim(chosen) != 2 or not self.column_names:
+            return chosen
+        return NamedCurve(chosen, self.column_names)
+
+    def __reduce__(self) -> Any:
+        plain = _plain(self)
+        return (NamedCurve, (plain, self.column_names)) if self.column_names else plain.__reduce__()
+
+    def __repr__(self) -> str:
+        return repr(_plain(self))
+
+    def __str__(self) -> str:
+        return str(_plain(self))
+
+    def copy(self, order: Any = "C") -> Any:
+        """Return a copy, as of any array, with the same names."""
+        copied = _plain(self).copy(order)
+        return NamedCurve(copied, self.column_names) if self.column_names else copied
+
+
+def _plain(value: Any) -> Any:
+    return value.view(np.ndarray) if isinstance(value, NamedCurve) else value
+
+
+def copied(curve: Any, array: Array) -> Array:
+    """Return a copy of the array that a curve was given as, with the names that the curve has."""
+    return renamed(curve, copy_of(array))
+
+
+def renamed(curve: Any, array: Array) -> Array:
+    """Return an array whose columns are those of a curve, with the names that the curve has."""
+    names = () if type(curve) is np.ndarray else known_names(curve)
+    fits = array.ndim == 2 and len(names) == array.shape[1]
+    return NamedCurve(array, names) if fits else array
+
+
+def known_names(*curves: Any) -> tuple[str, ...]:
+    """Return the names of the columns of the first curve that knows them; empty if none does."""
+    for curve in curves:
+        names = getattr(curve, "column_names", ()) or column_names(curve)
+        if names:
+            return tuple(map(str, names))
+    return ()
+
+
+def axis_names(
+    dim: int, names: Sequence[str] | None, *curves: Any, default: Sequence[str] = ("x", "y")
+) -> tuple[str, ...]:
+    """Return what the axes of a picture are to be called.
+
+    Parameters
+    ----------
+    dim : int
+        How many coordinates the curves have.
+    names : sequence of str, or None
+        What the user wants them to be called.
+    *curves : array_like
+        Whose own names are taken otherwise: those of the first that has any.
+    default : sequence of str
+        What a plane curve's coordinates are called where nobody knows.
+
+    Returns
+    -------
+    tuple of str, of length dim
+
+    Raises
+    ------
+    TypeError
+        A lone name.
+    ValueError
+        Another number of names than of coordinates.
+
+    Examples
+    --------
+    >>> from curvewise.curves.named_curve import axis_names
+    >>> axis_names(2, None, [(0, 0), (1, 1)]), axis_names(2, ["time", "force"])
+    (('x', 'y'), ('time', 'force'))
+    """
+    if names is not None:
+        if isinstance(names, str):
+            raise TypeError(f"names is {names!r}; give a list, even for one coordinate")
+        if len(names) != dim:
+            raise ValueError(
+                f"names is {list(names)}; the curves have {dim} coordinates, and each needs one"
+            )
+        return tuple(map(str, names))
+    known = known_names(*curves)
+    if len(known) == dim:
+        return known
+    if dim == 1:
+        return ("value",)
+    return tuple(default) if dim == 2 else tuple(f"coordinate {i}" for i in range(dim))

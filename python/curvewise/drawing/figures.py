@@ -1,0 +1,156 @@
+"""What pictures of curves are made of: curves, the lines between them, and panels.
+
+The colours are those of palette.py. The number of artists does not depend on the number of points:
+each curve is one line, all lines between them are one collection. pyplot is never used, so any
+backend will do, and any format that matplotlib writes; matplotlib is imported when something is
+drawn, not when this module is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from importlib import import_module
+from itertools import product
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from .._extras import extra
+from ..curves.inputs import Array
+from ..curves.named_curve import axis_names
+from .palette import ACCENT_COLOUR, BETWEEN_COLOUR, FILL_COLOUR, P_COLOUR, Q_COLOUR
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.collections import Collection, LineCollection
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+
+    from .picture import Picture
+
+__all__ = [
+    "ACCENT_COLOUR",
+    "BETWEEN_COLOUR",
+    "FILL_COLOUR",
+    "MAX_LINKS",
+    "P_COLOUR",
+    "Q_COLOUR",
+    "CurveArtists",
+    "axis_names",
+    "draw_curves",
+    "draw_links",
+    "evenly",
+    "label_axes",
+    "matplotlib_required",
+    "new_figure",
+    "panels",
+]
+
+MAX_LINKS = 80  # more lines than this merge into a grey mass
+
+
+class CurveArtists(NamedTuple):
+    """The artists of a picture of two curves.
+
+    Attributes
+    ----------
+    P, Q : matplotlib.lines.Line2D
+        The curves.
+    between : matplotlib.collections.Collection
+        A PolyCollection of quadrilaterals or a LineCollection of lines between points.
+    accent : matplotlib.lines.Line2D or None
+        Fréchet: the pair whose distance is the value. PCM: the stretch of the longer curve on
+        which the shorter one sits. Otherwise None.
+    """
+
+    P: Line2D
+    Q: Line2D
+    between: Collection
+    accent: Line2D | None = None
+
+
+def matplotlib_required() -> AbstractContextManager[None]:
+    """Say how to get matplotlib where an import of it fails."""
+    return extra("plot", "pictures need matplotlib, which is not installed")
+
+
+def new_figure(**options: Any) -> Picture:
+    """Return an empty figure that notebooks show; options as of matplotlib's Figure."""
+    with matplotlib_required():
+        import_module("matplotlib.figure")  # Picture may have been imported when it was there
+        from .picture import Picture
+    return Picture(**options)
+
+
+def draw_curves(
+    ax: Axes, P: Array, Q: Array, names: Sequence[str], *, apart: bool = False
+) -> tuple[Line2D, Line2D]:
+    """Draw curves in the plane, or series (d = 1) against the index: `apart`, with Q below P.
+
+    `names` are those of the coordinates, as `axis_names` gives them.
+    """
+    q_label = "Q"
+    if P.shape[1] == 1:
+        x_label, y_label = "index", names[0]
+        if apart:
+            Q, q_label = _below(P, Q)
+            y_label = f"{y_label} ({q_label})"
+        P, Q = (np.column_stack([np.arange(len(series)), series]) for series in (P, Q))
+    else:
+        x_label, y_label = names[:2]
+    label_axes(ax, x_label, y_label)
+    (p_line,) = ax.plot(*P.T, color=P_COLOUR, linewidth=1.3, label="P")
+    (q_line,) = ax.plot(*Q.T, color=Q_COLOUR, linewidth=1.3, label=q_label)
+    return p_line, q_line
+
+
+def _below(P: Array, Q: Array) -> tuple[Array, str]:
+    """Return series Q moved below series P, with room between, and a label that says so."""
+    span = max(float(np.ptp(P)), float(np.ptp(Q))) or 1.0
+    digits = 1 - int(np.floor(np.log10(span)))  # a round number reads well
+    shift = round(float(P.min() - Q.max()) - 0.3 * span, digits)
+    return Q + shift, f"Q {'+' if shift > 0 else '−'} {abs(shift):.10g}"
+
+
+def label_axes(ax: Axes, x: str, y: str) -> None:
+    """Label the axes that have no label."""
+    ax.set_xlabel(ax.get_xlabel() or x)
+    ax.set_ylabel(ax.get_ylabel() or y)
+
+
+def draw_links(ax: Axes, links: Array, label: str) -> LineCollection:
+    """Draw the lines `links`, shape (k, 2, 2), under the curves that they connect."""
+    with matplotlib_required():
+        from matplotlib.collections import LineCollection
+    collection = LineCollection(
+        list(links), colors=BETWEEN_COLOUR, linewidths=0.7, alpha=0.8, zorder=1, label=label
+    )
+    ax.add_collection(collection, autolim=False)  # their ends are on the curves
+    return collection
+
+
+def evenly(links: Array) -> Array:
+    """Return at most `MAX_LINKS` of the links, the first and the last among them."""
+    shown = np.linspace(0, len(links) - 1, min(len(links), MAX_LINKS))
+    chosen: Array = links[shown.round().astype(np.intp)]
+    return chosen
+
+
+def panels(figure: Figure, dim: int, count: int) -> tuple[Axes, list[Axes]]:
+    """Return a panel for the curves, and `count` panels for their measures."""
+    if dim == 1:  # wide ones, one above the other
+        figure.set_size_inches(9, 2.4 * (1 + count))
+        main, *others = figure.subplots(1 + count, 1, sharex=True, squeeze=False)[:, 0]
+    elif dim == 2:  # a large one, with small ones to its right and below it
+        rows = 2 + math.ceil(max(0, count - 2) / 3)
+        figure.set_size_inches(11, 2.9 * rows)
+        grid = figure.add_gridspec(rows, 3)
+        main = figure.add_subplot(grid[:2, :2])
+        cells = [(0, 2), (1, 2), *product(range(2, rows), range(3))]
+        others = [figure.add_subplot(grid[cell]) for cell in cells[:count]]
+    else:
+        figure.set_size_inches(4.2 * (1 + count), 4)
+        main, *others = figure.subplots(1, 1 + count, squeeze=False)[0]
+    return main, others

@@ -1,0 +1,116 @@
+"""Two curves with what links them: a path, a matching, or the place of one on the other.
+
+Each function draws arrays that have been computed already, into given axes. Time and memory
+O(n + m); at most `MAX_LINKS` links are drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from ..curves.arc_length import arc_lengths, points_at
+from ..curves.inputs import Array
+from ..curves.scaling import box_scaled
+from .figures import MAX_LINKS, CurveArtists, draw_curves, draw_links, evenly
+from .palette import ACCENT_COLOUR
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["draw_matching", "draw_path", "draw_placement"]
+
+
+def draw_path(
+    ax: Axes,
+    drawn: tuple[Array, Array],
+    path: npt.NDArray[np.int64],
+    axes: Sequence[str],
+    *,
+    every: int | None = None,
+) -> CurveArtists:
+    """Draw curves of shapes (n, d), d = 1 or 2, and lines between the points of a path's pairs."""
+    lines = draw_curves(ax, *drawn, axes, apart=True)
+    points = [np.asarray(line.get_xydata()) for line in lines]
+    links = np.stack([points[k][path[:, k]] for k in (0, 1)], axis=1)
+    shown = links[:: int(every)] if every else evenly(links)
+    return CurveArtists(*lines, draw_links(ax, shown, "matched points"))
+
+
+def draw_matching(
+    ax: Axes,
+    measured: tuple[Array, Array],
+    drawn: tuple[Array, Array],
+    walks: Array,
+    axes: Sequence[str],
+) -> CurveArtists:
+    """Draw a matching of the curves that were measured on the curves to be drawn."""
+    lengths = _leashes(*measured, walks)
+    lines = draw_curves(ax, *drawn, axes, apart=True)
+    points = [np.asarray(line.get_xydata()) for line in lines]
+    shown = _evenly(walks)
+    links = np.stack([points_at(points[k], shown[:, k]) for k in (0, 1)], axis=1)
+    between = draw_links(ax, links, "matched points")
+    longest = walks[np.argmax(lengths)]
+    ends = [points_at(points[k], longest[k : k + 1])[0] for k in (0, 1)]
+    (accent,) = ax.plot(
+        *np.transpose(ends),
+        color=ACCENT_COLOUR,
+        linewidth=2,
+        marker="o",  # a leash of length 0 is not seen
+        markersize=4,
+        zorder=3,
+        label="continuous Fréchet distance",
+    )
+    return CurveArtists(*lines, between, accent)
+
+
+def draw_placement(
+    ax: Axes,
+    curves: tuple[Array, Array],
+    mapped: str,
+    offset: float,
+    points: Array,
+    axes: Sequence[str],
+) -> CurveArtists:
+    """Draw curves and where one of them has been placed on the other."""
+    scaled = [box_scaled(curve, curves[0]) for curve in curves]
+    shorter, longer = (0, 1) if mapped == "P" else (1, 0)
+    lengths = [arc_lengths(curve) for curve in scaled]
+    end = offset + lengths[shorter][-1]
+    inside = curves[longer][(lengths[longer] > offset) & (lengths[longer] < end)]
+    stretch = np.concatenate([points[:1], inside, points[-1:]])
+    lines = draw_curves(ax, *curves, axes)
+    links = np.stack([curves[shorter], points], axis=1)
+    between = draw_links(ax, evenly(links), "mapped points")
+    (accent,) = ax.plot(
+        *stretch.T,
+        color=ACCENT_COLOUR,
+        linewidth=5,
+        alpha=0.25,
+        solid_capstyle="butt",
+        zorder=1.5,
+        label=f"stretch of {'PQ'[longer]} in use",
+    )
+    return CurveArtists(*lines, between, accent)
+
+
+def _leashes(P: Array, Q: Array, matched: Array) -> Array:
+    """Return the lengths of the leashes of a matching."""
+    P, Q = (curve.reshape(len(curve), -1) for curve in (P, Q))
+    lengths: Array = np.linalg.norm(
+        points_at(P, matched[:, 0]) - points_at(Q, matched[:, 1]), axis=1
+    )
+    return lengths
+
+
+def _evenly(matched: Array) -> Array:
+    """Return parameters of a matching that are evenly spread along its path."""
+    shares = matched / np.maximum(matched[-1], 1)  # both curves count alike
+    steps = np.abs(np.diff(shares, axis=0)).sum(axis=1)
+    walked = np.concatenate([[0.0], np.cumsum(steps)])
+    places = np.linspace(0, walked[-1], MAX_LINKS)
+    return np.column_stack([np.interp(places, walked, matched[:, k]) for k in (0, 1)])

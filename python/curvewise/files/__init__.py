@@ -1,0 +1,1 @@
+"""Curves from files: CSV, Excel, MATLAB; which columns, under which names."""

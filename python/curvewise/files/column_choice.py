@@ -1,0 +1,107 @@
+"""Which columns of a file a user asks for, by name or by number, whatever the kind of file.
+
+Where nobody asks, the first two are taken, which is said where they are time and something else.
+"""
+
+from __future__ import annotations
+
+import operator
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from ..curves.foreign_curves import warn
+
+__all__ = ["TimeColumnWarning", "choose_columns", "column_name", "is_time"]
+
+# "time", "Time [s]", "t (s)", "time_s", "Step Time", "Zeit/s"; not "T" (temperature), "timeout".
+_TIME = re.compile(
+    r"(?:(?i:(?:\w+[ _])?(?:time|zeit|temps|tiempo|tempo)|timestamp)|t)"
+    r"(?:[ _]*[\[(/,].*|[ _](?i:s|sec|seconds?|ms|min|minutes?|h|hours?))?"
+)
+
+
+class TimeColumnWarning(UserWarning):
+    """The first two columns of a file are taken, the first is time, and there are more.
+
+    Attributes
+    ----------
+    found : str
+        Which file, and which columns.
+    wanted : list of str
+        The two columns after time.
+    """
+
+    def __init__(self, found: str, wanted: list[str]) -> None:
+        super().__init__(f"{found}; name those wanted, for example columns={wanted}")
+        self.found = found
+        self.wanted = wanted
+
+
+def is_time(name: Any) -> bool:
+    """Say whether a column is time by its name, with or without a unit."""
+    return isinstance(name, str) and _TIME.fullmatch(name.strip()) is not None
+
+
+def choose_columns(
+    file: str, names: list[str], width: int, columns: Sequence[str | int] | None
+) -> list[int]:
+    """Return the indices of the columns asked for; by default the first two, or the only one.
+
+    Parameters
+    ----------
+    file : str
+        What messages call the file.
+    names : list of str
+        Of the columns, blank or missing where one has none.
+    width : int
+        The number of columns.
+    columns : sequence of str or int, or None
+        Names, or numbers from 1 (as int or str).
+
+    Raises
+    ------
+    TypeError
+        A lone name.
+    ValueError
+        No column, or one that is not there, or a name that several have.
+
+    Warns
+    -----
+    TimeColumnWarning
+        The first two of several columns are taken, and the first is time.
+    """
+    if columns is None:
+        if width > 2 and names and is_time(names[0]):
+            others = [column_name(names, column) for column in range(1, width)]
+            found = f"the first two of the {width} columns of {file} are {names[0]} and {others[0]}"
+            warn(TimeColumnWarning(found, others[:2]))
+        return list(range(min(2, width)))
+    if isinstance(columns, str):
+        raise TypeError(f"columns is {columns!r}; give a list, even for one column")
+    if len(columns) == 0:
+        raise ValueError("columns is empty; name at least one column")
+    return [_find_column(file, names, width, column) for column in columns]
+
+
+def column_name(names: list[str], column: int) -> str:
+    """Return the name of a column, given by index, or its number as a user counts."""
+    return (names[column] if column < len(names) else "") or str(column + 1)
+
+
+def _find_column(file: str, names: list[str], width: int, column: str | int) -> int:
+    if isinstance(column, str) and column.strip() in filter(None, names):
+        name = column.strip()
+        if names.count(name) > 1:
+            raise ValueError(f"{file} has several columns {name!r}; give its number, from 1")
+        return names.index(name)
+    if isinstance(column, str) and not column.isdecimal():
+        listed = ", ".join(filter(None, names))
+        there_are = f"its columns are {listed}" if listed else "it has no header"
+        raise ValueError(
+            f"{file} has no column {column!r}; {there_are}; by number, give 1 to {width}"
+        )
+    number = int(column) if isinstance(column, str) else operator.index(column)
+    if not 1 <= number <= width:
+        raise ValueError(f"{file} has no column {column}; columns are numbered 1 to {width}")
+    return number - 1

@@ -1,0 +1,196 @@
+"""Curves from files of any kind: text, Excel, MATLAB. The kind is told from the name's ending.
+
+Text is read here alone (csv_curves.py); Excel through pandas and MATLAB through scipy, which are
+imported where such a file is read. Time and memory are linear in the size of the file.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..curves.inputs import Array
+from ..curves.named_curve import NamedCurve
+from .csv_curves import read_csv_columns
+
+__all__ = ["read_curve", "read_named_columns"]
+
+_WORKBOOKS = (".xlsx", ".xlsm", ".xls", ".ods")
+
+
+def read_curve(
+    path: str | os.PathLike[str],
+    columns: Sequence[str | int] | None = None,
+    *,
+    sheet: str | int | None = None,
+    factors: Sequence[float] | None = None,
+) -> Array:
+    r"""Read a curve from a file: text, a sheet of Excel, or variables of MATLAB.
+
+    What the name ends with decides: .xlsx, .xlsm, .xls and .ods are workbooks, .mat is MATLAB's,
+    and everything else is text, one point per line:
+
+    Separator
+        Semicolon, tab, comma or blanks, whichever turns the first 200 lines into numbers best.
+        Cells may be quoted. A file with numbers between tabs is never read as separated by
+        blanks, so that an empty cell stays one.
+    Decimal sign
+        A point; or a comma where the separator is a semicolon, a tab or blanks ("1,5;2,5").
+        Never both in one file: "1.234,5" is refused, and so is a comma that groups thousands
+        if any of the numbers read has a decimal point. ("1,5" on its own is two columns.)
+    Header
+        All lines before the first one that holds a number; the column names are the one of them
+        with the most cells, the first among equals. Names that blanks separate count only if
+        there are as many as columns.
+    Ignored
+        Empty lines (separators alone too), lines that begin with #, % or //, and columns that
+        are not asked for.
+    Encoding
+        UTF-8, UTF-16 with a byte order mark, else Latin-1. Lines end with CR, LF or CRLF.
+
+    A sheet of a workbook has its header as text has; rows that are empty in the columns asked for
+    are ignored. The columns of a .mat file are its real arrays in the order of the file: a vector
+    is a column of its variable's name; a matrix A of k > 1 columns is "A(:,1)" to "A(:,k)"; the
+    fields of a structure are "test.strain".
+
+    Parameters
+    ----------
+    path : str or path-like
+        The file.
+    columns : sequence of str or int, optional
+        Names from the header, or numbers from 1 (as int or str), in the order wanted. By default
+        the first two columns, or the only one.
+    sheet : str or int, optional
+        The sheet of a workbook, by its name, or by its number from 1 (as int or str). By default
+        the first.
+    factors : sequence of float, one per column, optional
+        What the columns are multiplied by, to change units: ``[0.01, 1e-6]`` for per cent and Pa
+        where the other curve has fractions and MPa.
+
+    Returns
+    -------
+    ndarray, shape (n, d)
+        One row per point, one column per entry of `columns`, in the units of the file times
+        `factors`. It remembers the names of its columns, which pictures write on their axes.
+
+    Raises
+    ------
+    ValueError
+        A cell is missing, not a number, nan or inf (with file, line and column); there is no
+        such column or sheet (lists those there are); no line holds a number; not a text file;
+        factors that are not finite, that are 0, or not one per column; a sheet of a file that is
+        no workbook; MATLAB variables of different lengths, or a .mat file of version 7.3.
+    ImportError
+        A workbook without pandas and openpyxl, or a .mat file without scipy.
+    OSError
+        The file cannot be read.
+
+    Warns
+    -----
+    TimeColumnWarning
+        `columns` is not given, the first column is time by its name, and there are three or more.
+
+    Notes
+    -----
+    O(size) time and memory: about 2 s for 10^6 points of text (quoted: 5 s), more of a workbook.
+    .xls needs xlrd and .ods odfpy, beside pandas.
+
+    Examples
+    --------
+    The columns of each file, in one unit:
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from curvewise import read_curve
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "loop.csv")
+    ...     _ = path.write_text("time;strain [%];stress\n0;0;0\n1;0,1;199,5\n")
+    ...     read_curve(path, columns=["strain [%]", "stress"], factors=[0.01, 1])
+    array([[0.000e+00, 0.000e+00],
+           [1.000e-03, 1.995e+02]])
+    """
+    return read_named_columns(path, columns, sheet=sheet, factors=factors)[0]
+
+
+def read_named_columns(
+    path: str | os.PathLike[str],
+    columns: Sequence[str | int] | None = None,
+    *,
+    sheet: str | int | None = None,
+    factors: Sequence[float] | None = None,
+) -> tuple[Array, list[str]]:
+    r"""Read a curve as :func:`read_curve` does, and say which columns it was read from.
+
+    Parameters
+    ----------
+    path, columns, sheet, factors
+        As for :func:`read_curve`.
+
+    Returns
+    -------
+    values : ndarray, shape (n, d)
+        The curve.
+    names : list of str
+        Of each column its name; its number, from 1, where it has none.
+
+    Raises
+    ------
+    ValueError, ImportError, OSError
+        As for :func:`read_curve`.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from curvewise.files.curve_files import read_named_columns
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "loop.csv")
+    ...     _ = path.write_text("time,strain,stress\n0,0,0\n1,0.001,199.5\n")
+    ...     read_named_columns(path, columns=["strain", 3])[1]
+    ['strain', 'stress']
+    """
+    values, names = _read(path, columns, sheet)
+    titles = _titles(names)
+    if factors is None:
+        return NamedCurve(values, titles), names
+    given = np.asarray(factors, dtype=np.float64)
+    if given.shape != values.shape[1:]:
+        raise ValueError(
+            f"factors has shape {given.shape}; {os.fspath(path)} gives {values.shape[1]} columns, "
+            "and each needs one"
+        )
+    if not (np.isfinite(given).all() and given.all()):
+        raise ValueError(f"factors is {given.tolist()}; each must be finite and not 0")
+    changed = [
+        name if factor == 1.0 else f"{name} × {factor:.10g}"
+        for name, factor in zip(titles, given.tolist(), strict=True)
+    ]
+    return NamedCurve(values * given, changed), names
+
+
+def _titles(names: list[str]) -> list[str]:
+    """Return what pictures call the columns: those that have a number for a name, "column 2"."""
+    return [f"column {name}" if name.isdecimal() else name for name in names]
+
+
+def _read(
+    path: str | os.PathLike[str], columns: Sequence[str | int] | None, sheet: str | int | None
+) -> tuple[Array, list[str]]:
+    """Return the columns and their names, by the kind of the file."""
+    kind = Path(path).suffix.lower()
+    if kind in _WORKBOOKS:
+        from .excel_curves import read_sheet_columns
+
+        return read_sheet_columns(path, columns, 1 if sheet is None else sheet)
+    if sheet is not None:
+        raise ValueError(
+            f"sheet is {sheet!r}, and {os.fspath(path)} is no workbook; leave sheet out"
+        )
+    if kind == ".mat":
+        from .mat_curves import read_mat_columns
+
+        return read_mat_columns(path, columns)
+    return read_csv_columns(path, columns)

@@ -1,0 +1,384 @@
+"""One measure between many curves: all pairs of two lists, or one curve against others.
+
+Each curve is checked and packed once, not once a pair; threads share the pairs, the largest
+first, and neither their number nor their order changes a value. The work is done by the compiled
+library; a callable given in the place of a measure's name is called pair by pair from Python.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import combinations, product
+from typing import Any, SupportsFloat, SupportsIndex, TypeAlias, get_args, overload
+
+import numpy as np
+
+from .._core import Prepared as CompiledPrepared
+from .._core import cdist as compiled_cdist
+from .._core import is_symmetric
+from .._core import pdist as compiled_pdist
+from .._docstrings import filled, listed
+from .._options import Default, MeasureName, Metric
+from .._progress import Report, reporting
+from ..curves.foreign_curves import is_curve_of_another_package
+from ..curves.inputs import (
+    Array,
+    CurveLike,
+    as_curve,
+    as_curve_list,
+    check_column_names,
+    column_names,
+    copy_of,
+    warn_if_transposed,
+)
+from ..measures.registry import MEASURES
+
+__all__ = ["Curves", "Measure", "Prepared", "available_measures", "cdist", "pdist"]
+
+Measure: TypeAlias = MeasureName | Callable[..., float]
+Curves: TypeAlias = Sequence[CurveLike] | Array
+"""k curves: an array of shape (k, n, d), or a sequence of curves of different lengths."""
+
+
+def available_measures() -> list[str]:
+    """Return the names that :func:`cdist`, :func:`pdist` and :class:`Prepared` take.
+
+    Returns
+    -------
+    list of str
+        In alphabetical order.
+
+    Notes
+    -----
+    The options of each are those of the function of that name, except ``workers``.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.available_measures()[:2]
+    ['area', 'curve_length']
+    """
+    return sorted(MEASURES)
+
+
+@filled()
+def cdist(
+    XA: Curves,
+    XB: Curves | None = None,
+    measure: Measure = "dtw",
+    *,
+    out: Array | None = None,
+    workers: SupportsIndex = Default.workers,
+    cutoff: SupportsFloat | None = None,
+    progress: bool | Report = False,
+    **options: Any,
+) -> Array:
+    """Compute a measure between every curve of one list and every curve of another.
+
+    Parameters
+    ----------
+    XA, XB : array_like, shapes (k, n, d) and (l, m, d), or sequences of curves
+        The curves of a sequence may differ in length, not in d. A curve of XA is P, one of XB is
+        Q. Without XB, XA is compared with itself: each pair of a symmetric measure is then
+        computed once, with the earlier curve as P.
+    measure : {measures} or callable
+        A measure by its name (see :func:`available_measures`), or a function of two curves that
+        returns a float. A callable runs in this thread, holding the interpreter's lock, pair by
+        pair: `workers` is of no use to it, and all pairs are computed.
+    out : ndarray of float64, shape (k, l), C-contiguous, optional
+        Where to write the result.
+    {workers}
+    cutoff : float >= 0, optional
+        Values above it come back as inf; their pairs may be abandoned before their end.
+    progress : bool or callable
+        True shows a bar (tqdm). A callable is called in this thread with (done, total), some
+        twenty times a second: cells of the tables, n m for a pair, for dtw and frechet; points,
+        n + m for a pair, for the others.
+    **options
+        Those of the measure's own function, or of the callable.
+
+    Returns
+    -------
+    ndarray, shape (k, l)
+        `out`, if given. Entry (i, j) has the bits of ``measure(XA[i], XB[j], **options)``.
+
+    Raises
+    ------
+    ValueError
+        What the measure refuses, with the curve's place (``XA[3]``); curves of different d; an
+        unknown measure or option value; an `out` that does not fit.
+    TypeError
+        A curve does not hold real numbers; an option that the measure does not have.
+    ImportError
+        ``progress=True`` without tqdm: ``pip install "curvewise[progress]"``.
+
+    Notes
+    -----
+    Time: the sum of the pairs'. Memory: the result and a packed copy of the curves (two without
+    XB). Ctrl-C ends a call on the main thread, and all its threads, within 0.2 s; Python delivers
+    KeyboardInterrupt on no other thread.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> ramp, step, peak = [0, 1, 2, 3], [0, 0, 3, 3], [0, 3, 0]
+    >>> curvewise.cdist([ramp, step, peak], measure="dtw").tolist()
+    [[0.0, 2.0, 5.0], [2.0, 0.0, 3.0], [5.0, 3.0, 0.0]]
+    >>> curvewise.cdist([ramp], [step, peak], "frechet").tolist()
+    [[1.0, 3.0]]
+    """
+    rows = as_curve_list(XA, "XA")
+    columns = None if XB is None else as_curve_list(XB, "XB", like=XA)
+    shape = (len(rows), len(rows if columns is None else columns))
+    out = _checked_out(out, shape, "cdist")
+    rows, columns = _apart(rows, out), None if columns is None else _apart(columns, out)
+    limit = _checked_cutoff(cutoff)
+    if callable(measure):
+        others = rows if columns is None else columns
+        points = _points(rows) * len(others) + len(rows) * _points(others)
+        _fill(out, product(rows, others), points, measure, limit, options, progress)
+        return out
+    name = _check_names(measure, options)
+    with reporting(progress) as report:
+        compiled_cdist(rows, columns, name, options, out, workers, limit, report)
+    return out
+
+
+@filled(symmetric=listed(name for name, info in MEASURES.items() if info.symmetric))
+def pdist(
+    X: Curves,
+    measure: Measure = "dtw",
+    *,
+    out: Array | None = None,
+    workers: SupportsIndex = Default.workers,
+    cutoff: SupportsFloat | None = None,
+    progress: bool | Report = False,
+    **options: Any,
+) -> Array:
+    """Compute a symmetric measure between every two curves of a list.
+
+    Parameters
+    ----------
+    X : array_like, shape (k, n, d), or a sequence of curves
+        As for :func:`cdist`.
+    measure : {symmetric} or callable
+        A symmetric one: dtw without open ends, area without spacing="arc_length". A callable is
+        taken to be symmetric.
+    out : ndarray of float64, shape (k (k-1) / 2,), C-contiguous, optional
+        Where to write the result.
+    workers, cutoff, progress, **options
+        As for :func:`cdist`.
+
+    Returns
+    -------
+    ndarray, shape (k (k-1) / 2,)
+        The upper triangle of the matrix, row by row, as ``scipy.spatial.distance.pdist`` returns
+        it: ``scipy.spatial.distance.squareform`` makes a matrix of it. The value for i < j is
+        that of ``measure(X[i], X[j], **options)``.
+
+    Raises
+    ------
+    ValueError, TypeError, ImportError
+        As for :func:`cdist`; and ValueError for a measure that is not symmetric, which wants
+        :func:`cdist`.
+
+    Notes
+    -----
+    As for :func:`cdist`.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.pdist([[0, 1, 2, 3], [0, 0, 3, 3], [0, 3, 0]], "dtw").tolist()
+    [2.0, 5.0, 3.0]
+    """
+    curves = as_curve_list(X, "X")
+    out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
+    curves = _apart(curves, out)
+    limit = _checked_cutoff(cutoff)
+    if callable(measure):
+        points = (len(curves) - 1) * _points(curves)
+        _fill(out, combinations(curves, 2), points, measure, limit, options, progress)
+        return out
+    name = _check_names(measure, options)
+    if not is_symmetric(name, options):
+        given = "".join(f", {option}={value!r}" for option, value in options.items())
+        raise ValueError(
+            f"pdist needs a symmetric measure, and {name!r}{given} is not: use cdist, "
+            "which computes both directions"
+        )
+    with reporting(progress) as report:
+        compiled_pdist(curves, name, options, out, workers, limit, report)
+    return out
+
+
+@filled()
+class Prepared:
+    """A curve P ready to be compared with many: checked, packed and scaled once.
+
+    ``Prepared(P, measure, **options)(Q)`` has the bits of ``measure(P, Q, **options)``. May be
+    called from several threads at once. P is copied: changing the array later changes nothing.
+
+    Parameters
+    ----------
+    P : array_like, shape (n, d)
+        The reference, e.g. the experiment.
+    measure : {measures}
+        A measure by its name.
+    **options
+        Those of the measure's own function, except ``workers``.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for the measure.
+
+    Notes
+    -----
+    What is saved per call is of the order of O(n): the checks and the packing of P, for pcm its
+    scaling and arc lengths, for curve_length its arc lengths.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> against_ramp = curvewise.Prepared([0, 1, 2, 3], "dtw")
+    >>> against_ramp([0, 0, 3, 3])
+    2.0
+    >>> against_ramp([[0, 0, 3, 3], [0, 3, 0]]).tolist()
+    [2.0, 5.0]
+    """
+
+    def __init__(self, P: CurveLike, measure: MeasureName = "dtw", **options: Any) -> None:
+        self._curve = copy_of(as_curve(P, "P"))
+        warn_if_transposed(self._curve, "P")
+        self._columns = column_names(P)
+        self._measure = _check_names(measure, options)
+        self._options = options
+        self._prepared = CompiledPrepared(self._curve, self._measure, options)
+
+    def __repr__(self) -> str:
+        options = "".join(f", {name}={value!r}" for name, value in self._options.items())
+        return f"Prepared(<P of shape {self._curve.shape}>, {self._measure!r}{options})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _prepare, (self._curve, self._columns, self._measure, self._options)
+
+    @overload
+    def __call__(self, Q: Array, *, workers: SupportsIndex = Default.workers) -> float: ...
+    @overload
+    def __call__(self, Q: Any, *, workers: SupportsIndex = Default.workers) -> Any: ...
+    def __call__(self, Q: Any, *, workers: SupportsIndex = Default.workers) -> Any:
+        """Return the measure of P and Q, or of P and each curve of a list.
+
+        Parameters
+        ----------
+        Q : array_like, shape (m, d); or an array of shape (k, m, d), or a list or tuple of curves
+            A list or tuple is a list of curves if its first element has as many array dimensions
+            as P.
+        workers : int
+            Threads for a list, as for :func:`cdist`.
+
+        Returns
+        -------
+        float, or ndarray of shape (k,)
+            As Q is one curve or several.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As for the measure, and for :func:`cdist`.
+        """
+        if self._is_list(Q):
+            for i, curve in enumerate(Q):
+                check_column_names(self._columns, "P", column_names(curve), f"Q[{i}]")
+            return self._prepared.values(as_curve_list(Q, "Q"), workers)
+        check_column_names(self._columns, "P", column_names(Q), "Q")
+        return self._prepared.value(as_curve(Q, "Q"))
+
+    def _is_list(self, Q: Any) -> bool:
+        if isinstance(Q, list | tuple):
+            if len(Q) == 0 or is_curve_of_another_package(Q[0]):
+                return True
+            return bool(np.ndim(Q[0]) == self._curve.ndim)
+        return np.ndim(Q) == 3
+
+
+def _prepare(
+    P: Array, columns: list[Any], measure: MeasureName, options: dict[str, Any]
+) -> Prepared:
+    prepared = Prepared(P, measure, **options)
+    prepared._columns = columns  # of the DataFrame that P once was
+    return prepared
+
+
+def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
+    """Return the measure's name; explain measures and ground distances to who mixes them up."""
+    names = available_measures()
+    metrics = get_args(Metric)
+    if isinstance(measure, str) and measure in metrics:
+        raise ValueError(
+            f"{measure!r} is a ground distance, between points; the measure is of curves, one of "
+            f"{', '.join(names)}: use measure='dtw', metric={measure!r} for example"
+        )
+    if not isinstance(measure, str) or measure not in names:
+        raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(names)}")
+    metric = options.get("metric")
+    if isinstance(metric, str) and metric in names:
+        raise ValueError(
+            f"{metric!r} is a measure, of curves; the metric is the ground distance between their "
+            f"points, one of {', '.join(metrics)}: use measure={metric!r}"
+        )
+    return measure
+
+
+def _checked_out(out: Array | None, shape: tuple[int, ...], name: str) -> Array:
+    if out is None:
+        return np.empty(shape)
+    if not isinstance(out, np.ndarray):
+        raise TypeError(f"out is of type {type(out).__name__}; give a numpy array")
+    if out.shape != shape:
+        raise ValueError(f"out has shape {out.shape}; {name} of these curves needs {shape}")
+    if out.dtype != np.float64 or not out.dtype.isnative:
+        raise ValueError(f"out has dtype {out.dtype.str}; {name} needs float64")
+    if not (out.flags.c_contiguous and out.flags.aligned and out.flags.writeable):
+        raise ValueError(f"out must be C-contiguous, aligned and writeable; {name} fills it")
+    return out
+
+
+def _apart(curves: list[Array], out: Array) -> list[Array]:
+    """Return the curves, copied where writing to `out` might change them."""
+    return [copy_of(curve) if np.may_share_memory(curve, out) else curve for curve in curves]
+
+
+def _checked_cutoff(cutoff: SupportsFloat | None) -> float:
+    if cutoff is None:
+        return float("inf")
+    limit = float(cutoff)
+    if not limit >= 0:
+        raise ValueError(f"cutoff is {cutoff!r}; give a number >= 0, or None")
+    return limit
+
+
+def _fill(
+    out: Array,
+    pairs: Iterable[tuple[Array, Array]],
+    points: int,
+    measure: Callable[..., float],
+    limit: float,
+    options: dict[str, Any],
+    progress: bool | Report,
+) -> None:
+    """Call a Python function for every pair, in the order of `out`."""
+    flat = out.reshape(-1)
+    done = 0
+    with reporting(progress) as report:
+        for position, (P, Q) in enumerate(pairs):
+            value = float(measure(P, Q, **options))
+            flat[position] = np.inf if value > limit else value
+            done += len(P) + len(Q)
+            if report is not None:
+                report(done, points)
+
+
+def _points(curves: Iterable[Array]) -> int:
+    return sum(map(len, curves))

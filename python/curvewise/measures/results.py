@@ -1,0 +1,279 @@
+"""What the richer functions return: plain, immutable records of numpy arrays and numbers.
+
+In a terminal they print their numbers, and of arrays the shapes; in a notebook a table and, where
+they know the curves, the picture of what was found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from ..showing.notebook import picture, table
+
+if TYPE_CHECKING:
+    from ..drawing.picture import Picture
+
+__all__ = [
+    "Alignment",
+    "AreaQuads",
+    "DtwMean",
+    "Matching",
+    "PcmMatch",
+    "Subsequence",
+    "WarpingInfo",
+]
+
+
+Curves: TypeAlias = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None
+
+
+@dataclass(frozen=True, repr=False)
+class _Record:
+    """A record that does not print its arrays."""
+
+    def __repr__(self) -> str:
+        names = [one.name for one in fields(self) if one.repr]
+        return _printed(self, [(name, getattr(self, name)) for name in names])
+
+
+def _printed(record: object, items: Iterable[tuple[str, Any]]) -> str:
+    parts = [f"{name}={_short(value)}" for name, value in items]
+    return f"{type(record).__name__}({', '.join(parts)})"
+
+
+def _short(value: Any) -> str:
+    return f"<array of shape {value.shape}>" if isinstance(value, np.ndarray) else repr(value)
+
+
+@dataclass(frozen=True, repr=False)
+class Alignment(_Record):
+    """A distance with the path that attains it.
+
+    Attributes
+    ----------
+    distance : float
+        The value of the measure.
+    path : ndarray of int64, shape (k, 2)
+        Index pairs ``(i, j)``: point ``i`` of P is matched to point ``j`` of Q. Each step is
+        (1, 0), (0, 1) or (1, 1).
+    curves : tuple of two ndarrays, or None
+        Copies of P and Q, for the picture; not those of :mod:`curvewise.reference`.
+    """
+
+    distance: float
+    path: npt.NDArray[np.int64]
+    curves: Curves = field(default=None, repr=False, compare=False)
+
+    def plot(self) -> Picture:
+        """Return a matplotlib Figure of the curves and the pairs of the path.
+
+        Where the curves are not known, or have more than two coordinates, of the path alone.
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        """
+        from ..drawing.linked_curves import alignment_figure
+
+        return alignment_figure(self.curves, self.path)
+
+    def _repr_html_(self) -> str:
+        rows = [["distance", f"{self.distance:.6g}"], ["pairs of points", f"{len(self.path)}"]]
+        return table(rows) + picture(self.plot, "The curves and which points are matched")
+
+
+class AreaQuads(NamedTuple):
+    """The quadrilaterals between two curves and their areas.
+
+    Attributes
+    ----------
+    quads : ndarray, shape (k, 4, 2)
+        Vertices, in the order whose area is given.
+    areas : ndarray, shape (k,)
+        Their areas, in units of x times units of y.
+    """
+
+    quads: npt.NDArray[np.float64]
+    areas: npt.NDArray[np.float64]
+
+    def __repr__(self) -> str:
+        return _printed(self, self._asdict().items())
+
+
+@dataclass(frozen=True, repr=False)
+class Matching(_Record):
+    """A distance with two walks along the curves that attain it.
+
+    Attributes
+    ----------
+    distance : float
+        The longest leash between the walks: the value of the measure or, where the rounding of
+        the parameters stretches it, the least double that is not below what they need.
+    parameters : ndarray, shape (k, 2)
+        Pairs of a parameter of P and one of Q: the index of a vertex plus a fraction of the edge
+        behind it. Neither ever decreases; the first are 0 and the last the indices of the last
+        points. Between two rows both walks stay on one edge each, at steady speeds.
+    curves : tuple of two ndarrays, or None
+        Copies of P and Q, for the picture; not those of :mod:`curvewise.reference`.
+    """
+
+    distance: float
+    parameters: npt.NDArray[np.float64]
+    curves: Curves = field(default=None, repr=False, compare=False)
+
+    def plot(self) -> Picture:
+        """Return a matplotlib Figure of the curves and the leashes between them.
+
+        Where the curves are not known, or have more than two coordinates, of the parameters alone.
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        """
+        from ..drawing.linked_curves import matching_figure
+
+        return matching_figure(self.curves, self.parameters)
+
+    def _repr_html_(self) -> str:
+        rows = [["distance", f"{self.distance:.6g}"]]
+        return table(rows) + picture(self.plot, "The curves and which points are matched")
+
+
+@dataclass(frozen=True, repr=False)
+class PcmMatch(_Record):
+    """Where partial curve mapping places the shorter curve on the longer.
+
+    Attributes
+    ----------
+    value : float
+        The smallest area between the curves (dimensionless: curves scaled by P's box).
+    offset : float
+        Arc length (scaled) on the longer curve at which the shorter one starts.
+    coverage : float
+        Length of the shorter curve divided by that of the longer, at most 1 (to 1e-12). A small
+        coverage with a small value means that one curve is a piece of the other, not that
+        they agree.
+    mapped : {"P", "Q"}
+        Which curve is the shorter one, whose vertices are mapped onto the other.
+    points : ndarray, shape (k, 2)
+        For every vertex of the mapped curve, its point on the other curve, in original units.
+    tolerance : float
+        How far `value` may lie above the smallest area of all offsets. For lengths S <= T and
+        ``offsets=k`` it is S (T - S) / (2 (k - 1)), or S (T - S) for ``offsets=1``; for
+        "continuous" 1e-12 S or 1e-13 `value`, whichever is more, unless the search took more than
+        2^20 evaluations: then it says with how much more the search ended.
+    curves : tuple of two ndarrays, or None
+        Copies of P and Q, for the picture; not those of :mod:`curvewise.reference`.
+    """
+
+    value: float
+    offset: float
+    coverage: float
+    mapped: Literal["P", "Q"]
+    points: npt.NDArray[np.float64]
+    tolerance: float
+    curves: Curves = field(default=None, repr=False, compare=False)
+
+    def plot(self) -> Picture:
+        """Return a matplotlib Figure of the curves and of where the shorter one lies.
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        ValueError
+            The curves are not known: the match is that of :mod:`curvewise.reference`.
+        """
+        from ..drawing.linked_curves import placement_figure
+
+        if self.curves is None:
+            raise ValueError("the match does not know its curves; take that of curvewise.pcm_match")
+        return placement_figure(self.curves, self.mapped, self.offset, self.points)
+
+    def _repr_html_(self) -> str:
+        rows = [
+            ["value", f"{self.value:.6g}"],
+            ["offset on the longer curve, scaled", f"{self.offset:.6g}"],
+            ["coverage", f"{100 * self.coverage:.3g} %"],
+            ["shorter curve", self.mapped],
+        ]
+        drawn = picture(self.plot, "The curves and where the shorter lies") if self.curves else ""
+        return table(rows) + drawn
+
+
+@dataclass(frozen=True)
+class WarpingInfo:
+    """A distance with how much of the table it took, and why.
+
+    Attributes
+    ----------
+    value : float
+        The distance.
+    pruned : bool
+        Whether a part of the table was left out. If not, all of it was swept: because
+        ``prune=False`` asked for it, because the curves are short, or because the bounds said
+        early that they would not help.
+    cells_swept : int
+        Cells of the table that were computed; some of them may have been computed twice.
+    share : float
+        `cells_swept` over n m.
+    bounds : tuple of float
+        A lower and an upper bound of the distance, as they were known before the last step.
+    seconds : dict of str to float
+        Time by phase, and of "all".
+    """
+
+    value: float
+    pruned: bool
+    cells_swept: int
+    share: float
+    bounds: tuple[float, float]
+    seconds: dict[str, float]
+
+
+@dataclass(frozen=True, repr=False)
+class Subsequence(_Record):
+    """A run of consecutive points of Q that is like P.
+
+    Attributes
+    ----------
+    distance : float
+        That of P and the run, ``Q[start : stop + 1]``.
+    start, stop : int
+        The first point of the run, and the last.
+    path : ndarray of int64, shape (k, 2), or None
+        Where asked for, index pairs ``(i, j)`` as those of :class:`Alignment`: point ``i`` of P is
+        matched to point ``j`` of Q.
+    """
+
+    distance: float
+    start: int
+    stop: int
+    path: npt.NDArray[np.int64] | None = None
+
+
+@dataclass(frozen=True, repr=False)
+class DtwMean(_Record):
+    """The mean of curves under dtw.
+
+    Attributes
+    ----------
+    curve : ndarray, shape (n, d)
+        The mean, with as many points as the initial curve.
+    costs : ndarray
+        The weighted sum of the dtw distances, with squared ground distances, from the curves: of
+        the initial curve, and of the mean after every move. It never rises.
+    converged : bool
+        Whether the last move lowered the sum by no more than the tolerance.
+    """
+
+    curve: npt.NDArray[np.float64]
+    costs: npt.NDArray[np.float64]
+    converged: bool
