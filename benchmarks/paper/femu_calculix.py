@@ -189,7 +189,7 @@ def fit(
         workers=workers,
         history=histories / f"{measure}_{version}.csv",
     )
-    print(f"\n{TITLES[measure]}\n{identification.summary()}", flush=True)
+    print(f"\n{TITLES[measure]}\n{identification}", flush=True)
     return identification
 
 

@@ -30,7 +30,7 @@ from ..calibration.models.command import LOG
 from ..calibration.models.identity import model_identity
 from ..calibration.models.templates import read_templates
 from ..calibration.objective.cases import CaseObjective
-from ..drawing import figures as drawing
+from ..drawing.figures import matplotlib_required
 from .compatibility import check_together
 from .dry_run import DryRun, dry_run
 from .entries import ModelEntry, SearchEntry, TestEntry
@@ -228,7 +228,7 @@ class Study:
         --------
         As for the class.
         """
-        with drawing.matplotlib_required():  # before the work rather than after it
+        with matplotlib_required():  # before the work rather than after it
             import_module("matplotlib.figure")
         self.results.mkdir(parents=True, exist_ok=True)
         found = self._searched(progress, callback)

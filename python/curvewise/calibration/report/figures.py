@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...curves.inputs import Array
-from ...drawing.loops import drawn, labels
+from ...drawing.loops import xy_labels, xy_of
 from ...drawing.palette import ACCENT_COLOUR, FILL_COLOUR, GROUND_COLOUR, P_COLOUR, Q_COLOUR, SERIES
 from ..problem.space import Space
 from ..records.evaluation import Evaluation
@@ -44,14 +44,14 @@ def loop(
     traces = [_line(experiment, "test", P_COLOUR, most, mode="lines+markers", width=0.7)]
     if simulation is not None:
         traces.append(_line(simulation, "simulation", Q_COLOUR, most, width=2.0))
-    return {"data": traces, "layout": _layout(*labels(axes), title=title)}
+    return {"data": traces, "layout": _layout(*xy_labels(axes), title=title)}
 
 
 def residuals(
     branches: Sequence[tuple[str, Array, Array]], axes: Sequence[str], title: str, most: int
 ) -> Figure:
     """Return the differences of test and simulation against x, a colour for each branch."""
-    x, y = labels(axes)
+    x, y = xy_labels(axes)
     each = max(10, most // len(branches))
     traces = [
         _line(
@@ -85,7 +85,7 @@ def weakest_direction(
     names = ("weakest direction", "and back")
     for curve, name, colour in zip(moved, names, (P_COLOUR, Q_COLOUR), strict=True):
         traces.append(_line(curve, name, colour, most, width=1.5, dash="dash"))
-    return {"data": traces, "layout": _layout(*labels(axes), title=title)}
+    return {"data": traces, "layout": _layout(*xy_labels(axes), title=title)}
 
 
 def convergence(evaluations: Sequence[Evaluation], objective: str) -> Figure:
@@ -171,7 +171,7 @@ def _interval_traces(
     texts = []
     for name in names:
         low, high = summary["intervals"][name]
-        ends += [_rounded(place_between(space, name, end)) for end in (low, high)]
+        ends += [_place(space, parameters, name, end) for end in (low, high)]
         ends.append(None)
         texts.append(html.escape(f"{name} = {parameters[name]:.5g}, {low:.5g} to {high:.5g}"))
     line = {
@@ -186,7 +186,7 @@ def _interval_traces(
     }
     dots = {
         "type": "scatter",
-        "x": [_rounded(place_between(space, name, parameters[name])) for name in names],
+        "x": [_place(space, parameters, name, parameters[name]) for name in names],
         "y": list(names),
         "mode": "markers",
         "marker": {"color": colour, "size": 10},
@@ -196,6 +196,11 @@ def _interval_traces(
         "hovertemplate": "%{text}<extra></extra>",
     }
     return [line, dots]
+
+
+def _place(space: Space, parameters: dict[str, float], name: str, value: float) -> float | None:
+    """Return where a value is between its bounds; outside of them the bound."""
+    return _rounded(min(max(space.place(name, value, parameters), 0.0), 1.0))
 
 
 def correlations(names: Sequence[str], table: Sequence[Sequence[float]]) -> Figure:
@@ -220,16 +225,6 @@ def correlations(names: Sequence[str], table: Sequence[Sequence[float]]) -> Figu
     return {"data": [trace], "layout": layout}
 
 
-def place_between(space: Space, name: str, value: float) -> float:
-    """Return where a value is between the bounds of its parameter: from 0 to 1."""
-    low, high = space.bounds[name]
-    if space.is_log[space.names.index(name)]:
-        if value <= 0:
-            return 0.0
-        low, high, value = math.log(low), math.log(high), math.log(value)
-    return min(max((value - low) / (high - low), 0.0), 1.0)
-
-
 def _line(
     curve: Array,
     name: str,
@@ -240,7 +235,7 @@ def _line(
     width: float = 1.0,
     dash: str = "solid",
 ) -> dict[str, Any]:
-    x, y = drawn(curve)
+    x, y = xy_of(curve)
     shown = _evenly(len(x), most)
     return {
         **_trace(x[shown], y[shown], name, mode),

@@ -43,20 +43,13 @@ def summary_of(uncertainty: Uncertainty) -> dict[str, Any]:
         "sigma": uncertainty.sigma.tolist(),
         "level": uncertainty.level,
         "runs": uncertainty.runs,
-        "moved": [text_of(curves) for curves in _moved(uncertainty)],
+        "moved": [text_of(curves) for curves in uncertainty.moved],
     }
 
 
 def moved_curves(summary: dict[str, Any]) -> list[tuple[Array, ...]]:
     """Return the curves moved along the weakest direction, and the other way."""
     return [curves_of(text) for text in summary["moved"]]
-
-
-def _moved(uncertainty: Uncertainty) -> list[list[Array]]:
-    optimum = uncertainty.optimum
-    differential = optimum.problem.space.differential(optimum.unit)
-    step = np.linalg.solve(differential, np.array(list(uncertainty.weakest_direction.values())))
-    return [optimum.curves(optimum.unit + sign * step) for sign in (1.0, -1.0)]
 
 
 def summary_of_record(record: SearchRecord) -> tuple[dict[str, Any] | None, str]:
