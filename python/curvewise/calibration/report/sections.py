@@ -41,24 +41,20 @@ def headline(record: SearchRecord, summary: dict[str, Any] | None) -> str:
     return f"{state}: {record.ending.message}. {count}."
 
 
+def _objective_name(record: SearchRecord) -> str:
+    return f"{record.settings['measure']} ({record.settings['preset']})"
+
+
 def overview(records: dict[int, SearchRecord]) -> str:
     """Return the parameters that several searches have found, side by side."""
     names = list(dict.fromkeys(name for record in records.values() for name in record.names))
     rows = []
     for number, record in records.items():
-        values = _parameters(record)
-        found = [f"{values[name]:.5g}" if name in values else "" for name in names]
-        best = record.best
-        rows.append(
-            [
-                f"{number}",
-                f"{record.settings['measure']} ({record.settings['preset']})",
-                record.settings["method"],
-                *found,
-                f"{len(record.evaluations)}",
-                "" if best is None else f"{best.value:.5g}",
-            ]
-        )
+        parameters, best = _parameters(record), record.best
+        values = [f"{parameters[name]:.5g}" if name in parameters else "" for name in names]
+        value = "" if best is None else f"{best.value:.5g}"
+        searched = [f"{number}", _objective_name(record), record.settings["method"]]
+        rows.append([*searched, *values, f"{len(record.evaluations)}", value])
     header = ["search", "measure", "method", *names, "evaluations", "value"]
     return Table(rows, header).html()
 
@@ -109,21 +105,24 @@ def _parameters_section(
         parts.append(paragraph(reason))
     else:
         noise = ", ".join(f"{sigma:.3g}" for sigma in summary["sigma"])
+        correlations = figures.correlations(space.names, summary["correlations"])
         parts += [
             paragraph(f"Intervals from noise of standard deviation {noise} in y, loop by loop."),
-            '<div class="figures">',
-            add(figures.intervals(space, parameters, summary), "Intervals between the bounds"),
-            add(
-                figures.correlations(space.names, summary["correlations"]),
-                "Correlations of the errors",
+            _side_by_side(
+                add(figures.intervals(space, parameters, summary), "Intervals between the bounds"),
+                add(correlations, "Correlations of the errors"),
             ),
-            "</div>",
         ]
     if record.ending is not None:
         values, settings = record.ending.measures, record.settings
         measures = measure_table(values, settings["measure"], settings["preset"])
         parts += ["<h4>The optimum under every measure</h4>", measures.html()]
     return "\n".join(parts)
+
+
+def _side_by_side(*places: str) -> str:
+    """Return the places of figures beside each other, as many as the page is wide."""
+    return "\n".join(['<div class="figures">', *places, "</div>"])
 
 
 def _loops(record: SearchRecord) -> list[tuple[str, list[str], Any, Any]]:
@@ -135,15 +134,15 @@ def _loops(record: SearchRecord) -> list[tuple[str, list[str], Any, Any]]:
 
 
 def _tests(record: SearchRecord, add: AddFigure, most: int) -> str:
-    parts, numbers = ['<div class="figures">'], []
+    drawn, numbers = [], []
     for title, axes, test, simulation in _loops(record):
         if test.size == 1:
-            found = "" if simulation is None else f"{simulation[0, 0]:.6g}"
-            numbers.append([title, f"{test[0, 0]:.6g}", found])
+            number = "" if simulation is None else f"{simulation[0, 0]:.6g}"
+            numbers.append([title, f"{test[0, 0]:.6g}", number])
             continue
         figure = figures.loop(test, simulation, axes, title, most)
-        parts.append(add(figure, f"{title}: test and simulation"))
-    parts.append("</div>")
+        drawn.append(add(figure, f"{title}: test and simulation"))
+    parts = [_side_by_side(*drawn)]
     if numbers:
         parts.append(Table(numbers, ["number", "test", "simulation"]).html())
     if record.ending is not None:
@@ -174,21 +173,12 @@ def _residuals(record: SearchRecord, add: AddFigure, most: int) -> str:
         return paragraph("There is no simulated curve to take from a test.")
     header = ["loop", "branch", "x from", "to", "points", "mean", "rms", "largest"]
     note = "Test minus simulation, in units of y, where a warping path matches them."
-    return "\n".join(
-        [
-            paragraph(note),
-            '<div class="figures">',
-            *drawn,
-            "</div>",
-            Table(rows, header).html(),
-        ]
-    )
+    return "\n".join([paragraph(note), _side_by_side(*drawn), Table(rows, header).html()])
 
 
 def _convergence(record: SearchRecord, add: AddFigure) -> str:
     if not record.evaluations:
         return paragraph("Nothing has been evaluated yet.")
-    objective = f"{record.settings['measure']} ({record.settings['preset']})"
     seconds = sum(one.seconds for one in record.evaluations)
     best = record.best
     assert best is not None
@@ -196,7 +186,7 @@ def _convergence(record: SearchRecord, add: AddFigure) -> str:
         f"{len(record.evaluations)} parameter sets, which took the model {seconds:.3g} s. "
         f"Best value {best.value:.6g}, at evaluation {best.number}."
     )
-    figure = figures.convergence(record.evaluations, objective)
+    figure = figures.convergence(record.evaluations, _objective_name(record))
     return f'{paragraph(text)}<div class="figures wide">{add(figure, "Convergence")}</div>'
 
 
@@ -206,16 +196,12 @@ def _weakest(
     if summary is None:
         return paragraph(reason)
     names, in_words = record.names, summary["in_words"]
-    parts = [paragraph(f"{in_words[:1].upper()}{in_words[1:]}.")]
-    parts.append('<div class="figures">')
-    forth, back = moved_curves(summary)
-    for i, (title, axes, test, simulation) in enumerate(_loops(record)):
+    drawn = []
+    moved = zip(*moved_curves(summary), strict=True)
+    for (title, axes, test, simulation), both in zip(_loops(record), moved, strict=True):
         if test.size > 1 and simulation is not None:
-            figure = figures.weakest_direction(
-                test, simulation, (forth[i], back[i]), axes, title, most
-            )
-            parts.append(add(figure, f"{title}, moved along the weakest direction"))
-    parts.append("</div>")
+            figure = figures.weakest_direction(test, simulation, both, axes, title, most)
+            drawn.append(add(figure, f"{title}, moved along the weakest direction"))
     changes = [
         [name, f"{summary['weakest_direction'][name]:.4g}", f"{summary['unnoticed'][name]:.4g}"]
         for name in names
@@ -226,7 +212,9 @@ def _weakest(
         for title, row in zip(record.details["titles"], summary["sensitivities"], strict=True)
     ]
     singular = ", ".join(f"{100 * value:.3g}" for value in summary["singular_values"])
-    parts += [
+    parts = [
+        paragraph(f"{in_words[:1].upper()}{in_words[1:]}."),
+        _side_by_side(*drawn),
         Table(changes, header).html(),
         "<h4>How far each loop moves as a parameter goes through its bounds, % of the loop</h4>",
         Table(sensitivities, ["loop", *names]).html(),
@@ -239,16 +227,11 @@ def _failures(record: SearchRecord) -> str:
     failed = [one for one in record.evaluations if one.failed]
     if not failed:
         return paragraph("No evaluation has failed.")
-    rows = [
-        [
-            f"{one.number}",
-            ", ".join(
-                f"{name} {value:.4g}" for name, value in zip(record.names, one.point, strict=True)
-            ),
-            one.message,
-        ]
-        for one in failed[:_MOST_FAILURES]
-    ]
+    rows = []
+    for one in failed[:_MOST_FAILURES]:
+        values = zip(record.names, one.point, strict=True)
+        parameters = ", ".join(f"{name} {value:.4g}" for name, value in values)
+        rows.append([f"{one.number}", parameters, one.message])
     made = Table(rows, ["evaluation", "parameters", "why"]).html()
     more = len(failed) - len(rows)
     return made + (paragraph(f"And {more} more.") if more else "")
