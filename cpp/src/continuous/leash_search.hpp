@@ -34,8 +34,8 @@
 #include "continuous/coupling.hpp"
 #include "continuous/exact_signs.hpp"
 #include "continuous/free_space.hpp"
+#include "continuous/leash_path.hpp"
 #include "continuous/least_double.hpp"
-#include "continuous/matching.hpp"
 #include "continuous/nearest.hpp"
 #include "continuous/reachable.hpp"
 #include "curves/range_scale.hpp"
@@ -134,9 +134,9 @@ class LeashSearch {
     }
 
     // A matching within a distance that is sufficient, and its longest leash.
-    std::pair<double, MatchedParameters> matching(double distance) {
+    std::pair<double, LeashPath> matching(double distance) {
         const Radius radius = radius_of(distance);
-        MatchedParameters matched = MatchingTrace<Dim>(diagram_, radius, poller_).parameters();
+        LeashPath matched = LeashPathTrace<Dim>(diagram_, radius, poller_).parameters();
         const double longest = LeashMeasure<Dim>(diagram_, radius, poller_).longest(matched);
         return {longest, std::move(matched)};
     }

@@ -1,6 +1,6 @@
 // Algorithm 1 of Jekel et al. (2018): refinement, then the areas of the quadrilaterals between
 // the curves (quad.hpp). With Spacing::matched the curves are matched by a warping path instead
-// (matching.hpp), and areas have signs, which cancel within a piece.
+// (matched_curves.hpp), and areas have signs, which cancel within a piece.
 #include "curvewise/area.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include "curvewise/gradient.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
-#include "planar/matching.hpp"
+#include "planar/matched_curves.hpp"
 #include "planar/quad.hpp"
 #include "planar/refinement.hpp"
 
@@ -27,7 +27,7 @@ using detail::Polyline;
 using detail::Quad;
 using detail::RangeScale;
 
-// Of FacingCurves or of a Matching.
+// Of FacingCurves or of MatchedCurves.
 template <class Curves>
 Quad quad_at(const Curves& curves, std::size_t i) noexcept {
     return {curves.A[i], curves.A[i + 1], curves.B[i + 1], curves.B[i]};
@@ -55,8 +55,8 @@ void write_unrefined(const Polyline& by_vertex, const std::vector<detail::Cut>& 
     }
 }
 
-// Of Q, given those by the vertices of a matching's B: what is no vertex of Q lies at a fixed share
-// of its length.
+// Of Q, given those by the vertices of MatchedCurves::B: what is no vertex of Q lies at a fixed
+// share of its length.
 void write_unmatched(const Polyline& by_vertex, const detail::PlacesOnQ& on_q, const Polyline& q,
                      const RangeScale& range, int degree, double* gradient,
                      detail::Poller& poller) {
@@ -180,7 +180,7 @@ class AreaMeasure : public detail::LinearMeasure {
                                  const detail::Call<Memory>& call) const {
         const RangeScale range = range_of(P, Q);
         detail::PlacesOnQ on_q;
-        const detail::Matching curves =
+        const detail::MatchedCurves curves =
             detail::match(P.checked.curve, Q.checked.curve, range, call.poller, &on_q);
         Polyline by_vertex(curves.B.size(), Point{0.0, 0.0});
         double sum = 0.0;
@@ -219,11 +219,11 @@ class AreaMeasure : public detail::LinearMeasure {
         }
     }
 
-    // Calls visit(curves, first, end, area) for one piece of a matching after the other: its
-    // quadrilaterals are those from `first` to before `end`, and their areas, with their signs,
+    // Calls visit(curves, first, end, area) for one piece of the matched curves after the other:
+    // its quadrilaterals are those from `first` to before `end`, and their areas, with their signs,
     // make up `area`.
     template <class Visit>
-    static void for_each_piece(const detail::Matching& curves, detail::Poller& poller,
+    static void for_each_piece(const detail::MatchedCurves& curves, detail::Poller& poller,
                                Visit visit) {
         std::size_t first = 0;
         for (const std::size_t end : curves.ends) {

@@ -8,7 +8,7 @@
 #include "warping/block_recursion.hpp"
 #include "warping/block_values.hpp"
 #include "warping/coarse_table.hpp"
-#include "warping/hausdorff.hpp"
+#include "warping/nearest_point_bound.hpp"
 #include "warping/reach.hpp"
 #include "warping/sweep.hpp"
 
@@ -114,7 +114,7 @@ class FrechetSearch {
         upper() = coarse_.upper();
         // As on noise, whose boxes all lie over each other: no lower bound will help.
         if (options_.gives_up && value_share(lower(), lower()) > hopeless_share) return false;
-        lower() = hausdorff_bound(P_, Q_, metric_, lower(), cells_ * small_share / 2, poller_);
+        lower() = nearest_point_bound(P_, Q_, metric_, lower(), cells_ * small_share / 2, poller_);
         return true;
     }
 

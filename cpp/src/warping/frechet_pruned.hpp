@@ -1,10 +1,10 @@
 // The discrete Fréchet distance without most of its table, exact to the bit.
 //
-// A lower bound from nearest neighbours (hausdorff.hpp) is often the distance itself. Whether it
-// is, is decided by a recursion over blocks of the table (block_recursion.hpp), and if not, the
-// bound is raised in steps until the last cell is reached; a second recursion, with the table's
-// values, between the last bound that was too low and the first that was not, gives the distance.
-// Time nearly linear where the curves are alike, memory O(n + m).
+// A lower bound from nearest neighbours (nearest_point_bound.hpp) is often the distance itself.
+// Whether it is, is decided by a recursion over blocks of the table (block_recursion.hpp), and if
+// not, the bound is raised in steps until the last cell is reached; a second recursion, with the
+// table's values, between the last bound that was too low and the first that was not, gives the
+// distance. Time nearly linear where the curves are alike, memory O(n + m).
 //
 // Where the curves are not alike, a coarse table says so early, and nothing is returned: the full
 // sweep is then as fast or faster.

@@ -1,4 +1,4 @@
-#include "planar/matching.hpp"
+#include "planar/matched_curves.hpp"
 
 #include <algorithm>
 #include <array>
@@ -241,8 +241,8 @@ std::vector<PlacesOnQ::Place> places_on_q(const std::vector<double>& places, con
 
 }  // namespace
 
-Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, Poller& poller,
-               PlacesOnQ* on_q) {
+MatchedCurves match(const CurveView& P, const CurveView& Q, const RangeScale& range, Poller& poller,
+                    PlacesOnQ* on_q) {
     const CommonBox box(P, Q);
     const Polyline scaled_p = box.scaled(P, poller);
     const std::size_t pieces = count_pieces(scaled_p, poller);
@@ -260,9 +260,9 @@ Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, 
     const std::vector<double> of_q = places_of_vertices(q, route.j, route, poller);
     places = merged(places, of_q, poller);
 
-    Matching result{points_at(places, p, route.i, route, poller),
-                    points_at(places, q, route.j, route, poller),
-                    {}};
+    MatchedCurves result{points_at(places, p, route.i, route, poller),
+                         points_at(places, q, route.j, route, poller),
+                         {}};
     result.ends.reserve(pieces);
     for (std::size_t i = 0; result.ends.size() < pieces; ++i) {
         if (places[i] == cuts[result.ends.size()]) result.ends.push_back(i);
