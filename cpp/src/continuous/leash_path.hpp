@@ -20,7 +20,7 @@
 #include "continuous/reachable.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
 using LeashPath = std::vector<std::array<double, 2>>;
 
@@ -235,4 +235,4 @@ class LeashPathTrace {
     std::size_t chain_of_ = 0;  // the run that the chain begins behind
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

@@ -42,7 +42,7 @@
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
 // What was reached of some rows, a few of them and not more than so many runs in all.
 class Trail {
@@ -303,4 +303,4 @@ class LeashSearch {
     std::ptrdiff_t trail_end_ = 0;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

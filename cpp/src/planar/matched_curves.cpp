@@ -12,8 +12,12 @@
 #include "curvewise/control.hpp"
 #include "curvewise/dtw.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::planar {
 namespace {
+
+using curves::ArcPosition;
+using curves::BoxSide;
+using curves::Point;
 
 constexpr double pieces_per_side = 10.0;  // of the box
 constexpr std::size_t samples_per_piece = 5;
@@ -105,7 +109,7 @@ std::vector<double> positions_of(const Polyline& scaled, std::size_t samples, Po
 
 // One of the two curves.
 struct Side {
-    Side(const CurveView& curve, const RangeScale& range, const Polyline& scaled,
+    Side(const CurveView& curve, const curves::RangeScale& range, const Polyline& scaled,
          std::size_t samples, Poller& poller)
         : points(polyline(curve, range, poller)), positions(positions_of(scaled, samples, poller)) {
         sampled.reserve(2 * (samples + 1));
@@ -241,8 +245,8 @@ std::vector<PlacesOnQ::Place> places_on_q(const std::vector<double>& places, con
 
 }  // namespace
 
-MatchedCurves match(const CurveView& P, const CurveView& Q, const RangeScale& range, Poller& poller,
-                    PlacesOnQ* on_q) {
+MatchedCurves match(const CurveView& P, const CurveView& Q, const curves::RangeScale& range,
+                    Poller& poller, PlacesOnQ* on_q) {
     const CommonBox box(P, Q);
     const Polyline scaled_p = box.scaled(P, poller);
     const std::size_t pieces = count_pieces(scaled_p, poller);
@@ -273,4 +277,4 @@ MatchedCurves match(const CurveView& P, const CurveView& Q, const RangeScale& ra
     return result;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::planar

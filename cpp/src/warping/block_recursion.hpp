@@ -25,7 +25,7 @@
 #include "warping/box_tree.hpp"
 #include "warping/kernels/block.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // Runs of `block_side` points: the grain of the front.
 struct RunRange {
@@ -161,4 +161,4 @@ class BlockRecursion {
     std::int64_t effort_ = 0;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -93,4 +93,4 @@ std::int64_t ValueFront::sweep(std::ptrdiff_t p_run, std::ptrdiff_t q_run, doubl
     return rows * columns;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

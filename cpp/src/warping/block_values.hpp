@@ -11,7 +11,7 @@
 #include "runtime/aligned_buffer.hpp"
 #include "warping/block_recursion.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // The values along one of the curves.
 class FrontSide {
@@ -68,4 +68,4 @@ class ValueFront {
     FrontSide q_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -6,7 +6,7 @@
 #include "warping/box_tree.hpp"
 #include "warping/reach.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 // Both curves from their ends, or from their beginnings: `across` is stored in the order in which
@@ -68,4 +68,4 @@ SweptColumns frechet_corridor(const SweepProblem& problem, double value) {
     return corridor;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -12,7 +12,7 @@
 #include "warping/reach.hpp"
 #include "warping/sweep.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -235,7 +235,7 @@ class FrechetSearch {
     Poller& poller_;
     const PruningOptions& options_;
     PruningRecord& record_;
-    Stopwatch stopwatch_;
+    runtime::Stopwatch stopwatch_;
     std::int64_t counted_steps_ = 0;
     double cells_;
     BoxTree P_;
@@ -258,4 +258,4 @@ std::optional<double> frechet_pruned(const SweepProblem& problem, const PruningO
     });
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -16,7 +16,7 @@
 
 #include "warping/sweep_problem.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // What a search has done, in the unit of the table (squares for the Euclidean distance).
 struct PruningRecord {
@@ -46,4 +46,4 @@ struct PruningOptions {
 std::optional<double> frechet_pruned(const SweepProblem& problem, const PruningOptions& options,
                                      PruningRecord& record);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 // The points of one curve against those of the other.
@@ -94,4 +94,4 @@ double nearest_point_bound(const BoxTree& P, const BoxTree& Q, Metric metric, do
     });
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

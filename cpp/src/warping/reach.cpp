@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 using Word = std::uint64_t;
@@ -100,4 +100,4 @@ std::int64_t ReachFront::sweep(std::ptrdiff_t p_run, std::ptrdiff_t q_run, bool 
     return block_.columns * block_.rows;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

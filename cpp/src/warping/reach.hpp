@@ -8,7 +8,7 @@
 
 #include "warping/block_recursion.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // One of the two sides of a block, as the kernels read its points.
 struct PointArray {
@@ -64,4 +64,4 @@ class ReachFront {
     Words q_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

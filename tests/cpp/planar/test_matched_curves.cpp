@@ -13,12 +13,12 @@ namespace {
 
 using curvewise::Control;
 using curvewise::Stopped;
-using curvewise::detail::match;
-using curvewise::detail::MatchedCurves;
-using curvewise::detail::Point;
-using curvewise::detail::Poller;
-using curvewise::detail::Polyline;
-using curvewise::detail::RangeScale;
+using curvewise::curves::Point;
+using curvewise::curves::Polyline;
+using curvewise::curves::RangeScale;
+using curvewise::planar::match;
+using curvewise::planar::MatchedCurves;
+using curvewise::runtime::Poller;
 using test::Curve;
 using test::Random;
 
