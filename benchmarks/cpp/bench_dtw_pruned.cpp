@@ -86,10 +86,12 @@ void time_pair(const std::string& name, const Settings& settings) {
     const CurveView P(p.data(), static_cast<std::ptrdiff_t>(p.size() / 2), 2);
     const CurveView Q(q.data(), static_cast<std::ptrdiff_t>(q.size() / 2), 2);
     const double cells = static_cast<double>(P.size()) * static_cast<double>(Q.size());
-    const warping::PackedCurve rows(P, curves::RangeScale(1.0), warping::PointOrder::forward);
-    const warping::PackedCurve columns(Q, curves::RangeScale(1.0), warping::PointOrder::reversed);
-    const warping::PackedPair curves{rows, columns};
     runtime::Poller poller(nullptr);
+    const warping::PackedCurve rows(P, curves::RangeScale(1.0), warping::PointOrder::forward,
+                                    poller);
+    const warping::PackedCurve columns(Q, curves::RangeScale(1.0), warping::PointOrder::reversed,
+                                       poller);
+    const warping::PackedPair curves{rows, columns};
     warping::SweepMemory memory;
     const warping::SweepProblem problem{*warping::active_level().kernels,
                                         curves,

@@ -58,8 +58,8 @@ struct Pair {
     explicit Pair(const std::string& name)
         : p(read(name + ".P")),
           q(read(name + ".Q")),
-          rows(view(p), curves::RangeScale(1.0), warping::PointOrder::forward),
-          columns(view(q), curves::RangeScale(1.0), warping::PointOrder::reversed) {}
+          rows(view(p), curves::RangeScale(1.0), warping::PointOrder::forward, poller),
+          columns(view(q), curves::RangeScale(1.0), warping::PointOrder::reversed, poller) {}
 
     static CurveView view(const std::vector<double>& values) {
         return {values.data(), static_cast<std::ptrdiff_t>(values.size() / 2), 2};
@@ -71,9 +71,9 @@ struct Pair {
 
     std::vector<double> p;
     std::vector<double> q;
+    runtime::Poller poller{nullptr};
     warping::PackedCurve rows;
     warping::PackedCurve columns;
-    runtime::Poller poller{nullptr};
     warping::SweepMemory memory;
     SweepProblem problem{*warping::active_level().kernels,
                          {rows, columns},

@@ -73,12 +73,12 @@ void time_sweep(const char* name, Recurrence recurrence, Metric metric, std::ptr
     std::vector<std::function<void()>> calls;
     for (const warping::Level& level : levels) {
         calls.emplace_back([&, level] {
-            const warping::PackedCurve rows(P, curves::RangeScale(1.0),
-                                            warping::PointOrder::forward);
-            const warping::PackedCurve columns(Q, curves::RangeScale(1.0),
-                                               warping::PointOrder::reversed);
-            const warping::PackedPair curves{rows, columns};
             runtime::Poller poller(nullptr);
+            const warping::PackedCurve rows(P, curves::RangeScale(1.0),
+                                            warping::PointOrder::forward, poller);
+            const warping::PackedCurve columns(Q, curves::RangeScale(1.0),
+                                               warping::PointOrder::reversed, poller);
+            const warping::PackedPair curves{rows, columns};
             warping::SweepMemory memory;
             const GroundDistance ground{metric};
             const warping::SweepProblem problem{*level.kernels,
