@@ -23,7 +23,9 @@
 
 namespace {
 
-namespace detail = curvewise::detail;
+namespace curves = curvewise::curves;
+namespace runtime = curvewise::runtime;
+namespace warping = curvewise::warping;
 using curvewise::CurveView;
 using curvewise::kernels::Recurrence;
 
@@ -60,15 +62,15 @@ double seconds(Call call) {
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-double full_value(const detail::SweepProblem& problem, bool with_path) {
+double full_value(const warping::SweepProblem& problem, bool with_path) {
     if (with_path) return find_path(problem, false).value;
     return last_row(problem)[problem.curves.columns() - 1];
 }
 
 // As a call does it: the full sweep where pruning gives up.
-double pruned_value(const detail::SweepProblem& problem, bool with_path,
-                    detail::DtwPruningRecord& record) {
-    record = detail::DtwPruningRecord();
+double pruned_value(const warping::SweepProblem& problem, bool with_path,
+                    warping::DtwPruningRecord& record) {
+    record = warping::DtwPruningRecord();
     if (with_path) {
         const auto path = dtw_path_pruned(problem, {}, record);
         if (path) return path->value;
@@ -84,24 +86,26 @@ void time_pair(const std::string& name, const Settings& settings) {
     const CurveView P(p.data(), static_cast<std::ptrdiff_t>(p.size() / 2), 2);
     const CurveView Q(q.data(), static_cast<std::ptrdiff_t>(q.size() / 2), 2);
     const double cells = static_cast<double>(P.size()) * static_cast<double>(Q.size());
-    const detail::PackedCurve rows(P, detail::RangeScale(1.0), detail::PointOrder::forward);
-    const detail::PackedCurve columns(Q, detail::RangeScale(1.0), detail::PointOrder::reversed);
-    const detail::PackedPair curves{rows, columns};
-    detail::Poller poller(nullptr);
-    detail::SweepMemory memory;
-    const detail::SweepProblem problem{*detail::active_level().kernels,
-                                       curves,
-                                       settings.recurrence,
-                                       detail::canonical_cost({}, curves),
-                                       2.0,
-                                       detail::Band(P.size(), Q.size(), std::nullopt),
-                                       false,
-                                       1,
-                                       poller,
-                                       memory};
+    runtime::Poller poller(nullptr);
+    const warping::PackedCurve rows(P, curves::RangeScale(1.0), warping::PointOrder::forward,
+                                    poller);
+    const warping::PackedCurve columns(Q, curves::RangeScale(1.0), warping::PointOrder::reversed,
+                                       poller);
+    const warping::PackedPair curves{rows, columns};
+    warping::SweepMemory memory;
+    const warping::SweepProblem problem{*warping::active_level().kernels,
+                                        curves,
+                                        settings.recurrence,
+                                        warping::canonical_cost({}, curves),
+                                        2.0,
+                                        warping::Band(P.size(), Q.size(), std::nullopt),
+                                        false,
+                                        1,
+                                        poller,
+                                        memory};
     double full = 0.0, pruned = 0.0;
     Times full_times, pruned_times;
-    detail::DtwPruningRecord record;
+    warping::DtwPruningRecord record;
     const int samples = cells < 5e6 ? 101 : cells < 5e7 ? 25 : cells < 1e9 ? 5 : 1;
     for (int sample = 0; sample < samples; ++sample) {
         if (settings.with_full) {

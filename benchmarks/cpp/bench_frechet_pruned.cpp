@@ -21,13 +21,15 @@
 
 namespace {
 
-namespace detail = curvewise::detail;
+namespace curves = curvewise::curves;
+namespace runtime = curvewise::runtime;
+namespace warping = curvewise::warping;
 using curvewise::CurveView;
 using curvewise::kernels::Recurrence;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-using detail::PruningRecord;
-using detail::SweepProblem;
+using warping::PruningRecord;
+using warping::SweepProblem;
 
 std::vector<double> read(const std::string& name) {
     std::ifstream file(name, std::ios::binary | std::ios::ate);
@@ -56,8 +58,8 @@ struct Pair {
     explicit Pair(const std::string& name)
         : p(read(name + ".P")),
           q(read(name + ".Q")),
-          rows(view(p), detail::RangeScale(1.0), detail::PointOrder::forward),
-          columns(view(q), detail::RangeScale(1.0), detail::PointOrder::reversed) {}
+          rows(view(p), curves::RangeScale(1.0), warping::PointOrder::forward, poller),
+          columns(view(q), curves::RangeScale(1.0), warping::PointOrder::reversed, poller) {}
 
     static CurveView view(const std::vector<double>& values) {
         return {values.data(), static_cast<std::ptrdiff_t>(values.size() / 2), 2};
@@ -69,16 +71,16 @@ struct Pair {
 
     std::vector<double> p;
     std::vector<double> q;
-    detail::PackedCurve rows;
-    detail::PackedCurve columns;
-    detail::Poller poller{nullptr};
-    detail::SweepMemory memory;
-    SweepProblem problem{*detail::active_level().kernels,
+    runtime::Poller poller{nullptr};
+    warping::PackedCurve rows;
+    warping::PackedCurve columns;
+    warping::SweepMemory memory;
+    SweepProblem problem{*warping::active_level().kernels,
                          {rows, columns},
                          Recurrence::frechet,
                          {curvewise::Metric::sqeuclidean, false},
                          2.0,
-                         detail::Band(rows.size(), columns.size(), std::nullopt),
+                         warping::Band(rows.size(), columns.size(), std::nullopt),
                          false,
                          1,
                          poller,
@@ -119,7 +121,7 @@ void time_value(const std::string& name) {
 // The path, its search narrowed to the corridor, against the search in the whole table.
 void time_path(const std::string& name) {
     Pair pair(name);
-    detail::Path full{}, pruned{};
+    warping::Path full{}, pruned{};
     std::vector<double> full_times, pruned_times, corridor_times;
     double share = 0.0;
     for (int sample = 0; sample < pair.samples() / 2; ++sample) {
@@ -129,12 +131,12 @@ void time_path(const std::string& name) {
         pruned_times.push_back(seconds([&] {
             PruningRecord record;
             const double value = *frechet_pruned(pair.problem, {infinity, false, 0}, record);
-            detail::SweptColumns corridor;
+            warping::SweptColumns corridor;
             corridor_times.push_back(
                 seconds([&] { corridor = frechet_corridor(pair.problem, value); }));
             share = static_cast<double>(corridor.cells) / pair.cells();
             SweepProblem narrow = pair.problem;
-            narrow.columns = {detail::Band(1, 1, std::nullopt), corridor};
+            narrow.columns = {warping::Band(1, 1, std::nullopt), corridor};
             pruned = find_path(narrow, false);
         }));
     }

@@ -20,7 +20,9 @@ using curvewise::CurveView;
 using curvewise::GroundDistance;
 using curvewise::Metric;
 using curvewise::kernels::Recurrence;
-namespace detail = curvewise::detail;
+namespace curves = curvewise::curves;
+namespace runtime = curvewise::runtime;
+namespace warping = curvewise::warping;
 
 constexpr int samples = 9;
 constexpr double seconds_per_sample = 0.02;
@@ -67,27 +69,28 @@ void time_sweep(const char* name, Recurrence recurrence, Metric metric, std::ptr
                 std::ptrdiff_t n) {
     const std::vector<double> p = random_walk(n, dim, 1), q = random_walk(n, dim, 2);
     const CurveView P(p.data(), n, dim), Q(q.data(), n, dim);
-    const std::vector<detail::Level> levels = detail::available_levels();
+    const std::vector<warping::Level> levels = warping::available_levels();
     std::vector<std::function<void()>> calls;
-    for (const detail::Level& level : levels) {
+    for (const warping::Level& level : levels) {
         calls.emplace_back([&, level] {
-            const detail::PackedCurve rows(P, detail::RangeScale(1.0), detail::PointOrder::forward);
-            const detail::PackedCurve columns(Q, detail::RangeScale(1.0),
-                                              detail::PointOrder::reversed);
-            const detail::PackedPair curves{rows, columns};
-            detail::Poller poller(nullptr);
-            detail::SweepMemory memory;
+            runtime::Poller poller(nullptr);
+            const warping::PackedCurve rows(P, curves::RangeScale(1.0),
+                                            warping::PointOrder::forward, poller);
+            const warping::PackedCurve columns(Q, curves::RangeScale(1.0),
+                                               warping::PointOrder::reversed, poller);
+            const warping::PackedPair curves{rows, columns};
+            warping::SweepMemory memory;
             const GroundDistance ground{metric};
-            const detail::SweepProblem problem{*level.kernels,
-                                               curves,
-                                               recurrence,
-                                               detail::canonical_cost(ground, curves),
-                                               2.0,
-                                               detail::Band(n, n, std::nullopt),
-                                               false,
-                                               1,
-                                               poller,
-                                               memory};
+            const warping::SweepProblem problem{*level.kernels,
+                                                curves,
+                                                recurrence,
+                                                warping::canonical_cost(ground, curves),
+                                                2.0,
+                                                warping::Band(n, n, std::nullopt),
+                                                false,
+                                                1,
+                                                poller,
+                                                memory};
             last_row(problem);
         });
     }

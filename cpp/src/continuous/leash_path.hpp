@@ -20,9 +20,9 @@
 #include "continuous/reachable.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
-using MatchedParameters = std::vector<std::array<double, 2>>;
+using LeashPath = std::vector<std::array<double, 2>>;
 
 // Measures a matching, whose parameters are rounded, exactly.
 template <int Dim>
@@ -34,7 +34,7 @@ class LeashMeasure {
     // The least double that is not below the radius nor below the leash of any row. Rows that the
     // radius is too short for are first moved by a unit in the last place, if that helps; except
     // for those at vertices of both curves, before and behind which walks are on different edges.
-    double longest(MatchedParameters& matched) const {
+    double longest(LeashPath& matched) const {
         double longest = radius_.given();
         for (std::size_t k = 1; k + 1 < matched.size(); ++k) {
             poller_.spend(64);
@@ -76,13 +76,13 @@ class LeashMeasure {
 };
 
 template <int Dim>
-class MatchingTrace {
+class LeashPathTrace {
    public:
     // A walk with this radius succeeds.
-    MatchingTrace(const Diagram<Dim>& diagram, const Radius& radius, Poller& poller)
+    LeashPathTrace(const Diagram<Dim>& diagram, const Radius& radius, Poller& poller)
         : diagram_(diagram), radius_(radius), poller_(poller) {}
 
-    MatchedParameters parameters() {
+    LeashPath parameters() {
         const std::ptrdiff_t last = diagram_.rows() - 1;
         const auto block =
             static_cast<std::ptrdiff_t>(std::ceil(std::sqrt(static_cast<double>(last))));
@@ -227,12 +227,12 @@ class MatchingTrace {
     const Diagram<Dim>& diagram_;
     const Radius radius_;
     Poller& poller_;
-    MatchedParameters found_;  // from the last to the first
-    std::ptrdiff_t i_ = 0;     // the path is in row i_, on edge j_
+    LeashPath found_;       // from the last to the first
+    std::ptrdiff_t i_ = 0;  // the path is in row i_, on edge j_
     std::ptrdiff_t j_ = 0;
     double x_ = 0.0, y_ = 0.0;
     std::vector<FreePart> chain_;
     std::size_t chain_of_ = 0;  // the run that the chain begins behind
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

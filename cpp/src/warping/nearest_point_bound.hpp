@@ -13,12 +13,12 @@
 #include "warping/box_tree.hpp"
 #include "warping/kernels/strip.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // `bound`, a lower bound that is known already, raised to the distance of every point to its
 // nearest, to the bit, or to less where that takes longer than some `most_cells` of a sweep. Throws
 // Stopped where the poller says so; counts nothing as done.
-double hausdorff_bound(const BoxTree& P, const BoxTree& Q, Metric metric, double bound,
-                       double most_cells, Poller& poller);
+double nearest_point_bound(const BoxTree& P, const BoxTree& Q, Metric metric, double bound,
+                           double most_cells, Poller& poller);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

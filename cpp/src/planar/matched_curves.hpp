@@ -24,17 +24,20 @@
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::planar {
+
+using curves::Polyline;
+using runtime::Poller;
 
 // Two curves with as many vertices each, and the vertices at which their pieces end: the last one
 // is the curves' last.
-struct Matching {
+struct MatchedCurves {
     Polyline A;
     Polyline B;
     std::vector<std::size_t> ends;
 };
 
-// Where the vertices of a matching's B lie on Q, for derivatives.
+// Where the vertices of MatchedCurves::B lie on Q, for derivatives.
 struct PlacesOnQ {
     struct Place {
         bool is_vertex;  // of Q itself, that at the beginning of the segment
@@ -49,7 +52,7 @@ struct PlacesOnQ {
 
 // P and Q with a vertex at every vertex of the other, and at every end of a piece. Coordinates come
 // out in `range`. Throws Stopped where the poller says so. `on_q`, if given, is filled in.
-Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, Poller& poller,
-               PlacesOnQ* on_q = nullptr);
+MatchedCurves match(const CurveView& P, const CurveView& Q, const curves::RangeScale& range,
+                    Poller& poller, PlacesOnQ* on_q = nullptr);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::planar

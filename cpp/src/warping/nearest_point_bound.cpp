@@ -1,8 +1,8 @@
-#include "warping/hausdorff.hpp"
+#include "warping/nearest_point_bound.hpp"
 
 #include <algorithm>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 // The points of one curve against those of the other.
@@ -85,8 +85,8 @@ class DirectedBound {
 
 }  // namespace
 
-double hausdorff_bound(const BoxTree& P, const BoxTree& Q, Metric metric, double bound,
-                       double most_cells, Poller& poller) {
+double nearest_point_bound(const BoxTree& P, const BoxTree& Q, Metric metric, double bound,
+                           double most_cells, Poller& poller) {
     return with_norm(metric, [&](auto norm) {
         using Norm = decltype(norm);
         const double raised = DirectedBound<Norm>(P, Q, bound, most_cells / 2, poller).raise();
@@ -94,4 +94,4 @@ double hausdorff_bound(const BoxTree& P, const BoxTree& Q, Metric metric, double
     });
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

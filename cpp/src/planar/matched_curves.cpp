@@ -1,4 +1,4 @@
-#include "planar/matching.hpp"
+#include "planar/matched_curves.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,12 @@
 #include "curvewise/control.hpp"
 #include "curvewise/dtw.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::planar {
 namespace {
+
+using curves::ArcPosition;
+using curves::BoxSide;
+using curves::Point;
 
 constexpr double pieces_per_side = 10.0;  // of the box
 constexpr std::size_t samples_per_piece = 5;
@@ -105,7 +109,7 @@ std::vector<double> positions_of(const Polyline& scaled, std::size_t samples, Po
 
 // One of the two curves.
 struct Side {
-    Side(const CurveView& curve, const RangeScale& range, const Polyline& scaled,
+    Side(const CurveView& curve, const curves::RangeScale& range, const Polyline& scaled,
          std::size_t samples, Poller& poller)
         : points(polyline(curve, range, poller)), positions(positions_of(scaled, samples, poller)) {
         sampled.reserve(2 * (samples + 1));
@@ -241,8 +245,8 @@ std::vector<PlacesOnQ::Place> places_on_q(const std::vector<double>& places, con
 
 }  // namespace
 
-Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, Poller& poller,
-               PlacesOnQ* on_q) {
+MatchedCurves match(const CurveView& P, const CurveView& Q, const curves::RangeScale& range,
+                    Poller& poller, PlacesOnQ* on_q) {
     const CommonBox box(P, Q);
     const Polyline scaled_p = box.scaled(P, poller);
     const std::size_t pieces = count_pieces(scaled_p, poller);
@@ -260,9 +264,9 @@ Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, 
     const std::vector<double> of_q = places_of_vertices(q, route.j, route, poller);
     places = merged(places, of_q, poller);
 
-    Matching result{points_at(places, p, route.i, route, poller),
-                    points_at(places, q, route.j, route, poller),
-                    {}};
+    MatchedCurves result{points_at(places, p, route.i, route, poller),
+                         points_at(places, q, route.j, route, poller),
+                         {}};
     result.ends.reserve(pieces);
     for (std::size_t i = 0; result.ends.size() < pieces; ++i) {
         if (places[i] == cuts[result.ends.size()]) result.ends.push_back(i);
@@ -273,4 +277,4 @@ Matching match(const CurveView& P, const CurveView& Q, const RangeScale& range, 
     return result;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::planar

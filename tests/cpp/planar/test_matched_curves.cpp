@@ -7,24 +7,24 @@
 
 #include "check.hpp"
 #include "curves.hpp"
-#include "planar/matching.hpp"
+#include "planar/matched_curves.hpp"
 
 namespace {
 
 using curvewise::Control;
 using curvewise::Stopped;
-using curvewise::detail::match;
-using curvewise::detail::Matching;
-using curvewise::detail::Point;
-using curvewise::detail::Poller;
-using curvewise::detail::Polyline;
-using curvewise::detail::RangeScale;
+using curvewise::curves::Point;
+using curvewise::curves::Polyline;
+using curvewise::curves::RangeScale;
+using curvewise::planar::match;
+using curvewise::planar::MatchedCurves;
+using curvewise::runtime::Poller;
 using test::Curve;
 using test::Random;
 
 const RangeScale as_they_are(1.0);
 
-Matching matched(const Curve& P, const Curve& Q, Control* control = nullptr) {
+MatchedCurves matched(const Curve& P, const Curve& Q, Control* control = nullptr) {
     Poller poller(control);
     return match(P, Q, as_they_are, poller);
 }
@@ -41,8 +41,8 @@ bool passes_all_vertices(const Polyline& passing, const Curve& curve) {
     return true;
 }
 
-void check_matching(const Curve& P, const Curve& Q) {
-    const Matching found = matched(P, Q);
+void check_matched(const Curve& P, const Curve& Q) {
+    const MatchedCurves found = matched(P, Q);
     CHECK_EQUAL(found.A.size(), found.B.size());
     CHECK(passes_all_vertices(found.A, P));
     CHECK(passes_all_vertices(found.B, Q));
@@ -56,14 +56,14 @@ void vertices_and_pieces() {
     Random random(71);
     for (const std::ptrdiff_t n : {2, 3, 10, 49, 300, 3000}) {
         for (const std::ptrdiff_t m : {2, 7, 50, 2000}) {
-            check_matching(random.walk(n), random.walk(m));
+            check_matched(random.walk(n), random.walk(m));
         }
     }
     const Curve point{{1.0, 2.0}, {1.0, 2.0}, {1.0, 2.0}};
-    check_matching(point, random.walk(100));
-    check_matching(random.walk(100), point);
-    check_matching(point, point);
-    check_matching({{0.0, 1.0}, {4.0, 1.0}}, {{0.0, 2.0}, {1.0, 2.0}, {4.0, 2.0}});
+    check_matched(point, random.walk(100));
+    check_matched(random.walk(100), point);
+    check_matched(point, point);
+    check_matched({{0.0, 1.0}, {4.0, 1.0}}, {{0.0, 2.0}, {1.0, 2.0}, {4.0, 2.0}});
 }
 
 // Ten for each width and each height of P's box that it travels; reversals of less than a third
@@ -85,7 +85,7 @@ void a_curve_and_itself() {
     Random random(72);
     for (const std::ptrdiff_t n : {2, 30, 2500}) {
         const Curve P = random.walk(n);
-        const Matching found = matched(P, P);
+        const MatchedCurves found = matched(P, P);
         for (std::size_t i = 0; i < found.A.size(); ++i) {
             CHECK_EQUAL(found.A[i].x, found.B[i].x);
             CHECK_EQUAL(found.A[i].y, found.B[i].y);

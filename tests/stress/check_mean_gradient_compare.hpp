@@ -17,9 +17,9 @@
 
 namespace stress {
 
-class MoreChecks {
+class MeanGradientCompareChecks {
    public:
-    MoreChecks(Choices& choices, Record& record, Kind kind, std::ptrdiff_t dim)
+    MeanGradientCompareChecks(Choices& choices, Record& record, Kind kind, std::ptrdiff_t dim)
         : choices_(choices), record_(record), kind_(kind), curves_(choices, kind, dim) {
         for (std::ptrdiff_t k = choices.between(2, 4); k > 0; --k) {
             const std::ptrdiff_t n = choices.between(1, 10);
@@ -186,9 +186,9 @@ class MoreChecks {
     About with_;
 };
 
-inline std::ptrdiff_t check_more(Choices& choices, Record& record) {
+inline std::ptrdiff_t check_mean_gradient_compare(Choices& choices, Record& record) {
     const Kind kind = any_kind(choices);
-    return MoreChecks(choices, record, kind, any_dimension(choices)).run();
+    return MeanGradientCompareChecks(choices, record, kind, any_dimension(choices)).run();
 }
 
 }  // namespace stress
