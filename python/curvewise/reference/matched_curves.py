@@ -29,7 +29,7 @@ from ..curves.scaling import box_scaled
 from ..curves.travel import GRID, on_grid, travel_on_grid
 from .dtw import dtw_path
 
-__all__ = ["Matching", "matched_curves"]
+__all__ = ["MatchedCurves", "matched_curves"]
 
 Indices = npt.NDArray[np.intp]
 
@@ -39,7 +39,7 @@ _SAMPLES_PER_PIECE = 5
 _FAR = 2.0**40
 
 
-class Matching(NamedTuple):
+class MatchedCurves(NamedTuple):
     """Two curves with as many vertices each, and the vertices at which their pieces end."""
 
     A: Array
@@ -47,7 +47,7 @@ class Matching(NamedTuple):
     ends: Indices
 
 
-def matched_curves(P: Array, Q: Array) -> Matching:
+def matched_curves(P: Array, Q: Array) -> MatchedCurves:
     """Return P and Q with a vertex at every vertex of the other, and at every end of a piece."""
     scaled_p, scaled_q = _in_box(P, P, Q), _in_box(Q, P, Q)
     boxes = sum(travel_on_grid(scaled_p[:, c]) for c in range(2)) / GRID
@@ -62,7 +62,7 @@ def matched_curves(P: Array, Q: Array) -> Matching:
     place = np.unique(np.concatenate([i + j, cuts, _places(at_p, i, j), _places(at_q, j, i)]))
     A = interpolate(P, *locate(at_p, np.interp(place, i + j, i)))
     B = interpolate(Q, *locate(at_q, np.interp(place, i + j, j)))
-    return Matching(A, B, np.searchsorted(place, cuts))
+    return MatchedCurves(A, B, np.searchsorted(place, cuts))
 
 
 def _in_box(curve: Array, P: Array, Q: Array) -> Array:
