@@ -71,11 +71,11 @@ void time_sweep(const char* name, Recurrence recurrence, Metric metric, std::ptr
     std::vector<std::function<void()>> calls;
     for (const detail::Level& level : levels) {
         calls.emplace_back([&, level] {
-            const detail::PackedCurve rows(P, detail::RangeScale(1.0), detail::PointOrder::forward);
-            const detail::PackedCurve columns(Q, detail::RangeScale(1.0),
-                                              detail::PointOrder::reversed);
-            const detail::PackedPair curves{rows, columns};
             detail::Poller poller(nullptr);
+            const detail::RangeScale range(1.0);
+            const detail::PackedCurve rows(P, range, detail::PointOrder::forward, poller);
+            const detail::PackedCurve columns(Q, range, detail::PointOrder::reversed, poller);
+            const detail::PackedPair curves{rows, columns};
             detail::SweepMemory memory;
             const GroundDistance ground{metric};
             const detail::SweepProblem problem{*level.kernels,
