@@ -36,6 +36,7 @@ __all__ = [
     "draw_links",
     "evenly",
     "label_axes",
+    "legend_above",
     "matplotlib_required",
     "new_figure",
     "panels",
@@ -111,6 +112,12 @@ def label_axes(ax: Axes, x: str, y: str) -> None:
     """Label the axes that have no label."""
     ax.set_xlabel(ax.get_xlabel() or x)
     ax.set_ylabel(ax.get_ylabel() or y)
+
+
+def legend_above(figure: Figure, ax: Axes) -> None:
+    """Put the legend of a panel above the figure, since a loop leaves no room within."""
+    handles, labels = ax.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper left", ncols=len(labels), frameon=False)
 
 
 def draw_links(ax: Axes, links: Array, label: str) -> LineCollection:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..curves.inputs import Array
-from .figures import draw_curves, label_axes, new_figure
+from .figures import draw_curves, label_axes, legend_above, new_figure
 from .palette import (
     ACCENT_COLOUR,
     BETWEEN_COLOUR,
@@ -71,8 +71,7 @@ def loops_and_convergence(
         measured, simulated = draw_curves(panels[i], experiment[:, :2], simulation[:, :2], names[i])
         measured.set(label="experiment", marker=".", markersize=3, linewidth=0.6)
         simulated.set_label("simulation")
-    # Outside the panels, since a loop leaves no room within.
-    figure.legend(handles=[measured, simulated], loc="outside upper left", ncols=2, frameon=False)
+    legend_above(figure, panels[0])
     _draw_convergence(history, objective, last)
     return figure
 
@@ -102,8 +101,7 @@ def loops_and_places(
         for name, curves in simulations.items():
             ax.plot(*xy_of(curves[i]), color=colours[name], linewidth=1.1, label=name)
         label_axes(ax, *xy_labels(names[i]))
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper left", ncols=len(labels), frameon=False)
+    legend_above(figure, panels[0])
     parameters = list(next(iter(places.values())))
     rows = range(len(parameters))
     last.hlines(rows, 0.0, 1.0, color=GROUND_COLOUR, linewidth=4, zorder=0)

@@ -66,7 +66,7 @@ def test_a_result_without_tables_or_picture_is_an_error():
     class Forgetful(Result):
         picture_shows = "nothing"
 
-    with pytest.raises(TypeError, match="abstract methods '?parts'?(,| and) '?plot"):
+    with pytest.raises(TypeError, match=r"abstract methods '?parts'?(,| and) '?plot"):
         Forgetful()
 
 
