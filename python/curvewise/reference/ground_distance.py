@@ -136,15 +136,15 @@ class _Row(NamedTuple):
     """What the measures ask of a metric."""
 
     distances: Callable[[_Points, float], Array]
-    degree: int = 1  # by which power of a factor a distance grows when both curves do
-    is_absolute_in_one_dimension: bool = True  # |difference|, and computed as that
+    degree: int  # by which power of a factor a distance grows when both curves do
+    is_absolute_in_one_dimension: bool  # |difference|, and computed as that
     under_root: Metric | None = None  # of a root
 
 
 _ROWS: dict[Metric, _Row] = {
-    "euclidean": _Row(_euclidean, under_root="sqeuclidean"),
-    "sqeuclidean": _Row(_squares, degree=2, is_absolute_in_one_dimension=False),
-    "cityblock": _Row(_cityblock),
-    "chebyshev": _Row(_chebyshev),
-    "minkowski": _Row(_minkowski),
+    "euclidean": _Row(_euclidean, 1, True, under_root="sqeuclidean"),
+    "sqeuclidean": _Row(_squares, 2, False),
+    "cityblock": _Row(_cityblock, 1, True),
+    "chebyshev": _Row(_chebyshev, 1, True),
+    "minkowski": _Row(_minkowski, 1, True),
 }
