@@ -14,35 +14,34 @@ namespace {
 class PointPair {
    public:
     PointPair(double order, std::ptrdiff_t dim)
-        : order_(order),
-          p_(static_cast<std::size_t>(dim)),
-          q_(static_cast<std::size_t>(dim)) {}
+        : order_(order), p_(static_cast<std::size_t>(dim)), q_(static_cast<std::size_t>(dim)) {}
 
     void move_to(const CurveView& P, std::ptrdiff_t i, const CurveView& Q, std::ptrdiff_t j) {
         largest_ = 0.0;
-        for (std::size_t c = 0; c < p_.size(); ++c) {
-            p_[c] = P(i, static_cast<std::ptrdiff_t>(c));
-            q_[c] = Q(j, static_cast<std::ptrdiff_t>(c));
+        for (std::ptrdiff_t c = 0; c < dim(); ++c) {
+            p_[static_cast<std::size_t>(c)] = P(i, c);
+            q_[static_cast<std::size_t>(c)] = Q(j, c);
             if (std::abs(delta(c)) > largest_) place_of_largest_ = c;
             largest_ = std::max(largest_, std::abs(delta(c)));
         }
     }
 
     double order() const noexcept { return order_; }
-    double p(std::size_t c) const noexcept { return p_[c]; }
-    double q(std::size_t c) const noexcept { return q_[c]; }
-    double delta(std::size_t c) const noexcept { return q_[c] - p_[c]; }
-    double sign(std::size_t c) const noexcept {
+    std::ptrdiff_t dim() const noexcept { return static_cast<std::ptrdiff_t>(p_.size()); }
+    double p(std::ptrdiff_t c) const noexcept { return p_[static_cast<std::size_t>(c)]; }
+    double q(std::ptrdiff_t c) const noexcept { return q_[static_cast<std::size_t>(c)]; }
+    double delta(std::ptrdiff_t c) const noexcept { return q(c) - p(c); }
+    double sign(std::ptrdiff_t c) const noexcept {
         return static_cast<double>((delta(c) > 0.0) - (delta(c) < 0.0));
     }
     double largest() const noexcept { return largest_; }  // |difference|, and the first of them
-    std::size_t place_of_largest() const noexcept { return place_of_largest_; }
+    std::ptrdiff_t place_of_largest() const noexcept { return place_of_largest_; }
 
     // The sum of term(|difference| / largest).
     template <class Term>
     double sum_of(Term term) const noexcept {
         double sum = 0.0;
-        for (std::size_t c = 0; c < p_.size(); ++c) sum += term(std::abs(delta(c)) / largest_);
+        for (std::ptrdiff_t c = 0; c < dim(); ++c) sum += term(std::abs(delta(c)) / largest_);
         return sum;
     }
 
@@ -50,7 +49,7 @@ class PointPair {
     double order_;
     std::vector<double> p_, q_;
     double largest_ = 0.0;
-    std::size_t place_of_largest_ = 0;
+    std::ptrdiff_t place_of_largest_ = 0;
 };
 
 // What is larger where the points' distance is; 0 where they coincide.
@@ -61,12 +60,10 @@ double magnitude(const PointPair& at) noexcept {
 
 // Adds weight times the derivative by the point of Q; nothing where the points coincide.
 template <class Row>
-void add_gradient(const PointPair& at, std::ptrdiff_t dim, double weight, double* out) noexcept {
+void add_gradient(const PointPair& at, double weight, double* out) noexcept {
     if (at.largest() == 0.0) return;
     const double size = Row::magnitude(at);
-    for (std::ptrdiff_t c = 0; c < dim; ++c) {
-        out[c] += Row::slope(at, static_cast<std::size_t>(c), weight, size);
-    }
+    for (std::ptrdiff_t c = 0; c < at.dim(); ++c) out[c] += Row::slope(at, c, weight, size);
 }
 
 void clear(const CurveView& Q, double* gradient) {
@@ -89,7 +86,7 @@ double value_and_gradient(const DtwOptions& options, const CurveView& P, const C
             const bool is_diagonal =
                 k > 0 && i > alignment.path[k - 1][0] && j > alignment.path[k - 1][1];
             at.move_to(P, i, Q, j);
-            add_gradient<decltype(row)>(at, Q.dim(), (is_diagonal ? diagonal : 1.0) / divisor,
+            add_gradient<decltype(row)>(at, (is_diagonal ? diagonal : 1.0) / divisor,
                                         gradient + j * Q.dim());
         }
     });
@@ -114,7 +111,7 @@ double value_and_gradient(const FrechetOptions& options, const CurveView& P, con
             }
         }
         at.move_to(P, decisive[0], Q, decisive[1]);
-        add_gradient<Row>(at, Q.dim(), 1.0, gradient + decisive[1] * Q.dim());
+        add_gradient<Row>(at, 1.0, gradient + decisive[1] * Q.dim());
     });
     return alignment.distance;
 }

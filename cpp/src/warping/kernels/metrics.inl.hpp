@@ -26,7 +26,8 @@
 //                   points are `at` some places that differ, at.p(c) and at.q(c), and have this
 //                   magnitude
 //
-// A row that lacks one of them does not compile, nor does a metric that lacks a row (-Werror=switch).
+// A row that lacks one of them does not compile, nor does a metric that lacks a row
+// (-Werror=switch).
 
 template <class A>
 struct Sqeuclidean {
@@ -47,7 +48,7 @@ struct Sqeuclidean {
         return at.largest() * std::sqrt(at.sum_of([](double x) { return x * x; }));
     }
     template <class Points>
-    static double slope(const Points& at, std::size_t c, double weight, double) noexcept {
+    static double slope(const Points& at, std::ptrdiff_t c, double weight, double) noexcept {
         return 2.0 * (weight * at.delta(c));
     }
 };
@@ -62,7 +63,8 @@ struct Euclidean : Sqeuclidean<A> {
     static Number finish(const Number& sum) noexcept { return Root::of(sum); }
 
     template <class Points>
-    static double slope(const Points& at, std::size_t c, double weight, double magnitude) noexcept {
+    static double slope(const Points& at, std::ptrdiff_t c, double weight,
+                        double magnitude) noexcept {
         return weight * at.delta(c) / magnitude;
     }
 };
@@ -85,7 +87,7 @@ struct Cityblock {
         return at.largest() * at.sum_of([](double x) { return x; });
     }
     template <class Points>
-    static double slope(const Points& at, std::size_t c, double weight, double) noexcept {
+    static double slope(const Points& at, std::ptrdiff_t c, double weight, double) noexcept {
         return weight * at.sign(c);
     }
 };
@@ -109,7 +111,7 @@ struct Chebyshev {
     }
     // By the first of the largest.
     template <class Points>
-    static double slope(const Points& at, std::size_t c, double weight, double) noexcept {
+    static double slope(const Points& at, std::ptrdiff_t c, double weight, double) noexcept {
         return c == at.place_of_largest() ? weight * at.sign(c) : 0.0;
     }
 };
@@ -143,7 +145,8 @@ struct Minkowski {
         return at.largest() * std::pow(powers, 1.0 / at.order());
     }
     template <class Points>
-    static double slope(const Points& at, std::size_t c, double weight, double magnitude) noexcept {
+    static double slope(const Points& at, std::ptrdiff_t c, double weight,
+                        double magnitude) noexcept {
         const double power = std::pow(std::abs(at.delta(c)) / magnitude, at.order() - 1.0);
         return weight * at.sign(c) * power;
     }
