@@ -69,7 +69,18 @@ inline double ground_distance(const GroundDistance& ground, const Curve& P, std:
 }
 
 // By which power of a factor it grows when both curves do.
-inline int degree(Metric metric) { return metric == Metric::sqeuclidean ? 2 : 1; }
+inline int degree(Metric metric) {
+    switch (metric) {
+        case Metric::sqeuclidean:
+            return 2;
+        case Metric::euclidean:
+        case Metric::cityblock:
+        case Metric::chebyshev:
+        case Metric::minkowski:
+            break;
+    }
+    return 1;
+}
 
 // Whether sums are in the order of the coordinates and every operation is correctly rounded, so
 // that there is one right answer to the last bit. (Powers are as good as the C library's.)
