@@ -98,7 +98,7 @@ void bounds_of_every_metric_hold() {
             bounds_hold(options, dim, random);
             options.normalize = true;
             bounds_hold(options, dim, random);
-            options.window_fraction = 0.3;
+            options.window_fraction = 0.5;  // of few points a window that admits paths, too
             bounds_hold(options, dim, random);
             options.normalize = false;
             options.window_fraction.reset();
