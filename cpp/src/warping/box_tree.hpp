@@ -1,9 +1,9 @@
 // Boxes over the runs of points of a curve, as an implicit binary tree: a box of level 0 holds
 // `leaf_points` points that follow each other, one of level k two of level k - 1. Built in O(n d)
 // time and n d / 2 doubles. The smallest and largest ground distance between two boxes bound those
-// of all their points. They are computed by the operations of the kernels (kernels/metrics.inl.hpp), each of
-// which is monotone in floating point too: a bound holds to the bit, without slack. What is no such
-// norm has no bounds.
+// of all their points. They are computed by the operations of the kernels
+// (kernels/metrics.inl.hpp), each of which is monotone in floating point too: a bound holds to the
+// bit, without slack. What is no such norm has no bounds.
 #pragma once
 
 #include <algorithm>

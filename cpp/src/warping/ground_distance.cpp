@@ -27,10 +27,9 @@ Metric named_metric(const GroundDistance& ground) noexcept {
 }
 
 Metric canonical_metric(const GroundDistance& ground, std::ptrdiff_t dim) noexcept {
-    const bool is_absolute =
-        dim == 1 && with_row(ground.metric, [](auto row) {
-            return decltype(row)::is_absolute_in_one_dimension;
-        });
+    const bool is_absolute = dim == 1 && with_row(ground.metric, [](auto row) {
+                                 return decltype(row)::is_absolute_in_one_dimension;
+                             });
     return is_absolute ? Metric::cityblock : named_metric(ground);
 }
 

@@ -111,8 +111,7 @@ PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, co
 }
 
 bool PairBounds::is_bounded(std::ptrdiff_t j) const noexcept {
-    return kernel_ != nullptr &&
-           RangeScale(std::max(largest_, kept_.largest(j))).is_identity();
+    return kernel_ != nullptr && RangeScale(std::max(largest_, kept_.largest(j))).is_identity();
 }
 
 template <class Norm>
