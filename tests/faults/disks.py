@@ -127,13 +127,13 @@ def main() -> int:
     times = parser.parse_args().times
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        wrong = tried("a file that may not grow", folder, no_growth, 40_000, times)
+        wrong = tried("a file that may not grow", folder, no_growth, 80_000, times)
         mount = ["mount", "-t", "tmpfs", "-o", "size=256k", "tmpfs", name]
         if os.getuid() != 0 or subprocess.run(mount, check=False, capture_output=True).returncode:
             print("a full file system: left out, since nobody here may mount one")
             return 1 if wrong else 0
         try:
-            wrong += tried("a full file system", folder, little_room, 60_000, times)
+            wrong += tried("a full file system", folder, little_room, 120_000, times)
         finally:
             subprocess.run(["umount", name], check=True)
     return 1 if wrong else 0

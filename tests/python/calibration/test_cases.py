@@ -6,7 +6,7 @@ import itertools
 
 import numpy as np
 import pytest
-from test_history import assert_same
+from test_resuming import assert_same
 
 from curvewise import datasets
 from curvewise.calibration import Below, Case, Log, SimulationStore, Tied, identify
