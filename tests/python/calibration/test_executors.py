@@ -9,8 +9,8 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from test_resuming import assert_same
 from test_identify import BOUNDS, EXPERIMENT, fragile_line, line
+from test_resuming import assert_same
 
 from curvewise.calibration import SimulationStore, identify
 

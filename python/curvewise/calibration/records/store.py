@@ -125,9 +125,6 @@ class SimulationStore:
         (count,) = self._database.execute("SELECT count(*) FROM runs").fetchone()
         return int(count)
 
-    def __bool__(self) -> bool:
-        return True  # without a look into the file
-
     def close(self) -> None:
         """Write what is not written yet, and close the file; the next use opens it again."""
         try:
