@@ -121,7 +121,9 @@ def killed_and_resumed(
             return "a process is left"
         # Before Python has a handler for it, and after, the signal ends a process without a word.
         is_wordless = process.returncode == -number and not errors
-        is_ended = process.returncode == 0 or is_wordless or "KeyboardInterrupt" in errors
+        # While numpy is imported, the KeyboardInterrupt becomes an ImportError of numpy's.
+        is_said = "KeyboardInterrupt" in errors or "numpy C-extensions failed" in errors
+        is_ended = process.returncode == 0 or is_wordless or is_said
         if number == signal.SIGINT and not is_ended:
             return f"Ctrl-C ended in status {process.returncode}, {errors!r}"
     before = stored(searches.folder / f"{name}.db")
