@@ -19,7 +19,8 @@ from .objective.cases import Case
 from .objective.objective import MEASURES, Objective, Score
 from .problem.evaluations import Progress
 from .problem.space import Below, Log, Tied
-from .records.store import SimulationStore, StoredRun
+from .records.store import SimulationStore
+from .records.stored_run import StoredRun
 from .rescoring import Rescored, rescore
 from .uncertainty.uncertainty import Uncertainty
 

@@ -9,9 +9,7 @@ determine the parameters. Cost: as many identifications as there are loops.
 from __future__ import annotations
 
 import inspect
-import os
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -118,7 +116,6 @@ def cross_validate(
     experiments: Any,
     bounds: Bounds,
     *,
-    history: str | os.PathLike[str] | None = None,
     weights: Any = None,
     **keywords: Any,
 ) -> CrossValidation:
@@ -133,9 +130,6 @@ def cross_validate(
         At least two measured curves.
     bounds, weights, **keywords
         As for :func:`identify`.
-    history : path-like, optional
-        One file for every fold: "fold.csv" becomes "fold_without_0.csv" and so on. An
-        interrupted cross-validation is resumed where it was.
 
     Returns
     -------
@@ -152,8 +146,8 @@ def cross_validate(
     Notes
     -----
     Time: for k loops that of k identifications, and k runs of the model; with ``store=`` a run that
-    several folds ask for is made once. The paper's section on
-    cross-validation leaves out each of its five loops.
+    several folds ask for is made once, and what was interrupted goes on where it was. The paper's
+    section on cross-validation leaves out each of its five loops.
 
     Examples
     --------
@@ -181,7 +175,6 @@ def cross_validate(
             Selection(model, kept, count),
             [curves[i] for i in kept],
             bounds,
-            history=None if history is None else _fold_file(Path(history), left_out),
             weights=None if weights is None else [weights[i] for i in kept],
             **keywords,
         )
@@ -223,13 +216,8 @@ def _fold(
 
 def _at_optimum(model: Model, identification: Identification, keywords: dict[str, Any]) -> Any:
     """Return the model's curves at the optimum, of the store if there is one."""
-    store, version = keywords.get("store"), keywords.get("version")
-    if store is None:
+    if (store := keywords.get("store")) is None:
         return model(dict(identification.parameters))
     with SimulationStore(store) as runs:
-        outcome = runs.look_up(model_identity(model, version).text, identification.parameters)
+        outcome = runs.look_up(model_identity(model, runs.version).text, identification.parameters)
     return model(dict(identification.parameters)) if outcome is None else outcome.simulations
-
-
-def _fold_file(history: Path, left_out: int) -> Path:
-    return history.with_name(f"{history.stem}_without_{left_out}{history.suffix}")

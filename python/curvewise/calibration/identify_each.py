@@ -31,7 +31,7 @@ from .objective.objective import Objective
 from .problem.problem import Problem, models_of
 from .problem.space import Bounds, Space
 from .records.evaluation import Evaluation
-from .records.store import StorePath
+from .records.store import SimulationStore, StoreOrPath
 
 __all__ = ["identify_each"]
 
@@ -56,8 +56,7 @@ def identify_each(
     workers: int = 1,
     executor: Any = None,
     progress: bool = True,
-    store: StorePath | None = None,
-    version: str | None = None,
+    store: StoreOrPath | None = None,
     start: Mapping[str, float] | None = None,
     max_evaluations: int | None = None,
     **keywords: Any,
@@ -74,7 +73,7 @@ def identify_each(
     method, method_options
         As for :func:`identify`; the methods "trust-region" and "sdrm" gain most. The searches
         after the first have `initial_range` 0.1 unless it is given.
-    store, version
+    store
         As for :func:`identify`. Without a store runs are shared all the same, through a temporary
         one, and forgotten.
     max_evaluations : int, optional
@@ -125,18 +124,18 @@ def identify_each(
     space = Space(bounds)
     objectives = [Objective(experiments, measure, **keywords) for measure in measures]
     options = dict(method_options or {})
-    plan = Plan(method, options, seed, start, progress, None, None, max_evaluations)
+    plan = Plan(method, options, seed, start, progress, None, max_evaluations)
     for measure in measures:
         plan.check(measure)
     found: dict[str, Identification] = {}
     with ExitStack() as stack:
         if store is None:
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="curvewise_"))
-            store, version = Path(folder, "runs.db"), version or "of this call"
+            store = SimulationStore(Path(folder, "runs.db"), version="of this call")
         models, assemble = models_of(model)
         known: tuple[tuple[Array, Evaluation], ...] = ()
         for name, objective in zip(names, objectives, strict=True):
-            problem = Problem(models, assemble, objective, space, store, version, workers, executor)
+            problem = Problem(models, assemble, objective, space, store, workers, executor)
             if known:  # a start is given from here on: one search a measure
                 plan = replace(
                     plan,

@@ -59,7 +59,6 @@ def check_together(study: Study, source: Source) -> None:
             start=None,
             progress=False,
             callback=None,
-            history=None,
             max_evaluations=settings.get("max_evaluations"),
         )
         try:

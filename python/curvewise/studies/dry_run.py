@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..calibration import SimulationStore, SolverError
+from ..calibration import SolverError
 from ..calibration.models.identity import model_identity
 from ..calibration.models.pool import Outcome
 from ..calibration.problem.space import Space
@@ -220,8 +220,8 @@ def _run(
         raise SolverError(f"{error}{_end_of_log(str(error))}") from None
     seconds = time.perf_counter() - began
     (folder, *_) = set(place.iterdir()) - before
-    with SimulationStore(study.search.store) as store:
-        identity = model_identity(model, study.search.search.get("version"))
+    with study.store as store:
+        identity = model_identity(model, store.version)
         store.register(identity)
         store.save(identity.text, parameters, Outcome(result, "", seconds))
     return folder, points_of(result)

@@ -244,13 +244,18 @@ class Study:
         """Return how many runs of the study's models its store holds."""
         if not self.search.store.exists():
             return 0
-        with SimulationStore(self.search.store) as store:
+        with self.store as store:
             names = [self.identity(model) for model in self.study_models().values()]
             return sum(1 for name in names for _ in store.runs(name))
 
     def identity(self, model: StudyModel) -> str:
         """Return what the store knows the runs of a model by."""
-        return model_identity(model, self.search.search.get("version")).text
+        return model_identity(model, self.store.version).text
+
+    @property
+    def store(self) -> SimulationStore:
+        """The runs of the study, with what the file calls the present state of the models."""
+        return SimulationStore(self.search.store, version=self.search.search.get("version"))
 
     def study_models(self, kept_in: Path | None = None) -> dict[str, StudyModel]:
         """Return the models as functions of the parameters.
@@ -323,8 +328,8 @@ class Study:
         self, progress: bool, callback: Callable[[Progress], Any] | None
     ) -> tuple[dict[str, Identification], SeveralMeasures | None]:
         keywords: dict[str, Any] = {
-            **self.search.search,
-            "store": self.search.store,
+            **{key: value for key, value in self.search.search.items() if key != "version"},
+            "store": self.store,
             "progress": progress,
             "start": self.search.start or None,
         }

@@ -6,10 +6,10 @@ import itertools
 
 import numpy as np
 import pytest
-from test_history import assert_same
+from test_resuming import assert_same
 
 from curvewise import datasets
-from curvewise.calibration import Below, Case, Log, Tied, identify
+from curvewise.calibration import Below, Case, Log, SimulationStore, Tied, identify
 from curvewise.calibration.problem.space import Space
 
 CYCLE = np.concatenate(
@@ -126,17 +126,17 @@ def test_a_case_that_fails_leaves_the_others():
 
 
 def test_cases_in_a_store_run_once(tmp_path):
-    keywords = {"bounds": BOUNDS, "store": tmp_path / "s.db", "version": "1", **QUIET}
+    keywords = {"bounds": BOUNDS, "store": SimulationStore(tmp_path / "s.db", version="1"), **QUIET}
     first = identify(three_cases(), **keywords)
     again = identify(three_cases(), **keywords)
     assert first.runs == 2 * first.evaluations  # two models
     assert again.runs == 0
     assert_same(first, again)
-    history = {**keywords, "store": None, "history": tmp_path / "h.csv"}
-    identify(three_cases(), **history)
     other = [*three_cases()[:2], Case("strength", tension, 500.0, response=strength, sigma=1.0)]
-    with pytest.raises(ValueError, match="the history of another search"):
-        identify(other, **history)
+    identify(other, **keywords)
+    with keywords["store"] as store:
+        one, two = store.searches().values()
+    assert one.settings["options"] != two.settings["options"]
 
 
 @pytest.mark.parametrize(

@@ -8,10 +8,10 @@ import sys
 
 import numpy as np
 import pytest
-from test_history import assert_same
+from test_resuming import assert_same
 
 import curvewise
-from curvewise.calibration import identify
+from curvewise.calibration import SimulationStore, identify
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
@@ -315,7 +315,8 @@ def mean_difference(P, Q):
 
 
 def test_a_measure_of_ones_own(tmp_path):
-    keywords = {"measure": mean_difference, "progress": False, "history": tmp_path / "own.csv"}
+    store = SimulationStore(tmp_path / "own.db", version="1")
+    keywords = {"measure": mean_difference, "progress": False, "store": store}
     found = identify(line, EXPERIMENT, BOUNDS, method="de", **keywords)
     assert found.measure == "mean_difference"
     assert found.measures["mean_difference"] == found.value
@@ -326,7 +327,7 @@ def test_a_measure_of_ones_own(tmp_path):
 
 
 @pytest.mark.parametrize("options", [{"measure": "pcm"}, {"measure": "dtw", "open_end": True}])
-def test_a_model_of_a_piece_of_the_experiment(options, tmp_path):
+def test_a_model_of_a_piece_of_the_experiment(options):
     """The test goes up and down a parabola, the model simulates its first third alone."""
     experiment = np.column_stack((X, 4.0 * X * (1.0 - X)))
 
@@ -334,10 +335,7 @@ def test_a_model_of_a_piece_of_the_experiment(options, tmp_path):
         return np.column_stack((X[:9], parameters["a"] * X[:9] + parameters["b"] * X[:9] ** 2))
 
     keywords = {"method": "de", "progress": False, "part": "simulation"} | options
-    found = identify(first_third, experiment, BOUNDS, **keywords, history=tmp_path / "part.csv")
+    found = identify(first_third, experiment, BOUNDS, **keywords)
     assert found.parameters["a"] == pytest.approx(4.0, abs=1e-3)
     assert found.parameters["b"] == pytest.approx(-4.0, abs=4e-3)
     assert found.measures["pcm"] < 1e-3
-    keywords["part"] = "experiment"
-    with pytest.raises(ValueError, match=r"its options is .*'part': 'simulation'"):
-        identify(first_third, experiment, BOUNDS, **keywords, history=tmp_path / "part.csv")

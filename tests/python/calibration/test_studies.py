@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import curvewise
-from curvewise.calibration import Objective, cross_validate, line_plot
+from curvewise.calibration import Objective, SimulationStore, cross_validate, line_plot
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
@@ -85,11 +85,13 @@ def test_summary_is_a_table():
     assert means == pytest.approx(values.mean(axis=0), rel=1e-3)
 
 
-def test_histories_of_the_folds(tmp_path):
-    file = tmp_path / "fold.csv"
-    first = cross_validate(loops, odd_loops(), BOUNDS, history=file, **QUIET)
-    assert sorted(f.name for f in tmp_path.iterdir()) == [f"fold_without_{i}.csv" for i in range(3)]
-    again = cross_validate(loops, odd_loops(), BOUNDS, history=file, **QUIET)
+def test_the_folds_are_searches_of_one_store(tmp_path):
+    store = SimulationStore(tmp_path / "s.db", version="1")
+    first = cross_validate(loops, odd_loops(), BOUNDS, store=store, **QUIET)
+    with store:
+        assert len(store.searches()) == 3
+    again = cross_validate(loops, odd_loops(), BOUNDS, store=store, **QUIET)
+    assert sum(fold.identification.runs for fold in again.folds) == 0
     assert str(again) == str(first)
 
 

@@ -6,6 +6,7 @@ run the model again, and says beforehand how often.
 
 from __future__ import annotations
 
+import logging
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -25,18 +26,25 @@ from ..objective.loop_measure import Part
 from ..problem.problem import Problem
 from ..records.evaluation import Evaluation, as_records
 from ..records.recorder import Recorder
+from ..records.search_record import Ending, SearchRecord
+from ..report.page import write_report
+from ..report.uncertainty_summary import summary_of
 from ..uncertainty.determined import determined_by
 from ..uncertainty.sensitivity import design_runs, indifferent, optimum_surfaces
 from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
-from .ending import write_down
 
 if TYPE_CHECKING:
     from ...drawing.picture import Picture
 
 __all__ = ["Identification", "identification_of"]
 
+_log = logging.getLogger("curvewise.calibration")
+
 # A parameter this near to a bound, as a fraction of the range, is said to be at the bound.
 _AT_BOUND = 1e-3
+
+# Slopes with more numbers than this (16 MB) are not written down.
+_MOST_SLOPES = 2_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -299,10 +307,52 @@ class Identification:
         ...     Path(folder, "report.html").stat().st_size < 5e6
         True
         """
-        from ..report import write_report
-        from .ending import record_of
+        write_report(path, [self.record(uncertainty)])
 
-        write_report(path, [record_of(self, uncertainty)])
+    def record(self, uncertainty: Uncertainty | None = None) -> SearchRecord:
+        """Take down what is known of the uncertainty, and return all that a report is made of.
+
+        Parameters
+        ----------
+        uncertainty : Uncertainty, optional
+            As for :meth:`report`.
+
+        Raises
+        ------
+        OSError, ValueError
+            The store of the search cannot be written.
+        """
+        ending = self.recorder.ending or self._ending_on_record()
+        if uncertainty is None and ending.uncertainty is None and self._has_surfaces:
+            uncertainty = self.uncertainty()
+        if uncertainty is not None:
+            ending = replace(ending, uncertainty=summary_of(uncertainty))
+        self.recorder.end(ending)
+        return self.recorder.record()
+
+    def _ending_on_record(self) -> Ending:
+        """Return what is written down of how the search ended, without the uncertainty."""
+        unit = slopes = None
+        if self._has_surfaces:
+            optimum = optimum_surfaces(self.problem, self._unit, self.simulations, self.kept)
+            if optimum.surfaces.slopes.size <= _MOST_SLOPES:
+                unit, slopes = self._unit, optimum.surfaces.slopes
+        return Ending(
+            converged=bool(self.converged),
+            message=self.message,
+            parameters=dict(self.parameters),
+            value=float(self.value),
+            measures={name: float(value) for name, value in self.measures.items()},
+            deviations=[one and list(one) for one in self.deviations],
+            simulations=self.simulations,
+            unit=unit,
+            slopes=slopes,
+        )
+
+    @property
+    def _has_surfaces(self) -> bool:
+        """Whether the curves around the optimum are known without runs of the model."""
+        return len(self.simulations) == len(self.experiments) and not self.uncertainty_runs
 
     def followed_by(self, later: Identification) -> Identification:
         """Return a later search of the same problem as the continuation of this one."""
@@ -397,5 +447,9 @@ def identification_of(problem: Problem, plan: Plan, ended: Ended) -> Identificat
         condition=objective.condition,
         recorder=ended.recorder,
     )
-    write_down(found)
+    if found.recorder.has_store:
+        try:
+            found.recorder.end(found._ending_on_record())
+        except (OSError, ValueError) as error:  # no reason to lose what was found
+            _log.warning("how the search ended could not be written down: %s", error)
     return found

@@ -13,6 +13,7 @@ from ...drawing import figures as drawing
 from ...drawing.loops import drawn, labels
 from ...drawing.palette import GROUND_COLOUR, series_colours
 from ...showing.notebook import paragraph, picture, table
+from ..report.page import write_report
 from .identification import Identification
 
 if TYPE_CHECKING:
@@ -151,10 +152,7 @@ class SeveralMeasures(Mapping[str, Identification]):
         ImportError, ValueError, OSError
             As :meth:`Identification.report`.
         """
-        from ..report import write_report
-        from .ending import record_of
-
-        write_report(path, [record_of(one, None) for one in self._found.values()])
+        write_report(path, [one.record() for one in self._found.values()])
 
     def _draw_parameters(self, ax: Any) -> None:
         """Draw every parameter within its bounds, a row each."""

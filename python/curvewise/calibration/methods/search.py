@@ -1,9 +1,8 @@
-"""One search from its start to its end: history, processes, progress, and whatever ends it."""
+"""One search from its start to its end: records, processes, progress, and whatever ends it."""
 
 from __future__ import annotations
 
 import hashlib
-import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -18,7 +17,6 @@ from ..problem.details import details_of
 from ..problem.evaluations import Evaluations, Finish, Progress, SearchEndedError
 from ..problem.problem import Problem
 from ..records.evaluation import Evaluation
-from ..records.history import History
 from ..records.recorder import Recorder
 from .registry import METHODS, options_of, search
 
@@ -35,7 +33,6 @@ class Plan:
     start: Mapping[str, float] | None
     progress: bool
     callback: Callable[[Progress], Any] | None
-    history: str | os.PathLike[str] | None
     max_evaluations: int | None
 
     def check(self, measure: Measure) -> None:
@@ -87,7 +84,7 @@ class Ended(NamedTuple):
 def run_search(
     problem: Problem, plan: Plan, known: Sequence[tuple[Array, Evaluation]] = ()
 ) -> Ended:
-    """Search, or go on with what a history has.
+    """Search, or go on with what a store has.
 
     Parameters
     ----------
@@ -100,37 +97,24 @@ def run_search(
     required("scipy.optimize")
     tqdm = required("tqdm.auto").tqdm
     settings, details = _settings(problem, plan), details_of(problem, plan.max_evaluations)
-    record = History(
-        plan.history,
-        settings,
-        problem.space.names,
-        keep_simulations=not problem.store,
-        details=details,
-    )
-    recorder = Recorder(settings, details, problem.store, plan.history)
-    try:
-        with problem.simulator() as simulator:
-            recorder.begin(simulator.store)
-            with tqdm(total=plan.max_evaluations, unit="run", disable=not plan.progress) as bar:
-                evaluations = Evaluations(
-                    simulator,
-                    problem.objective,
-                    problem.space,
-                    record,
-                    recorder,
-                    limit=plan.max_evaluations,
-                    callback=plan.callback,
-                    bar=bar,
-                    known=known,
-                )
-                try:
-                    finish = search(evaluations, plan.method, start, plan.seed, plan.method_options)
-                except SearchEndedError as end:
-                    finish = Finish(False, str(end))
-            simulations = evaluations.best_simulations()
-    finally:
-        record.close()
-        recorder.stop()
+    with problem.simulator() as simulator:
+        recorder = Recorder(settings, details, simulator.store)
+        with tqdm(total=plan.max_evaluations, unit="run", disable=not plan.progress) as bar:
+            evaluations = Evaluations(
+                simulator,
+                problem.objective,
+                problem.space,
+                recorder,
+                limit=plan.max_evaluations,
+                callback=plan.callback,
+                bar=bar,
+                known=known,
+            )
+            try:
+                finish = search(evaluations, plan.method, start, plan.seed, plan.method_options)
+            except SearchEndedError as end:
+                finish = Finish(False, str(end))
+        simulations = evaluations.best_simulations()
     return Ended(evaluations, finish, simulations, simulator.runs, recorder)
 
 
@@ -159,7 +143,7 @@ def _objective_settings(objective: Objective) -> dict[str, Any]:
             [case.name, measure_name(case.measure), case.sigma, case.preset, dict(case.options)]
             for case in objective.cases
         ]
-    if objective.part != "experiment":  # histories from before this option have none
+    if objective.part != "experiment":  # the searches of stores from before this option have none
         options["part"] = objective.part
     return {
         "measure": objective.measure,

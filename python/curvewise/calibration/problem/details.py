@@ -11,7 +11,7 @@ from ..models.identity import qualified_name
 from ..objective.cases import CaseObjective
 from ..objective.loop_measure import measure_name
 from ..objective.objective import Objective
-from ..records.curve_text import text_of
+from ..records.search_record import text_of
 from .problem import Problem
 
 __all__ = ["details_of"]

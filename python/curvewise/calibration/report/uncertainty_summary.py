@@ -18,8 +18,7 @@ from ..objective.cases import Case, CaseObjective
 from ..objective.objective import Objective
 from ..problem.problem import Problem
 from ..problem.space import Below, Bounds, Log, Space
-from ..records.curve_text import curves_of, text_of
-from ..records.search_record import SearchRecord
+from ..records.search_record import SearchRecord, curves_of, text_of
 from ..surfaces.surfaces import Responses, Surfaces
 from ..uncertainty.sensitivity import Optimum
 from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
