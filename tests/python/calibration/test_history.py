@@ -13,7 +13,7 @@ import time
 import numpy as np
 import pytest
 
-from curvewise.calibration import identify
+from curvewise.calibration import Criterion, identify
 from curvewise.calibration.records.evaluation import Evaluation
 from curvewise.calibration.records.history import History, append_ending, read_history
 
@@ -120,8 +120,8 @@ def test_a_history_of_another_search_is_refused(tmp_path):
     for other, word in [
         ({"measure": "dtw"}, "its measure is 'area', not 'dtw'"),
         ({"seed": 1}, "its seed is 0, not 1"),
-        ({"crossing": "split"}, "its options"),
-        ({"weights": [2.0]}, "its weights"),
+        ({"crossing": "split"}, "its criterion"),
+        ({"measure": Criterion(weights=[2.0])}, "its criterion"),
     ]:
         with pytest.raises(ValueError, match=word):
             identify(line, EXPERIMENT, BOUNDS, history=file, **QUICK, **other)
@@ -195,7 +195,7 @@ def read_back(file, settings, names):
 SLOW_SCRIPT = """
     import signal, sys, time
     import numpy as np
-    from curvewise.calibration import identify
+    from curvewise.calibration import Criterion, identify
 
     X = np.linspace(0.0, 1.0, 25)
 
