@@ -118,7 +118,7 @@ def identify_each(
     options = dict(method_options or {})
     plan = Plan(method, options, seed, start, progress, None, None, max_evaluations)
     for objective in objectives.values():
-        plan.check(*objective.measures)
+        plan.check(objective.measures[0])
     found: dict[str, Identification] = {}
     with ExitStack() as stack:
         if store is None:

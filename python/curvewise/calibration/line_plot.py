@@ -114,7 +114,7 @@ def line_plot(
     if points < 2:
         raise ValueError(f"points is {points}; give at least 2")
     is_named = isinstance(objectives, Mapping)
-    named = dict(objectives) if is_named else objectives_of(objectives, measures)
+    named = objectives if is_named else objectives_of(objectives, measures)
     t = np.linspace(0.0, 1.0, points)
     line = [{key: (1.0 - s) * a[key] + s * b[key] for key in a} for s in t.tolist()]
     values = _values(named, model, line, workers, progress)

@@ -294,7 +294,9 @@ class Study:
         for test in self.tests:
             place = [t.name for t in self.tests if t.model == test.model].index(test.name)
             settings = {**self.search.objective, "measure": self.search.measures[0], **test.own}
-            settings.pop("failure_value", None)
+            for name in ("failure_value", *(("part", "options") if test.is_number else ())):
+                settings.pop(name, None)
+            sigma = settings.pop("sigma", None)
             cases.append(
                 Case(
                     test.name,
@@ -302,6 +304,7 @@ class Study:
                     test.experiment,
                     measure=_criterion(settings),
                     weight=test.weight,
+                    sigma=sigma,
                     response=Picked(place, test.is_number),
                 )
             )

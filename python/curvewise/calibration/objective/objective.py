@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -63,13 +63,31 @@ class Objective:
         As given, in float64 and of shape (n, d); a number has the shape (1, 1).
     criterion : Criterion or None
         That of all terms; None where each has its own, as cases have.
-    measure : str
-        The measure's name; of cases the names, with " + " between them.
+    measure, preset : str
+        By their names; of cases those of each, with " + " between them.
+    measures : list of str or callable
+        The measure of every term.
     weights, failure_value, scales : ndarray, shape (experiments,)
         The factors; the terms of failed simulations; the values, by measure, of simulations that
         are wrong by their experiment's height.
     failures : int
         How many simulations have failed so far, counted by experiment.
+    titles, names, sigmas, extents, y_columns : list
+        For every experiment: its number or the case's name; what its columns are called, if that
+        is known; the noise, where it is given; the extent in each coordinate, of a number the
+        number itself; the column that noise is in.
+    residual_counts, residual_factors : list of int, ndarray
+        For every experiment: how many residuals it has, and by what a difference in y is multiplied
+        to be a residual of "sum_of_squares".
+    is_least_squares : bool
+        Whether the value is a weighted sum of squares of `residuals`.
+    has_function : bool
+        Whether a measure is a function of the user's, which cannot be written down.
+    has_gradient : bool
+        Whether there is a gradient that is of use to a minimisation.
+    can_be_thinned : bool
+        Whether some of the points of tests and simulations will do, for an estimate. Not where y is
+        compared at each point of the test, which costs little anyway.
 
     Raises
     ------
@@ -123,11 +141,26 @@ class Objective:
 
     def _sum_up(self, terms: Sequence[Term], criterion: Criterion | None) -> None:
         self._terms, self.criterion = tuple(terms), criterion
+        self.failures = 0
         self.experiments = tuple(term.experiment for term in terms)
         self.weights = np.array([term.weight for term in terms])
         self.scales = np.array([term.scale for term in terms])
         self.failure_value = np.array([term.failure_value for term in terms])
-        self.failures = 0
+        self.measures = [term.criterion.measure for term in terms]
+        self.measure = " + ".join(dict.fromkeys(term.criterion.name for term in terms))
+        self.preset = " + ".join(dict.fromkeys(term.criterion.preset for term in terms))
+        self.titles = [term.label.title for term in terms]
+        self.names = [term.names for term in terms]
+        self.extents = [term.extent for term in terms]
+        self.y_columns = [term.y for term in terms]
+        self.sigmas = [term.sigma for term in terms]
+        self.residual_counts = [term.residual_count for term in terms]
+        heights = np.array([term.height for term in terms])
+        self.residual_factors: Array = np.sqrt(self.weights) / heights
+        self.is_least_squares = all(term.is_least_squares for term in terms)
+        self.has_function = any(callable(term.criterion.measure) for term in terms)
+        self.has_gradient = all(term.has_gradient for term in terms)
+        self.can_be_thinned = all(term.can_be_thinned for term in terms)
 
     def __call__(self, simulations: Any) -> float:
         """Return the weighted sum of the terms.
@@ -226,7 +259,7 @@ class Objective:
         ValueError
             The measure is not "curve_length" or "sum_of_squares"; as for `score`.
         """
-        if not all(term.has_residuals for term in self._terms):
+        if any(measure not in LEAST_SQUARES for measure in self.measures):
             raise ValueError(
                 f"measure {self.measure!r} is not a sum of squares; "
                 f"least squares needs {' or '.join(map(repr, LEAST_SQUARES))}"
@@ -286,25 +319,6 @@ class Objective:
         return math.nan if score.failures else score.value
 
     @property
-    def measures(self) -> list[str | Callable[..., float]]:
-        """The measures of the terms, each once."""
-        found: list[str | Callable[..., float]] = []
-        for term in self._terms:
-            if term.criterion.measure not in found:
-                found.append(term.criterion.measure)
-        return found
-
-    @property
-    def measure(self) -> str:
-        """The measure's name; of cases the names, with " + " between them."""
-        return " + ".join(dict.fromkeys(term.criterion.name for term in self._terms))
-
-    @property
-    def preset(self) -> str:
-        """The preset; of cases as for `measure`."""
-        return " + ".join(dict.fromkeys(term.criterion.preset for term in self._terms))
-
-    @property
     def part(self) -> Part:
         """Which curve may be a piece of the other; "experiment" where each term has its own."""
         return "experiment" if self.criterion is None else self.criterion.part
@@ -335,68 +349,9 @@ class Objective:
             "experiments": digest.hexdigest(),
         }
 
-    @property
-    def is_least_squares(self) -> bool:
-        """Whether the value is a weighted sum of squares of `residuals`."""
-        return all(term.is_least_squares for term in self._terms)
-
-    @property
-    def has_function(self) -> bool:
-        """Whether a measure is a function of the user's, which cannot be written down."""
-        return any(callable(term.criterion.measure) for term in self._terms)
-
-    @property
-    def has_gradient(self) -> bool:
-        """Whether there is a gradient that is of use to a minimisation."""
-        return all(term.has_gradient for term in self._terms)
-
-    @property
-    def can_be_thinned(self) -> bool:
-        """Whether some of the points of tests and simulations will do, for an estimate.
-
-        Not where y is compared at each point of the test, which costs little anyway.
-        """
-        return all(term.can_be_thinned for term in self._terms)
-
-    @property
-    def titles(self) -> list[str]:
-        """What the experiments are called: by their numbers, or as the cases."""
-        return [term.label.title for term in self._terms]
-
-    @property
-    def names(self) -> list[tuple[str, ...]]:
-        """What the columns of every experiment are called; empty where that is not known."""
-        return [term.names for term in self._terms]
-
     def axes(self, names: Sequence[str] | None = None) -> list[tuple[str, ...]]:
         """Return for each experiment what its coordinates are called, as given or as columns."""
         return [term.axes(names) for term in self._terms]
-
-    @property
-    def extents(self) -> list[Array]:
-        """The extent of every experiment in each coordinate, of a number the number itself."""
-        return [term.extent for term in self._terms]
-
-    @property
-    def y_columns(self) -> list[int]:
-        """The column of each experiment that noise is in."""
-        return [term.y for term in self._terms]
-
-    @property
-    def sigmas(self) -> list[float | None]:
-        """The noise of each experiment, where it is given beforehand."""
-        return [term.sigma for term in self._terms]
-
-    @property
-    def residual_counts(self) -> list[int]:
-        """How many residuals each term has."""
-        return [term.residual_count for term in self._terms]
-
-    @property
-    def residual_factors(self) -> Array:
-        """By what a difference in y is multiplied to be a residual of "sum_of_squares"."""
-        factors: Array = np.sqrt(self.weights) / np.array([term.height for term in self._terms])
-        return factors
 
     def _matched(self, simulations: Any) -> list[Any]:
         """Return one simulation for every experiment."""

@@ -22,7 +22,7 @@ from ...curves.thinning import Rows
 from ...measures import normalize
 from ...measures.results import PcmMatch
 from .common_x import check_common_x, y_column
-from .criterion import LEAST_SQUARES, Criterion
+from .criterion import Criterion
 from .of_simulation import of_simulation
 
 __all__ = ["CurveTerm", "FailedSimulationError", "Label", "NumberTerm", "Term"]
@@ -132,11 +132,6 @@ class Term(ABC):
         return self.criterion.measure == "sum_of_squares"
 
     @property
-    def has_residuals(self) -> bool:
-        """Whether the measure is made of differences whose squares are added up."""
-        return self.criterion.measure in LEAST_SQUARES
-
-    @property
     def settings(self) -> dict[str, Any]:
         """What a record writes down beside the experiment."""
         return {
@@ -186,9 +181,9 @@ class Term(ABC):
     def _prepare(self, experiment: Any) -> None:
         """Check the experiment, and set the attributes."""
 
-    @abstractmethod
     def _weight(self) -> float:
         """Return the factor, in units of the noise if that is given."""
+        return self.factor
 
 
 class CurveTerm(Term):
@@ -319,9 +314,6 @@ class NumberTerm(Term):
             raise ValueError(f"{self.label.argument}: the experiment is {self._target}")
         self.height = self.sigma or abs(self._target) or 1.0
         self.extent = np.array([abs(self._target) or 1.0])
-
-    def _weight(self) -> float:
-        return self.factor
 
     def value(self, simulation: Any) -> float:
         """Return the difference, or its square, in units of sigma or of the number."""
