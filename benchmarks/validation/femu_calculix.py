@@ -32,7 +32,7 @@ from matplotlib.figure import Figure
 from places import BUILD, LOOPS, RESULTS
 
 from curvewise import read_curve
-from curvewise.calibration import Identification, SimulationStore, identify
+from curvewise.calibration import Criterion, Identification, SimulationStore, identify
 from curvewise.curves.named_curve import NamedCurve
 
 TESTS = ["dp780_tct_3pct.csv", "dp780_tct_6pct.csv"]
@@ -180,8 +180,7 @@ def fit(
         model,
         tests,
         BOUNDS,
-        measure=measure,
-        preset="paper",
+        measure=Criterion(measure, preset="paper"),
         method="sdrm",
         max_evaluations=18 if quick else None,
         workers=workers,
@@ -230,7 +229,7 @@ def survive_failures(model: CubeModel, tests: Sequence[Array], workers: int) -> 
         model,
         tests,
         DIVERGING_BOUNDS,
-        preset="paper",
+        measure=Criterion(preset="paper"),
         method="de",
         method_options={"popsize": 2},
         max_evaluations=36,

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-__all__ = ["meant"]
+__all__ = ["did_you_mean"]
 
 
-def meant(names: Iterable[object], known: Iterable[str]) -> str:
+def did_you_mean(names: Iterable[object], known: Iterable[str]) -> str:
     """Return "; did you mean ...?" for names near to known ones, or nothing where none is near.
 
     Parameters

@@ -11,12 +11,11 @@ from concurrent.futures import Executor
 from inspect import signature
 from typing import Any
 
-from .._options import Preset
 from .answers.identification import Identification, identification_of
 from .methods.search import Plan, run_search
 from .models.pool import Model
-from .objective.cases import Case, CaseObjective, Cases
-from .objective.loop_measure import Measure, Part, unknown_options_explained
+from .objective.cases import Case, Cases
+from .objective.criterion import Measure, criterion_of
 from .objective.objective import Objective
 from .problem.evaluations import Progress
 from .problem.problem import Problem, models_of
@@ -33,7 +32,6 @@ def identify(
     bounds: Bounds | None = None,
     *,
     measure: Measure = "area",
-    preset: Preset = "scaled",
     method: str = "trust-region",
     seed: int = 0,
     workers: int = 1,
@@ -43,10 +41,6 @@ def identify(
     store: StoreOrPath | None = None,
     start: Mapping[str, float] | None = None,
     max_evaluations: int | None = None,
-    weights: Sequence[float] | None = None,
-    failure_value: float | None = None,
-    min_coverage: float = 0.5,
-    part: Part = "experiment",
     method_options: Mapping[str, Any] | None = None,
     **options: Any,
 ) -> Identification:
@@ -63,8 +57,9 @@ def identify(
     bounds : mapping of str to (low, high)
         The parameters and where to search. In the place of a pair: a number for a parameter that
         stays what it is, :class:`Log`, :class:`Below` another parameter, or :class:`Tied`.
-    measure, preset, weights, failure_value, min_coverage, part, **options
-        The objective: see :class:`Objective`.
+    measure : str, callable or Criterion, default "area"
+        What is minimised: see :class:`Criterion`, which has the preset, weights and what else
+        there is to say.
     method : {"sdrm+de", "trust-region", "de", "sdrm", "nelder-mead", "least_squares"}
         "trust-region": linear surfaces of the curves, on which the measure is minimised within a
         region around the best run: local, for expensive models; with the option slopes="fresh"
@@ -115,6 +110,8 @@ def identify(
         that are made anyway, renewed by k runs for k parameters where they mislead, or "fresh",
         renewed after every step; with k workers, which run these side by side, it may be faster.
         "sdrm+de": a mapping for each, ``{"sdrm": {...}, "de": {...}}``.
+    **options
+        Options of the measure, where `measure` is no criterion.
 
     Returns
     -------
@@ -169,40 +166,23 @@ def identify(
         callback,
         max_evaluations,
     )
-    cases = _cases_of(model)
-    for one in (measure,) if cases is None else (case.measure for case in cases.cases):
-        plan.check(one)
     if bounds is None:
         raise TypeError("identify needs bounds: a dict of name: (low, high)")
     space = Space(bounds)
     if start is not None:
         space.unit(start)
-    if cases is not None:
-        changed = {**options, "experiments": experiments, "weights": weights}
-        if given := [name for name, value in changed.items() if value is not None]:
+    cases = _cases_of(model)
+    if cases is None:
+        criterion = criterion_of(measure, options, signature(identify).parameters)
+        objective = Objective(experiments, criterion)
+    else:
+        beside = {"experiments": experiments is not None, "measure": measure != "area"}
+        if given := [name for name, is_given in beside.items() if is_given] + list(options):
             raise ValueError(f"{', '.join(given)} given beside cases; give them to each Case")
-        problem = Problem(
-            cases.models,
-            cases.assembled,
-            CaseObjective(cases.cases),
-            space,
-            store,
-            workers,
-            executor,
-        )
-        return identification_of(problem, plan, run_search(problem, plan))
-    with unknown_options_explained(measure, options, signature(identify).parameters):
-        objective = Objective(
-            experiments,
-            measure,
-            preset=preset,
-            weights=weights,
-            failure_value=failure_value,
-            min_coverage=min_coverage,
-            part=part,
-            **options,
-        )
-    models, assemble = models_of(model)
+        objective = cases.objective()
+    for one in objective.measures:
+        plan.check(one)
+    models, assemble = models_of(model if cases is None else cases)
     problem = Problem(models, assemble, objective, space, store, workers, executor)
     return identification_of(problem, plan, run_search(problem, plan))
 

@@ -20,14 +20,12 @@ from typing import Any
 import numpy as np
 
 from ..curves.inputs import Array
-from ..curves.several_curves import as_points, curve_list
-from ..measures.registry import default_measures
 from .answers.identification import Identification, identification_of
 from .answers.several_measures import SeveralMeasures
 from .methods.search import Plan, run_search
 from .models.pool import Model
-from .objective.loop_measure import measure_name
-from .objective.objective import Objective
+from .objective.criterion import Measure
+from .objective.objective import objectives_of
 from .problem.problem import Problem, models_of
 from .problem.space import Bounds, Space
 from .records.evaluation import Evaluation
@@ -49,7 +47,7 @@ def identify_each(
     experiments: Any,
     bounds: Bounds,
     *,
-    measures: Sequence[str] | None = None,
+    measures: Sequence[Measure] | None = None,
     method: str = "trust-region",
     method_options: Mapping[str, Any] | None = None,
     seed: int = 0,
@@ -59,7 +57,6 @@ def identify_each(
     store: StoreOrPath | None = None,
     start: Mapping[str, float] | None = None,
     max_evaluations: int | None = None,
-    **keywords: Any,
 ) -> SeveralMeasures:
     """Find the parameters by each of several measures, with runs shared among them.
 
@@ -67,7 +64,7 @@ def identify_each(
     ----------
     model, experiments, bounds
         As for :func:`identify`.
-    measures : sequence of str or callable, optional
+    measures : sequence of str, callable or Criterion, optional
         By default every measure that the curves' dimension allows. Each search begins where the
         ones before have been, so put the smoothest first.
     method, method_options
@@ -78,9 +75,8 @@ def identify_each(
         one, and forgotten.
     max_evaluations : int, optional
         Of each measure.
-    seed, workers, executor, progress, start, **keywords
-        As for :func:`identify`, for all measures. Options of one measure alone are not taken here:
-        use :func:`identify` with a `store` for those.
+    seed, workers, executor, progress, start
+        As for :func:`identify`, for all measures.
 
     Returns
     -------
@@ -116,17 +112,12 @@ def identify_each(
     >>> [round(one.parameters["slope"], 2) for one in found.values()]
     [2.0, 2.0]
     """
-    if measures is None:
-        measures = default_measures(as_points(curve_list(experiments)[0], "P"))
-    names = [measure_name(measure) for measure in measures]
-    if not names or len(set(names)) != len(names):
-        raise ValueError(f"measures is {list(measures)}; give at least one, and none twice")
+    objectives = objectives_of(experiments, measures)
     space = Space(bounds)
-    objectives = [Objective(experiments, measure, **keywords) for measure in measures]
     options = dict(method_options or {})
     plan = Plan(method, options, seed, start, progress, None, max_evaluations)
-    for measure in measures:
-        plan.check(measure)
+    for objective in objectives.values():
+        plan.check(objective.measures[0])
     found: dict[str, Identification] = {}
     with ExitStack() as stack:
         if store is None:
@@ -134,7 +125,7 @@ def identify_each(
             store = SimulationStore(Path(folder, "runs.db"), version="of this call")
         models, assemble = models_of(model)
         known: tuple[tuple[Array, Evaluation], ...] = ()
-        for name, objective in zip(names, objectives, strict=True):
+        for name, objective in objectives.items():
             problem = Problem(models, assemble, objective, space, store, workers, executor)
             if known:  # a start is given from here on: one search a measure
                 plan = replace(

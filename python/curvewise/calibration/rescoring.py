@@ -5,17 +5,15 @@ The curves are there, so nothing is run. Cost: the measure, for every run and lo
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from .._options import Preset
 from ..curves.inputs import Array
 from ..curves.several_curves import as_points, curve_list
 from .models.identity import model_identity
-from .objective.loop_measure import Measure, Part
+from .objective.criterion import Measure
 from .objective.objective import Objective
 from .records.evaluation import Evaluation, as_records
 from .records.store import SimulationStore, StoreOrPath
@@ -50,7 +48,7 @@ class Rescored:
     history: np.recarray[Any, Any] = field(repr=False)
     failures: tuple[tuple[int, str], ...] = field(repr=False)
     measure: str
-    preset: Preset
+    preset: str
 
 
 def rescore(
@@ -59,11 +57,6 @@ def rescore(
     measure: Measure = "area",
     *,
     model: Any = None,
-    preset: Preset = "scaled",
-    weights: Sequence[float] | None = None,
-    failure_value: float | None = None,
-    min_coverage: float = 0.5,
-    part: Part = "experiment",
     **options: Any,
 ) -> Rescored:
     """Evaluate an objective at every stored run of a model, without running anything.
@@ -74,8 +67,8 @@ def rescore(
         What `identify` has filled.
     experiments : array_like, shape (n, d), or sequence of such
         The measured curves.
-    measure, preset, weights, failure_value, min_coverage, part, **options
-        The objective: see :class:`Objective`.
+    measure, **options
+        As for :class:`Objective`.
     model : callable or str, optional
         Whose runs: the model, or its identity as :meth:`SimulationStore.models` lists it. Needed
         where the store has runs of several. Beside a model that is a function the store is a
@@ -115,16 +108,7 @@ def rescore(
     (True, 2.0)
     >>> folder.cleanup()
     """
-    objective = Objective(
-        experiments,
-        measure,
-        preset=preset,
-        weights=weights,
-        failure_value=failure_value,
-        min_coverage=min_coverage,
-        part=part,
-        **options,
-    )
+    objective = Objective(experiments, measure, **options)
     evaluations: list[Evaluation] = []
     best: StoredRun | None = None
     lowest = np.inf
@@ -152,7 +136,7 @@ def rescore(
         as_records(evaluations, names),
         tuple((e.number, e.message) for e in evaluations if e.failed),
         objective.measure,
-        preset,
+        objective.preset,
     )
 
 

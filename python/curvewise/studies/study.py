@@ -29,7 +29,8 @@ from ..calibration import (
 from ..calibration.models.command import LOG
 from ..calibration.models.identity import model_identity
 from ..calibration.models.templates import read_templates
-from ..calibration.objective.cases import CaseObjective
+from ..calibration.objective.cases import Cases
+from ..calibration.objective.criterion import Criterion
 from ..drawing import figures as drawing
 from .compatibility import check_together
 from .dry_run import DryRun, dry_run
@@ -298,15 +299,18 @@ class Study:
         for test in self.tests:
             place = [t.name for t in self.tests if t.model == test.model].index(test.name)
             settings = {**self.search.objective, "measure": self.search.measures[0], **test.own}
-            settings.pop("failure_value", None)
+            for name in ("failure_value", *(("part", "options") if test.is_number else ())):
+                settings.pop(name, None)
+            sigma = settings.pop("sigma", None)
             cases.append(
                 Case(
                     test.name,
                     models[test.model],
                     test.experiment,
+                    measure=_criterion(settings),
                     weight=test.weight,
+                    sigma=sigma,
                     response=Picked(place, test.is_number),
-                    **settings,
                 )
             )
         return cases
@@ -314,15 +318,12 @@ class Study:
     def objective(self, models: Mapping[str, StudyModel], measure: str) -> Objective:
         """Return what is minimised."""
         if self.has_cases:
-            return CaseObjective(self.cases(models))
-        return Objective(
-            [test.experiment for test in self.tests], measure, **self._objective_keywords()
-        )
+            return Cases(self.cases(models)).objective()
+        return Objective([test.experiment for test in self.tests], self._criterion(measure))
 
-    def _objective_keywords(self) -> dict[str, Any]:
-        keywords = dict(self.search.objective)
-        options = keywords.pop("options", {})
-        return {**keywords, **options, "weights": [test.weight for test in self.tests]}
+    def _criterion(self, measure: str) -> Criterion:
+        weights = [test.weight for test in self.tests]
+        return _criterion({**self.search.objective, "measure": measure, "weights": weights})
 
     def _searched(
         self, progress: bool, callback: Callable[[Progress], Any] | None
@@ -339,14 +340,20 @@ class Study:
             return {found.measure: found}, None
         (model,) = models.values()
         tests = [test.experiment for test in self.tests]
-        keywords.update(self._objective_keywords())
-        if len(self.search.measures) > 1:
-            measures = list(self.search.measures)
+        measures = [self._criterion(measure) for measure in self.search.measures]
+        if len(measures) > 1:
             several = identify_each(model, tests, self.bounds, measures=measures, **keywords)
             return dict(several), several
-        (measure,) = self.search.measures
+        (measure,) = measures
         found = identify(model, tests, self.bounds, measure=measure, callback=callback, **keywords)
-        return {measure: found}, None
+        return {found.measure: found}, None
+
+
+def _criterion(settings: Mapping[str, Any]) -> Criterion:
+    """Return a criterion of a file's keys, among which the measure's options are a table."""
+    options = settings.get("options", {})
+    others = {name: value for name, value in settings.items() if name != "options"}
+    return Criterion(**others, **options)
 
 
 def _placeholders(entry: ModelEntry, known: tuple[str, ...]) -> list[str]:

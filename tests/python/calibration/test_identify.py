@@ -11,7 +11,7 @@ import pytest
 from test_resuming import assert_same
 
 import curvewise
-from curvewise.calibration import SimulationStore, identify
+from curvewise.calibration import Criterion, SimulationStore, identify
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
@@ -66,8 +66,8 @@ def moved(parameters):
 
 def test_deviations_are_those_of_the_measure_with_its_options():
     experiments = [line({"a": 2.0, "b": 1.0}), line({"a": 2.2, "b": 1.0}) * (1.0, 2.0)]
-    options = {"preset": "raw", "step_pattern": "symmetric2", "window": 3}
-    found = identify(moved, experiments, BOUNDS, measure="dtw", **options, **QUICK)
+    criterion = Criterion("dtw", preset="raw", step_pattern="symmetric2", window=3)
+    found = identify(moved, experiments, BOUNDS, measure=criterion, **QUICK)
     expected = [
         curvewise.compare(
             *pair, preset="raw", options={"dtw": {"step_pattern": "symmetric2", "window": 3}}
@@ -83,8 +83,8 @@ def test_deviations_of_a_part():
     def beginning(parameters):
         return line(parameters)[:10]
 
-    options = {"open_end": True, "part": "simulation"}
-    found = identify(beginning, EXPERIMENT, BOUNDS, measure="dtw", **options, **QUICK)
+    criterion = Criterion("dtw", open_end=True, part="simulation")
+    found = identify(beginning, EXPERIMENT, BOUNDS, measure=criterion, **QUICK)
     P, Q = curvewise.normalize(EXPERIMENT, found.simulations[0])
     path = curvewise.dtw_path(Q, P, open_end=True)
     expected = path.distance / len(path.path) * np.ptp(EXPERIMENT[:, 1])
@@ -118,7 +118,7 @@ def test_summary_is_a_table():
 
 def test_measures_that_cannot_be_computed_are_nan():
     centred = line({"a": 2.0, "b": -1.0})  # mean of y is 0: curve_length, raw, is not defined
-    found = identify(line, centred, BOUNDS, preset="raw", **QUICK)
+    found = identify(line, centred, BOUNDS, measure=Criterion(preset="raw"), **QUICK)
     assert np.isnan(found.measures["curve_length"])
     assert np.isfinite(found.measures["dtw"])
 
@@ -334,7 +334,8 @@ def test_a_model_of_a_piece_of_the_experiment(options):
     def first_third(parameters):
         return np.column_stack((X[:9], parameters["a"] * X[:9] + parameters["b"] * X[:9] ** 2))
 
-    keywords = {"method": "de", "progress": False, "part": "simulation"} | options
+    keywords = {"method": "de", "progress": False}
+    keywords["measure"] = Criterion(**options, part="simulation")
     found = identify(first_third, experiment, BOUNDS, **keywords)
     assert found.parameters["a"] == pytest.approx(4.0, abs=1e-3)
     assert found.parameters["b"] == pytest.approx(-4.0, abs=4e-3)

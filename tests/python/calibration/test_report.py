@@ -12,7 +12,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from curvewise.calibration import Case, Log, SimulationStore, Tied, identify, identify_each
+from curvewise.calibration import (
+    Case,
+    Criterion,
+    Log,
+    SimulationStore,
+    Tied,
+    identify,
+    identify_each,
+)
 from curvewise.calibration.report import figures, page, records_of
 from curvewise.calibration.report.branches import branches_of
 from curvewise.calibration.report.repeating import code_to_repeat
@@ -23,7 +31,8 @@ from curvewise.curves.named_curve import NamedCurve
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 X = np.linspace(0.0, 1.0, 20)
 BOUNDS = {"a": (0.5, 10.0), "b": Log(0.1, 10.0), "c": 3.0, "d": Tied(lambda p: 2.0 * p["a"])}
-QUICK = {"measure": "sum_of_squares", "preset": "raw", "method": "sdrm", "progress": False}
+SQUARES = Criterion("sum_of_squares", preset="raw")
+QUICK = {"measure": SQUARES, "method": "sdrm", "progress": False}
 NAMES = ("strain <1>", "stress & more")
 
 
@@ -107,12 +116,12 @@ def test_the_call_on_the_page_makes_the_search_again(search):
 
 def test_cases_are_written_down_too(tmp_path):
     cases = [
-        Case("a curve", line, experiments()[0], "sum_of_squares", sigma=0.05),
+        Case("a curve", line, experiments()[0], measure="sum_of_squares", sigma=0.05),
         Case(
             "a number",
             line,
             1.1,
-            "sum_of_squares",
+            measure="sum_of_squares",
             weight=2.0,
             sigma=0.1,
             response=lambda c: c[0, 1],
@@ -181,7 +190,7 @@ def test_a_result_is_not_lost_where_its_store_is(search, tmp_path):
 
 def test_several_searches_of_a_store_on_one_page(tmp_path, capsys):
     # A single design over all of the bounds leaves no runs near the optimum: no intervals.
-    keywords = {"method": "sdrm", "preset": "raw", "progress": False, "max_evaluations": 5}
+    keywords = {"method": "sdrm", "progress": False, "max_evaluations": 5}
     keywords["method_options"] = {"initial_range": 1.0}
     store = str(tmp_path / "s.db")
     bounds = {"a": (0.5, 8.0), "b": (0.1, 10.0)}
@@ -189,7 +198,7 @@ def test_several_searches_of_a_store_on_one_page(tmp_path, capsys):
         model,
         experiments(),
         bounds,
-        measures=["sum_of_squares", "curve_length"],
+        measures=[SQUARES, Criterion("curve_length", preset="raw")],
         store=SimulationStore(store, version="1"),
         **keywords,
     )

@@ -17,6 +17,7 @@ from test_resuming import assert_same
 
 from curvewise.calibration import (
     CommandModel,
+    Criterion,
     Objective,
     SimulationStore,
     cross_validate,
@@ -79,7 +80,7 @@ def test_runs_are_shared_by_measures_methods_and_weights(tmp_path):
     keywords = {**SDRM, "method_options": {"maxiter": 1}, "store": tmp_path / "s.db"}
     identify(counted, EXPERIMENT, BOUNDS, measure="area", **keywords)
     assert counted.runs == 5
-    identify(counted, EXPERIMENT, BOUNDS, measure="dtw", weights=[3.0], **keywords)
+    identify(counted, EXPERIMENT, BOUNDS, measure=Criterion("dtw", weights=[3.0]), **keywords)
     assert counted.runs == 5
     keywords["method_options"] = {"sdrm": {"maxiter": 1}, "de": {"maxiter": 1, "popsize": 4}}
     identify(counted, EXPERIMENT, BOUNDS, **keywords | {"method": "sdrm+de"})
@@ -98,9 +99,11 @@ def test_rescore_runs_nothing_and_gives_the_objective(tmp_path):
     counted = Counted(fragile_line)
     found = identify(counted, EXPERIMENT, BOUNDS, store=tmp_path / "s.db", **SDRM)
     runs = counted.runs
-    again = rescore(tmp_path / "s.db", EXPERIMENT, "dtw", weights=[2.0], metric="cityblock")
+    again = rescore(
+        tmp_path / "s.db", EXPERIMENT, Criterion("dtw", weights=[2.0], metric="cityblock")
+    )
     assert counted.runs == runs
-    objective = Objective(EXPERIMENT, "dtw", weights=[2.0], metric="cityblock")
+    objective = Objective(EXPERIMENT, Criterion("dtw", weights=[2.0], metric="cityblock"))
     for row in again.history:
         curve = None if row.failed else line({"a": row.a, "b": row.b})
         assert row.value == objective(curve)

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..._options import Preset
 from ...comparing.deviations import Deviation, deviation
 from ...curves.inputs import Array
 from ...curves.several_curves import points_of
@@ -22,7 +21,7 @@ from ...drawing.loops import loops_and_convergence
 from ...measures.registry import Condition
 from ...showing.notebook import paragraph, picture, table
 from ..methods.search import Ended, Plan
-from ..objective.loop_measure import Part
+from ..objective.criterion import Part
 from ..problem.problem import Problem
 from ..records.evaluation import Evaluation, as_records
 from ..records.recorder import Recorder
@@ -97,7 +96,7 @@ class Identification:
     seed: int
     bounds: dict[str, tuple[float, float]]
     measure: str
-    preset: Preset
+    preset: str
     runs: int
     problem: Problem = field(repr=False)
     kept: tuple[tuple[Array, Evaluation], ...] = field(repr=False)

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from ..._extras import required
-from ..._names import meant
+from ..._names import did_you_mean
 from ...curves.inputs import Array
-from ..objective.cases import CaseObjective
-from ..objective.loop_measure import Measure, measure_name
-from ..objective.objective import LEAST_SQUARES, Objective
+from ..objective.criterion import LEAST_SQUARES, Measure
 from ..problem.details import details_of
 from ..problem.evaluations import Evaluations, Finish, Progress, SearchEndedError
 from ..problem.problem import Problem
@@ -40,7 +37,7 @@ class Plan:
         if self.method not in METHODS:
             raise ValueError(
                 f"unknown method {self.method!r}; choose from {', '.join(METHODS)}"
-                f"{meant([self.method], METHODS)}"
+                f"{did_you_mean([self.method], METHODS)}"
             )
         if self.method == "least_squares" and measure not in LEAST_SQUARES:
             raise ValueError(
@@ -52,7 +49,7 @@ class Plan:
             raise ValueError(
                 f"method_options has {', '.join(self.method_options)}; "
                 f"method {self.method!r} takes a dict for each of {', '.join(stages)}"
-                f"{meant(self.method_options, stages)}"
+                f"{did_you_mean(self.method_options, stages)}"
             )
         for name, stage in stages.items():
             chosen = self.method_options if len(stages) == 1 else self.method_options.get(name, {})
@@ -67,7 +64,7 @@ def _check_options(method: str, stage: Callable[..., Finish], options: Mapping[s
     if unknown := set(options) - set(known):
         raise ValueError(
             f"method {method!r} has no option {', '.join(sorted(unknown))}; "
-            f"it has {', '.join(known)}{meant(sorted(unknown), known)}"
+            f"it has {', '.join(known)}{did_you_mean(sorted(unknown), known)}"
         )
 
 
@@ -121,7 +118,7 @@ def run_search(
 def _settings(problem: Problem, plan: Plan) -> dict[str, Any]:
     """Return what decides the value of a simulation and the course of the search."""
     settings = {
-        **_objective_settings(problem.objective),
+        **problem.objective.settings,
         "bounds": problem.space.settings,
         "method": plan.method,
         "method_options": dict(plan.method_options),
@@ -131,26 +128,3 @@ def _settings(problem: Problem, plan: Plan) -> dict[str, Any]:
     if (identities := problem.identities()) is not None:
         settings["model"] = identities
     return settings
-
-
-def _objective_settings(objective: Objective) -> dict[str, Any]:
-    digest = hashlib.sha256()
-    for curve in objective.experiments:
-        digest.update(repr(curve.shape).encode() + curve.tobytes())
-    options = dict(objective.options)
-    if isinstance(objective, CaseObjective):
-        options["cases"] = [
-            [case.name, measure_name(case.measure), case.sigma, case.preset, dict(case.options)]
-            for case in objective.cases
-        ]
-    if objective.part != "experiment":  # the searches of stores from before this option have none
-        options["part"] = objective.part
-    return {
-        "measure": objective.measure,
-        "preset": objective.preset,
-        "options": options,
-        "weights": objective.weights.tolist(),
-        "failure_value": objective.failure_value.tolist(),
-        "min_coverage": objective.min_coverage,
-        "experiments": digest.hexdigest(),
-    }
