@@ -8,7 +8,7 @@ linear in the text, and in the columns when it is evaluated.
 
 from __future__ import annotations
 
-import difflib
+import operator
 import re
 from collections.abc import Callable, Iterable, Mapping
 from functools import reduce
@@ -16,7 +16,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-__all__ = ["Formula", "undefined_name"]
+from .._names import meant
+
+__all__ = ["Formula", "undefined_names"]
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|(?P<name>[A-Za-z_]\w*)"
@@ -55,6 +57,13 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
 }
 _SEVERAL = ("max", "min")
 _CONSTANTS = {"pi": np.pi}
+_OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "**": operator.pow,
+}
 
 _Tree: TypeAlias = "tuple[Any, ...]"
 
@@ -110,12 +119,15 @@ class Formula:
         return f"Formula({self.text!r})"
 
 
-def undefined_name(name: str, known: Iterable[str]) -> str:
-    """Return what to say of a name that is none of those that there are."""
+def undefined_names(formula: Formula, known: Iterable[str]) -> list[str]:
+    """Return what to say of each name in a formula that is none of those that there are."""
     names = list(known)
-    near = difflib.get_close_matches(name, names, n=1)
-    hint = f"; did you mean {near[0]!r}?" if near else ""
-    return f"uses {name!r}, which is none of {', '.join(names) or '(nothing)'}{hint}"
+    listed = ", ".join(names) or "(nothing)"
+    return [
+        f"uses {name!r}, which is none of {listed}{meant([name], names)}"
+        for name in formula.names
+        if name not in names
+    ]
 
 
 class _Parser:
@@ -194,9 +206,8 @@ class _Parser:
 
     def _call(self, name: str) -> _Tree:
         if name not in _FUNCTIONS:
-            near = difflib.get_close_matches(name, _FUNCTIONS, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"there is {', '.join(_FUNCTIONS)}"
-            raise self._error(f"there is no function {name!r}; {hint}")
+            hint = meant([name], _FUNCTIONS, shown=str) or f"; there is {', '.join(_FUNCTIONS)}"
+            raise self._error(f"there is no function {name!r}{hint}")
         arguments = [self._sum()]
         while self._take(","):
             arguments.append(self._sum())
@@ -234,12 +245,4 @@ def _value(tree: _Tree, values: Mapping[str, Any]) -> Any:
     if kind == "negative":
         return -left
     right = _value(tree[2], values)
-    if kind == "+":
-        return left + right
-    if kind == "-":
-        return left - right
-    if kind == "*":
-        return left * right
-    if kind == "/":
-        return left / right
-    return left**right
+    return _OPERATORS[kind](left, right)
