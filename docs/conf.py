@@ -69,7 +69,9 @@ repository_folders = {
     "cpp/examples": "docs/api/cpp_examples.rst",
     "examples/studies": "docs/study_examples.rst",
     "benchmarks": "docs/project/benchmarks.md",
-    "benchmarks/paper": "docs/paper/index.md",
+    "benchmarks/reproduction": "docs/paper/index.md",
+    "benchmarks/speed": "docs/project/speed.md",
+    "benchmarks/validation": "docs/project/validation.md",
 }
 
 # Python. Types stand in the docstrings, in words; attributes of a result stand before its methods.

@@ -1,7 +1,7 @@
 """Files of the repository as pages of the site, and links from a page to what is no page.
 
-A page is mirrored if it holds a comment ``<!-- mirrors benchmarks/paper/README.md -->`` behind
-its front matter: the file's text takes the place of the comment, so that it stands once and reads
+A page is mirrored if it holds a comment ``<!-- mirrors benchmarks/README.md -->`` behind its front
+matter: the file's text takes the place of the comment, so that it stands once and reads
 well in the repository too. In mirrored and other Markdown pages, relative links are then turned to
 where the site has their target: a mirrored file to its page, a header to its page of the C++
 reference, a folder to the page that `repository_folders` names. Other files of the repository

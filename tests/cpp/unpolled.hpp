@@ -5,6 +5,6 @@
 
 namespace test {
 
-inline curvewise::detail::Poller unpolled(nullptr);
+inline curvewise::runtime::Poller unpolled(nullptr);
 
 }  // namespace test

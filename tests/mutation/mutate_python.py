@@ -55,7 +55,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "reference/pcm.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
     "reference/curve_length.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
     "reference/arc_length.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
-    "reference/matching.py": (
+    "reference/matched_curves.py": (
         f"{MEASURES}/test_matched_area.py",
         f"{MEASURES}/test_deviations.py",
     ),

@@ -18,7 +18,7 @@
 #include <string>
 
 #include "check_continuous.hpp"
-#include "check_more.hpp"
+#include "check_mean_gradient_compare.hpp"
 #include "check_planar.hpp"
 #include "check_warping.hpp"
 #include "choices.hpp"
@@ -56,7 +56,8 @@ void play(Run& run) {
         } else if (place < 6) {
             count("area, pcm, curve_length, pointwise", stress::check_planar(choices, run.record));
         } else if (place < 10) {
-            count("means, gradients, compare, stopping", stress::check_more(choices, run.record));
+            count("means, gradients, compare, stopping",
+                  stress::check_mean_gradient_compare(choices, run.record));
         } else {
             count("dtw and frechet", stress::check_warping(choices, run.record));
         }

@@ -16,7 +16,7 @@ import curvewise
 import curvewise.compat as similaritymeasures
 from curvewise import curves, datasets, plotting, read_curve, reference
 from curvewise.commands import command_line as cli
-from curvewise.commands import selfcheck
+from curvewise.commands import kernel_check
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -118,5 +118,5 @@ curve = curves.resample(P, 5, by=np.arange(241.0))
 curve = curves.trim(P, 0, 0.01, by=0)
 curve = curves.smooth(P, 9, order=3, turns=turns, columns=[1])
 curve = curves.engineering_to_true(curves.shift_to_origin(P, elastic=(50, 250)))
-all_equal: bool = selfcheck.run(sys.stdout)
+all_equal: bool = kernel_check.run(sys.stdout)
 status: int = cli.main(["info"])

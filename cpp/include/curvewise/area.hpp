@@ -105,8 +105,8 @@ inline double evaluate(const AreaOptions& options, const CurveView& P, const Cur
     return area(P, Q, options, control);
 }
 
-namespace detail {  // for pairwise.hpp
+namespace pairwise {  // for pairwise.hpp
 std::unique_ptr<const class BatchMeasure> batch_measure(const AreaOptions& options);
-}  // namespace detail
+}  // namespace pairwise
 
 }  // namespace curvewise

@@ -25,7 +25,7 @@
 
 namespace curvewise {
 
-namespace detail {
+namespace runtime {
 class Poller;
 }
 
@@ -58,7 +58,7 @@ class Control {
     std::int64_t total() const noexcept { return total_.load(std::memory_order_relaxed); }
 
    private:
-    friend class detail::Poller;
+    friend class runtime::Poller;
 
     Report report_;
     std::chrono::milliseconds interval_{50};

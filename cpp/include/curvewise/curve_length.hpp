@@ -70,8 +70,8 @@ inline double evaluate(const CurveLengthOptions& options, const CurveView& P, co
     return curve_length(P, Q, options, control);
 }
 
-namespace detail {  // for pairwise.hpp
+namespace pairwise {  // for pairwise.hpp
 std::unique_ptr<const class BatchMeasure> batch_measure(const CurveLengthOptions& options);
-}  // namespace detail
+}  // namespace pairwise
 
 }  // namespace curvewise

@@ -110,8 +110,8 @@ inline double evaluate(const DtwOptions& options, const CurveView& P, const Curv
     return dtw(P, Q, options, control);
 }
 
-namespace detail {  // for pairwise.hpp
+namespace pairwise {  // for pairwise.hpp
 std::unique_ptr<const class BatchMeasure> batch_measure(const DtwOptions& options);
-}  // namespace detail
+}  // namespace pairwise
 
 }  // namespace curvewise

@@ -82,8 +82,8 @@ inline double evaluate(const FrechetOptions& options, const CurveView& P, const 
     return frechet(P, Q, options, control);
 }
 
-namespace detail {  // for pairwise.hpp
+namespace pairwise {  // for pairwise.hpp
 std::unique_ptr<const class BatchMeasure> batch_measure(const FrechetOptions& options);
-}  // namespace detail
+}  // namespace pairwise
 
 }  // namespace curvewise

@@ -96,10 +96,10 @@ inline double evaluate(const FrechetContinuousOptions& options, const CurveView&
     return frechet_continuous(P, Q, options, control);
 }
 
-namespace detail {
+namespace pairwise {
 class BatchMeasure;
 std::unique_ptr<const BatchMeasure> batch_measure(
     const FrechetContinuousOptions& options);  // for pairwise.hpp
-}  // namespace detail
+}  // namespace pairwise
 
 }  // namespace curvewise

@@ -82,8 +82,8 @@ inline double evaluate(const PcmOptions& options, const CurveView& P, const Curv
     return pcm(P, Q, options, control);
 }
 
-namespace detail {  // for pairwise.hpp
+namespace pairwise {  // for pairwise.hpp
 std::unique_ptr<const class BatchMeasure> batch_measure(const PcmOptions& options);
-}  // namespace detail
+}  // namespace pairwise
 
 }  // namespace curvewise

@@ -1,6 +1,6 @@
 #include "continuous/boxed_curve.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
 BoxedCurve::BoxedCurve(const CurveView& curve, const RangeScale& range, Poller& poller)
     : n_(std::max(curve.size(), std::ptrdiff_t{2})), dim_(curve.dim()) {
@@ -58,4 +58,4 @@ void BoxedCurve::grow(double* low, const double* least, const double* greatest) 
     }
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

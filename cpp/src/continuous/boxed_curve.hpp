@@ -15,7 +15,10 @@
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
+
+using curves::RangeScale;
+using runtime::Poller;
 
 class BoxedCurve {
    public:
@@ -94,4 +97,4 @@ double square_distance_across_box(const double* x, const double* box, std::ptrdi
     return sum;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

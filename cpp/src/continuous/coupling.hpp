@@ -14,7 +14,7 @@
 #include "continuous/free_space.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
 // What keeps a discrete leash keeps a continuous one: both ends of every step are in one cell,
 // whose free space is convex.
@@ -91,4 +91,4 @@ class CouplingWalk {
     Poller& poller_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

@@ -6,7 +6,7 @@
 
 #include "continuous/integer.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 namespace {
 
 // A single point is a curve of one edge of no length.
@@ -181,4 +181,4 @@ int ExactSigns::low_to_high(std::ptrdiff_t edge, const Reach& low, const Reach& 
     return compare_to_root(x * x - first.r - second.r, first.r * second.r);
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

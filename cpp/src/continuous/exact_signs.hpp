@@ -13,7 +13,7 @@
 
 #include "curvewise/curve.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
 // The part of an edge within `radius` of the vertex `index` of the other curve.
 struct Reach {
@@ -45,4 +45,4 @@ class ExactSigns {
     CurveView points_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

@@ -21,10 +21,10 @@
 namespace curvewise {
 namespace {
 
-using detail::BoxedCurve;
-using detail::CheckedCurve;
-using detail::LeashSearch;
-using detail::RangeScale;
+using continuous::BoxedCurve;
+using continuous::LeashSearch;
+using curves::CheckedCurve;
+using curves::RangeScale;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -36,25 +36,25 @@ RangeScale plain_scale(double largest) noexcept {
 
 class FrechetContinuousMeasure {
    public:
-    using Memory = detail::LeashMemory;
+    using Memory = continuous::LeashMemory;
     static constexpr bool is_swept = false;
     // Not scaled, which curves within the usual range need not be.
     struct PreparedP {
-        PreparedP(const CheckedCurve& curve, detail::Poller& poller)
+        PreparedP(const CheckedCurve& curve, runtime::Poller& poller)
             : checked(curve), boxed(curve.curve, RangeScale(1.0), poller) {}
         CheckedCurve checked;
         BoxedCurve boxed;
     };
     using PreparedQ = PreparedP;
-    using Call = detail::Call<Memory>;
+    using Call = pairwise::Call<Memory>;
 
     explicit FrechetContinuousMeasure(const FrechetContinuousOptions& options)
-        : workers_(detail::resolve_workers(options.workers)) {}
-    static detail::Requirements requirements() noexcept {
+        : workers_(runtime::resolve_workers(options.workers)) {}
+    static curves::Requirements requirements() noexcept {
         return {FrechetContinuousOptions::measure, 1, false};
     }
     static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
-    static void check_p(const PreparedP& /*P*/, detail::Poller& /*poller*/) noexcept {}
+    static void check_p(const PreparedP& /*P*/, runtime::Poller& /*poller*/) noexcept {}
     std::ptrdiff_t workers() const noexcept { return workers_; }
     static std::int64_t steps(std::int64_t n, std::int64_t count, std::int64_t points) noexcept {
         return n * count + points;
@@ -108,21 +108,21 @@ class FrechetContinuousMeasure::Bounds {
    public:
     static constexpr int levels = 3;
     void keep(const PreparedQ& Q) { kept_.emplace_back(Q.checked, Q.boxed); }
-    void make_room(const Bounds& others) { detail::make_room(kept_, others.kept_.size()); }
-    void take(Bounds& others) noexcept { detail::move_behind(kept_, others.kept_); }
+    void make_room(const Bounds& others) { runtime::make_room(kept_, others.kept_.size()); }
+    void take(Bounds& others) noexcept { runtime::move_behind(kept_, others.kept_); }
 
     class Query {
        public:
         Query(const FrechetContinuousMeasure& measure, const Bounds& bounds, const PreparedP& P)
             : measure_(measure), kept_(bounds.kept_), P_(P), summary_(P.checked, P.boxed) {}
         void quick(double* bounds) const {
-            for (const detail::CurveSummary& other : kept_) {
+            for (const continuous::CurveSummary& other : kept_) {
                 *bounds++ = is_plain(other.largest()) ? summary_.bound(other, P_.boxed.dim()) : 0.0;
             }
         }
         double refined(std::ptrdiff_t /*j*/, const PreparedQ& Q, int level) const {
             if (!is_plain(Q.checked.largest)) return 0.0;
-            return detail::run_bound(P_.boxed, Q.boxed, level == 1 ? 8 : 32);
+            return continuous::run_bound(P_.boxed, Q.boxed, level == 1 ? 8 : 32);
         }
         double value(std::ptrdiff_t /*j*/, const PreparedQ& Q, const Call& call) const {
             return measure_(P_, Q, call);
@@ -138,38 +138,38 @@ class FrechetContinuousMeasure::Bounds {
         }
 
         const FrechetContinuousMeasure& measure_;
-        const std::vector<detail::CurveSummary>& kept_;
+        const std::vector<continuous::CurveSummary>& kept_;
         const PreparedP& P_;
-        detail::CurveSummary summary_;
+        continuous::CurveSummary summary_;
     };
 
    private:
-    std::vector<detail::CurveSummary> kept_;
+    std::vector<continuous::CurveSummary> kept_;
 };
 
 // Calls use(search) for two checked curves.
 template <class Use>
 auto with_search(const CurveView& P, const CurveView& Q, const FrechetContinuousOptions& options,
                  Control* control, Use use) {
-    return detail::with_pair(FrechetContinuousMeasure(options), P, Q, control,
-                             [&](const auto& p, const auto& q, const auto& call) {
-                                 return FrechetContinuousMeasure::with_search(p, q, call, use);
-                             });
+    return pairwise::with_pair(FrechetContinuousMeasure(options), P, Q, control,
+                               [&](const auto& p, const auto& q, const auto& call) {
+                                   return FrechetContinuousMeasure::with_search(p, q, call, use);
+                               });
 }
 
 }  // namespace
 
 double frechet_continuous(const CurveView& P, const CurveView& Q,
                           const FrechetContinuousOptions& options, Control* control) {
-    return detail::evaluate(FrechetContinuousMeasure(options), P, Q, control);
+    return pairwise::evaluate(FrechetContinuousMeasure(options), P, Q, control);
 }
 
 Interval frechet_continuous_bounds(const CurveView& P, const CurveView& Q,
                                    const FrechetContinuousOptions& options, Control* control) {
     return with_search(P, Q, options, control, [](auto& search) {
         const double high = search.value(infinity);
-        const bool is_exact = high < infinity && !search.is_within(high, detail::FreeSet::open);
-        return Interval{is_exact ? high : detail::next_below(high), high};
+        const bool is_exact = high < infinity && !search.is_within(high, continuous::FreeSet::open);
+        return Interval{is_exact ? high : continuous::next_below(high), high};
     });
 }
 
@@ -202,7 +202,7 @@ bool frechet_within(const CurveView& P, const CurveView& Q, double distance, boo
     });
 }
 
-std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(
+std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(
     const FrechetContinuousOptions& options) {
     return std::make_unique<BatchOf<FrechetContinuousMeasure>>(FrechetContinuousMeasure(options));
 }

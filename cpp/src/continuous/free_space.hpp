@@ -20,7 +20,7 @@
 #include "continuous/exact_signs.hpp"
 #include "continuous/least_double.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
 // Whether a point at the very radius is free. Open: whether the distance is below the radius;
 // closed: whether it is at most the radius.
@@ -335,4 +335,4 @@ class EdgeFamily {
     ExactSigns exact_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

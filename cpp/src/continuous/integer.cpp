@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 namespace {
 
 constexpr int limb_bits = 32;
@@ -106,4 +106,4 @@ Integer operator*(const Integer& a, const Integer& b) {
     return {std::move(product), a.negative_ != b.negative_};
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
 class Integer {
    public:
@@ -38,4 +38,4 @@ class Integer {
     bool negative_ = false;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -34,7 +34,7 @@ int level_with(const BoxedCurve& curve, std::ptrdiff_t most) noexcept {
 
 }  // namespace
 
-CurveSummary::CurveSummary(const CheckedCurve& checked, const BoxedCurve& boxed)
+CurveSummary::CurveSummary(const curves::CheckedCurve& checked, const BoxedCurve& boxed)
     : largest_(checked.largest) {
     const std::ptrdiff_t dim = boxed.dim();
     const double* const first = boxed.point<0>(0);
@@ -80,4 +80,4 @@ double run_bound(const BoxedCurve& P, const BoxedCurve& Q, std::ptrdiff_t most_r
     return safe_root(furthest, dim);
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

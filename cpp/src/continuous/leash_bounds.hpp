@@ -16,12 +16,12 @@
 #include "continuous/boxed_curve.hpp"
 #include "curves/checks.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
 // The first point of a curve, the last, and its box; and the largest |coordinate|.
 class CurveSummary {
    public:
-    CurveSummary(const CheckedCurve& checked, const BoxedCurve& boxed);
+    CurveSummary(const curves::CheckedCurve& checked, const BoxedCurve& boxed);
 
     // Of the summaries of two curves with `dim` coordinates.
     double bound(const CurveSummary& other, std::ptrdiff_t dim) const noexcept;
@@ -35,4 +35,4 @@ class CurveSummary {
 // At most `most_runs` of either curve.
 double run_bound(const BoxedCurve& P, const BoxedCurve& Q, std::ptrdiff_t most_runs);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

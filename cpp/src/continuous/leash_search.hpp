@@ -34,15 +34,15 @@
 #include "continuous/coupling.hpp"
 #include "continuous/exact_signs.hpp"
 #include "continuous/free_space.hpp"
+#include "continuous/leash_path.hpp"
 #include "continuous/least_double.hpp"
-#include "continuous/matching.hpp"
 #include "continuous/nearest.hpp"
 #include "continuous/reachable.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
 // What was reached of some rows, a few of them and not more than so many runs in all.
 class Trail {
@@ -134,9 +134,9 @@ class LeashSearch {
     }
 
     // A matching within a distance that is sufficient, and its longest leash.
-    std::pair<double, MatchedParameters> matching(double distance) {
+    std::pair<double, LeashPath> matching(double distance) {
         const Radius radius = radius_of(distance);
-        MatchedParameters matched = MatchingTrace<Dim>(diagram_, radius, poller_).parameters();
+        LeashPath matched = LeashPathTrace<Dim>(diagram_, radius, poller_).parameters();
         const double longest = LeashMeasure<Dim>(diagram_, radius, poller_).longest(matched);
         return {longest, std::move(matched)};
     }
@@ -303,4 +303,4 @@ class LeashSearch {
     std::ptrdiff_t trail_end_ = 0;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
 inline std::uint64_t bits_of(double x) noexcept {
     std::uint64_t bits = 0;
@@ -47,4 +47,4 @@ double least_double(double below, double most, std::uint64_t stride, std::uint64
     return double_of(high);
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

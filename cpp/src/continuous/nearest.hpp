@@ -12,7 +12,7 @@
 #include "continuous/boxed_curve.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
 // The vertex furthest from the curve.
 struct Furthest {
@@ -109,4 +109,4 @@ class NearestEdges {
     Poller& poller_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

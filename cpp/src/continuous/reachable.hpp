@@ -16,7 +16,7 @@
 
 #include "continuous/free_space.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::continuous {
 
 // Of a row: edges first to last, each reached from its first vertex on, the first one from `low`
 // on. The vertex behind the last is not free, unless it is the last of the curve.
@@ -162,4 +162,4 @@ class Diagram {
     EdgeFamily<Dim> rows_;     // the edges of the second
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::continuous

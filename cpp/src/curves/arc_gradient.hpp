@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace curvewise::detail {
+namespace curvewise::curves {
 
 // Of places that lie at fixed shares of a curve's length: they move along it when it gets longer
 // or shorter before them, or behind.
@@ -39,4 +39,4 @@ class ArcGradient {
     std::vector<double> by_arc_length_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::curves

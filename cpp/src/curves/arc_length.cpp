@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace curvewise::detail {
+namespace curvewise::curves {
 
 namespace {
 
@@ -46,4 +46,4 @@ void check_length(const CurveView& curve, const std::string& name, const char* m
                                 " needs two different points");
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::curves

@@ -9,7 +9,7 @@
 
 #include "curves/polyline.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::curves {
 
 // The arc length at every vertex: 0 first, the curve's length last. Throws Stopped where the poller
 // says so.
@@ -68,4 +68,4 @@ class ArcPosition {
     double at_ = 0.0;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::curves

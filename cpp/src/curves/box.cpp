@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace curvewise::detail {
+namespace curvewise::curves {
 
 BoxSide::BoxSide(const CurveView& curve, std::ptrdiff_t coordinate) noexcept
     : range_(0.0), low_(curve(0, coordinate)) {
@@ -19,4 +19,4 @@ BoxSide::BoxSide(const CurveView& curve, std::ptrdiff_t coordinate) noexcept
     extent_ = range_.shrink(high) - low_;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::curves

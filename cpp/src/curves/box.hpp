@@ -9,7 +9,7 @@
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::curves {
 
 // The box in one coordinate.
 class BoxSide {
@@ -44,4 +44,4 @@ struct Box {
     BoxSide y;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::curves

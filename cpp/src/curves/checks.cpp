@@ -12,7 +12,7 @@ std::string CurveView::shape() const {
     return "(" + std::to_string(n_) + ", " + std::to_string(dim_) + ")";
 }
 
-namespace detail {
+namespace curves {
 namespace {
 
 // A curve among those of a call, and its name when a message needs it.
@@ -80,7 +80,7 @@ void for_each(const CurveList& first, const CurveList& second, Check check) {
 }
 
 // The largest |entry|; throws for the first one, in row-major order, that is not finite.
-double largest_magnitude(const CurveView& curve, const std::string& name, Poller& poller) {
+double largest_magnitude(const CurveView& curve, const std::string& name, runtime::Poller& poller) {
     double largest = 0.0;
     double poison = 0.0;  // stays 0 while every entry is finite: inf - inf and nan - nan are nan
     poller.in_runs(curve.size(), curve.dim(), [&](std::ptrdiff_t first, std::ptrdiff_t end) {
@@ -98,7 +98,7 @@ double largest_magnitude(const CurveView& curve, const std::string& name, Poller
 
 }  // namespace
 
-CheckedCurve::CheckedCurve(const CurveView& curve, std::string name, Poller& poller)
+CheckedCurve::CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller)
     : curve(curve),
       name(std::move(name)),
       largest(largest_magnitude(this->curve, this->name, poller)) {}
@@ -147,5 +147,5 @@ void check_cutoff(double cutoff) {
     if (!(cutoff >= 0.0)) refuse("cutoff is " + std::to_string(cutoff), "give a number >= 0");
 }
 
-}  // namespace detail
+}  // namespace curves
 }  // namespace curvewise

@@ -13,7 +13,7 @@
 #include "curvewise/options.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::curves {
 
 struct Requirements {
     const char* measure;
@@ -45,7 +45,7 @@ class CurveList {
 
 // A curve found finite, with the largest |coordinate|. Refers to the caller's points.
 struct CheckedCurve {
-    CheckedCurve(const CurveView& curve, std::string name, Poller& poller);
+    CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller);
 
     CurveView curve;
     std::string name;
@@ -64,4 +64,4 @@ void check_whole_number(const char* option, std::ptrdiff_t value, const WholeNum
 // Throws for a cutoff that is not a number >= 0.
 void check_cutoff(double cutoff);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::curves

@@ -1,6 +1,6 @@
 #include "curves/polyline.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::curves {
 
 namespace {
 
@@ -29,4 +29,4 @@ Polyline box_scaled(const CurveView& curve, const Box& box, Poller& poller) {
     });
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::curves

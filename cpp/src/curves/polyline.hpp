@@ -10,7 +10,9 @@
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::curves {
+
+using runtime::Poller;
 
 struct Point {
     double x;
@@ -40,4 +42,4 @@ Polyline polyline(const CurveView& curve, const RangeScale& range, Poller& polle
 
 Polyline box_scaled(const CurveView& curve, const Box& box, Poller& poller);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::curves

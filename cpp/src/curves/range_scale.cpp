@@ -1,6 +1,6 @@
 #include "curves/range_scale.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::curves {
 
 RangeScale::RangeScale(double largest_magnitude) noexcept {
     const double limit = std::ldexp(1.0, 500);
@@ -15,4 +15,4 @@ RangeScale RangeScale::to_unity(double magnitude) noexcept {
     return range;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::curves

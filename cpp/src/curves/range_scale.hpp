@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace curvewise::detail {
+namespace curvewise::curves {
 
 // The exponent k of the power of two by which both curves are divided before anything is squared
 // (0: not at all), and its undoing. Exact, except for values that leave the range of a double.
@@ -26,4 +26,4 @@ class RangeScale {
     int exponent_ = 0;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::curves

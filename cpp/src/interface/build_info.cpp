@@ -21,8 +21,8 @@ std::string compiler() {
 }  // namespace
 
 BuildInfo build_info() {
-    BuildInfo info{version, compiler(), CURVEWISE_EIGEN_VERSION, {}, detail::active_level().name};
-    for (const detail::Level& level : detail::available_levels()) {
+    BuildInfo info{version, compiler(), CURVEWISE_EIGEN_VERSION, {}, warping::active_level().name};
+    for (const warping::Level& level : warping::available_levels()) {
         info.instruction_sets.emplace_back(level.name);
     }
     return info;

@@ -19,12 +19,12 @@
 namespace curvewise {
 namespace {
 
-using detail::CheckedCurve;
-using detail::PackedCurve;
-using detail::PointOrder;
-using detail::Poller;
-using detail::RangeScale;
-using detail::WarpingOptions;
+using curves::CheckedCurve;
+using curves::RangeScale;
+using runtime::Poller;
+using warping::PackedCurve;
+using warping::PointOrder;
+using warping::WarpingOptions;
 
 constexpr WholeNumberRange iterations_range{0, "give a whole number >= 0"};
 
@@ -100,7 +100,7 @@ class Averaging {
         run_workers(std::min(options_.workers, static_cast<std::ptrdiff_t>(count)), poller,
                     [&](std::ptrdiff_t /*w*/, Poller& own) {
                         try {
-                            detail::SweepMemory memory;
+                            warping::SweepMemory memory;
                             for (std::size_t k = next++; k < count; k = next++) {
                                 alignments_[k] = path(mean, curves_[first + k], own, memory);
                             }
@@ -114,14 +114,14 @@ class Averaging {
     }
 
     Alignment path(const CheckedCurve& mean, const CheckedCurve& curve, Poller& poller,
-                   detail::SweepMemory& memory) const {
+                   warping::SweepMemory& memory) const {
         const RangeScale range(std::max(mean.largest, curve.largest));
         const PackedCurve p(mean.curve, range, PointOrder::forward, poller);
         const PackedCurve q(curve.curve, range, PointOrder::reversed, poller);
         const std::int64_t steps = n_ * curve.curve.size();
         poller.set_counting(false);
         Alignment found =
-            detail::WarpingProblem(options_, {p, q}, range, {0.0, 1, poller, memory}).alignment();
+            warping::WarpingProblem(options_, {p, q}, range, {0.0, 1, poller, memory}).alignment();
         poller.set_counting(true);
         if (poller.count_steps(steps)) throw Stopped();
         return found;
@@ -149,7 +149,7 @@ class Averaging {
 };
 
 WarpingOptions checked_options(const DtwMeanOptions& options) {
-    detail::check_whole_number("iterations", options.iterations, iterations_range);
+    curves::check_whole_number("iterations", options.iterations, iterations_range);
     if (!(options.tolerance >= 0.0)) {
         throw std::invalid_argument("tolerance is " + std::to_string(options.tolerance) +
                                     "; give a number >= 0");
@@ -159,7 +159,7 @@ WarpingOptions checked_options(const DtwMeanOptions& options) {
     measure.window = options.window;
     measure.window_fraction = options.window_fraction;
     measure.workers = options.workers;
-    return detail::checked_options(measure);
+    return warping::checked_options(measure);
 }
 
 }  // namespace
@@ -168,7 +168,7 @@ DtwMean dtw_mean(const std::vector<CurveView>& curves, const std::vector<double>
                  const CurveView& initial, const DtwMeanOptions& options, Control* control) {
     const WarpingOptions measure = checked_options(options);
     if (curves.empty()) throw std::invalid_argument("no curves; a mean needs at least 1");
-    const detail::CurveList list(curves, "curves");
+    const curves::CurveList list(curves, "curves");
     check_shapes({measure.measure, 1, false}, {initial, "initial"}, list);
     check_weights(weights, curves.size());
     Poller poller(control);
@@ -177,7 +177,7 @@ DtwMean dtw_mean(const std::vector<CurveView>& curves, const std::vector<double>
     std::int64_t steps = 0;
     for (std::size_t i = 0; i < curves.size(); ++i) {
         checked.emplace_back(curves[i], list.name_of(i), poller);
-        detail::check_sizes(measure, initial.size(), curves[i].size());
+        warping::check_sizes(measure, initial.size(), curves[i].size());
         steps += initial.size() * curves[i].size();
     }
     poller.begin((options.iterations + 1) * steps);

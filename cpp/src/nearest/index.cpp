@@ -21,12 +21,12 @@
 namespace curvewise {
 namespace {
 
-using detail::CheckedCurve;
-using detail::CurveList;
-using detail::NeighborSearch;
-using detail::Poller;
-using detail::TargetQuery;
-using detail::Targets;
+using curves::CheckedCurve;
+using curves::CurveList;
+using nearest::NeighborSearch;
+using pairwise::TargetQuery;
+using pairwise::Targets;
+using runtime::Poller;
 
 // A curve with points of its own. Flat where the caller's is, for messages.
 class OwnedCurve {
@@ -120,7 +120,7 @@ void check_radius(double radius) {
 class Index::State {
    public:
     explicit State(const Measure& measure)
-        : measure_(std::visit([](const auto& options) { return detail::batch_measure(options); },
+        : measure_(std::visit([](const auto& options) { return pairwise::batch_measure(options); },
                               measure)),
           targets_(measure_->make_targets()) {}
 
@@ -142,10 +142,10 @@ class Index::State {
         }
         poller.finish();  // the last that may throw Stopped
         for (const OwnedCurve& curve : owned) sizes_.insert(curve.view().size());
-        detail::make_room(curves_, owned.size());
+        runtime::make_room(curves_, owned.size());
         targets_->make_room(*added);
         // Nothing fails from here on.
-        detail::move_behind(curves_, owned);
+        runtime::move_behind(curves_, owned);
         targets_->take(*added);
     }
 
@@ -193,7 +193,7 @@ class Index::State {
                     search.within(query, all_steps, radius,
                                   options.with_distances || options.sort_results, left_out);
                 if (options.sort_results) {
-                    std::sort(results[i].begin(), results[i].end(), detail::is_nearer);
+                    std::sort(results[i].begin(), results[i].end(), nearest::is_nearer);
                 }
             });
         return results;
@@ -213,7 +213,7 @@ class Index::State {
 
     void ask(const std::vector<CurveView>* X, const SearchOptions& options, Poller& poller,
              const Answer& answer) const {
-        const std::ptrdiff_t workers = detail::resolve_workers(options.workers);
+        const std::ptrdiff_t workers = runtime::resolve_workers(options.workers);
         const Queries queries = checked(X, poller);
         const SearchRecord record = QueryRun(*targets_, queries, answer).run(workers, poller);
         if (options.record == nullptr) return;
@@ -266,7 +266,7 @@ class Index::State {
             (leaves_itself_out ? ", the other curves of the index" : ", the curves of the index"));
     }
 
-    std::unique_ptr<const detail::BatchMeasure> measure_;
+    std::unique_ptr<const pairwise::BatchMeasure> measure_;
     mutable std::shared_timed_mutex mutex_;
     std::vector<OwnedCurve> curves_;
     std::set<std::ptrdiff_t> sizes_;

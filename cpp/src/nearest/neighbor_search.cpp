@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace curvewise::detail {
+namespace curvewise::nearest {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -47,7 +47,7 @@ bool is_nearer(const Neighbor& a, const Neighbor& b) noexcept {
     return a_is_nan == b_is_nan ? a.index < b.index : b_is_nan;
 }
 
-NeighborSearch::NeighborSearch(const Targets& targets, Poller& poller)
+NeighborSearch::NeighborSearch(const pairwise::Targets& targets, Poller& poller)
     : targets_(targets), poller_(poller), memory_(targets.make_memory()) {}
 
 bool NeighborSearch::comes_later(const Candidate& a, const Candidate& b) noexcept {
@@ -172,4 +172,4 @@ void NeighborSearch::finish_pair(TargetQuery& query, std::ptrdiff_t target) {
     count(poller_, steps);
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::nearest

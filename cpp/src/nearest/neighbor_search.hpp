@@ -17,7 +17,10 @@
 #include "pairwise/targets.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::nearest {
+
+using pairwise::TargetQuery;
+using runtime::Poller;
 
 // Smaller distances first, then smaller indices; distances that are no numbers last.
 bool is_nearer(const Neighbor& a, const Neighbor& b) noexcept;
@@ -25,7 +28,7 @@ bool is_nearer(const Neighbor& a, const Neighbor& b) noexcept;
 class NeighborSearch {
    public:
     // Throw Stopped where the poller of `call` says so. Count `all_steps` as done.
-    NeighborSearch(const Targets& targets, Poller& poller);
+    NeighborSearch(const pairwise::Targets& targets, Poller& poller);
 
     // The `count` nearest, in order. `left_out`: a target that is not looked at, or -1.
     std::vector<Neighbor> nearest(TargetQuery& query, std::int64_t all_steps, std::ptrdiff_t count,
@@ -55,9 +58,9 @@ class NeighborSearch {
     double cutoff() const noexcept;
     void finish_pair(TargetQuery& query, std::ptrdiff_t target);
 
-    const Targets& targets_;
+    const pairwise::Targets& targets_;
     Poller& poller_;
-    std::unique_ptr<ThreadMemory> memory_;
+    std::unique_ptr<pairwise::ThreadMemory> memory_;
     std::vector<double> quick_;
     std::vector<Candidate> heap_;
     std::vector<Neighbor> best_;  // a heap with the furthest on top
@@ -66,4 +69,4 @@ class NeighborSearch {
     SearchRecord record_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::nearest

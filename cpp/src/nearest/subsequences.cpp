@@ -21,11 +21,11 @@
 namespace curvewise {
 namespace {
 
-using detail::PackedCurve;
-using detail::PointOrder;
-using detail::Poller;
-using detail::Row;
-using detail::WarpingOptions;
+using runtime::Poller;
+using warping::PackedCurve;
+using warping::PointOrder;
+using warping::Row;
+using warping::WarpingOptions;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr WholeNumberRange count_range{1, "give a whole number >= 1"};
@@ -63,19 +63,19 @@ class LeastOfRow {
 
 class SubsequenceSearch {
    public:
-    SubsequenceSearch(const WarpingOptions& options, const detail::PackedPair& curves,
-                      const detail::RangeScale& range, Poller& poller)
+    SubsequenceSearch(const WarpingOptions& options, const warping::PackedPair& curves,
+                      const curves::RangeScale& range, Poller& poller)
         : curves_(curves),
           range_(range),
-          degree_(detail::degree(options.ground.metric)),
+          degree_(warping::degree(options.ground.metric)),
           cutoff_(options.cutoff),
           poller_(poller),
-          problem_{*detail::active_level().kernels,
+          problem_{*warping::active_level().kernels,
                    curves,
                    options.recurrence,
-                   detail::canonical_cost(options.ground, curves),
+                   warping::canonical_cost(options.ground, curves),
                    options.ground.p,
-                   detail::Band(curves.rows(), curves.columns(), std::nullopt),
+                   warping::Band(curves.rows(), curves.columns(), std::nullopt),
                    true,
                    options.workers,
                    poller,
@@ -119,7 +119,7 @@ class SubsequenceSearch {
             origins[j] = static_cast<double>(first + j);
         }
         if (n == 1) return;
-        detail::Destination destination;
+        warping::Destination destination;
         destination.origins = origins.data();
         sweep(problem_, {1, n - 1, first, columns}, false, values.data(), destination);
     }
@@ -139,14 +139,14 @@ class SubsequenceSearch {
         least_.update(values_, start, std::max(stop, end - 1));
     }
 
-    detail::PackedPair curves_;
-    detail::RangeScale range_;
+    warping::PackedPair curves_;
+    curves::RangeScale range_;
     int degree_;  // of homogeneity in the coordinates
     double cutoff_;
     bool squared_ = false;  // the table holds squares of the values
     Poller& poller_;
-    detail::SweepMemory memory_;
-    detail::SweepProblem problem_;
+    warping::SweepMemory memory_;
+    warping::SweepProblem problem_;
     // By the column where a run ends: the value of the best that is left, and where it begins.
     // Infinite where no run may end.
     Row values_;
@@ -157,12 +157,12 @@ class SubsequenceSearch {
 std::vector<Subsequence> find_subsequences(const CurveView& P, const CurveView& Q,
                                            std::ptrdiff_t count, const WarpingOptions& options,
                                            Control* control) {
-    detail::check_whole_number("k", count, count_range);
-    detail::check_shapes({options.measure, 1, false}, {P, "P"}, {Q, "Q"});
+    curves::check_whole_number("k", count, count_range);
+    curves::check_shapes({options.measure, 1, false}, {P, "P"}, {Q, "Q"});
     Poller poller(control);
-    const detail::CheckedCurve checked_p(P, "P", poller), checked_q(Q, "Q", poller);
+    const curves::CheckedCurve checked_p(P, "P", poller), checked_q(Q, "Q", poller);
     poller.begin(P.size() * Q.size());
-    const detail::RangeScale range(std::max(checked_p.largest, checked_q.largest));
+    const curves::RangeScale range(std::max(checked_p.largest, checked_q.largest));
     const PackedCurve p(P, range, PointOrder::forward, poller);
     poller.poll_in_loop(0);
     const PackedCurve q(Q, range, PointOrder::reversed, poller);
@@ -177,12 +177,12 @@ std::vector<Subsequence> subsequences(const CurveView& P, const CurveView& Q, st
                                       const DtwOptions& options, Control* control) {
     DtwOptions open = options;
     open.open_begin = open.open_end = true;
-    return find_subsequences(P, Q, count, detail::checked_options(open), control);
+    return find_subsequences(P, Q, count, warping::checked_options(open), control);
 }
 
 std::vector<Subsequence> subsequences(const CurveView& P, const CurveView& Q, std::ptrdiff_t count,
                                       const FrechetOptions& options, Control* control) {
-    return find_subsequences(P, Q, count, detail::checked_options(options), control);
+    return find_subsequences(P, Q, count, warping::checked_options(options), control);
 }
 
 }  // namespace curvewise

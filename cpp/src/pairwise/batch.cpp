@@ -5,7 +5,7 @@
 
 #include "runtime/workers.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::pairwise {
 namespace {
 
 // The curves of a list, found finite; their shapes have been checked.
@@ -81,7 +81,7 @@ std::vector<double> contiguous(const CurveView& curve, Poller& poller) {
 
 PairTiles tiles_of(const BatchMeasure& measure, const Sizes& rows, const Sizes& columns,
                    PairSet set, const BatchOutput& output) {
-    return {rows, columns, set, measure.steps(), resolve_workers(output.options.workers)};
+    return {rows, columns, set, measure.steps(), runtime::resolve_workers(output.options.workers)};
 }
 
 void run(const PairValues& pairs, const PairTiles& tiles, const BatchOutput& output,
@@ -168,4 +168,4 @@ void PreparedCurve::values(const CurveList& Qs, const BatchOutput& output) const
     run(*pairs, tiles, output, poller);
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::pairwise

@@ -13,7 +13,9 @@
 #include "pairwise/targets.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::pairwise {
+
+using curves::CurveList;
 
 // The hooks are what a measure class offers (measure.hpp); BatchOf implements them.
 class BatchMeasure {
@@ -39,7 +41,7 @@ class BatchMeasure {
     // Of the one curve of `rows`, and Q.
     virtual double value(const Rows& rows, const CheckedCurve& Q, Poller& poller) const = 0;
 
-    virtual Requirements requirements() const noexcept = 0;
+    virtual curves::Requirements requirements() const noexcept = 0;
     virtual void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const = 0;
     virtual PairTiles::Steps steps() const noexcept = 0;
     virtual std::unique_ptr<const Rows> prepare_rows(const std::vector<CheckedCurve>& P,
@@ -89,4 +91,4 @@ class PreparedCurve {
     std::unique_ptr<const BatchMeasure::Rows> rows_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::pairwise

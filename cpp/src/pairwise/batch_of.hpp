@@ -11,7 +11,7 @@
 #include "pairwise/measure.hpp"
 #include "pairwise/targets_of.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::pairwise {
 
 template <class M>
 class BatchOf final : public BatchMeasure {
@@ -25,7 +25,7 @@ class BatchOf final : public BatchMeasure {
         return measure_(p, q, {std::numeric_limits<double>::infinity(), 1, poller, memory});
     }
 
-    Requirements requirements() const noexcept override { return measure_.requirements(); }
+    curves::Requirements requirements() const noexcept override { return measure_.requirements(); }
 
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const override {
         measure_.check_sizes(n, m);
@@ -114,4 +114,4 @@ class BatchOf final : public BatchMeasure {
     M measure_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::pairwise

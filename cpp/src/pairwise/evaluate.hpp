@@ -6,7 +6,7 @@
 
 #include "pairwise/measure.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::pairwise {
 
 // Returns what use(prepared_p, prepared_q, call) returns.
 template <class M, class Use>
@@ -39,4 +39,4 @@ double evaluate(const M& measure, const CurveView& P, const CurveView& Q, Contro
     });
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::pairwise

@@ -42,7 +42,10 @@
 #include "curves/checks.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::pairwise {
+
+using curves::CheckedCurve;
+using runtime::Poller;
 
 // How a pair is computed.
 template <class Memory>
@@ -74,4 +77,4 @@ struct UnpreparedCurve {
     CheckedCurve checked;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::pairwise

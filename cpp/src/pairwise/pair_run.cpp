@@ -11,7 +11,7 @@
 
 #include "runtime/workers.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::pairwise {
 namespace {
 
 class PairRun {
@@ -21,14 +21,14 @@ class PairRun {
         : pairs_(pairs),
           tiles_(tiles),
           destination_(destination),
-          workers_(resolve_workers(options.workers)),
+          workers_(runtime::resolve_workers(options.workers)),
           cutoff_(options.cutoff) {}
 
     void run(Poller& poller) {
         if (pairs_.is_swept() && workers_ > 1) run_giants(poller);
         const auto useful = static_cast<std::ptrdiff_t>(tiles_.tiles().size());
-        run_workers(std::min(workers_, useful), poller,
-                    [this](std::ptrdiff_t /*w*/, Poller& own) { take_tiles(own); });
+        runtime::run_workers(std::min(workers_, useful), poller,
+                             [this](std::ptrdiff_t /*w*/, Poller& own) { take_tiles(own); });
         if (failure_) std::rethrow_exception(failure_);
     }
 
@@ -118,4 +118,4 @@ void run_pairs(const PairValues& pairs, const PairTiles& tiles, const PairDestin
     PairRun(pairs, tiles, destination, options).run(poller);
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::pairwise

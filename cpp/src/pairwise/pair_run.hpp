@@ -10,7 +10,9 @@
 #include "pairwise/pair_tiles.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::pairwise {
+
+using runtime::Poller;
 
 // Where the value of pair (i, j) goes.
 class PairDestination {
@@ -76,4 +78,4 @@ class PairValues {
 void run_pairs(const PairValues& pairs, const PairTiles& tiles, const PairDestination& destination,
                const BatchOptions& options, Poller& poller);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::pairwise

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace curvewise::detail {
+namespace curvewise::pairwise {
 namespace {
 
 // So many that no thread waits long for another when the tiles run out; a tile of 32 x 32 pairs is
@@ -72,4 +72,4 @@ PairTiles::PairTiles(const Sizes& rows, const Sizes& columns, PairSet set, Steps
                      [](const Tile& a, const Tile& b) { return a.largest > b.largest; });
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::pairwise

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace curvewise::detail {
+namespace curvewise::pairwise {
 
 using Sizes = std::vector<std::ptrdiff_t>;  // the number of points of every curve of a list
 
@@ -66,4 +66,4 @@ class PairTiles {
     std::int64_t total_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::pairwise

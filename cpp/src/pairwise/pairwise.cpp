@@ -9,16 +9,17 @@
 namespace curvewise {
 namespace {
 
-using detail::CurveList;
-using detail::PairDestination;
+using curves::CurveList;
+using pairwise::PairDestination;
 
-std::unique_ptr<const detail::BatchMeasure> batch_of(const Measure& measure) {
-    return std::visit([](const auto& options) { return detail::batch_measure(options); }, measure);
+std::unique_ptr<const pairwise::BatchMeasure> batch_of(const Measure& measure) {
+    return std::visit([](const auto& options) { return pairwise::batch_measure(options); },
+                      measure);
 }
 
 void check_options(const BatchOptions& options) {
-    detail::resolve_workers(options.workers);
-    detail::check_cutoff(options.cutoff);
+    runtime::resolve_workers(options.workers);
+    curves::check_cutoff(options.cutoff);
 }
 
 }  // namespace
@@ -70,7 +71,7 @@ void cdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
     const PairDestination destination(
         out, X.size(), halves ? PairDestination::Shape::mirrored : PairDestination::Shape::matrix);
     compute_batch(*batch_of(measure), {X, "XA"},
-                  halves ? detail::PairSet::triangle : detail::PairSet::rectangle,
+                  halves ? pairwise::PairSet::triangle : pairwise::PairSet::rectangle,
                   {destination, options, control});
 }
 
@@ -83,11 +84,11 @@ void pdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
     }
     check_options(options);
     const PairDestination condensed(out, X.size(), PairDestination::Shape::condensed);
-    compute_batch(*batch_of(measure), {X, "X"}, detail::PairSet::triangle,
+    compute_batch(*batch_of(measure), {X, "X"}, pairwise::PairSet::triangle,
                   {condensed, options, control});
 }
 
-class Prepared::State : public detail::PreparedCurve {
+class Prepared::State : public pairwise::PreparedCurve {
    public:
     using PreparedCurve::PreparedCurve;
 };

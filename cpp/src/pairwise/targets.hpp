@@ -10,7 +10,9 @@
 #include "curves/checks.hpp"
 #include "pairwise/pair_run.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::pairwise {
+
+using curves::CheckedCurve;
 
 // One P, prepared, for one thread.
 class TargetQuery {
@@ -60,4 +62,4 @@ class Targets {
     virtual std::unique_ptr<ThreadMemory> make_memory() const = 0;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::pairwise

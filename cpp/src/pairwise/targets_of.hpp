@@ -11,7 +11,7 @@
 #include "pairwise/targets.hpp"
 #include "runtime/room.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::pairwise {
 
 // In the place of M::Bounds: 0 is below every value.
 template <class M>
@@ -71,12 +71,12 @@ class TargetsOf final : public Targets {
     }
     void make_room(const Targets& targets) override {
         const auto& others = static_cast<const TargetsOf&>(targets);
-        detail::make_room(curves_, others.curves_.size());
+        runtime::make_room(curves_, others.curves_.size());
         bounds_.make_room(others.bounds_);
     }
     void take(Targets& targets) noexcept override {
         auto& others = static_cast<TargetsOf&>(targets);
-        move_behind(curves_, others.curves_);
+        runtime::move_behind(curves_, others.curves_);
         bounds_.take(others.bounds_);
         points_ += std::exchange(others.points_, 0);
     }
@@ -143,4 +143,4 @@ class TargetsOf final : public Targets {
     std::int64_t points_ = 0;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::pairwise

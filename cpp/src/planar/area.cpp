@@ -1,6 +1,6 @@
 // Algorithm 1 of Jekel et al. (2018): refinement, then the areas of the quadrilaterals between
 // the curves (quad.hpp). With Spacing::matched the curves are matched by a warping path instead
-// (matching.hpp), and areas have signs, which cancel within a piece.
+// (matched_curves.hpp), and areas have signs, which cancel within a piece.
 #include "curvewise/area.hpp"
 
 #include <algorithm>
@@ -14,20 +14,20 @@
 #include "curvewise/gradient.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
-#include "planar/matching.hpp"
+#include "planar/matched_curves.hpp"
 #include "planar/quad.hpp"
 #include "planar/refinement.hpp"
 
 namespace curvewise {
 namespace {
 
-using detail::Measured;
-using detail::Point;
-using detail::Polyline;
-using detail::Quad;
-using detail::RangeScale;
+using curves::Point;
+using curves::Polyline;
+using curves::RangeScale;
+using planar::Measured;
+using planar::Quad;
 
-// Of FacingCurves or of a Matching.
+// Of FacingCurves or of MatchedCurves.
 template <class Curves>
 Quad quad_at(const Curves& curves, std::size_t i) noexcept {
     return {curves.A[i], curves.A[i + 1], curves.B[i + 1], curves.B[i]};
@@ -35,7 +35,7 @@ Quad quad_at(const Curves& curves, std::size_t i) noexcept {
 
 // Of a curve before its refinement, given those by the vertices after it: a cut at a + h (b - a)
 // hands 1 - h of its own to a and h to b.
-void write_unrefined(const Polyline& by_vertex, const std::vector<detail::Cut>& cuts,
+void write_unrefined(const Polyline& by_vertex, const std::vector<planar::Cut>& cuts,
                      const RangeScale& range, int degree, double* gradient) {
     std::size_t vertex = 0;
     auto cut = cuts.begin();
@@ -55,14 +55,14 @@ void write_unrefined(const Polyline& by_vertex, const std::vector<detail::Cut>& 
     }
 }
 
-// Of Q, given those by the vertices of a matching's B: what is no vertex of Q lies at a fixed share
-// of its length.
-void write_unmatched(const Polyline& by_vertex, const detail::PlacesOnQ& on_q, const Polyline& q,
+// Of Q, given those by the vertices of MatchedCurves::B: what is no vertex of Q lies at a fixed
+// share of its length.
+void write_unmatched(const Polyline& by_vertex, const planar::PlacesOnQ& on_q, const Polyline& q,
                      const RangeScale& range, int degree, double* gradient,
-                     detail::Poller& poller) {
+                     runtime::Poller& poller) {
     std::fill_n(gradient, 2 * q.size(), 0.0);
-    const std::vector<double> arc_lengths = detail::arc_lengths(on_q.scaled, poller);
-    detail::ArcGradient by_arc(arc_lengths);
+    const std::vector<double> arc_lengths = curves::arc_lengths(on_q.scaled, poller);
+    curves::ArcGradient by_arc(arc_lengths);
     for (std::size_t i = 0; i < by_vertex.size(); ++i) {
         const auto& [is_vertex, k, h, share] = on_q.places[i];
         const Point& by_point = by_vertex[i];
@@ -89,21 +89,21 @@ void write_unmatched(const Polyline& by_vertex, const detail::PlacesOnQ& on_q, c
     }
 }
 
-class AreaMeasure : public detail::LinearMeasure {
+class AreaMeasure : public pairwise::LinearMeasure {
    public:
-    using PreparedP = detail::UnpreparedCurve;
-    using PreparedQ = detail::UnpreparedCurve;
+    using PreparedP = pairwise::UnpreparedCurve;
+    using PreparedQ = pairwise::UnpreparedCurve;
 
     explicit AreaMeasure(const AreaOptions& options) : options_(options) {}
-    static detail::Requirements requirements() noexcept { return {AreaOptions::measure, 2, true}; }
+    static curves::Requirements requirements() noexcept { return {AreaOptions::measure, 2, true}; }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
-                      const detail::Call<Memory>& call) const {
+                      const pairwise::Call<Memory>& call) const {
         const RangeScale range = range_of(P, Q);
         double sum = 0.0;
         const auto add = [&](double area) { sum += options_.squared ? area * area : area; };
         if (options_.spacing == Spacing::matched) {
-            for_each_piece(detail::match(P.checked.curve, Q.checked.curve, range, call.poller),
+            for_each_piece(planar::match(P.checked.curve, Q.checked.curve, range, call.poller),
                            call.poller,
                            [&](const auto&, auto, auto, double area) { add(std::abs(area)); });
         } else {
@@ -114,7 +114,7 @@ class AreaMeasure : public detail::LinearMeasure {
 
     // The quadrilaterals and their areas.
     AreaQuads quads(const PreparedP& P, const PreparedQ& Q,
-                    const detail::Call<Memory>& call) const {
+                    const pairwise::Call<Memory>& call) const {
         const RangeScale range = range_of(P, Q);
         const auto restored = [&](const Point& point) -> std::array<double, 2> {
             return {range.restore(point.x, 1), range.restore(point.y, 1)};
@@ -135,10 +135,10 @@ class AreaMeasure : public detail::LinearMeasure {
                 for (std::size_t i = first; i < end; ++i) {
                     const Quad quad = quad_at(curves, i);
                     const double part = quad.signed_area();
-                    add({quad, area < 0.0 ? -part : part, detail::Figure::simple});
+                    add({quad, area < 0.0 ? -part : part, planar::Figure::simple});
                 }
             };
-            for_each_piece(detail::match(P.checked.curve, Q.checked.curve, range, call.poller),
+            for_each_piece(planar::match(P.checked.curve, Q.checked.curve, range, call.poller),
                            call.poller, visit);
         } else {
             for_each_quad(P, Q, range, call.poller, add);
@@ -148,10 +148,10 @@ class AreaMeasure : public detail::LinearMeasure {
 
     // The area, and its derivative by Q.
     double with_gradient(const PreparedP& P, const PreparedQ& Q, double* gradient,
-                         const detail::Call<Memory>& call) const {
+                         const pairwise::Call<Memory>& call) const {
         const RangeScale range = range_of(P, Q);
-        const detail::FacingCurves curves =
-            detail::face(P.checked.curve, Q.checked.curve, range, options_.spacing, call.poller);
+        const planar::FacingCurves curves =
+            planar::face(P.checked.curve, Q.checked.curve, range, options_.spacing, call.poller);
         const bool q_is_a = P.checked.curve.size() < Q.checked.curve.size();
         Polyline by_vertex(curves.A.size(), Point{0.0, 0.0});
         double sum = 0.0;
@@ -160,7 +160,7 @@ class AreaMeasure : public detail::LinearMeasure {
             const Quad quad = quad_at(curves, i);
             const Measured measured = measure(quad, options_.crossing);
             sum += options_.squared ? measured.area * measured.area : measured.area;
-            const detail::CornerGradient by_corner = area_gradient(quad, measured.figure);
+            const planar::CornerGradient by_corner = area_gradient(quad, measured.figure);
             const double weight = options_.squared ? 2.0 * measured.area : 1.0;
             const Point& first = by_corner[q_is_a ? 0 : 3];
             const Point& second = by_corner[q_is_a ? 1 : 2];
@@ -170,18 +170,18 @@ class AreaMeasure : public detail::LinearMeasure {
             by_vertex[i + 1].y += weight * second.y;
         }
         const int degree = options_.squared ? 4 : 2;
-        const std::vector<detail::Cut> none;
+        const std::vector<planar::Cut> none;
         write_unrefined(by_vertex, q_is_a ? none : curves.cuts, range, degree - 1, gradient);
         return range.restore(sum, degree);
     }
 
     // The same with Spacing::matched.
     double with_matched_gradient(const PreparedP& P, const PreparedQ& Q, double* gradient,
-                                 const detail::Call<Memory>& call) const {
+                                 const pairwise::Call<Memory>& call) const {
         const RangeScale range = range_of(P, Q);
-        detail::PlacesOnQ on_q;
-        const detail::Matching curves =
-            detail::match(P.checked.curve, Q.checked.curve, range, call.poller, &on_q);
+        planar::PlacesOnQ on_q;
+        const planar::MatchedCurves curves =
+            planar::match(P.checked.curve, Q.checked.curve, range, call.poller, &on_q);
         Polyline by_vertex(curves.B.size(), Point{0.0, 0.0});
         double sum = 0.0;
         for_each_piece(curves, call.poller, [&](const auto&, auto first, auto end, double area) {
@@ -197,7 +197,7 @@ class AreaMeasure : public detail::LinearMeasure {
             }
         });
         const int degree = options_.squared ? 4 : 2;
-        write_unmatched(by_vertex, on_q, detail::polyline(Q.checked.curve, range, call.poller),
+        write_unmatched(by_vertex, on_q, curves::polyline(Q.checked.curve, range, call.poller),
                         range, degree - 1, gradient, call.poller);
         return range.restore(sum, degree);
     }
@@ -210,20 +210,20 @@ class AreaMeasure : public detail::LinearMeasure {
     // Calls visit(measured) for one quadrilateral after the other, in the given range.
     template <class Visit>
     void for_each_quad(const PreparedP& P, const PreparedQ& Q, const RangeScale& range,
-                       detail::Poller& poller, Visit visit) const {
-        const detail::FacingCurves curves =
-            detail::face(P.checked.curve, Q.checked.curve, range, options_.spacing, poller);
+                       runtime::Poller& poller, Visit visit) const {
+        const planar::FacingCurves curves =
+            planar::face(P.checked.curve, Q.checked.curve, range, options_.spacing, poller);
         for (std::size_t i = 0; i + 1 < curves.A.size(); ++i) {
             poller.poll_in_loop(i);
             visit(measure(quad_at(curves, i), options_.crossing));
         }
     }
 
-    // Calls visit(curves, first, end, area) for one piece of a matching after the other: its
-    // quadrilaterals are those from `first` to before `end`, and their areas, with their signs,
+    // Calls visit(curves, first, end, area) for one piece of the matched curves after the other:
+    // its quadrilaterals are those from `first` to before `end`, and their areas, with their signs,
     // make up `area`.
     template <class Visit>
-    static void for_each_piece(const detail::Matching& curves, detail::Poller& poller,
+    static void for_each_piece(const planar::MatchedCurves& curves, runtime::Poller& poller,
                                Visit visit) {
         std::size_t first = 0;
         for (const std::size_t end : curves.ends) {
@@ -243,13 +243,13 @@ class AreaMeasure : public detail::LinearMeasure {
 }  // namespace
 
 double area(const CurveView& P, const CurveView& Q, const AreaOptions& options, Control* control) {
-    return detail::evaluate(AreaMeasure(options), P, Q, control);
+    return pairwise::evaluate(AreaMeasure(options), P, Q, control);
 }
 
 AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& options,
                      Control* control) {
     const AreaMeasure measure(options);
-    return detail::with_pair(
+    return pairwise::with_pair(
         measure, P, Q, control,
         [&](const auto& p, const auto& q, const auto& call) { return measure.quads(p, q, call); });
 }
@@ -261,15 +261,15 @@ double value_and_gradient(const AreaOptions& options, const CurveView& P, const 
             "area has no gradient with spacing='arc_length'; choose from distance, x, matched");
     }
     const AreaMeasure measure(options);
-    return detail::with_pair(measure, P, Q, control,
-                             [&](const auto& p, const auto& q, const auto& call) {
-                                 return options.spacing == Spacing::matched
-                                            ? measure.with_matched_gradient(p, q, gradient, call)
-                                            : measure.with_gradient(p, q, gradient, call);
-                             });
+    return pairwise::with_pair(measure, P, Q, control,
+                               [&](const auto& p, const auto& q, const auto& call) {
+                                   return options.spacing == Spacing::matched
+                                              ? measure.with_matched_gradient(p, q, gradient, call)
+                                              : measure.with_gradient(p, q, gradient, call);
+                               });
 }
 
-std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(const AreaOptions& options) {
+std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(const AreaOptions& options) {
     return std::make_unique<BatchOf<AreaMeasure>>(AreaMeasure(options));
 }
 

@@ -19,9 +19,9 @@
 namespace curvewise {
 namespace {
 
-using detail::Poller;
-using detail::Polyline;
-using detail::RangeScale;
+using curves::Polyline;
+using curves::RangeScale;
+using runtime::Poller;
 
 // The arc lengths after dividing each coordinate by the curve's own largest magnitude.
 std::vector<double> relative_arc_lengths(const CurveView& curve, Poller& poller) {
@@ -40,7 +40,7 @@ std::vector<double> relative_arc_lengths(const CurveView& curve, Poller& poller)
         poller.poll_in_loop(static_cast<std::size_t>(i));
         scaled.push_back({curve(i, 0) / largest[0], curve(i, 1) / largest[1]});
     }
-    return detail::arc_lengths(scaled, poller);
+    return curves::arc_lengths(scaled, poller);
 }
 
 // A place on a curve: a segment and a fraction of it.
@@ -55,7 +55,7 @@ std::vector<Place> corresponding_places(const std::vector<double>& s, const std:
     const double ratio = t.back() / s.back();
     std::vector<Place> places;
     places.reserve(s.size());
-    detail::ArcPosition position(t);
+    curves::ArcPosition position(t);
     for (std::size_t i = 0; i < s.size(); ++i) {
         poller.poll_in_loop(i);
         position.move_to(i + 1 < s.size() ? s[i] * ratio : t.back());
@@ -154,7 +154,7 @@ std::ptrdiff_t largest_of(const CurveView& curve, std::ptrdiff_t c) noexcept {
 
 // Adds the derivatives by Q's points that its arc lengths hand on, which are taken after dividing
 // by its largest |x| and |y|: these move too.
-void add_arc_gradient(const CurveView& Q, const detail::ArcGradient& by_arc, double* gradient) {
+void add_arc_gradient(const CurveView& Q, const curves::ArcGradient& by_arc, double* gradient) {
     for (std::ptrdiff_t c = 0; c < 2; ++c) {
         const std::ptrdiff_t largest = largest_of(Q, c);
         const double divisor = Q(largest, c);
@@ -170,21 +170,21 @@ void add_arc_gradient(const CurveView& Q, const detail::ArcGradient& by_arc, dou
     }
 }
 
-class CurveLengthMeasure : public detail::LinearMeasure {
+class CurveLengthMeasure : public pairwise::LinearMeasure {
    public:
     struct Side {
-        Side(const detail::CheckedCurve& curve, Poller& poller)
+        Side(const curves::CheckedCurve& curve, Poller& poller)
             : checked(curve), arc_lengths(relative_arc_lengths(curve.curve, poller)) {
-            detail::check_length(curve.curve, curve.name, CurveLengthOptions::measure, poller);
+            curves::check_length(curve.curve, curve.name, CurveLengthOptions::measure, poller);
         }
-        detail::CheckedCurve checked;
+        curves::CheckedCurve checked;
         std::vector<double> arc_lengths;  // after dividing by its largest |x| and |y|
     };
     using PreparedP = Side;
     using PreparedQ = Side;
 
     explicit CurveLengthMeasure(const CurveLengthOptions& options) : options_(options) {}
-    static detail::Requirements requirements() noexcept {
+    static curves::Requirements requirements() noexcept {
         return {CurveLengthOptions::measure, 2, true};
     }
 
@@ -197,7 +197,7 @@ class CurveLengthMeasure : public detail::LinearMeasure {
     }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
-                      const detail::Call<Memory>& call) const {
+                      const pairwise::Call<Memory>& call) const {
         std::vector<double> all(2 * P.arc_lengths.size());
         residuals(P, Q, all.data(), call);
         double sum = 0.0;
@@ -211,7 +211,7 @@ class CurveLengthMeasure : public detail::LinearMeasure {
     }
 
     void residuals(const PreparedP& P, const PreparedQ& Q, double* out,
-                   const detail::Call<Memory>& call) const {
+                   const pairwise::Call<Memory>& call) const {
         const std::vector<Place> places =
             corresponding_places(P.arc_lengths, Q.arc_lengths, call.poller);
         for (std::ptrdiff_t c = 0; c < 2; ++c) {
@@ -223,14 +223,14 @@ class CurveLengthMeasure : public detail::LinearMeasure {
 
     // The value, and its derivative by Q.
     double with_gradient(const PreparedP& P, const PreparedQ& Q, double* gradient,
-                         const detail::Call<Memory>& call) const {
+                         const pairwise::Call<Memory>& call) const {
         const double value = (*this)(P, Q, call);
         const CurveView& q = Q.checked.curve;
         std::fill_n(gradient, static_cast<std::size_t>(2 * q.size()), 0.0);
         if (value == 0.0) return value;
         const std::vector<Place> places =
             corresponding_places(P.arc_lengths, Q.arc_lengths, call.poller);
-        detail::ArcGradient by_arc(Q.arc_lengths);
+        curves::ArcGradient by_arc(Q.arc_lengths);
         for (std::ptrdiff_t c = 0; c < 2; ++c) {
             const Coordinate x(P.checked.curve, q, c, call.poller);
             const double scale = coordinate_scale(x, options_.scale, P.checked.name, call.poller);
@@ -260,27 +260,28 @@ class CurveLengthMeasure : public detail::LinearMeasure {
 
 double curve_length(const CurveView& P, const CurveView& Q, const CurveLengthOptions& options,
                     Control* control) {
-    return detail::evaluate(CurveLengthMeasure(options), P, Q, control);
+    return pairwise::evaluate(CurveLengthMeasure(options), P, Q, control);
 }
 
 void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
                             const CurveLengthOptions& options, Control* control) {
     const CurveLengthMeasure measure(options);
-    detail::with_pair(measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
-        measure.residuals(p, q, out, call);
-    });
+    pairwise::with_pair(measure, P, Q, control,
+                        [&](const auto& p, const auto& q, const auto& call) {
+                            measure.residuals(p, q, out, call);
+                        });
 }
 
 double value_and_gradient(const CurveLengthOptions& options, const CurveView& P, const CurveView& Q,
                           double* gradient, Control* control) {
     const CurveLengthMeasure measure(options);
-    return detail::with_pair(measure, P, Q, control,
-                             [&](const auto& p, const auto& q, const auto& call) {
-                                 return measure.with_gradient(p, q, gradient, call);
-                             });
+    return pairwise::with_pair(measure, P, Q, control,
+                               [&](const auto& p, const auto& q, const auto& call) {
+                                   return measure.with_gradient(p, q, gradient, call);
+                               });
 }
 
-std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(
+std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(
     const CurveLengthOptions& options) {
     return std::make_unique<BatchOf<CurveLengthMeasure>>(CurveLengthMeasure(options));
 }

@@ -14,8 +14,11 @@
 #include <cstdint>
 #include <limits>
 
-namespace curvewise::detail {
+namespace curvewise::planar {
 namespace {
+
+using curves::ArcPosition;
+using curves::Point;
 
 // Of S; and of the value, where that is so far above S that the last bits of its sum are more.
 constexpr double finest_tolerance = 1e-12;
@@ -313,4 +316,4 @@ Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poll
     return best;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::planar

@@ -11,7 +11,10 @@
 #include "curves/arc_length.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::planar {
+
+using curves::ArcCurve;
+using runtime::Poller;
 
 struct Offset {
     double at;
@@ -40,4 +43,4 @@ struct SearchEffort {
 Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poller,
                    const SearchEffort& effort = {});
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::planar

@@ -17,8 +17,8 @@
 namespace curvewise {
 namespace {
 
-using detail::ArcCurve;
-using detail::CheckedCurve;
+using curves::ArcCurve;
+using curves::CheckedCurve;
 
 constexpr double equal_lengths = 1e-12;  // relative; within it P counts as the shorter curve
 
@@ -35,27 +35,27 @@ struct Roles {
 };
 
 // A curve scaled by a box.
-ArcCurve scaled(const CheckedCurve& checked, const detail::Box& box, detail::Poller& poller) {
-    detail::check_length(checked.curve, checked.name, PcmOptions::measure, poller);
-    return {detail::box_scaled(checked.curve, box, poller),
-            detail::box_scaled_arc_lengths(checked.curve, box, poller)};
+ArcCurve scaled(const CheckedCurve& checked, const curves::Box& box, runtime::Poller& poller) {
+    curves::check_length(checked.curve, checked.name, PcmOptions::measure, poller);
+    return {curves::box_scaled(checked.curve, box, poller),
+            curves::box_scaled_arc_lengths(checked.curve, box, poller)};
 }
 
 // A curve too long for a double is infinitely far from everything.
-detail::Offset best_offset(const Roles& roles, const PcmOptions& options, detail::Poller& poller) {
+planar::Offset best_offset(const Roles& roles, const PcmOptions& options, runtime::Poller& poller) {
     const double infinity = std::numeric_limits<double>::infinity();
     if (!std::isfinite(roles.longer.length())) return {0.0, infinity, infinity};
     return options.continuous
-               ? detail::best_of_all(roles.shorter, roles.longer, poller)
-               : detail::best_of_grid(roles.shorter, roles.longer, options.offsets, poller);
+               ? planar::best_of_all(roles.shorter, roles.longer, poller)
+               : planar::best_of_grid(roles.shorter, roles.longer, options.offsets, poller);
 }
 
 // Where the shorter curve's vertices lie on the unscaled longer one.
 std::vector<std::array<double, 2>> mapped_points(const Roles& roles, const CurveView& longer,
-                                                 double offset, detail::Poller& poller) {
+                                                 double offset, runtime::Poller& poller) {
     std::vector<std::array<double, 2>> points;
     points.reserve(roles.shorter.arc_lengths().size());
-    detail::ArcPosition position(roles.longer.arc_lengths());
+    curves::ArcPosition position(roles.longer.arc_lengths());
     for (const double s : roles.shorter.arc_lengths()) {
         poller.poll_in_loop(points.size());
         position.move_to(s + offset);
@@ -70,34 +70,35 @@ std::vector<std::array<double, 2>> mapped_points(const Roles& roles, const Curve
     return points;
 }
 
-class PcmMeasure : public detail::LinearMeasure {
+class PcmMeasure : public pairwise::LinearMeasure {
    public:
     struct PreparedP {
-        PreparedP(const CheckedCurve& P, detail::Poller& poller)
+        PreparedP(const CheckedCurve& P, runtime::Poller& poller)
             : checked(P), box(P.curve), curve(scaled(P, box, poller)) {}
         CheckedCurve checked;
-        detail::Box box;
+        curves::Box box;
         ArcCurve curve;  // scaled by its own box
     };
-    using PreparedQ = detail::UnpreparedCurve;
+    using PreparedQ = pairwise::UnpreparedCurve;
 
     explicit PcmMeasure(const PcmOptions& options) : options_(options) {
         if (!options.continuous) {
-            detail::check_whole_number("offsets", options.offsets, offsets_range);
+            curves::check_whole_number("offsets", options.offsets, offsets_range);
         }
     }
-    static detail::Requirements requirements() noexcept { return {PcmOptions::measure, 2, true}; }
+    static curves::Requirements requirements() noexcept { return {PcmOptions::measure, 2, true}; }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
-                      const detail::Call<Memory>& call) const {
+                      const pairwise::Call<Memory>& call) const {
         const ArcCurve q = scaled(Q.checked, P.box, call.poller);
         return best_offset(Roles(P.curve, q), options_, call.poller).area;
     }
 
-    PcmMatch match(const PreparedP& P, const PreparedQ& Q, const detail::Call<Memory>& call) const {
+    PcmMatch match(const PreparedP& P, const PreparedQ& Q,
+                   const pairwise::Call<Memory>& call) const {
         const ArcCurve q = scaled(Q.checked, P.box, call.poller);
         const Roles roles(P.curve, q);
-        const detail::Offset best = best_offset(roles, options_, call.poller);
+        const planar::Offset best = best_offset(roles, options_, call.poller);
         PcmMatch match;
         match.value = best.area;
         match.offset = best.at;
@@ -121,18 +122,18 @@ class PcmMeasure : public detail::LinearMeasure {
 }  // namespace
 
 double pcm(const CurveView& P, const CurveView& Q, const PcmOptions& options, Control* control) {
-    return detail::evaluate(PcmMeasure(options), P, Q, control);
+    return pairwise::evaluate(PcmMeasure(options), P, Q, control);
 }
 
 PcmMatch pcm_match(const CurveView& P, const CurveView& Q, const PcmOptions& options,
                    Control* control) {
     const PcmMeasure measure(options);
-    return detail::with_pair(
+    return pairwise::with_pair(
         measure, P, Q, control,
         [&](const auto& p, const auto& q, const auto& call) { return measure.match(p, q, call); });
 }
 
-std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(const PcmOptions& options) {
+std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(const PcmOptions& options) {
     return std::make_unique<BatchOf<PcmMeasure>>(PcmMeasure(options));
 }
 

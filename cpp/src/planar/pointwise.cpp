@@ -16,11 +16,11 @@ namespace {
 template <class Term>
 double sum_of(const CurveView& P, const CurveView& Q, const char* measure, double divisor,
               int degree, Control* control, Term term) {
-    detail::check_equal_shapes(P, Q, measure);
-    detail::Poller poller(control);
+    curves::check_equal_shapes(P, Q, measure);
+    runtime::Poller poller(control);
     poller.begin(P.size() + Q.size());
-    const detail::CheckedCurve checked_p(P, "P", poller), checked_q(Q, "Q", poller);
-    const detail::RangeScale range(std::max(checked_p.largest, checked_q.largest));
+    const curves::CheckedCurve checked_p(P, "P", poller), checked_q(Q, "Q", poller);
+    const curves::RangeScale range(std::max(checked_p.largest, checked_q.largest));
     double sum = 0.0;
     poller.in_runs(P.size(), P.dim(), [&](std::ptrdiff_t first, std::ptrdiff_t end) {
         for (std::ptrdiff_t i = first; i < end; ++i) {
@@ -46,7 +46,7 @@ double sum_of_squares(const CurveView& P, const CurveView& Q, Control* control) 
 double sum_of_squares_and_gradient(const CurveView& P, const CurveView& Q, double* gradient,
                                    Control* control) {
     const double value = sum_of_squares(P, Q, control);
-    detail::Poller poller(control);
+    runtime::Poller poller(control);
     poller.in_runs(Q.size(), Q.dim(), [&](std::ptrdiff_t first, std::ptrdiff_t end) {
         for (std::ptrdiff_t i = first; i < end; ++i) {
             for (std::ptrdiff_t c = 0; c < Q.dim(); ++c) {
@@ -68,12 +68,12 @@ double mae(const CurveView& P, const CurveView& Q, Control* control) {
 
 void normalize(const CurveView& P, const CurveView& C, double* out, const char* name,
                Control* control) {
-    detail::check_shapes({"normalize", 1, false}, {P, "P"}, {C, name});
-    detail::Poller poller(control);
+    curves::check_shapes({"normalize", 1, false}, {P, "P"}, {C, name});
+    runtime::Poller poller(control);
     poller.begin(P.size() + C.size());
-    const detail::CheckedCurve checked_p(P, "P", poller), checked_c(C, name, poller);
+    const curves::CheckedCurve checked_p(P, "P", poller), checked_c(C, name, poller);
     for (std::ptrdiff_t c = 0; c < P.dim(); ++c) {
-        const detail::BoxSide side(P, c);
+        const curves::BoxSide side(P, c);
         poller.in_runs(C.size(), 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
             for (std::ptrdiff_t i = first; i < end; ++i)
                 out[i * P.dim() + c] = side.scaled(C(i, c));

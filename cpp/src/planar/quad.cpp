@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace curvewise::detail {
+namespace curvewise::planar {
 namespace {
 
 double sign(double x) noexcept { return static_cast<double>((x > 0.0) - (x < 0.0)); }
@@ -82,4 +82,4 @@ CornerGradient area_gradient(const Quad& quad, Figure figure) noexcept {
     return {gradient[3], gradient[0], gradient[1], gradient[2]};
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::planar

@@ -9,7 +9,9 @@
 #include "curves/polyline.hpp"
 #include "curvewise/area.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::planar {
+
+using curves::Point;
 
 struct Quad {
     Point a, b, c, d;
@@ -84,4 +86,4 @@ CornerGradient signed_area_gradient(const Quad& quad) noexcept;
 
 CornerGradient area_gradient(const Quad& quad, Figure figure) noexcept;
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::planar

@@ -7,7 +7,7 @@
 
 #include "curves/arc_length.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::planar {
 namespace {
 
 // Ties between segments that are equally long but for rounding must not be decided by it: the
@@ -18,7 +18,7 @@ double rounded_to_34_bits(double length) noexcept {
     return std::ldexp(std::nearbyint(std::ldexp(mantissa, 34)), exponent - 34);
 }
 
-double segment_length(const Point& edge, Spacing spacing) noexcept {
+double segment_length(const curves::Point& edge, Spacing spacing) noexcept {
     return rounded_to_34_bits(spacing == Spacing::x ? std::abs(edge.x)
                                                     : std::sqrt(edge.x * edge.x + edge.y * edge.y));
 }
@@ -98,7 +98,7 @@ class RelativeWalk {
     // Of the next vertex; beyond the last one, further than any.
     double next() const noexcept { return at_end() ? 2.0 : u_[vertex_ + 1]; }
     // The point at u, at most next(); passes the vertex there.
-    Point advance(double u) noexcept {
+    curves::Point advance(double u) noexcept {
         if (next() == u) return curve_[++vertex_];
         if (at_end()) return curve_.back();
         const double h = (u - u_[vertex_]) / (u_[vertex_ + 1] - u_[vertex_]);
@@ -129,12 +129,12 @@ FacingCurves face_by_arc_length(const Polyline& P, const Polyline& Q, std::vecto
 
 }  // namespace
 
-FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& range, Spacing spacing,
-                  Poller& poller) {
+FacingCurves face(const CurveView& P, const CurveView& Q, const curves::RangeScale& range,
+                  Spacing spacing, Poller& poller) {
     Polyline A = polyline(P, range, poller);
     Polyline B = polyline(Q, range, poller);
     if (spacing == Spacing::arc_length) {
-        const Box box(P);
+        const curves::Box box(P);
         return face_by_arc_length(A, B, box_scaled_arc_lengths(P, box, poller),
                                   box_scaled_arc_lengths(Q, box, poller), poller);
     }
@@ -147,4 +147,4 @@ FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& rang
     return {std::move(A), std::move(B), std::move(cuts)};
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::planar

@@ -11,7 +11,10 @@
 #include "curvewise/area.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::planar {
+
+using curves::Polyline;
+using runtime::Poller;
 
 using Cut = std::pair<std::size_t, double>;  // segment, fraction of it
 
@@ -25,7 +28,7 @@ struct FacingCurves {
 // the longest segment is bisected, again and again. O((n - m) log m). For `arc_length`, A is P and
 // B is Q, each with a vertex wherever the other has one. O(n + m). Coordinates come out in `range`.
 // Throws Stopped where the poller says so.
-FacingCurves face(const CurveView& P, const CurveView& Q, const RangeScale& range, Spacing spacing,
-                  Poller& poller);
+FacingCurves face(const CurveView& P, const CurveView& Q, const curves::RangeScale& range,
+                  Spacing spacing, Poller& poller);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::planar

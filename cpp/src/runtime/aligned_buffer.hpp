@@ -6,7 +6,7 @@
 #include <memory>
 #include <new>
 
-namespace curvewise::detail {
+namespace curvewise::runtime {
 
 class AlignedBuffer {
    public:
@@ -38,4 +38,4 @@ class AlignedBuffer {
     std::ptrdiff_t size_ = 0;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::runtime

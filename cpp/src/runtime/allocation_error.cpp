@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-namespace curvewise::detail {
+namespace curvewise::runtime {
 
 AllocationError::AllocationError(const std::string& what_for, double bytes) {
     char size[32];
@@ -10,4 +10,4 @@ AllocationError::AllocationError(const std::string& what_for, double bytes) {
     message_ = "no memory for " + what_for + ", " + size;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::runtime

@@ -6,7 +6,7 @@
 #include <new>
 #include <string>
 
-namespace curvewise::detail {
+namespace curvewise::runtime {
 
 class AllocationError : public std::bad_alloc {
    public:
@@ -25,4 +25,4 @@ std::unique_ptr<T[]> allocate(std::ptrdiff_t size, const std::string& what_for) 
     return data;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::runtime

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace curvewise::detail {
+namespace curvewise::runtime {
 
 Poller::Poller(Control* control, Role role) : control_(control), role_(role) {
     if (control_ != nullptr) next_report_ = Clock::now() + control_->interval_;
@@ -47,4 +47,4 @@ void Poller::report(std::int64_t most) {
     next_report_ = Clock::now() + control_->interval_;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::runtime

@@ -11,7 +11,7 @@
 
 #include "curvewise/control.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::runtime {
 
 class Poller {
    public:
@@ -96,4 +96,4 @@ class Poller {
     Clock::time_point next_report_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::runtime

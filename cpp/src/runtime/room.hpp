@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace curvewise::detail {
+namespace curvewise::runtime {
 
 // Room for `more` elements; at least twice what there is, so that many small steps stay cheap.
 template <class T>
@@ -25,4 +25,4 @@ void move_behind(std::vector<T>& to, std::vector<T>& from) noexcept {
     from.clear();
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::runtime

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace curvewise::detail {
+namespace curvewise::runtime {
 
 class Stopwatch {
    public:
@@ -19,4 +19,4 @@ class Stopwatch {
     Clock::time_point start_ = Clock::now();
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::runtime

@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-namespace curvewise::detail {
+namespace curvewise::runtime {
 namespace {
 
 // How long a thread that waits for another sleeps at most before it looks at its poller.
@@ -115,4 +115,4 @@ bool Pipeline::is_finished(std::ptrdiff_t strip) const noexcept {
     return strip < 0 || reached(strip + 1, std::numeric_limits<std::ptrdiff_t>::max());
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::runtime

@@ -11,7 +11,7 @@
 
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::runtime {
 
 // The number of threads that `workers` asks for: -1 is one per core. Throws std::invalid_argument
 // for 0 and for what is below -1.
@@ -53,4 +53,4 @@ class Pipeline {
     std::condition_variable moved_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::runtime

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 struct ColumnRange {
     std::ptrdiff_t first;
@@ -41,4 +41,4 @@ class Band {
     bool limited_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -25,10 +25,10 @@
 #include "warping/box_tree.hpp"
 #include "warping/kernels/block.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // Runs of `block_side` points: the grain of the front.
-struct Runs {
+struct RunRange {
     std::ptrdiff_t first;
     std::ptrdiff_t end;
 };
@@ -78,14 +78,14 @@ class BlockRecursion {
         Box child(std::ptrdiff_t which) const noexcept { return {level - 1, 2 * index + which}; }
     };
 
-    static Runs runs(const BoxTree& tree, const Box& box) noexcept {
+    static RunRange runs(const BoxTree& tree, const Box& box) noexcept {
         const std::ptrdiff_t shift = std::max<std::ptrdiff_t>(box.level - block_level, 0);
         return {box.index << shift, std::min((box.index + 1) << shift, runs_of(tree.size()))};
     }
 
     void visit(const Box& p, const Box& q, typename Front::Value corner) {
         ++counts_.blocks;
-        const Runs rows = runs(P_, p), columns = runs(Q_, q);
+        const RunRange rows = runs(P_, p), columns = runs(Q_, q);
         const double* const p_box = P_.box(p.level, p.index);
         const double* const q_box = Q_.box(q.level, q.index);
         std::int64_t effort = effort_of_a_block;
@@ -119,7 +119,7 @@ class BlockRecursion {
         if (poller_.poll()) throw Stopped();
     }
 
-    static double points_in(const BoxTree& tree, const Runs& runs) noexcept {
+    static double points_in(const BoxTree& tree, const RunRange& runs) noexcept {
         return static_cast<double>(std::min(runs.end * kernels::block_side, tree.size()) -
                                    runs.first * kernels::block_side);
     }
@@ -161,4 +161,4 @@ class BlockRecursion {
     std::int64_t effort_ = 0;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

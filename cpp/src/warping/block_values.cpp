@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -19,16 +19,16 @@ std::ptrdiff_t FrontSide::points_of(std::ptrdiff_t run) const noexcept {
     return std::min(kernels::block_side, points_ - run * kernels::block_side);
 }
 
-double FrontSide::lowest(const Runs& runs) const noexcept {
+double FrontSide::lowest(const RunRange& runs) const noexcept {
     return *std::min_element(lowest_.data() + runs.first, lowest_.data() + runs.end);
 }
 
-void FrontSide::fill(const Runs& runs, double value) noexcept {
+void FrontSide::fill(const RunRange& runs, double value) noexcept {
     std::fill(lowest_.data() + runs.first, lowest_.data() + runs.end, value);
     std::fill(is_even_.data() + runs.first, is_even_.data() + runs.end, std::uint8_t{1});
 }
 
-void FrontSide::take_smallest_so_far(const Runs& runs, double entering) noexcept {
+void FrontSide::take_smallest_so_far(const RunRange& runs, double entering) noexcept {
     double smallest = entering;
     for (std::ptrdiff_t run = runs.first; run < runs.end; ++run) {
         double& lowest = lowest_[static_cast<std::size_t>(run)];
@@ -67,14 +67,14 @@ void FrontSide::changed(std::ptrdiff_t run, double upper) noexcept {
 ValueFront::ValueFront(const PackedPair& curves, double upper, kernels::ValueFunction values)
     : curves_(curves), upper_(upper), values_(values), p_(curves.rows()), q_(curves.columns()) {}
 
-void ValueFront::block(const Runs& p, const Runs& q) noexcept {
+void ValueFront::block(const RunRange& p, const RunRange& q) noexcept {
     p_.fill(p, infinity);
     q_.fill(q, infinity);
 }
 
 // The smallest value that leads into a cell: from the other side all of it, from its own what
 // comes before.
-void ValueFront::pass(const Runs& p, const Runs& q, double corner) noexcept {
+void ValueFront::pass(const RunRange& p, const RunRange& q, double corner) noexcept {
     const double into_p = std::min(corner, q_.lowest(q));
     const double into_q = std::min(corner, p_.lowest(p));
     p_.take_smallest_so_far(p, into_p);
@@ -93,4 +93,4 @@ std::int64_t ValueFront::sweep(std::ptrdiff_t p_run, std::ptrdiff_t q_run, doubl
     return rows * columns;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

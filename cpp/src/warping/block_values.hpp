@@ -11,7 +11,7 @@
 #include "runtime/aligned_buffer.hpp"
 #include "warping/block_recursion.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // The values along one of the curves.
 class FrontSide {
@@ -22,10 +22,10 @@ class FrontSide {
         const auto run = static_cast<std::size_t>(point / kernels::block_side);
         return is_even_[run] ? lowest_[run] : values_.data()[point];
     }
-    double lowest(const Runs& runs) const noexcept;
-    void fill(const Runs& runs, double value) noexcept;
+    double lowest(const RunRange& runs) const noexcept;
+    void fill(const RunRange& runs, double value) noexcept;
     // Every value to the smallest of itself, those before it, and `entering`.
-    void take_smallest_so_far(const Runs& runs, double entering) noexcept;
+    void take_smallest_so_far(const RunRange& runs, double entering) noexcept;
     // The values of a run, one by one; after they have been changed, `changed`.
     double* spread(std::ptrdiff_t run) noexcept;
     void changed(std::ptrdiff_t run, double upper) noexcept;
@@ -45,11 +45,11 @@ class ValueFront {
 
     ValueFront(const PackedPair& curves, double upper, kernels::ValueFunction values);
 
-    bool is_entered(const Runs& p, const Runs& q, double corner) const noexcept {
+    bool is_entered(const RunRange& p, const RunRange& q, double corner) const noexcept {
         return corner <= upper_ || p_.lowest(p) <= upper_ || q_.lowest(q) <= upper_;
     }
-    void block(const Runs& p, const Runs& q) noexcept;
-    void pass(const Runs& p, const Runs& q, double corner) noexcept;
+    void block(const RunRange& p, const RunRange& q) noexcept;
+    void pass(const RunRange& p, const RunRange& q, double corner) noexcept;
     std::int64_t sweep(std::ptrdiff_t p_run, std::ptrdiff_t q_run, double corner) noexcept;
 
     double p_value_before(std::ptrdiff_t run) const noexcept {
@@ -68,4 +68,4 @@ class ValueFront {
     FrontSide q_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

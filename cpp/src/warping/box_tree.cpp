@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 // The smallest and the largest, in three steps of independent comparisons.
@@ -79,4 +79,4 @@ void nearest_distances(const PointAccess& from, std::ptrdiff_t count, const BoxT
     });
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

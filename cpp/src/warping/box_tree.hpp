@@ -19,7 +19,7 @@
 #include "warping/kernels/strip.hpp"
 #include "warping/packed_curve.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // The points of a packed curve by their numbers, whichever way round it is stored.
 class PointAccess {
@@ -228,4 +228,4 @@ class NearestSearch {
 void nearest_distances(const PointAccess& from, std::ptrdiff_t count, const BoxTree& tree,
                        Metric metric, Poller& poller, double* distances);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -5,7 +5,7 @@
 
 #include "warping/block_recursion.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -64,4 +64,4 @@ double CoarseTable::undecided_share(double lower, double upper) const {
     return static_cast<double>(undecided) / static_cast<double>(rows_ * columns_);
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

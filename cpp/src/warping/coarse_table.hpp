@@ -12,7 +12,7 @@
 #include "warping/box_tree.hpp"
 #include "warping/kernels/strip.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 class CoarseTable {
    public:
@@ -35,4 +35,4 @@ class CoarseTable {
     double upper_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -8,7 +8,7 @@
 
 #include "warping/live_columns.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 class CostSums {
    public:
@@ -50,4 +50,4 @@ class CostSums {
     bool they_add_ = false;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -5,7 +5,7 @@
 
 #include "runtime/double_precision.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 Level choose_level() {
@@ -45,4 +45,4 @@ const Level& active_level() {
     return level;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

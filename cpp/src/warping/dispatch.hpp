@@ -6,7 +6,7 @@
 
 #include "warping/kernels/strip.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 struct Level {
     const char* name;
@@ -20,4 +20,4 @@ std::vector<Level> available_levels();
 // Throws std::runtime_error where this machine has no level of that name.
 const Level& active_level();
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -9,7 +9,7 @@
 #include "warping/least_distances.hpp"
 #include "warping/sweep.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -280,7 +280,7 @@ class DtwSearch {
     SweepProblem problem_;
     const DtwPruningOptions& options_;
     DtwPruningRecord& record_;
-    Stopwatch stopwatch_;
+    runtime::Stopwatch stopwatch_;
     SweptColumns swept_;
     double coarse_share_ = 1.0;  // of the coarse table that is live
 };
@@ -310,4 +310,4 @@ std::optional<Path> dtw_path_pruned(const SweepProblem& problem, const DtwPrunin
     return search.path();
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -25,7 +25,7 @@
 #include "warping/path.hpp"
 #include "warping/sweep_problem.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 struct DtwPruningOptions {
     // A value above it comes back as infinity.
@@ -59,4 +59,4 @@ std::optional<double> dtw_pruned(const SweepProblem& problem, const DtwPruningOp
 std::optional<Path> dtw_path_pruned(const SweepProblem& problem, const DtwPruningOptions& options,
                                     DtwPruningRecord& record);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -6,7 +6,7 @@
 #include "warping/box_tree.hpp"
 #include "warping/reach.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 // Both curves from their ends, or from their beginnings: `across` is stored in the order in which
@@ -28,7 +28,7 @@ ReachedRuns reached_runs(const SweepProblem& problem, const PackedCurve& across,
 }
 
 // Of `size` columns.
-ColumnRange columns_of(const Runs& runs, std::ptrdiff_t size) noexcept {
+ColumnRange columns_of(const RunRange& runs, std::ptrdiff_t size) noexcept {
     return {runs.first * kernels::block_side, std::min(runs.end * kernels::block_side, size) - 1};
 }
 
@@ -51,8 +51,8 @@ void make_monotone(std::vector<ColumnRange>& rows) noexcept {
 SweptColumns frechet_corridor(const SweepProblem& problem, double value) {
     const PackedPair& curves = problem.curves;
     const std::ptrdiff_t n = curves.rows(), m = curves.columns();
-    const std::vector<Runs> from_start = reached_runs(problem, curves.p, curves.q, value).of_p;
-    const std::vector<Runs> from_end = reached_runs(problem, curves.q, curves.p, value).of_q;
+    const std::vector<RunRange> from_start = reached_runs(problem, curves.p, curves.q, value).of_p;
+    const std::vector<RunRange> from_end = reached_runs(problem, curves.q, curves.p, value).of_q;
     SweptColumns corridor;
     corridor.rows.reserve(static_cast<std::size_t>(n));
     for (std::ptrdiff_t i = 0; i < n; ++i) {
@@ -68,4 +68,4 @@ SweptColumns frechet_corridor(const SweepProblem& problem, double value) {
     return corridor;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -11,11 +11,11 @@
 #include "warping/live_columns.hpp"
 #include "warping/sweep_problem.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // Columns, row by row, that hold these cells; `value` is the last value of the problem's table,
 // whose ground distance has bounds. Counts nothing as done. Throws Stopped where the poller says
 // so.
 SweptColumns frechet_corridor(const SweepProblem& problem, double value);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

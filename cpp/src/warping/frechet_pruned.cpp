@@ -8,11 +8,11 @@
 #include "warping/block_recursion.hpp"
 #include "warping/block_values.hpp"
 #include "warping/coarse_table.hpp"
-#include "warping/hausdorff.hpp"
+#include "warping/nearest_point_bound.hpp"
 #include "warping/reach.hpp"
 #include "warping/sweep.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -114,7 +114,7 @@ class FrechetSearch {
         upper() = coarse_.upper();
         // As on noise, whose boxes all lie over each other: no lower bound will help.
         if (options_.gives_up && value_share(lower(), lower()) > hopeless_share) return false;
-        lower() = hausdorff_bound(P_, Q_, metric_, lower(), cells_ * small_share / 2, poller_);
+        lower() = nearest_point_bound(P_, Q_, metric_, lower(), cells_ * small_share / 2, poller_);
         return true;
     }
 
@@ -235,7 +235,7 @@ class FrechetSearch {
     Poller& poller_;
     const PruningOptions& options_;
     PruningRecord& record_;
-    Stopwatch stopwatch_;
+    runtime::Stopwatch stopwatch_;
     std::int64_t counted_steps_ = 0;
     double cells_;
     BoxTree P_;
@@ -258,4 +258,4 @@ std::optional<double> frechet_pruned(const SweepProblem& problem, const PruningO
     });
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

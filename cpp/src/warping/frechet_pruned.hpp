@@ -1,10 +1,10 @@
 // The discrete Fréchet distance without most of its table, exact to the bit.
 //
-// A lower bound from nearest neighbours (hausdorff.hpp) is often the distance itself. Whether it
-// is, is decided by a recursion over blocks of the table (block_recursion.hpp), and if not, the
-// bound is raised in steps until the last cell is reached; a second recursion, with the table's
-// values, between the last bound that was too low and the first that was not, gives the distance.
-// Time nearly linear where the curves are alike, memory O(n + m).
+// A lower bound from nearest neighbours (nearest_point_bound.hpp) is often the distance itself.
+// Whether it is, is decided by a recursion over blocks of the table (block_recursion.hpp), and if
+// not, the bound is raised in steps until the last cell is reached; a second recursion, with the
+// table's values, between the last bound that was too low and the first that was not, gives the
+// distance. Time nearly linear where the curves are alike, memory O(n + m).
 //
 // Where the curves are not alike, a coarse table says so early, and nothing is returned: the full
 // sweep is then as fast or faster.
@@ -16,7 +16,7 @@
 
 #include "warping/sweep_problem.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // What a search has done, in the unit of the table (squares for the Euclidean distance).
 struct PruningRecord {
@@ -46,4 +46,4 @@ struct PruningOptions {
 std::optional<double> frechet_pruned(const SweepProblem& problem, const PruningOptions& options,
                                      PruningRecord& record);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

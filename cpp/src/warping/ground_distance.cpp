@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 void check_ground_distance(const GroundDistance& ground) {
     if (ground.metric == Metric::minkowski && !(ground.p >= 1.0)) {
@@ -29,4 +29,4 @@ kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& cur
 
 int degree(Metric metric) noexcept { return metric == Metric::sqeuclidean ? 2 : 1; }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

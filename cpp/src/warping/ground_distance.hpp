@@ -5,7 +5,7 @@
 #include "warping/kernels/strip.hpp"
 #include "warping/packed_curve.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // Throws std::invalid_argument for an order of minkowski outside [1, inf].
 void check_ground_distance(const GroundDistance& ground);
@@ -18,4 +18,4 @@ kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& cur
 // By which power of a factor the distance grows when both curves do.
 int degree(Metric metric) noexcept;
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -142,4 +142,4 @@ void least_distances(const BoxTree& from, const BoxTree& to, Metric metric, Poll
     });
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

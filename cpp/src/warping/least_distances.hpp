@@ -10,11 +10,11 @@
 #include "runtime/poller.hpp"
 #include "warping/box_tree.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // One bound for each point of `from`. The metric must have box bounds. Throws Stopped where the
 // poller says so; counts nothing as done.
 void least_distances(const BoxTree& from, const BoxTree& to, Metric metric, Poller& poller,
                      double* bounds);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

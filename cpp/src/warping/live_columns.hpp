@@ -14,7 +14,7 @@
 
 #include "warping/band.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // What the rest of a path costs at least, and what a whole path may cost: which cells are dead.
 struct CostToGo {
@@ -72,4 +72,4 @@ class LiveColumns {
     SweptColumns* swept_ = nullptr;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -5,7 +5,7 @@
 
 #include "warping/kernels/strip.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 PackedCurve::PackedCurve(const CurveView& curve, const RangeScale& range, PointOrder order,
                          Poller& poller)
@@ -26,4 +26,4 @@ PackedCurve::PackedCurve(const CurveView& curve, const RangeScale& range, PointO
     }
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

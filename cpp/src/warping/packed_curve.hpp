@@ -9,7 +9,11 @@
 #include "runtime/aligned_buffer.hpp"
 #include "runtime/poller.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
+
+using curves::RangeScale;
+using runtime::AlignedBuffer;
+using runtime::Poller;
 
 enum class PointOrder { forward, reversed };
 
@@ -51,4 +55,4 @@ struct PackedPair {
     }
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

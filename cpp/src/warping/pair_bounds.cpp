@@ -7,7 +7,7 @@
 #include "warping/dispatch.hpp"
 #include "warping/ground_distance.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -86,16 +86,16 @@ void KeptBounds::keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrd
 }
 
 void KeptBounds::make_room(const KeptBounds& others) {
-    detail::make_room(largest_, others.largest_.size());
-    detail::make_room(summaries_, others.summaries_.size());
-    detail::make_room(trees_, others.trees_.size());
+    runtime::make_room(largest_, others.largest_.size());
+    runtime::make_room(summaries_, others.summaries_.size());
+    runtime::make_room(trees_, others.trees_.size());
 }
 
 void KeptBounds::take(KeptBounds& others) noexcept {
     dim_ = std::max(dim_, others.dim_);
-    move_behind(largest_, others.largest_);
-    move_behind(summaries_, others.summaries_);
-    move_behind(trees_, others.trees_);
+    runtime::move_behind(largest_, others.largest_);
+    runtime::move_behind(summaries_, others.summaries_);
+    runtime::move_behind(trees_, others.trees_);
 }
 
 PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, const CheckedCurve& P,
@@ -266,4 +266,4 @@ std::optional<CostToGo> PairBounds::cost_to_go(std::ptrdiff_t j, const PackedCur
     return sums_.cost_to_go(most);
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

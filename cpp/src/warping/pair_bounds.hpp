@@ -31,7 +31,9 @@
 #include "warping/packed_curve.hpp"
 #include "warping/warping_problem.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
+
+using curves::CheckedCurve;
 
 // What is kept of each Q besides its points: its ends and its box, one curve behind the other, and
 // its boxes.
@@ -131,4 +133,4 @@ class PairBounds {
     CostSums sums_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

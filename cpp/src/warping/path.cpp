@@ -17,7 +17,7 @@
 #include "warping/strip_walk.hpp"
 #include "warping/sweep.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -128,7 +128,7 @@ class PathFinder {
 
     double read_off(const Part& part) {
         const CodeLayout layout(problem_, part.region);
-        const auto codes = allocate<std::uint8_t>(layout.size, "a table of predecessors");
+        const auto codes = runtime::allocate<std::uint8_t>(layout.size, "a table of predecessors");
         Destination destination;
         destination.codes = codes.get();
         destination.layout = layout.strips.data();
@@ -183,4 +183,4 @@ Path find_path(const SweepProblem& problem, bool open_end, std::ptrdiff_t max_co
     return {value, finder.take()};
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

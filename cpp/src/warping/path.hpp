@@ -8,7 +8,7 @@
 
 #include "warping/sweep_problem.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 using IndexPairs = std::vector<std::array<std::int64_t, 2>>;
 
@@ -22,4 +22,4 @@ struct Path {
 Path find_path(const SweepProblem& problem, bool open_end,
                std::ptrdiff_t max_codes = std::ptrdiff_t{1} << 24);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

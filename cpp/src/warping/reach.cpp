@@ -2,18 +2,18 @@
 
 #include <algorithm>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 using Word = std::uint64_t;
 
-bool any(const Word* words, const Runs& runs) noexcept {
+bool any(const Word* words, const RunRange& runs) noexcept {
     return std::any_of(words + runs.first, words + runs.end, [](Word word) { return word != 0; });
 }
 
 // All bits from the first that is set, or all. Those behind the last point are so set together with
 // its own, and never alone.
-void flood(Word* words, const Runs& runs, bool from_the_start) noexcept {
+void flood(Word* words, const RunRange& runs, bool from_the_start) noexcept {
     Word* const end = words + runs.end;
     Word* word = words + runs.first;
     if (!from_the_start) {
@@ -26,9 +26,9 @@ void flood(Word* words, const Runs& runs, bool from_the_start) noexcept {
 }
 
 // Notes for each of `runs` that it has reached `others`.
-void extend(std::vector<Runs>& reached, const Runs& runs, const Runs& others) noexcept {
+void extend(std::vector<RunRange>& reached, const RunRange& runs, const RunRange& others) noexcept {
     for (std::ptrdiff_t run = runs.first; run < runs.end; ++run) {
-        Runs& of_run = reached[static_cast<std::size_t>(run)];
+        RunRange& of_run = reached[static_cast<std::size_t>(run)];
         of_run.first = std::min(of_run.first, others.first);
         of_run.end = std::max(of_run.end, others.end);
     }
@@ -58,24 +58,24 @@ ReachFront::ReachFront(const PointArray& P, std::ptrdiff_t n, const PointArray& 
     }
 }
 
-bool ReachFront::is_entered(const Runs& p, const Runs& q, bool corner) const noexcept {
+bool ReachFront::is_entered(const RunRange& p, const RunRange& q, bool corner) const noexcept {
     return corner || any(p_.data(), p) || any(q_.data(), q);
 }
 
-void ReachFront::block(const Runs& p, const Runs& q) noexcept {
+void ReachFront::block(const RunRange& p, const RunRange& q) noexcept {
     std::fill(p_.data() + p.first, p_.data() + p.end, 0);
     std::fill(q_.data() + q.first, q_.data() + q.end, 0);
 }
 
 // Every cell behind a cell that is reached can be reached from it.
-void ReachFront::pass(const Runs& p, const Runs& q, bool corner) noexcept {
+void ReachFront::pass(const RunRange& p, const RunRange& q, bool corner) noexcept {
     const bool p_is_entered = any(p_.data(), p);
     flood(p_.data(), p, corner || any(q_.data(), q));
     flood(q_.data(), q, corner || p_is_entered);
     if (reached_ != nullptr) note_reached(p, q);
 }
 
-void ReachFront::note_reached(const Runs& p, const Runs& q) noexcept {
+void ReachFront::note_reached(const RunRange& p, const RunRange& q) noexcept {
     extend(reached_->of_p, p, q);
     extend(reached_->of_q, q, p);
 }
@@ -100,4 +100,4 @@ std::int64_t ReachFront::sweep(std::ptrdiff_t p_run, std::ptrdiff_t q_run, bool 
     return block_.columns * block_.rows;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

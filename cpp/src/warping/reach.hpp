@@ -8,7 +8,7 @@
 
 #include "warping/block_recursion.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // One of the two sides of a block, as the kernels read its points.
 struct PointArray {
@@ -20,8 +20,8 @@ struct PointArray {
 // For each run of either curve, runs of the other that hold all of its cells that have been
 // reached.
 struct ReachedRuns {
-    std::vector<Runs> of_p;
-    std::vector<Runs> of_q;
+    std::vector<RunRange> of_p;
+    std::vector<RunRange> of_q;
 };
 
 class ReachFront {
@@ -33,9 +33,9 @@ class ReachFront {
                std::ptrdiff_t dim, double threshold, kernels::ReachFunction reach,
                ReachedRuns* reached = nullptr);
 
-    bool is_entered(const Runs& p, const Runs& q, bool corner) const noexcept;
-    void block(const Runs& p, const Runs& q) noexcept;
-    void pass(const Runs& p, const Runs& q, bool corner) noexcept;
+    bool is_entered(const RunRange& p, const RunRange& q, bool corner) const noexcept;
+    void block(const RunRange& p, const RunRange& q) noexcept;
+    void pass(const RunRange& p, const RunRange& q, bool corner) noexcept;
     std::int64_t sweep(std::ptrdiff_t p_run, std::ptrdiff_t q_run, bool corner) noexcept;
 
     bool p_value_before(std::ptrdiff_t run) const noexcept { return is_last_set(p_, run); }
@@ -48,7 +48,7 @@ class ReachFront {
    private:
     using Words = std::vector<std::uint64_t>;
 
-    void note_reached(const Runs& p, const Runs& q) noexcept;
+    void note_reached(const RunRange& p, const RunRange& q) noexcept;
     static bool is_last_set(const Words& words, std::ptrdiff_t run) noexcept {
         return words[static_cast<std::size_t>(run - 1)] >> 63;
     }
@@ -64,4 +64,4 @@ class ReachFront {
     Words q_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

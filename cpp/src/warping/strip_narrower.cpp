@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -124,4 +124,4 @@ void StripNarrower::leave(const kernels::Strip& strip, const std::ptrdiff_t* fir
     if (is_last && is_left) std::fill(row, row + edge_->first, infinity);
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

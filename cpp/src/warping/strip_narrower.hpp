@@ -14,7 +14,7 @@
 #include "warping/kernels/strip.hpp"
 #include "warping/live_columns.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // What the sweeping threads say to each other of a strip's last row, in the order of Pipeline.
 struct StripEdge {
@@ -81,4 +81,4 @@ class StripNarrower {
     bool is_above_finished_ = false;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -198,4 +198,4 @@ CodeLayout::CodeLayout(const SweepProblem& problem, const Region& region) {
     }
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

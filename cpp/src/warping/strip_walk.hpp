@@ -10,7 +10,7 @@
 #include "warping/strip_narrower.hpp"
 #include "warping/sweep_problem.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // The threads that are worth their start for a region.
 std::ptrdiff_t worker_count(const SweepProblem& problem, const Region& region) noexcept;
@@ -96,4 +96,4 @@ class alignas(128) StripWalk {
     std::int64_t counted_ = 0;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

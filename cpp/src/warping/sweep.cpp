@@ -7,7 +7,7 @@
 #include "runtime/workers.hpp"
 #include "warping/strip_walk.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -52,8 +52,8 @@ void skip_rest(const SweepProblem& problem, const StripPlan& plan, std::ptrdiff_
 }
 
 // Takes strips from the pipeline until none is left, or the poller says stop.
-void sweep_in_turn(StripWalk& walk, std::ptrdiff_t chunk, std::ptrdiff_t weight, Pipeline& pipeline,
-                   Poller& poller) {
+void sweep_in_turn(StripWalk& walk, std::ptrdiff_t chunk, std::ptrdiff_t weight,
+                   runtime::Pipeline& pipeline, Poller& poller) {
     for (std::ptrdiff_t s = pipeline.take(); s >= 0; s = pipeline.take()) {
         if (!pipeline.wait(s, walk.columns_to_enter(s), poller)) return;
         walk.enter(s);
@@ -119,8 +119,8 @@ void sweep(const SweepProblem& problem, const Region& region, bool starts_here, 
     } else {
         const std::ptrdiff_t chunk =
             is_narrowing ? std::min(chunk_of(problem), narrow_chunk) : chunk_of(problem);
-        Pipeline pipeline(plan.strips());
-        run_workers(plan.workers(), problem.poller, [&](std::ptrdiff_t w, Poller& poller) {
+        runtime::Pipeline pipeline(plan.strips());
+        runtime::run_workers(plan.workers(), problem.poller, [&](std::ptrdiff_t w, Poller& poller) {
             sweep_in_turn(walks[static_cast<std::size_t>(w)], chunk, weight, pipeline, poller);
         });
         problem.poller.throw_if_stopped();
@@ -150,4 +150,4 @@ void sweep_table(const SweepProblem& problem, double* table) {
     sweep_all(problem, destination);
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -8,7 +8,7 @@
 
 #include "warping/sweep_problem.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // Sweeps a region. `boundary` is the row above it on the way in and its last row on the way out.
 // `starts_here`: boundary[0] is the 0 that starts every path, not a cell of the table. Throws
@@ -26,4 +26,4 @@ double lone_cell(const SweepProblem& problem, std::ptrdiff_t row, std::ptrdiff_t
 // The whole table, row by row; infinity outside the band.
 void sweep_table(const SweepProblem& problem, double* table);
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

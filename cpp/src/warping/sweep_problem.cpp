@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 Region whole_table(const PackedPair& curves) noexcept {
     return {0, curves.rows(), 0, curves.columns()};
@@ -25,4 +25,4 @@ void assign_start(const SweepProblem& problem, std::ptrdiff_t columns, Row& row)
     std::fill_n(row.data(), std::min(begun, columns), 0.0);
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -12,7 +12,7 @@
 #include "warping/live_columns.hpp"
 #include "warping/packed_curve.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // Long enough to amortise the ramps at both ends of a strip and the pass over the boundary row,
 // short enough that three diagonals and the strip's points stay in the first-level cache.
@@ -91,4 +91,4 @@ struct Destination {
                                          // which a cell's path leaves the row above the region
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

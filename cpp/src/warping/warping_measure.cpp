@@ -15,14 +15,14 @@
 namespace curvewise {
 namespace {
 
-using detail::CostToGo;
-using detail::PackedCurve;
-using detail::PointOrder;
-using detail::Poller;
-using detail::RangeScale;
-using detail::SweepMemory;
-using detail::WarpingOptions;
-using detail::WarpingProblem;
+using curves::RangeScale;
+using runtime::Poller;
+using warping::CostToGo;
+using warping::PackedCurve;
+using warping::PointOrder;
+using warping::SweepMemory;
+using warping::WarpingOptions;
+using warping::WarpingProblem;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -33,9 +33,9 @@ class WarpingMeasure {
     // Packed without scaling, which curves within the usual range do not need.
     template <PointOrder order>
     struct Side {
-        Side(const detail::CheckedCurve& curve, Poller& poller)
+        Side(const curves::CheckedCurve& curve, Poller& poller)
             : checked(curve), packed(curve.curve, RangeScale(1.0), order, poller) {}
-        detail::CheckedCurve checked;
+        curves::CheckedCurve checked;
         PackedCurve packed;
     };
     using PreparedP = Side<PointOrder::forward>;
@@ -43,10 +43,10 @@ class WarpingMeasure {
 
     // Of dtw, or of frechet.
     template <class Options>
-    explicit WarpingMeasure(const Options& options) : options_(detail::checked_options(options)) {}
-    detail::Requirements requirements() const noexcept { return {options_.measure, 1, false}; }
+    explicit WarpingMeasure(const Options& options) : options_(warping::checked_options(options)) {}
+    curves::Requirements requirements() const noexcept { return {options_.measure, 1, false}; }
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const {
-        detail::check_sizes(options_, n, m);
+        warping::check_sizes(options_, n, m);
     }
     static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
     std::ptrdiff_t workers() const noexcept { return options_.workers; }
@@ -57,7 +57,7 @@ class WarpingMeasure {
 
     // Calls use(problem).
     template <class Use>
-    auto with_problem(const PreparedP& P, const PreparedQ& Q, const detail::Call<Memory>& call,
+    auto with_problem(const PreparedP& P, const PreparedQ& Q, const pairwise::Call<Memory>& call,
                       Use use) const {
         const RangeScale range(std::max(P.checked.largest, Q.checked.largest));
         if (range.is_identity()) {
@@ -71,7 +71,7 @@ class WarpingMeasure {
     }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
-                      const detail::Call<Memory>& call) const {
+                      const pairwise::Call<Memory>& call) const {
         return value(P, Q, call, [](WarpingProblem& problem, double cutoff) {
             return problem.distance(cutoff);
         });
@@ -79,7 +79,7 @@ class WarpingMeasure {
 
     // What compute(problem, cutoff of the undivided distance) returns, divided.
     template <class Compute>
-    double value(const PreparedP& P, const PreparedQ& Q, const detail::Call<Memory>& call,
+    double value(const PreparedP& P, const PreparedQ& Q, const pairwise::Call<Memory>& call,
                  Compute compute) const {
         const double divisor = options_.divisor(P.packed.size(), Q.packed.size());
         double cutoff = std::min(call.cutoff, options_.cutoff);
@@ -102,10 +102,10 @@ class WarpingMeasure {
     WarpingOptions options_;
 };
 
-// See detail::PairBounds.
+// See warping::PairBounds.
 class WarpingMeasure::Bounds {
    public:
-    static constexpr int levels = detail::PairBounds::levels;
+    static constexpr int levels = warping::PairBounds::levels;
     void keep(const PreparedQ& Q) { kept_.keep(Q.checked, Q.packed, PointOrder::reversed); }
     void make_room(const Bounds& others) { kept_.make_room(others.kept_); }
     void take(Bounds& others) noexcept { kept_.take(others.kept_); }
@@ -120,7 +120,7 @@ class WarpingMeasure::Bounds {
         double refined(std::ptrdiff_t j, const PreparedQ& Q, int level) {
             return bounds_.refined(j, Q.packed, level);
         }
-        double value(std::ptrdiff_t j, const PreparedQ& Q, const detail::Call<Memory>& call) {
+        double value(std::ptrdiff_t j, const PreparedQ& Q, const pairwise::Call<Memory>& call) {
             const WarpingOptions& options = measure_.options_;
             if (!options.prune || !(call.cutoff < options.cutoff)) return measure_(P_, Q, call);
             return measure_.value(P_, Q, call, [&](WarpingProblem& problem, double cutoff) {
@@ -130,23 +130,23 @@ class WarpingMeasure::Bounds {
                                   : problem.distance(cutoff);
             });
         }
-        bool is_within(std::ptrdiff_t j, const PreparedQ& Q, const detail::Call<Memory>& call) {
+        bool is_within(std::ptrdiff_t j, const PreparedQ& Q, const pairwise::Call<Memory>& call) {
             return value(j, Q, call) <= call.cutoff;
         }
 
        private:
         const WarpingMeasure& measure_;
         const PreparedP& P_;
-        detail::PairBounds bounds_;
+        warping::PairBounds bounds_;
     };
 
    private:
-    detail::KeptBounds kept_;
+    warping::KeptBounds kept_;
 };
 
 Alignment path(const WarpingMeasure& measure, const CurveView& P, const CurveView& Q,
                Control* control) {
-    return detail::with_pair(
+    return pairwise::with_pair(
         measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
             call.poller.begin(2 * P.size() * Q.size());
             return measure.with_problem(
@@ -156,7 +156,7 @@ Alignment path(const WarpingMeasure& measure, const CurveView& P, const CurveVie
 
 WarpingInfo info(const WarpingMeasure& measure, const CurveView& P, const CurveView& Q,
                  Control* control) {
-    return detail::with_pair(
+    return pairwise::with_pair(
         measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
             return measure.with_problem(p, q, call,
                                         [](WarpingProblem& problem) { return problem.info(); });
@@ -165,21 +165,22 @@ WarpingInfo info(const WarpingMeasure& measure, const CurveView& P, const CurveV
 
 void table(const WarpingMeasure& measure, const CurveView& P, const CurveView& Q, double* out,
            Control* control) {
-    detail::with_pair(measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
-        measure.with_problem(p, q, call,
-                             [&](const WarpingProblem& problem) { problem.write_table(out); });
-    });
+    pairwise::with_pair(
+        measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
+            measure.with_problem(p, q, call,
+                                 [&](const WarpingProblem& problem) { problem.write_table(out); });
+        });
 }
 
 }  // namespace
 
 double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options, Control* control) {
-    return detail::evaluate(WarpingMeasure(options), P, Q, control);
+    return pairwise::evaluate(WarpingMeasure(options), P, Q, control);
 }
 
 double frechet(const CurveView& P, const CurveView& Q, const FrechetOptions& options,
                Control* control) {
-    return detail::evaluate(WarpingMeasure(options), P, Q, control);
+    return pairwise::evaluate(WarpingMeasure(options), P, Q, control);
 }
 
 Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& options,
@@ -212,11 +213,12 @@ void frechet_table(const CurveView& P, const CurveView& Q, double* out,
     table(WarpingMeasure(options), P, Q, out, control);
 }
 
-std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(const DtwOptions& options) {
+std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(const DtwOptions& options) {
     return std::make_unique<BatchOf<WarpingMeasure>>(WarpingMeasure(options));
 }
 
-std::unique_ptr<const detail::BatchMeasure> detail::batch_measure(const FrechetOptions& options) {
+std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(
+    const FrechetOptions& options) {
     return std::make_unique<BatchOf<WarpingMeasure>>(WarpingMeasure(options));
 }
 

@@ -15,7 +15,7 @@
 #include "warping/ground_distance.hpp"
 #include "warping/sweep.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -24,7 +24,7 @@ void check_window(const DtwOptions& options) {
     if (options.window && options.window_fraction) {
         throw std::invalid_argument("window and window_fraction are both given; give one of them");
     }
-    if (options.window) check_whole_number("window", *options.window, window_range);
+    if (options.window) curves::check_whole_number("window", *options.window, window_range);
     if (options.window_fraction &&
         !(*options.window_fraction > 0.0 && *options.window_fraction < 1.0)) {
         throw std::invalid_argument("window is " + std::to_string(*options.window_fraction) + "; " +
@@ -36,7 +36,7 @@ void check_window(const DtwOptions& options) {
 
 WarpingOptions checked_options(const DtwOptions& options) {
     check_ground_distance(options.ground);
-    check_cutoff(options.cutoff);
+    curves::check_cutoff(options.cutoff);
     check_window(options);
     const bool is_symmetric1 = options.step_pattern == StepPattern::symmetric1;
     if (options.open_begin || options.open_end) {
@@ -55,7 +55,7 @@ WarpingOptions checked_options(const DtwOptions& options) {
         DtwOptions::measure,
         is_symmetric1 ? kernels::Recurrence::dtw_symmetric1 : kernels::Recurrence::dtw_symmetric2,
         options.ground,
-        resolve_workers(options.workers),
+        runtime::resolve_workers(options.workers),
         options.prune,
         options.cutoff,
         options.window,
@@ -67,9 +67,9 @@ WarpingOptions checked_options(const DtwOptions& options) {
 
 WarpingOptions checked_options(const FrechetOptions& options) {
     check_ground_distance(options.ground);
-    check_cutoff(options.cutoff);
+    curves::check_cutoff(options.cutoff);
     return {FrechetOptions::measure, kernels::Recurrence::frechet,
-            options.ground,          resolve_workers(options.workers),
+            options.ground,          runtime::resolve_workers(options.workers),
             options.prune,           options.cutoff};
 }
 
@@ -81,7 +81,7 @@ void check_sizes(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t
 }
 
 WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& curves,
-                               const RangeScale& range, const Call<SweepMemory>& call)
+                               const RangeScale& range, const pairwise::Call<SweepMemory>& call)
     : range_(range),
       degree_(degree(options.ground.metric)),
       open_end_(options.open_end),
@@ -127,7 +127,7 @@ double WarpingProblem::last_value(const SweepProblem& problem) const {
 }
 
 WarpingInfo WarpingProblem::info() {
-    Stopwatch all;
+    runtime::Stopwatch all;
     WarpingInfo info;
     std::optional<double> value;
     if (prune_) value = is_frechet() ? frechet_with_info(info) : dtw_with_info(info);
@@ -137,7 +137,7 @@ WarpingInfo WarpingProblem::info() {
             const ColumnRange columns = sweep_.columns.columns(i);
             info.cells_swept += columns.last - columns.first + 1;
         }
-        Stopwatch sweep;
+        runtime::Stopwatch sweep;
         value = last_value(sweep_);
         info.phases.push_back({"full sweep", sweep.lap()});
     }
@@ -228,4 +228,4 @@ bool WarpingProblem::ends_are_within(double cutoff) const {
     return open_end_ || restore(lone_cell(sweep_, n - 1, m - 1)) <= cutoff;
 }
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -22,7 +22,7 @@
 #include "warping/path.hpp"
 #include "warping/sweep_problem.hpp"
 
-namespace curvewise::detail {
+namespace curvewise::warping {
 
 // The options of either measure, as the sweep takes them, checked.
 struct WarpingOptions {
@@ -56,7 +56,7 @@ void check_sizes(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t
 class WarpingProblem {
    public:
     WarpingProblem(const WarpingOptions& options, const PackedPair& curves, const RangeScale& range,
-                   const Call<SweepMemory>& call);
+                   const pairwise::Call<SweepMemory>& call);
 
     // One above `cutoff` may come back as any other that is.
     double distance(double cutoff);
@@ -96,4 +96,4 @@ class WarpingProblem {
     SweepProblem sweep_;
 };
 
-}  // namespace curvewise::detail
+}  // namespace curvewise::warping

@@ -95,9 +95,9 @@ def identify_each(
 
     Notes
     -----
-    Runs: for the four measures of `benchmarks/answer/shared_runs.py`, 7 parameters, 393, where four
-    searches by "sdrm" take 751; three optima are as good as theirs to 0.02 %, and that of frechet,
-    which has several, is 4 % above.
+    Runs: for the four measures of `benchmarks/validation/shared_runs.py`, 7 parameters, 393, where
+    four searches by "sdrm" take 751; three optima are as good as theirs to 0.02 %, and that of
+    frechet, which has several, is 4 % above.
 
     Examples
     --------

@@ -80,7 +80,7 @@ def area(
     the sum of the absolute values of these areas by Gauss's formula. So areas within a piece, a
     tenth of the box long, cancel where they have different signs, as those do that noise encloses.
     Seven tension–compression loops against themselves, in per cent of what moving them up by 5 %
-    of their height gives (`benchmarks/area_sampling.py`):
+    of their height gives (`benchmarks/validation/area_sampling.py`):
 
     ==================  =======  =========  ============
     second curve        default  "matched"  moved up too

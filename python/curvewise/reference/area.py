@@ -22,7 +22,7 @@ from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import range_exponent, times_power_of_two
 from ..measures.results import AreaQuads
 from .checks import check_pair
-from .matching import Indices, matched_curves
+from .matched_curves import Indices, matched_curves
 from .refinement import facing_curves
 
 __all__ = ["area", "area_quads"]

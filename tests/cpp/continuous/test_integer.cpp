@@ -17,9 +17,9 @@
 namespace {
 
 using curvewise::frechet_continuous;
-using curvewise::detail::ExactSigns;
-using curvewise::detail::Integer;
-using curvewise::detail::Reach;
+using curvewise::continuous::ExactSigns;
+using curvewise::continuous::Integer;
+using curvewise::continuous::Reach;
 using test::Curve;
 
 int sign_of(std::int64_t x) { return x < 0 ? -1 : x > 0 ? 1 : 0; }

@@ -20,10 +20,10 @@ namespace {
 
 using curvewise::frechet_continuous;
 using curvewise::frechet_within;
-using curvewise::detail::bits_of;
-using curvewise::detail::double_of;
-using curvewise::detail::Runs;
-using curvewise::detail::Trail;
+using curvewise::continuous::bits_of;
+using curvewise::continuous::double_of;
+using curvewise::continuous::Runs;
+using curvewise::continuous::Trail;
 using test::Curve;
 using test::Random;
 

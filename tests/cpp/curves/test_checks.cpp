@@ -10,8 +10,8 @@
 
 namespace {
 
-using curvewise::detail::allocate;
-using curvewise::detail::RangeScale;
+using curvewise::curves::RangeScale;
+using curvewise::runtime::allocate;
 
 void range_scale() {
     const double high = std::ldexp(1.0, 500), low = std::ldexp(1.0, -500);

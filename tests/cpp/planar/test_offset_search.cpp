@@ -14,22 +14,22 @@
 
 namespace {
 
-using curvewise::detail::ArcCurve;
-using curvewise::detail::ArcPosition;
-using curvewise::detail::best_of_all;
-using curvewise::detail::best_of_grid;
-using curvewise::detail::interpolate;
-using curvewise::detail::norm;
-using curvewise::detail::Offset;
-using curvewise::detail::Point;
-using curvewise::detail::RangeScale;
-using curvewise::detail::SearchEffort;
+using curvewise::curves::ArcCurve;
+using curvewise::curves::ArcPosition;
+using curvewise::curves::interpolate;
+using curvewise::curves::norm;
+using curvewise::curves::Point;
+using curvewise::curves::RangeScale;
+using curvewise::planar::best_of_all;
+using curvewise::planar::best_of_grid;
+using curvewise::planar::Offset;
+using curvewise::planar::SearchEffort;
 using test::Curve;
 using test::Random;
 using test::unpolled;
 
 ArcCurve arc_curve(const Curve& curve) {
-    const curvewise::detail::Polyline points = polyline(curve, RangeScale(1.0), unpolled);
+    const curvewise::curves::Polyline points = polyline(curve, RangeScale(1.0), unpolled);
     return ArcCurve(points, arc_lengths(points, unpolled));
 }
 
@@ -166,7 +166,7 @@ int evaluations(const ArcCurve& shorter, const ArcCurve& longer, const SearchEff
     int polls = 0;
     curvewise::Control control([&](std::int64_t, std::int64_t) { return ++polls < 1'000'000; },
                                std::chrono::milliseconds(0));
-    curvewise::detail::Poller poller(&control);
+    curvewise::runtime::Poller poller(&control);
     best_of_all(shorter, longer, poller, effort);
     return polls;
 }

@@ -15,14 +15,14 @@
 namespace {
 
 using curvewise::Spacing;
-using curvewise::detail::arc_lengths;
-using curvewise::detail::box_scaled;
-using curvewise::detail::face;
-using curvewise::detail::FacingCurves;
-using curvewise::detail::interpolate;
-using curvewise::detail::Point;
-using curvewise::detail::Polyline;
-using curvewise::detail::RangeScale;
+using curvewise::curves::arc_lengths;
+using curvewise::curves::box_scaled;
+using curvewise::curves::interpolate;
+using curvewise::curves::Point;
+using curvewise::curves::Polyline;
+using curvewise::curves::RangeScale;
+using curvewise::planar::face;
+using curvewise::planar::FacingCurves;
 using test::Curve;
 using test::Random;
 using test::unpolled;
@@ -113,7 +113,7 @@ void no_length() {
 // After scaling by P's box.
 std::vector<double> relative_lengths(const Curve& curve, const Curve& P) {
     std::vector<double> lengths =
-        box_scaled_arc_lengths(curve, curvewise::detail::Box(P), unpolled);
+        box_scaled_arc_lengths(curve, curvewise::curves::Box(P), unpolled);
     const double length = lengths.back();
     for (double& u : lengths) u /= length;
     return lengths;

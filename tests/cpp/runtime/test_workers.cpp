@@ -11,8 +11,8 @@
 namespace {
 
 using curvewise::Control;
-using curvewise::detail::Pipeline;
-using curvewise::detail::Poller;
+using curvewise::runtime::Pipeline;
+using curvewise::runtime::Poller;
 
 constexpr auto longer_than_a_look = std::chrono::milliseconds(50);
 

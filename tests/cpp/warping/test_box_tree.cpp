@@ -13,15 +13,15 @@
 namespace {
 
 using curvewise::Metric;
-using curvewise::detail::BoxTree;
-using curvewise::detail::Nearest;
-using curvewise::detail::NearestSearch;
-using curvewise::detail::PackedCurve;
-using curvewise::detail::PointAccess;
-using curvewise::detail::PointOrder;
-using curvewise::detail::Poller;
-using curvewise::detail::RangeScale;
-using curvewise::detail::with_norm;
+using curvewise::curves::RangeScale;
+using curvewise::runtime::Poller;
+using curvewise::warping::BoxTree;
+using curvewise::warping::Nearest;
+using curvewise::warping::NearestSearch;
+using curvewise::warping::PackedCurve;
+using curvewise::warping::PointAccess;
+using curvewise::warping::PointOrder;
+using curvewise::warping::with_norm;
 
 using test::Curve;
 using test::Random;
@@ -66,13 +66,13 @@ void check_bounds(const BoxTree& P, const BoxTree& Q, std::ptrdiff_t p_level,
         for (std::ptrdiff_t b = 0; b < Q.boxes(q_level); ++b) {
             const double* const p = P.box(p_level, a);
             const double* const q = Q.box(q_level, b);
-            const double smallest = curvewise::detail::smallest_distance<Norm>(p, q, P.dim());
-            const double largest = curvewise::detail::largest_distance<Norm>(p, q, P.dim());
+            const double smallest = curvewise::warping::smallest_distance<Norm>(p, q, P.dim());
+            const double largest = curvewise::warping::largest_distance<Norm>(p, q, P.dim());
             const std::ptrdiff_t i_end = std::min((a + 1) * points_per_box(p_level), P.size());
             const std::ptrdiff_t j_end = std::min((b + 1) * points_per_box(q_level), Q.size());
             for (std::ptrdiff_t i = a * points_per_box(p_level); i < i_end; ++i) {
                 for (std::ptrdiff_t j = b * points_per_box(q_level); j < j_end; ++j) {
-                    const double d = curvewise::detail::point_distance<Norm>(
+                    const double d = curvewise::warping::point_distance<Norm>(
                         P.points(), i, Q.points(), j, P.dim());
                     CHECK(smallest <= d);
                     CHECK(d <= largest);
@@ -91,15 +91,15 @@ void check_nearest(const BoxTree& P, const BoxTree& Q, Metric metric, Random& ra
     for (std::ptrdiff_t i = 0; i < P.size(); ++i) {
         double expected = std::numeric_limits<double>::infinity();
         for (std::ptrdiff_t j = 0; j < Q.size(); ++j) {
-            expected = std::min(expected, curvewise::detail::point_distance<Norm>(
+            expected = std::min(expected, curvewise::warping::point_distance<Norm>(
                                               P.points(), i, Q.points(), j, P.dim()));
         }
         CHECK_EQUAL(distances[static_cast<std::size_t>(i)], expected);
         const std::ptrdiff_t start = random.index(Q.size());
         const Nearest nearest = search(i, start, -1.0);
         CHECK_EQUAL(nearest.distance, expected);
-        CHECK_EQUAL(curvewise::detail::point_distance<Norm>(P.points(), i, Q.points(),
-                                                            nearest.point, P.dim()),
+        CHECK_EQUAL(curvewise::warping::point_distance<Norm>(P.points(), i, Q.points(),
+                                                             nearest.point, P.dim()),
                     expected);
         const double enough = expected * random.uniform(0.5, 3.0);
         const double found = search(i, start, enough).distance;

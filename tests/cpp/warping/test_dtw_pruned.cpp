@@ -23,20 +23,20 @@
 namespace {
 
 using curvewise::Metric;
-using curvewise::detail::available_levels;
-using curvewise::detail::Band;
-using curvewise::detail::DtwPruningOptions;
-using curvewise::detail::DtwPruningRecord;
-using curvewise::detail::Level;
-using curvewise::detail::PackedCurve;
-using curvewise::detail::Path;
-using curvewise::detail::PointOrder;
-using curvewise::detail::Poller;
-using curvewise::detail::RangeScale;
-using curvewise::detail::Row;
-using curvewise::detail::SweepMemory;
-using curvewise::detail::SweepProblem;
+using curvewise::curves::RangeScale;
 using curvewise::kernels::Recurrence;
+using curvewise::runtime::Poller;
+using curvewise::warping::available_levels;
+using curvewise::warping::Band;
+using curvewise::warping::DtwPruningOptions;
+using curvewise::warping::DtwPruningRecord;
+using curvewise::warping::Level;
+using curvewise::warping::PackedCurve;
+using curvewise::warping::Path;
+using curvewise::warping::PointOrder;
+using curvewise::warping::Row;
+using curvewise::warping::SweepMemory;
+using curvewise::warping::SweepProblem;
 using test::Curve;
 using test::Random;
 using test::unpolled;
@@ -98,7 +98,7 @@ class Comparison {
                 *level.kernels,
                 {rows_, columns_},
                 setup_.recurrence,
-                curvewise::detail::canonical_cost({setup_.metric}, {rows_, columns_}),
+                curvewise::warping::canonical_cost({setup_.metric}, {rows_, columns_}),
                 2.0,
                 Band(rows_.size(), columns_.size(), setup_.window),
                 false,
@@ -221,16 +221,16 @@ void least_distances_are_bounds() {
         const check::Note note(test::described(P, Q));
         const PackedCurve p(P, RangeScale(1.0), PointOrder::forward, unpolled);
         const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed, unpolled);
-        const curvewise::detail::BoxTree from(p, PointOrder::forward), to(q, PointOrder::reversed);
+        const curvewise::warping::BoxTree from(p, PointOrder::forward), to(q, PointOrder::reversed);
         std::vector<double> bounds(static_cast<std::size_t>(P.size()), -1.0);
         Poller poller(nullptr);
         least_distances(from, to, metric, poller, bounds.data());
-        curvewise::detail::with_norm(metric, [&](auto norm) {
+        curvewise::warping::with_norm(metric, [&](auto norm) {
             using Norm = decltype(norm);
             for (std::ptrdiff_t i = 0; i < P.size(); ++i) {
                 double least = infinity;
                 for (std::ptrdiff_t j = 0; j < Q.size(); ++j) {
-                    least = std::min(least, curvewise::detail::point_distance<Norm>(
+                    least = std::min(least, curvewise::warping::point_distance<Norm>(
                                                 from.points(), i, to.points(), j, P.dim()));
                 }
                 const double bound = bounds[static_cast<std::size_t>(i)];
@@ -253,7 +253,7 @@ void gives_up_where_it_should() {
         const SweepProblem problem{*available_levels().front().kernels,
                                    {p, q},
                                    Recurrence::dtw_symmetric1,
-                                   curvewise::detail::canonical_cost({}, {p, q}),
+                                   curvewise::warping::canonical_cost({}, {p, q}),
                                    2.0,
                                    Band(P.size(), Q.size(), std::nullopt),
                                    false,
@@ -285,7 +285,7 @@ void progress_counts_the_table() {
     const SweepProblem problem{*available_levels().back().kernels,
                                {p, q},
                                Recurrence::dtw_symmetric1,
-                               curvewise::detail::canonical_cost({}, {p, q}),
+                               curvewise::warping::canonical_cost({}, {p, q}),
                                2.0,
                                Band(P.size(), Q.size(), std::nullopt),
                                false,

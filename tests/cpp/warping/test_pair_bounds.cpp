@@ -14,8 +14,8 @@
 namespace {
 
 using namespace curvewise;
-using detail::CheckedCurve;
-using detail::Poller;
+using curves::CheckedCurve;
+using runtime::Poller;
 using test::Curve;
 using test::Random;
 
@@ -37,7 +37,7 @@ template <class Options>
 void bounds_hold(const Options& options, std::ptrdiff_t dim, Random& random) {
     std::vector<Curve> curves;
     for (int i = 0; i < 7; ++i) curves.push_back(some_curve(random, dim));
-    const auto measure = detail::batch_measure(options);
+    const auto measure = pairwise::batch_measure(options);
     const auto targets = measure->make_targets();
     Poller poller(nullptr);
     for (const Curve& Q : curves) targets->add(CheckedCurve(Q, "Q", poller), poller);

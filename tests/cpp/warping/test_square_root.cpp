@@ -31,7 +31,7 @@ struct Level {
 std::vector<Level> levels() {
     std::vector<Level> result{{"baseline", test::square_roots_baseline}};
 #ifdef CURVEWISE_X86_64_LEVELS
-    const std::size_t available = curvewise::detail::available_levels().size();
+    const std::size_t available = curvewise::warping::available_levels().size();
     if (available > 1) result.push_back({"v3", test::square_roots_v3});
     if (available > 2) result.push_back({"v4", test::square_roots_v4});
 #endif

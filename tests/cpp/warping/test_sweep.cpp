@@ -23,16 +23,16 @@ namespace {
 
 using curvewise::GroundDistance;
 using curvewise::Metric;
-using curvewise::detail::available_levels;
-using curvewise::detail::Band;
-using curvewise::detail::Level;
-using curvewise::detail::LiveColumns;
-using curvewise::detail::PackedCurve;
-using curvewise::detail::PointOrder;
-using curvewise::detail::RangeScale;
-using curvewise::detail::Row;
-using curvewise::detail::SweepProblem;
+using curvewise::curves::RangeScale;
 using curvewise::kernels::Recurrence;
+using curvewise::warping::available_levels;
+using curvewise::warping::Band;
+using curvewise::warping::Level;
+using curvewise::warping::LiveColumns;
+using curvewise::warping::PackedCurve;
+using curvewise::warping::PointOrder;
+using curvewise::warping::Row;
+using curvewise::warping::SweepProblem;
 using oracle::Path;
 using test::Curve;
 using test::Random;
@@ -138,13 +138,13 @@ class Comparison {
           band_(P.size(), Q.size(), setup.window),
           rows_(P, RangeScale(1.0), PointOrder::forward, unpolled),
           columns_(Q, RangeScale(1.0), PointOrder::reversed, unpolled),
-          cost_(curvewise::detail::canonical_cost(setup.ground, {rows_, columns_})) {}
+          cost_(curvewise::warping::canonical_cost(setup.ground, {rows_, columns_})) {}
 
     void run() const {
         for (const Level& level : available_levels()) {
             const check::Note note(level.name);
-            curvewise::detail::Poller poller(nullptr);
-            curvewise::detail::SweepMemory memory;
+            curvewise::runtime::Poller poller(nullptr);
+            curvewise::warping::SweepMemory memory;
             const SweepProblem problem{
                 *level.kernels,  {rows_, columns_}, setup_.recurrence, cost_,  setup_.ground.p,
                 band_,           setup_.open_begin, setup_.workers,    poller, memory,
@@ -190,10 +190,10 @@ class Comparison {
             return smallest(P_.size(), [&](auto i) { return ground_distance(i, j); });
         });
         for (const double most : {value, 1.25 * value, 0.75 * value}) {
-            const curvewise::detail::CostToGo cost_to_go{
+            const curvewise::warping::CostToGo cost_to_go{
                 most, 1.0 - 0x1p-40, after_row.data() + 1, after_column.data() + 1,
                 setup_.recurrence == Recurrence::dtw_symmetric2};
-            curvewise::detail::SweptColumns swept;
+            curvewise::warping::SweptColumns swept;
             problem.columns = LiveColumns(band_, cost_to_go, swept);
             const double narrowed = last_row(problem)[Q_.size() - 1];
             if (most < value) {

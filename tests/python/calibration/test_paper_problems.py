@@ -17,7 +17,7 @@ import pytest
 
 import curvewise
 
-SCRIPTS = Path(__file__).resolve().parents[3] / "benchmarks" / "paper"
+SCRIPTS = Path(__file__).resolve().parents[3] / "benchmarks" / "reproduction"
 
 STEEL = {
     "CB": 640.0,
@@ -36,7 +36,7 @@ E = 200e3
 @pytest.fixture(scope="module", autouse=True)
 def _scripts() -> Iterator[None]:
     if not SCRIPTS.is_dir():
-        pytest.skip("not a source tree: no benchmarks/paper")
+        pytest.skip("not a source tree: no benchmarks/reproduction")
     pytest.importorskip("numba", reason='no numba: pip install "curvewise[paper]"')
     sys.path.insert(0, str(SCRIPTS))
     yield

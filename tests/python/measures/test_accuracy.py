@@ -1,6 +1,7 @@
-"""Plane measures against their exact values, in numbers of 2300 bits (benchmarks/accuracy.py).
+"""Plane measures against their exact values, in numbers of 2300 bits.
 
-benchmarks/README.md has the table for more curves and more kinds of them.
+These are computed by benchmarks/validation/accuracy.py; docs/reliability.md has its table of more
+curves, and more kinds of them.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-BENCHMARKS = Path(__file__).resolve().parents[3] / "benchmarks"
+BENCHMARKS = Path(__file__).resolve().parents[3] / "benchmarks" / "validation"
 if not BENCHMARKS.is_dir():
     pytest.skip("the source distribution has no benchmarks", allow_module_level=True)
 sys.path.insert(0, str(BENCHMARKS))

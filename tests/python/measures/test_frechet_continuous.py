@@ -1,8 +1,8 @@
 """The continuous Fréchet distance against the reference in whole numbers, and by its properties.
 
 The bits must be those of the real number rounded up, whatever the curves: points on a grid,
-points on one line, repeated points, walks back and forth. benchmarks/frechet_continuous.py does the
-same with 20,000 pairs.
+points on one line, repeated points, walks back and forth.
+benchmarks/speed/frechet_continuous.py does the same with 20,000 pairs.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The index against its definition: all distances, and a stable sort.
 
-``benchmarks/nearest.py --stress`` runs the random queries of this file a thousand times.
+``benchmarks/speed/nearest.py --stress`` runs the random queries of this file a thousand times.
 """
 
 from __future__ import annotations

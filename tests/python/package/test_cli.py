@@ -348,7 +348,7 @@ def test_selfcheck_reports_what_it_found(run, monkeypatch, equal, expected):
         print("dtw baseline", file=stream)
         return equal
 
-    monkeypatch.setattr("curvewise.commands.selfcheck.run", report)
+    monkeypatch.setattr("curvewise.commands.kernel_check.run", report)
     assert run("selfcheck") == (expected, "dtw baseline\n", "")
 
 
@@ -371,12 +371,12 @@ def test_what_ends_a_comparison(run, files, monkeypatch, error, status, message)
     def fail(*args, **kwargs):
         raise error
 
-    monkeypatch.setattr(cli, "compare", fail)
+    monkeypatch.setattr("curvewise.commands.compare.compare", fail)
     assert run("compare", *files) == (status, "", message)
 
 
 def test_a_mistake_in_the_program_keeps_its_traceback(files, monkeypatch):
-    monkeypatch.setattr(cli, "compare", lambda *args, **kwargs: None)
+    monkeypatch.setattr("curvewise.commands.compare.compare", lambda *args, **kwargs: None)
     with pytest.raises(AttributeError):
         cli.main(["compare", *files])
 

@@ -79,9 +79,10 @@ def test_the_code_of_a_page_runs(
 def test_the_worked_example_shows_its_script() -> None:
     """Its code needs a solver and data: it stands in the script that was run, line by line."""
     page = (ROOT / "docs" / "worked_example.md").read_text(encoding="utf-8")
-    script = (ROOT / "benchmarks" / "answer" / "worked_example.py").read_text(encoding="utf-8")
-    printed = (ROOT / "benchmarks" / "answer" / "worked_example.txt").read_text(encoding="utf-8")
-    known = {line.strip() for line in (script + printed).splitlines()}
+    room = ROOT / "benchmarks" / "validation"
+    files = (room / "worked_example.py", room / "results" / "worked_example.txt")
+    texts = "".join(file.read_text(encoding="utf-8") for file in files)
+    known = {line.strip() for line in texts.splitlines()}
     shown = [line.strip() for line in page.splitlines() if line.startswith("    ")]
     assert len(shown) > 20
     assert [line for line in shown if line not in known] == []
@@ -127,7 +128,7 @@ def test_the_reference_has_every_public_name_of_python() -> None:
 def declared(header: Path) -> tuple[Counter[str], set[str]]:
     """Return the functions of a header, overloads counted, and its types."""
     text = header.read_text(encoding="utf-8")
-    text = re.sub(r"^namespace detail \{.*?^\}", "", text, flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(r"^namespace (?!curvewise)\w+ \{.*?^\}", "", text, flags=re.MULTILINE | re.DOTALL)
     functions = re.findall(r"^[A-Za-z][^\n;=]*?[ *&](\w+)\(", text, flags=re.MULTILINE)
     kinds = r"^(?:struct|class|enum class) (?:CURVEWISE_EXPORT )?(\w+)[^;\n]*\{|^using (\w+) ="
     types = {a or b for a, b in re.findall(kinds, text, flags=re.MULTILINE)}
@@ -183,6 +184,29 @@ def test_every_link_to_a_file_leads_to_one() -> None:
             if "://" not in link and not made_by_the_build and not target.exists():
                 broken.append(f"{name_of(page)}: {link}")
     assert broken == []
+
+
+def test_every_path_to_a_benchmark_leads_to_a_file() -> None:
+    """In code, comments and text alike; the changelog may name what was there in its time."""
+    if not (ROOT / "benchmarks").is_dir():
+        pytest.skip("the source distribution has no benchmarks")
+    kinds = {".py", ".md", ".rst", ".toml", ".yml", ".txt", ".cpp", ".hpp", ".cmake", ""}
+    rooms = ("python", "cpp", "tests", "docs", "examples", "benchmarks", ".ci", ".github")
+    files = {
+        file
+        for folder in [*(ROOT / room for room in (*rooms, "packaging")), ROOT]
+        for file in (folder.glob("*") if folder == ROOT else folder.rglob("*"))
+        if file.suffix in kinds and file.is_file() and BUILT.isdisjoint(file.parents)
+    } - {ROOT / "CHANGELOG.md"}
+    named = [
+        (name_of(file), path.rstrip("."))
+        for file in sorted(files)
+        for path in re.findall(
+            r"(?<![\w/.-])benchmarks/[\w./-]+", file.read_text(encoding="utf-8", errors="replace")
+        )
+    ]
+    assert len(named) > 30
+    assert [(file, path) for file, path in named if not (ROOT / path).exists()] == []
 
 
 def test_every_page_has_a_place_in_the_navigation() -> None:

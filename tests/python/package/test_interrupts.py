@@ -1,7 +1,7 @@
 """Ctrl-C, progress and threads: what happens beside a long call.
 
 No test asserts a time; the calls that are interrupted would go on for half a minute and more. (The
-latencies are measured by benchmarks/interrupts.py.)
+latencies are measured by benchmarks/speed/interrupts.py.)
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ import io
 
 import pytest
 
-from curvewise.commands import selfcheck
+from curvewise.commands import kernel_check
 from curvewise.measures.registry import MEASURES
 
 CHECK = (MEASURES["frechet"], {"metric": "euclidean"})
@@ -15,30 +15,30 @@ NAME = "frechet euclidean"
 
 @pytest.fixture(autouse=True)
 def one_check(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(selfcheck, "_checks", lambda: iter([CHECK]))
+    monkeypatch.setattr(kernel_check, "_checks", lambda: iter([CHECK]))
 
 
 def break_one_bit(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have the compiled library be wrong in the last bit of one distance in a hundred."""
-    right, calls = selfcheck._results, iter(range(10**6))
+    right, calls = kernel_check._results, iter(range(10**6))
 
     def wrong(*arguments):
         results = right(*arguments)
         return [results[0] * (1.0 + 2.0**-52), *results[1:]] if next(calls) == 7 else results
 
-    monkeypatch.setattr(selfcheck, "_results", wrong)
+    monkeypatch.setattr(kernel_check, "_results", wrong)
 
 
 def test_a_level_with_the_bits_of_one_that_was_confirmed_needs_no_reference(monkeypatch) -> None:
-    known = selfcheck._check_active_level(io.StringIO(), {})
+    known = kernel_check._check_active_level(io.StringIO(), {})
     assert known[NAME]
-    monkeypatch.setattr(selfcheck, "_agree", None)  # would fail if it were called
-    assert selfcheck._check_active_level(io.StringIO(), known) == known
+    monkeypatch.setattr(kernel_check, "_agree", None)  # would fail if it were called
+    assert kernel_check._check_active_level(io.StringIO(), known) == known
 
 
 def test_a_wrong_bit_is_found(monkeypatch) -> None:
-    known = selfcheck._check_active_level(io.StringIO(), {})
+    known = kernel_check._check_active_level(io.StringIO(), {})
     break_one_bit(monkeypatch)
     said = io.StringIO()
-    assert selfcheck._check_active_level(said, known) == {NAME: ""}
+    assert kernel_check._check_active_level(said, known) == {NAME: ""}
     assert "DIFFERS for 1 pairs" in said.getvalue()

@@ -12,10 +12,10 @@ method, and here the exact measure, whichever it is, stands in the place of the 
 A region that shrank around slopes grown stale was the way this search used to fail: on seven
 parameters with noise it halted high up in a valley from 3 of 10 starts that nothing was tuned on,
 and from none where slopes are renewed first and other minima of the surfaces are looked at before
-the end (benchmarks/answer/README.md). Differences are taken over hundredths of the bounds' range,
-not 1e-6 of it: a solver prints seven digits. Cost: k + 1 runs to begin with, k for every renewal,
-one for every step; 10 to 130 in what we have run. Local: another `start`, or another seed, is
-another chance.
+the end (benchmarks/validation/README.md). Differences are taken over hundredths of the bounds'
+range, not 1e-6 of it: a solver prints seven digits. Cost: k + 1 runs to begin with, k for every
+renewal, one for every step; 10 to 130 in what we have run. Local: another `start`, or another seed,
+is another chance.
 
 C. G. Broyden, "A class of methods for solving nonlinear simultaneous equations", Math. Comp. 19
 (1965) 577-593; A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000).

@@ -1,0 +1,238 @@
+// A matching of two curves that a leash of a given length holds: a path through the free space from
+// corner to corner, as parameters (vertex index + fraction) of both curves, one row for every side
+// of a cell that it crosses. It is traced backwards through what a walk (reachable.hpp) reached: of
+// the sides by which a cell can have been entered, the one where the curves are nearer, at the
+// point where they are nearest. So it keeps to where the curves are close, and uses the whole leash
+// only where it must.
+//
+// What was reached is kept for every sqrt(n)-th row and for the rows between two of those at a
+// time. Time that of two walks and O(n + m); memory O(n + m) for the matching, and O(sqrt(n) r)
+// where a row has r runs.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "continuous/reachable.hpp"
+#include "runtime/poller.hpp"
+
+namespace curvewise::continuous {
+
+using LeashPath = std::vector<std::array<double, 2>>;
+
+// Measures a matching, whose parameters are rounded, exactly.
+template <int Dim>
+class LeashMeasure {
+   public:
+    LeashMeasure(const Diagram<Dim>& diagram, const Radius& radius, Poller& poller) noexcept
+        : diagram_(diagram), radius_(radius), poller_(poller) {}
+
+    // The least double that is not below the radius nor below the leash of any row. Rows that the
+    // radius is too short for are first moved by a unit in the last place, if that helps; except
+    // for those at vertices of both curves, before and behind which walks are on different edges.
+    double longest(LeashPath& matched) const {
+        double longest = radius_.given();
+        for (std::size_t k = 1; k + 1 < matched.size(); ++k) {
+            poller_.spend(64);
+            std::array<double, 2>& row = matched[k];
+            if (leash(row, radius_.given()) == radius_.given()) continue;
+            const std::size_t side = row[0] == std::floor(row[0]) ? 1 : 0;
+            const double given = row[side];
+            if (given == std::floor(given)) {
+                longest = leash(row, longest);
+                continue;
+            }
+            for (const double other : {matched[k - 1][side], matched[k + 1][side]}) {
+                row[side] = std::nextafter(given, other);
+                if (leash(row, radius_.given()) == radius_.given()) break;
+                row[side] = given;
+            }
+            longest = leash(row, longest);
+        }
+        return longest;
+    }
+
+   private:
+    // The least double that is not below the leash of a row, nor below `least`.
+    double leash(const std::array<double, 2>& row, double least) const {
+        return row[0] == std::floor(row[0]) ? leash(diagram_.second_edges(), row[1], row[0], least)
+                                            : leash(diagram_.first_edges(), row[0], row[1], least);
+    }
+    double leash(const EdgeFamily<Dim>& edges, double at, double vertex, double least) const {
+        const auto edge = std::min(static_cast<std::ptrdiff_t>(at), edges.vertices() - 2);
+        const auto k = static_cast<std::ptrdiff_t>(vertex);
+        const double t = at - static_cast<double>(edge);
+        if (radius_.surely_holds(edges.square_distance_at(edge, t, k))) return least;
+        return edges.distance_at(edge, t, k, least);
+    }
+
+    const Diagram<Dim>& diagram_;
+    const Radius& radius_;
+    Poller& poller_;
+};
+
+template <int Dim>
+class LeashPathTrace {
+   public:
+    // A walk with this radius succeeds.
+    LeashPathTrace(const Diagram<Dim>& diagram, const Radius& radius, Poller& poller)
+        : diagram_(diagram), radius_(radius), poller_(poller) {}
+
+    LeashPath parameters() {
+        const std::ptrdiff_t last = diagram_.rows() - 1;
+        const auto block =
+            static_cast<std::ptrdiff_t>(std::ceil(std::sqrt(static_cast<double>(last))));
+        std::vector<Runs> marks(1), rows;
+        diagram_.start(radius_, marks[0]);
+        for (std::ptrdiff_t first = 0; first + block < last; first += block) {
+            walk(first, first + block, marks.back(), rows);
+            marks.push_back(std::move(rows.back()));
+        }
+        i_ = last;
+        j_ = diagram_.cells() - 1;
+        note(static_cast<double>(last), static_cast<double>(diagram_.cells()));
+        while (!marks.empty()) {
+            const auto first = static_cast<std::ptrdiff_t>(marks.size() - 1) * block;
+            walk(first, i_, marks.back(), rows);
+            marks.pop_back();
+            while (i_ > first) trace_row(rows[static_cast<std::size_t>(i_ - 1 - first)]);
+        }
+        while (y_ > 0.0) note(0.0, std::ceil(y_) - 1.0);
+        std::reverse(found_.begin(), found_.end());
+        return std::move(found_);
+    }
+
+   private:
+    void walk(std::ptrdiff_t first, std::ptrdiff_t last, const Runs& start,
+              std::vector<Runs>& rows) const {
+        rows.resize(static_cast<std::size_t>(last - first + 1));
+        rows[0] = start;
+        for (std::ptrdiff_t i = first; i < last; ++i) {
+            const auto k = static_cast<std::size_t>(i - first);
+            poller_.spend(8 + 2 * diagram_.advance(i, rows[k], radius_, rows[k + 1]));
+        }
+    }
+
+    void note(double x, double y) {
+        if (!found_.empty() && x == x_ && y == y_) return;
+        x_ = x;
+        y_ = y;
+        found_.push_back({x, y});
+    }
+
+    // From a point of row i_ on edge j_ down to the row below, of which `runs` were reached.
+    void trace_row(const Runs& runs) {
+        const std::ptrdiff_t i = i_ - 1;
+        chain_of_ = runs.size();
+        for (;;) {
+            const FreePart below = reached_below(i, runs);
+            const FreePart left = reached_left(i, runs);
+            if (!leave_cell(i, below, left)) break;
+            if (j_ == 0) {  // down the side of the diagram
+                note(static_cast<double>(i), 0.0);
+                break;
+            }
+            --j_;
+        }
+        i_ = i;
+    }
+
+    // Notes where the path enters cell (i, j_) and returns whether this is on its left side.
+    bool leave_cell(std::ptrdiff_t i, const FreePart& below, const FreePart& left) {
+        const auto& rows = diagram_.second_edges();
+        const auto& columns = diagram_.first_edges();
+        const auto i0 = static_cast<double>(i);
+        const auto j0 = static_cast<double>(j_);
+        const auto [below_low, below_high] = rows.ends(j_, below);
+        const auto [left_low, left_high] = columns.ends(i, left);
+        // What rounding alone puts out of reach is in reach.
+        const bool can_go_down = !below.is_empty && (j0 + below_low <= y_ || left.is_empty);
+        const bool can_go_left =
+            !left.is_empty && (i0 + left_low <= x_ || below.is_empty || !can_go_down);
+        const double new_y =
+            j0 + chosen(below, below_low, below_high, rows.nearest(j_, i), y_ - j0);
+        const double new_x =
+            i0 + chosen(left, left_low, left_high, columns.nearest(i, j_), x_ - i0);
+        const bool goes_left =
+            can_go_left && (!can_go_down || columns.square_distance_at(i, new_x - i0, j_) <
+                                                rows.square_distance_at(j_, new_y - j0, i));
+        if (goes_left) {
+            note(std::min(new_x, x_), j0);
+        } else {
+            note(i0, std::min(new_y, y_));
+        }
+        return goes_left;
+    }
+
+    // The parameter between low and high, and at most `most`, nearest to the wished one. Not at the
+    // very reach of a vertex while there is room: there rounding stretches the leash.
+    static double chosen(const FreePart& part, double low, double high, double wished,
+                         double most) noexcept {
+        constexpr double margin = 0x1p-10;
+        const double room = std::max(std::min(high, most) - low, 0.0);
+        const double least = part.low.is_own_end() ? low : low + margin * room;
+        const double greatest = part.high.is_own_end() ? high : high - margin * room;
+        return std::min(std::max(std::min(wished, greatest), least), most);
+    }
+
+    // What is reached of the lower side of cell (i, j_).
+    FreePart reached_below(std::ptrdiff_t i, const Runs& runs) const {
+        const std::size_t r = run_at(runs, j_ + 1);
+        if (r == runs.size() || runs[r].last < j_) return {true, {}, {}};
+        FreePart part = diagram_.part_of_row(i, j_, radius_);
+        if (runs[r].first == j_) part.low = runs[r].low;
+        return part;
+    }
+
+    // What is reached of its left side.
+    FreePart reached_left(std::ptrdiff_t i, const Runs& runs) {
+        if (j_ == 0) {
+            const bool is_reached = runs[0].first == 0 && runs[0].low.is_own_end();
+            return is_reached ? diagram_.part_of_column(i, 0, radius_) : FreePart{true, {}, {}};
+        }
+        const std::size_t r = run_at(runs, j_);
+        if (r == runs.size()) return {true, {}, {}};
+        if (j_ <= runs[r].last) return diagram_.part_of_column(i, j_, radius_);
+        if (chain_of_ != r) follow_chain(i, runs[r].last + 1, r);
+        const auto k = static_cast<std::size_t>(j_ - runs[r].last - 1);
+        return k < chain_.size() ? chain_[k] : FreePart{true, {}, {}};
+    }
+
+    // The left sides that are reached from cell to cell behind run r, up to cell j_.
+    void follow_chain(std::ptrdiff_t i, std::ptrdiff_t first, std::size_t r) {
+        chain_.clear();
+        chain_of_ = r;
+        Bound low;
+        for (std::ptrdiff_t j = first; j <= j_; ++j) {
+            FreePart part = diagram_.part_of_column(i, j, radius_);
+            if (!part.is_empty) part = diagram_.first_edges().from(i, low, part, radius_);
+            if (part.is_empty) return;
+            chain_.push_back(part);
+            low = part.low;
+        }
+    }
+
+    // The last run that begins before column j; their number where there is none.
+    static std::size_t run_at(const Runs& runs, std::ptrdiff_t j) noexcept {
+        const auto behind = std::partition_point(runs.begin(), runs.end(),
+                                                 [j](const Run& run) { return run.first < j; });
+        return behind == runs.begin() ? runs.size()
+                                      : static_cast<std::size_t>(behind - runs.begin()) - 1;
+    }
+
+    const Diagram<Dim>& diagram_;
+    const Radius radius_;
+    Poller& poller_;
+    LeashPath found_;       // from the last to the first
+    std::ptrdiff_t i_ = 0;  // the path is in row i_, on edge j_
+    std::ptrdiff_t j_ = 0;
+    double x_ = 0.0, y_ = 0.0;
+    std::vector<FreePart> chain_;
+    std::size_t chain_of_ = 0;  // the run that the chain begins behind
+};
+
+}  // namespace curvewise::continuous

@@ -1,0 +1,280 @@
+#include "planar/matched_curves.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "curves/arc_length.hpp"
+#include "curves/box.hpp"
+#include "curvewise/control.hpp"
+#include "curvewise/dtw.hpp"
+
+namespace curvewise::planar {
+namespace {
+
+using curves::ArcPosition;
+using curves::BoxSide;
+using curves::Point;
+
+constexpr double pieces_per_side = 10.0;  // of the box
+constexpr std::size_t samples_per_piece = 5;
+// A reversal below this part of the box is noise, or an outlier, and no travel.
+constexpr double least_reversal = 1.0 / 3.0;
+// 30 bits hold more than any measurement does, and leave room for sums of a million distances
+// without rounding.
+constexpr double grid = 0x1p30;
+// Further away, in boxes, than any point that could be matched to advantage; keeps sums finite.
+constexpr double far = 0x1p40;
+
+// The box of P; of Q, in a direction in which P has no extent.
+class CommonBox {
+   public:
+    CommonBox(const CurveView& P, const CurveView& Q) : sides_{side(P, Q, 0), side(P, Q, 1)} {}
+
+    Polyline scaled(const CurveView& curve, Poller& poller) const {
+        Polyline points;
+        points.reserve(static_cast<std::size_t>(curve.size()));
+        for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+            poller.poll_in_loop(points.size());
+            points.push_back({std::clamp(sides_[0].scaled(curve(i, 0)), -far, far),
+                              std::clamp(sides_[1].scaled(curve(i, 1)), -far, far)});
+        }
+        return points;
+    }
+    std::array<double, 2> slopes() const noexcept { return {sides_[0].slope(), sides_[1].slope()}; }
+
+   private:
+    static BoxSide side(const CurveView& P, const CurveView& Q, std::ptrdiff_t c) noexcept {
+        const BoxSide of_p(P, c);
+        return of_p.has_extent() ? of_p : BoxSide(Q, c);
+    }
+
+    std::array<BoxSide, 2> sides_;
+};
+
+double on_grid(double x) noexcept { return std::nearbyint(x * grid); }
+
+// How far a coordinate travels, to and fro, without small reversals. In units of the grid, for no
+// rounding error may decide how many pieces there are.
+double travel_of(const Polyline& points, double Point::*coordinate, Poller& poller) {
+    constexpr double least = least_reversal * grid;
+    double total = 0.0;
+    double low = on_grid(points.front().*coordinate), high = low, turn = low;
+    std::optional<bool> rises;  // not known until it has travelled far enough
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        poller.poll_in_loop(i);
+        const double value = on_grid(points[i].*coordinate);
+        low = std::min(low, value);
+        high = std::max(high, value);
+        if (rises != false && value <= high - least) {
+            total += high - turn;
+            turn = high;
+            low = value;
+            rises = false;
+        } else if (rises != true && value >= low + least) {
+            total += turn - low;
+            turn = low;
+            high = value;
+            rises = true;
+        }
+    }
+    const double end = on_grid(points.back().*coordinate);
+    if (!rises) return std::abs(end - turn);
+    const double last = *rises ? high : low;
+    return total + std::abs(last - turn) + std::abs(end - last);
+}
+
+std::size_t count_pieces(const Polyline& scaled, Poller& poller) {
+    const double travel =
+        (travel_of(scaled, &Point::x, poller) + travel_of(scaled, &Point::y, poller)) / grid;
+    return static_cast<std::size_t>(std::max(1.0, std::ceil(pieces_per_side * travel)));
+}
+
+// Where each vertex lies along its curve: 0 at the first, `samples` at the last.
+std::vector<double> positions_of(const Polyline& scaled, std::size_t samples, Poller& poller) {
+    std::vector<double> positions = arc_lengths(scaled, poller);
+    const double length = positions.back();
+    const auto last = static_cast<double>(samples);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        poller.poll_in_loop(i);
+        positions[i] = length > 0.0 ? positions[i] / length * last
+                                    : last * static_cast<double>(i) /
+                                          static_cast<double>(positions.size() - 1);
+    }
+    return positions;
+}
+
+// One of the two curves.
+struct Side {
+    Side(const CurveView& curve, const curves::RangeScale& range, const Polyline& scaled,
+         std::size_t samples, Poller& poller)
+        : points(polyline(curve, range, poller)), positions(positions_of(scaled, samples, poller)) {
+        sampled.reserve(2 * (samples + 1));
+        ArcPosition at(positions);
+        for (std::size_t k = 0; k <= samples; ++k) {
+            at.move_to(static_cast<double>(k));
+            const Point point = at.point_on(scaled);
+            sampled.push_back(on_grid(point.x));
+            sampled.push_back(on_grid(point.y));
+        }
+    }
+    CurveView samples() const noexcept {
+        return {sampled.data(), static_cast<std::ptrdiff_t>(sampled.size() / 2), 2};
+    }
+
+    Polyline points;
+    std::vector<double> positions;
+    std::vector<double> sampled;  // x and y at positions 0, 1, ..., on the grid
+};
+
+// The cells of the warping path, as numbers.
+struct Route {
+    explicit Route(const Alignment& alignment) {
+        for (const auto& [row, column] : alignment.path) {
+            i.push_back(static_cast<double>(row));
+            j.push_back(static_cast<double>(column));
+            places.push_back(i.back() + j.back());
+        }
+    }
+    std::vector<double> i, j;
+    std::vector<double> places;  // i + j, which ascends along the path
+};
+
+// Another Control watches the path: its cells are none of the steps that the poller counts.
+Route warping_path(const Side& P, const Side& Q, Poller& poller) {
+    DtwOptions options;
+    options.ground.metric = Metric::cityblock;
+    Control control([&](std::int64_t, std::int64_t) { return !poller.poll(); },
+                    std::chrono::milliseconds(20));
+    return Route(dtw_path(P.samples(), Q.samples(), options,
+                          poller.control() == nullptr ? nullptr : &control));
+}
+
+// The places along the path of a curve's vertices between its samples, of which the path's cells
+// have the numbers `samples`.
+std::vector<double> places_of_vertices(const Side& curve, const std::vector<double>& samples,
+                                       const Route& route, Poller& poller) {
+    std::vector<double> places;
+    places.reserve(curve.positions.size());
+    std::size_t step = 0;
+    for (std::size_t k = 0; k < curve.positions.size(); ++k) {
+        poller.poll_in_loop(k);
+        const double position = curve.positions[k];
+        if (position == std::floor(position)) continue;
+        while (samples[step + 1] < position) ++step;
+        places.push_back(route.places[step] + (position - samples[step]) *
+                                                  (route.places[step + 1] - route.places[step]));
+    }
+    return places;
+}
+
+// Both, in ascending order, each place once.
+std::vector<double> merged(const std::vector<double>& a, const std::vector<double>& b,
+                           Poller& poller) {
+    std::vector<double> result;
+    result.reserve(a.size() + b.size());
+    for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
+        poller.poll_in_loop(i + j);
+        const bool takes_a = j == b.size() || (i < a.size() && a[i] <= b[j]);
+        const double place = takes_a ? a[i++] : b[j++];
+        if (result.empty() || result.back() != place) result.push_back(place);
+    }
+    return result;
+}
+
+// Calls visit(place, position, at) for places along the path, `position` and `at` being where they
+// are on a curve.
+template <class Visit>
+void for_each_position(const std::vector<double>& places, const Side& curve,
+                       const std::vector<double>& samples, const Route& route, Poller& poller,
+                       Visit visit) {
+    ArcPosition at(curve.positions);
+    std::size_t step = 0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        poller.poll_in_loop(k);
+        const double place = places[k];
+        while (step + 2 < route.places.size() && route.places[step + 1] <= place) ++step;
+        const double slope =
+            (samples[step + 1] - samples[step]) / (route.places[step + 1] - route.places[step]);
+        const double position = samples[step] + slope * (place - route.places[step]);
+        at.move_to(position);
+        visit(place, position, at);
+    }
+}
+
+// The points of a curve at places along the path.
+Polyline points_at(const std::vector<double>& places, const Side& curve,
+                   const std::vector<double>& samples, const Route& route, Poller& poller) {
+    Polyline points;
+    points.reserve(places.size());
+    for_each_position(places, curve, samples, route, poller,
+                      [&](double /*place*/, double /*position*/, const ArcPosition& at) {
+                          points.push_back(at.point_on(curve.points));
+                      });
+    return points;
+}
+
+// The same on Q, in full; `of_vertices` are the places of those of Q's vertices that lie between
+// samples, in their order.
+std::vector<PlacesOnQ::Place> places_on_q(const std::vector<double>& places, const Side& q,
+                                          const std::vector<double>& of_vertices,
+                                          const Route& route, Poller& poller) {
+    std::vector<std::size_t> vertices;  // of `of_vertices`
+    for (std::size_t k = 0; k < q.positions.size(); ++k) {
+        poller.poll_in_loop(k);
+        if (q.positions[k] != std::floor(q.positions[k])) vertices.push_back(k);
+    }
+    std::vector<PlacesOnQ::Place> found;
+    found.reserve(places.size());
+    std::size_t next = 0;
+    for_each_position(places, q, route.j, route, poller,
+                      [&](double place, double position, const ArcPosition& at) {
+                          while (next < vertices.size() && of_vertices[next] < place) ++next;
+                          if (next < vertices.size() && of_vertices[next] == place) {
+                              found.push_back({true, vertices[next], 0.0, 0.0});
+                          } else {
+                              found.push_back({false, at.segment(), at.fraction(),
+                                               position / q.positions.back()});
+                          }
+                      });
+    return found;
+}
+
+}  // namespace
+
+MatchedCurves match(const CurveView& P, const CurveView& Q, const curves::RangeScale& range,
+                    Poller& poller, PlacesOnQ* on_q) {
+    const CommonBox box(P, Q);
+    const Polyline scaled_p = box.scaled(P, poller);
+    const std::size_t pieces = count_pieces(scaled_p, poller);
+    const Side p(P, range, scaled_p, samples_per_piece * pieces, poller);
+    const Side q(Q, range, box.scaled(Q, poller), samples_per_piece * pieces, poller);
+    poller.poll_in_loop(0);
+    const Route route = warping_path(p, q, poller);
+
+    std::vector<double> cuts(pieces);
+    for (std::size_t k = 0; k < pieces; ++k) {
+        cuts[k] = static_cast<double>(2 * samples_per_piece * (k + 1));
+    }
+    std::vector<double> places = merged(route.places, cuts, poller);
+    places = merged(places, places_of_vertices(p, route.i, route, poller), poller);
+    const std::vector<double> of_q = places_of_vertices(q, route.j, route, poller);
+    places = merged(places, of_q, poller);
+
+    MatchedCurves result{points_at(places, p, route.i, route, poller),
+                         points_at(places, q, route.j, route, poller),
+                         {}};
+    result.ends.reserve(pieces);
+    for (std::size_t i = 0; result.ends.size() < pieces; ++i) {
+        if (places[i] == cuts[result.ends.size()]) result.ends.push_back(i);
+    }
+    if (on_q != nullptr) {
+        *on_q = {places_on_q(places, q, of_q, route, poller), box.scaled(Q, poller), box.slopes()};
+    }
+    return result;
+}
+
+}  // namespace curvewise::planar

@@ -1,0 +1,58 @@
+// Two curves matched by a warping path, and cut into pieces: what Spacing::matched measures.
+//
+// A simulation has other increments than the test, and a test has noise. Refinement compares what
+// lies beside each other only where both curves were sampled alike, and arc length only where
+// neither has noise, which is length. Here both are sampled anew, at equal shares of their own arc
+// lengths, and the warping path of dynamic time warping finds which samples belong together.
+//
+// Coordinates are scaled by P's box. The path is dtw's, with the ground distance |dx| + |dy|, on
+// coordinates rounded to 30 bits, so that no rounding error decides between two paths that cost the
+// same. It is cut into pieces that are short, a tenth of the box, and long beside the spacing of
+// noisy points. Areas within a piece are added with their signs, so that what noise sweeps to and
+// fro cancels.
+//
+// Time O(n + m + k^2), memory O(n + m + k), where k = 50 T samples are matched and T is how many
+// widths and heights of its box P travels.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "curves/polyline.hpp"
+#include "curves/range_scale.hpp"
+#include "curvewise/curve.hpp"
+#include "runtime/poller.hpp"
+
+namespace curvewise::planar {
+
+using curves::Polyline;
+using runtime::Poller;
+
+// Two curves with as many vertices each, and the vertices at which their pieces end: the last one
+// is the curves' last.
+struct MatchedCurves {
+    Polyline A;
+    Polyline B;
+    std::vector<std::size_t> ends;
+};
+
+// Where the vertices of MatchedCurves::B lie on Q, for derivatives.
+struct PlacesOnQ {
+    struct Place {
+        bool is_vertex;  // of Q itself, that at the beginning of the segment
+        std::size_t segment;
+        double fraction;
+        double share;  // of Q's length, before it
+    };
+    std::vector<Place> places;
+    Polyline scaled;               // Q, as its length is measured
+    std::array<double, 2> slopes;  // of that scaling
+};
+
+// P and Q with a vertex at every vertex of the other, and at every end of a piece. Coordinates come
+// out in `range`. Throws Stopped where the poller says so. `on_q`, if given, is filled in.
+MatchedCurves match(const CurveView& P, const CurveView& Q, const curves::RangeScale& range,
+                    Poller& poller, PlacesOnQ* on_q = nullptr);
+
+}  // namespace curvewise::planar

@@ -1,0 +1,222 @@
+"""``curvewise compare A B``: from two files to five numbers, as a table, JSON, or a picture."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import math
+import shlex
+import sys
+import warnings
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, get_args
+
+from .._options import Crossing, Preset, Spacing, Window
+from ..comparing.comparison import Comparison, compare
+from ..curves.inputs import Array
+from ..files.column_choice import TimeColumnWarning
+from ..files.curve_files import read_named_columns
+from ..measures import curve_length_residuals, normalize
+from ..measures.registry import MEASURES, PRESETS
+from .shown import print_table, require_matplotlib, write_picture
+
+__all__ = ["add_compare"]
+
+
+def add_compare(commands: Any) -> None:
+    """Add the command to those of argparse."""
+    command = commands.add_parser("compare", help="compare the curves in two files")
+    command.set_defaults(run=_compare, usage_error=command.error)
+    command.add_argument("A", help="the reference, e.g. the experiment: one point per line")
+    command.add_argument("B", help="the other curve, e.g. the simulation")
+    _add_columns(command)
+    command.add_argument(
+        "--preset",
+        choices=get_args(Preset),
+        default="scaled",
+        help="scale by the box of A (default), as in the paper's Table 4, or not at all",
+    )
+    command.add_argument(
+        "--measures",
+        nargs="+",
+        choices=MEASURES,
+        help="by default the five of the paper; frechet and dtw if there are not two columns",
+    )
+    command.add_argument(
+        "--spacing", choices=get_args(Spacing), help="of area; in place of the preset's"
+    )
+    command.add_argument(
+        "--crossing",
+        choices=get_args(Crossing),
+        help="of area, without effect on spacing matched; in place of the preset's",
+    )
+    command.add_argument(
+        "--window",
+        type=_window,
+        metavar="R",
+        help="of dtw: how many points the path may leave the diagonal, or which fraction of them",
+    )
+    command.add_argument("--json", action="store_true", help="print one JSON object")
+    command.add_argument("--plot", metavar="FILE", help="write a picture, e.g. out.png or out.pdf")
+    command.add_argument(
+        "--output",
+        metavar="FILE",
+        help="write the bare values, one per line, for Dakota, LS-OPT, HyperStudy and the like",
+    )
+    command.add_argument(
+        "--residuals",
+        action="store_true",
+        help="write to the --output file the terms of curve_length, for least squares, instead",
+    )
+
+
+def _add_columns(command: argparse.ArgumentParser) -> None:
+    """Add what is said of each file: its columns, their units, the sheet of a workbook."""
+    command.add_argument(
+        "--columns",
+        nargs="+",
+        metavar="COLUMN",
+        help="names from the header, or numbers from 1; by default the first two",
+    )
+    command.add_argument(
+        "--columns-b",
+        nargs="+",
+        metavar="COLUMN",
+        help="those of B, where they are others than those of A",
+    )
+    for file in "AB":
+        command.add_argument(
+            f"--factors-{file.lower()}",
+            nargs="+",
+            type=float,
+            metavar="F",
+            help=f"what the columns of {file} are multiplied by, to change units: 0.01 1e-6",
+        )
+        command.add_argument(
+            f"--sheet-{file.lower()}",
+            metavar="SHEET",
+            help=f"of the workbook {file}: its name, or its number from 1; by default the first",
+        )
+
+
+def _window(text: str) -> Window:
+    """Read a whole number, or a fraction between 0 and 1."""
+    with contextlib.suppress(ValueError):
+        return int(text)
+    with contextlib.suppress(ValueError):
+        if 0 < (fraction := float(text)) < 1:
+            return fraction
+    raise argparse.ArgumentTypeError(f"{text} is no whole number, and not between 0 and 1")
+
+
+def _compare(arguments: argparse.Namespace) -> int:
+    if arguments.residuals and not arguments.output:
+        arguments.usage_error("--residuals needs --output FILE, where to write them")
+    if arguments.plot:
+        require_matplotlib()
+    files = [arguments.A, arguments.B]
+    factors = [arguments.factors_a, arguments.factors_b]
+    P, of_p = _read(arguments.A, arguments.columns, arguments.sheet_a, factors[0])
+    Q, of_q = _read(
+        arguments.B, arguments.columns_b or arguments.columns, arguments.sheet_b, factors[1]
+    )
+    given = {
+        "area": {"spacing": arguments.spacing, "crossing": arguments.crossing},
+        "dtw": {"window": arguments.window},
+    }
+    options = {
+        measure: chosen
+        for measure, values in given.items()
+        if (chosen := {name: value for name, value in values.items() if value is not None})
+    }
+    try:
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always", UserWarning)
+            comparison = compare(
+                P, Q, preset=arguments.preset, measures=arguments.measures, options=options
+            )
+    except ValueError as error:
+        raise ValueError(f"{error} (P is {files[0]}, Q is {files[1]})") from error
+    for words in dict.fromkeys(str(warning.message) for warning in said):
+        print("curvewise:", words, file=sys.stderr)
+    if arguments.output:
+        numbers = _residuals(comparison) if arguments.residuals else comparison.values.values()
+        _write_numbers(numbers, arguments.output)
+    if arguments.json:
+        print(_to_json(comparison, files, [of_p, of_q], factors))
+    else:
+        columns = [_columns_in_words(*of) for of in zip((of_p, of_q), factors, strict=True)]
+        print_table(comparison, files, columns)
+    if arguments.plot:
+        write_picture(comparison, arguments.plot)
+        if not arguments.json:
+            print(f"\npicture: {arguments.plot}")
+    return 0
+
+
+def _read(
+    file: str, columns: list[str] | None, sheet: str | None, factors: list[float] | None
+) -> tuple[Array, list[str]]:
+    """Read the columns of a file; refuse to guess them where the first of several is time."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", TimeColumnWarning)
+        try:
+            return read_named_columns(file, columns, sheet=sheet, factors=factors)
+        except TimeColumnWarning as guessed:
+            wanted = shlex.join(guessed.wanted)
+            raise ValueError(f"{guessed.found}; name those wanted: --columns {wanted}") from None
+
+
+def _columns_in_words(names: list[str], factors: list[float] | None) -> str:
+    if factors is None:
+        return f", columns {', '.join(names)}"
+    scaled = (f"{name} × {factor:g}" for name, factor in zip(names, factors, strict=True))
+    return f", columns {', '.join(scaled)}"
+
+
+def _to_json(
+    comparison: Comparison,
+    files: list[str],
+    columns: list[list[str]],
+    factors: list[list[float] | None],
+) -> str:
+    values = {name: _json_number(value) for name, value in comparison.values.items()}
+    deviations = {
+        name: {key: _json_number(value) for key, value in found._asdict().items()}
+        for name, found in comparison.deviations.items()
+    }
+    n = [len(comparison.P), len(comparison.Q)]
+    return json.dumps(
+        {
+            "files": files,
+            "columns": columns,
+            "factors": factors,
+            "preset": comparison.preset,
+            "n": n,
+            "values": values,
+            "deviations": deviations,
+        },
+        indent=2,
+    )
+
+
+def _json_number(value: float) -> float | None:
+    """JSON has no infinity: a value beyond the range of a double is null."""
+    return value if math.isfinite(value) else None
+
+
+def _residuals(comparison: Comparison) -> list[float]:
+    """Return the terms of curve_length, x and y of one point after the other."""
+    condition = PRESETS[comparison.preset]["curve_length"]
+    P, Q = comparison.P, comparison.Q
+    if condition.scaled:
+        P, Q = normalize(P, Q)
+    residuals: list[float] = curve_length_residuals(P, Q, **condition.options).ravel().tolist()
+    return residuals
+
+
+def _write_numbers(numbers: Iterable[float], file: str) -> None:
+    """Write a number a line, with all its digits: an optimiser takes differences of them."""
+    Path(file).write_text("".join(f"{number:.17g}\n" for number in numbers), encoding="ascii")

@@ -1,0 +1,212 @@
+"""Check the compiled library on this machine against the numpy reference.
+
+Every kernel (recurrence, ground distance, dimension, output) is run on a few hundred generated
+pairs whose sizes straddle SIMD vectors and strips, half of them on small integers, where ties
+abound. What must have the same bits is compared with ``==``, the rest to 1e-12; the continuous
+Fréchet distance by exact decisions about it and the double below it. The reference takes most of
+the time, some ten seconds; an instruction-set level whose results are, to the last bit, those of a
+level that it has confirmed needs no reference of its own.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from itertools import product
+from typing import Any, TextIO
+
+import numpy as np
+
+from .. import reference
+from .._core import build_info, choices, measures
+from ..curves.inputs import Array
+from ..measures.registry import MEASURES, MeasureInfo
+from ..measures.results import Alignment
+
+__all__ = ["run"]
+
+_SIZES = (1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 33, 64)
+_DIMENSIONS = (1, 2, 3, 4, 7)
+_TALL = ((257, 3), (513, 2), (3, 257))
+# Options that have no list of choices, and are tried with every ground distance.
+_MORE: dict[str, tuple[dict[str, Any], ...]] = {
+    "dtw": ({"window": 3}, {"open_begin": True, "open_end": True}),
+}
+
+
+def run(stream: TextIO) -> bool:
+    """Run all checks at every instruction-set level of this machine.
+
+    Parameters
+    ----------
+    stream : text file
+        Where one line for each check is written, e.g. ``sys.stdout``.
+
+    Returns
+    -------
+    bool
+        True where every comparison held.
+
+    Notes
+    -----
+    The level of a process is chosen once, so each level other than the one in use is checked in a
+    process of its own. Some ten seconds in all.
+
+    Examples
+    --------
+    >>> import sys
+    >>> from curvewise.commands import kernel_check
+    >>> kernel_check.run(sys.stdout)  # doctest: +SKIP
+    """
+    info = build_info()
+    confirmed = _check_active_level(stream, {})
+    all_agree = all(confirmed.values())
+    known = json.dumps({name: digest for name, digest in confirmed.items() if digest})
+    for level in info["instruction_sets"]:
+        if level != info["active"]:
+            checked = subprocess.run(
+                [sys.executable, "-m", __name__],
+                env={**os.environ, "CURVEWISE_ISA": level},
+                input=known,
+                stdout=subprocess.PIPE,
+                text=True,
+                check=False,
+            )
+            stream.write(checked.stdout)
+            all_agree &= checked.returncode == 0
+    stream.write("all agree with the reference\n" if all_agree else "NOT all agree\n")
+    return all_agree
+
+
+def _check_active_level(stream: TextIO, known: dict[str, str]) -> dict[str, str]:
+    """Return the digest of each check's results, or "" where they differ from the reference.
+
+    Results that have the digest in `known` have been compared with the reference before.
+    """
+    level = build_info()["active"]
+    digests = {}
+    for info, options in _checks():
+        name = _label(info, options)
+        pairs = list(_pairs(info, name))
+        results = [_results(info, options, *pair) for pair in pairs]
+        digest = _digest(results)
+        failed = []
+        if known.get(name) != digest:
+            failed = [
+                pair
+                for pair, ours in zip(pairs, results, strict=True)
+                if not _agree(info, options, ours, *pair)
+            ]
+        digests[name] = "" if failed else digest
+        verdict = "ok" if not failed else f"DIFFERS for {len(failed)} pairs, e.g. {_shapes(failed)}"
+        stream.write(f"{level:<9} {name:<45} {verdict}\n")
+        stream.flush()
+    return digests
+
+
+def _shapes(failed: list[tuple[Array, Array]]) -> str:
+    return f"P {failed[0][0].shape}, Q {failed[0][1].shape}"
+
+
+def _checks() -> Iterator[tuple[MeasureInfo, dict[str, Any]]]:
+    """Yield every measure with every combination of its choices, and with some more options."""
+    listed = choices()
+    for name, defaults in measures().items():
+        free = {option: listed[option] for option in defaults if option in listed}
+        combinations: list[dict[str, Any]] = [
+            dict(zip(free, values, strict=True)) for values in product(*free.values())
+        ]
+        for more in _MORE.get(name, ()):
+            combinations += [{"metric": metric, **more} for metric in listed["metric"]]
+        for options in combinations:
+            yield MEASURES[name], options
+
+
+def _label(info: MeasureInfo, options: dict[str, Any]) -> str:
+    values = (
+        value if isinstance(value, str) else f"{name}={value}" for name, value in options.items()
+    )
+    return " ".join([info.name, *values])
+
+
+def _functions(info: MeasureInfo) -> list[Callable[..., Any]]:
+    return [info.function, *(info.warping or ())]
+
+
+def _arguments(options: dict[str, Any]) -> dict[str, Any]:
+    return {**options, "p": 3.0} if options.get("metric") == "minkowski" else options
+
+
+def _results(info: MeasureInfo, options: dict[str, Any], P: Array, Q: Array) -> list[Any]:
+    """Return what each function of a measure says of two curves."""
+    return [function(P, Q, **_arguments(options)) for function in _functions(info)]
+
+
+def _digest(results: list[list[Any]]) -> str:
+    """Return a hash of every bit of the results of a check."""
+    digest = hashlib.sha256()
+    for value in (value for of_pair in results for value in of_pair):
+        parts = (value.distance, value.path) if isinstance(value, Alignment) else (value,)
+        for part in parts:
+            digest.update(np.ascontiguousarray(part).tobytes())
+    return digest.hexdigest()
+
+
+def _agree(
+    info: MeasureInfo, options: dict[str, Any], results: list[Any], P: Array, Q: Array
+) -> bool:
+    """Tell whether the reference says of two curves what the compiled library does."""
+    if info.name == "frechet_continuous":
+        return _is_rounded_up(results[0], P, Q)
+    exact = info.warping is not None and options.get("metric") != "minkowski"
+    return all(
+        _equal(ours, getattr(reference, function.__name__)(P, Q, **_arguments(options)), exact)
+        for function, ours in zip(_functions(info), results, strict=True)
+    )
+
+
+def _is_rounded_up(value: float, P: Array, Q: Array) -> bool:
+    """Tell whether a value is the least double that is not below the continuous distance."""
+    below = float(np.nextafter(value, 0.0))
+    is_enough = reference.frechet_within(P, Q, value)
+    return is_enough and (value == 0.0 or not reference.frechet_within(P, Q, below))
+
+
+def _equal(ours: Any, theirs: Any, exact: bool) -> bool:
+    if isinstance(ours, Alignment):
+        # Where values are not exact, rounding may decide which path is taken.
+        same_path = np.array_equal(ours.path, theirs.path)
+        return not exact or (ours.distance == theirs.distance and same_path)
+    if exact:
+        return np.array_equal(ours, theirs)
+    return np.allclose(ours, theirs, rtol=1e-12, atol=0)
+
+
+def _pairs(info: MeasureInfo, seed: str) -> Iterator[tuple[Array, Array]]:
+    rng = np.random.default_rng(sum(seed.encode()))
+    sizes = tuple(n for n in _SIZES if n > 1) if info.planar else _SIZES
+    dimensions = (2,) if info.planar else _DIMENSIONS
+    shapes = [(int(rng.choice(sizes)), int(rng.choice(sizes))) for _ in range(6)]
+    shapes += [(300, 170)] if info.planar else _TALL
+    if "matched" in seed:  # noise travels far, and is sampled as densely as it does
+        shapes[-1] = (60, 40)
+    if info.name == "frechet_continuous":  # whole numbers in Python are slow
+        shapes = [(n % 18 + 1, m % 18 + 1) for n, m in shapes]
+    # The curves are not centred on zero, since curve_length may divide by their mean.
+    centre = 3.0 if info.planar else 0.0
+    for n, m in shapes:
+        for dim in dimensions:
+            yield rng.normal(centre, size=(n, dim)), rng.normal(centre, size=(m, dim))
+            if not info.planar:
+                yield (
+                    rng.integers(0, 4, (n, dim)).astype(np.float64),
+                    rng.integers(0, 4, (m, dim)).astype(np.float64),
+                )
+
+
+if __name__ == "__main__":
+    sys.exit(0 if all(_check_active_level(sys.stdout, json.load(sys.stdin)).values()) else 1)

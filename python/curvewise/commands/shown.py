@@ -1,0 +1,34 @@
+"""What the commands print and draw of a comparison."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+
+from .._extras import extra
+from ..comparing.comparison import Comparison
+
+__all__ = ["print_table", "require_matplotlib", "write_picture"]
+
+
+def print_table(comparison: Comparison, names: list[str], columns: list[str]) -> None:
+    """Print what was compared, the values, and the deviations."""
+    curves = comparison.P, comparison.Q
+    for letter, name, curve, of in zip("PQ", names, curves, columns, strict=True):
+        print(f"{letter}  {name}, {len(curve)} points{of}")
+    print(f"preset {comparison.preset}\n\n{comparison}\n\ndeviation, in units of y")
+    width = max(map(len, comparison.values))
+    for name, deviation in comparison.deviations.items():
+        print(f"{name:<{width}}  {deviation}")
+
+
+def require_matplotlib() -> None:
+    """Fail before the work rather than after it."""
+    with extra("plot", "a picture needs matplotlib"):
+        import_module("matplotlib.figure")
+
+
+def write_picture(comparison: Comparison, file: str) -> None:
+    """Write the picture of a comparison, in the format that the name ends in, or PNG."""
+    # With the format given, matplotlib does not append ".png" to a name without an ending.
+    comparison.plot().savefig(file, format=Path(file).suffix[1:] or "png")
