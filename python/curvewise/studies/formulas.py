@@ -12,6 +12,7 @@ import operator
 import re
 from collections.abc import Callable, Iterable, Mapping
 from functools import reduce
+from itertools import repeat
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -57,7 +58,9 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
 }
 _SEVERAL = ("max", "min")
 _CONSTANTS = {"pi": np.pi}
-_OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
+_OPERATIONS: dict[str, Callable[..., Any]] = {
+    **_FUNCTIONS,
+    "negative": operator.neg,
     "+": operator.add,
     "-": operator.sub,
     "*": operator.mul,
@@ -65,7 +68,8 @@ _OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
     "**": operator.pow,
 }
 
-_Tree: TypeAlias = "tuple[Any, ...]"
+# A number, a name, or an operation with the trees of what it is done to.
+_Tree: TypeAlias = "float | str | tuple[Any, ...]"
 
 
 class Formula:
@@ -192,10 +196,10 @@ class _Parser:
         kind, token = self._kind, self._token
         if kind == "number":
             self._advance()
-            tree: _Tree = ("number", float(token))
+            tree: _Tree = float(token)
         elif kind == "name":
             self._advance()
-            tree = self._call(token) if self._take("(") else ("name", token)
+            tree = self._call(token) if self._take("(") else token
         elif self._take("("):
             tree = self._sum()
             self._close()
@@ -214,7 +218,7 @@ class _Parser:
         self._close()
         if len(arguments) > 1 and name not in _SEVERAL:
             raise self._error(f"{name} has one argument, not {len(arguments)}")
-        return ("call", name, *arguments)
+        return (name, *arguments)
 
     def _close(self) -> None:
         if not self._take(")"):
@@ -226,23 +230,18 @@ def _names(tree: _Tree) -> list[str]:
     found, pending = [], [tree]
     while pending:
         node = pending.pop()
-        if node[0] == "name" and node[1] not in _CONSTANTS:
-            found.append(node[1])
-        pending += [part for part in reversed(node[1:]) if isinstance(part, tuple)]
+        if isinstance(node, tuple):
+            pending += reversed(node[1:])
+        elif isinstance(node, str) and node not in _CONSTANTS:
+            found.append(node)
     return found
 
 
 def _value(tree: _Tree, values: Mapping[str, Any]) -> Any:
-    kind = tree[0]
-    if kind == "number":
-        return np.float64(tree[1])
-    if kind == "name":
-        value = values[tree[1]] if tree[1] in values else _CONSTANTS[tree[1]]
+    if isinstance(tree, float):
+        return np.float64(tree)
+    if isinstance(tree, str):
+        value = values[tree] if tree in values else _CONSTANTS[tree]
         return value if isinstance(value, np.ndarray) else np.float64(value)
-    if kind == "call":
-        return _FUNCTIONS[tree[1]](*(_value(part, values) for part in tree[2:]))
-    left = _value(tree[1], values)
-    if kind == "negative":
-        return -left
-    right = _value(tree[2], values)
-    return _OPERATORS[kind](left, right)
+    # By map, as a loop of Python's would double the depth of calls, which has a limit.
+    return _OPERATIONS[tree[0]](*map(_value, tree[1:], repeat(values)))

@@ -1,4 +1,4 @@
-"""The keys of a study file: each is described once, as a field of a dataclass, and read by one reader.
+"""The keys of a study file: each is a described field of a dataclass, and one reader reads all.
 
 A field made by `key`, `key_at` or `table` says how its value is read, what stands in the place of a
 value that is missing or wrong, and what to write where the key has to be there. `Table.read` makes
@@ -70,7 +70,7 @@ def key_at(read: ReadAt, default: Any = None, *, required: str = "") -> Any:
 
 
 def table(read: ReadAt) -> Any:
-    """Describe a table in a table: it is read where it is missing too, since its keys may not be."""
+    """Describe an inner table: where it is missing it is read as an empty one."""
     return field(default=None, metadata={"read": read, "required": "", "is_table": True})
 
 

@@ -15,19 +15,7 @@ from .formulas import Formula, undefined_names
 from .keys import Table, key
 from .toml_source import KeyPath, Source
 
-__all__ = ["FormulaOfParameters", "SearchedParameter", "read_parameters"]
-
-
-class FormulaOfParameters:
-    """A tied parameter: a formula of those listed before it."""
-
-    def __init__(self, text: str) -> None:
-        self.text = text
-        self.formula = Formula(text)
-
-    def __call__(self, parameters: Mapping[str, float]) -> float:
-        """Return its value."""
-        return float(self.formula(parameters))
+__all__ = ["SearchedParameter", "read_parameters"]
 
 
 def _pair(value: Any) -> tuple[float, float]:
@@ -73,10 +61,10 @@ def _bounds(
     source: Source, parameter: str, value: Any, before: list[str], start: dict[str, float]
 ) -> Any:
     if isinstance(value, str):
-        tied = FormulaOfParameters(value)
-        for message in undefined_names(tied.formula, before):
+        formula = Formula(value)
+        for message in undefined_names(formula, before):
             raise ValueError(f"{message}; list those it uses before it")
-        return Tied(tied)
+        return Tied(formula)
     if isinstance(value, list):
         return _pair(value)
     if not isinstance(value, Mapping):
