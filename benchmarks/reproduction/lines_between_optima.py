@@ -18,7 +18,7 @@ from problems import COLOURS, MEASURES, TITLES
 from report import Run, legend_below, table
 from studies import Found
 
-from curvewise.calibration import LinePlot, Objective, line_plot
+from curvewise.calibration import Criterion, LinePlot, Objective, line_plot
 
 SPLIT = "area_split"
 PAIRS = tuple(combinations(MEASURES, 2))
@@ -39,8 +39,9 @@ def main() -> None:
 def scans(name: str, found: Mapping[str, Found], points: int) -> list[LinePlot]:
     """Return the objectives of a data set along all lines."""
     options = {"preset": "paper", "min_coverage": 0.0}
-    objectives = {measure: Objective(tests(name), measure, **options) for measure in MEASURES}
-    objectives[SPLIT] = Objective(tests(name), "area", crossing="split", **options)
+    criteria = {measure: Criterion(measure, **options) for measure in MEASURES}
+    criteria[SPLIT] = Criterion("area", crossing="split", **options)
+    objectives = {label: Objective(tests(name), one) for label, one in criteria.items()}
     optima = {measure: found[measure].stages[0].parameters for measure in MEASURES}
     return [
         line_plot(objectives, model(), optima[a], optima[b], points=points, progress=False)

@@ -29,7 +29,7 @@ from report import Run, table
 from studies import Effort, Found, Task, evolution, identify_all
 
 import curvewise
-from curvewise.calibration import Objective
+from curvewise.calibration import Criterion, Objective
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -87,7 +87,9 @@ def branch_table() -> str:
     for name, (measure, options) in BRANCH_METHODS.items():
         values = []
         for loop in test_loops():
-            objective = Objective(loop, measure, preset="paper", min_coverage=0.0, **options)
+            objective = Objective(
+                loop, Criterion(measure, preset="paper", min_coverage=0.0, **options)
+            )
             values.append(objective(first_branch(loop)))
         rows.append([name, *("0" if value == 0 else f"{value:.4g}" for value in values)])
     return table(["loop against its first branch", *(f"loop {k}" for k in LOOPS)], rows)

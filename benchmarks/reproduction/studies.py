@@ -24,7 +24,7 @@ import numpy as np
 from problems import Array, Bounds
 from tqdm.auto import tqdm
 
-from curvewise.calibration import cross_validate, identify
+from curvewise.calibration import Criterion, cross_validate, identify
 
 Model: TypeAlias = Callable[[Mapping[str, float]], Any]
 Effort: TypeAlias = Mapping[str, Mapping[str, Any]]
@@ -72,12 +72,11 @@ class Task:
     def keywords(self) -> dict[str, Any]:
         """Return what `identify` and `cross_validate` are given, beside a stage's own."""
         return {
-            "measure": self.measure,
-            "preset": self.preset,
-            "min_coverage": 0.0,
+            "measure": Criterion(
+                self.measure, preset=self.preset, min_coverage=0.0, **self.options
+            ),
             "seed": self.seed,
             "progress": False,
-            **self.options,
         }
 
     def digest(self) -> str:

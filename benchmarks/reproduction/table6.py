@@ -39,7 +39,7 @@ from problems import (
 from report import Run, table
 from studies import Effort, Found, Task, evolution, identify_all
 
-from curvewise.calibration import Objective
+from curvewise.calibration import Criterion, Objective
 
 HALF_LENGTH = 0.1  # of a line through the optimum, as a share of the parameters' ranges
 OUTLIER = 0.5  # how far an outlier is moved; the cycle is 1.72 high
@@ -166,10 +166,9 @@ def is_missed(key: tuple[str, str, int], fit: Found) -> bool:
     condition = variant.condition()
     objective = Objective(
         variant.prepared(CASES[case](number), 21),
-        condition.measure,
-        preset=condition.preset,
-        min_coverage=0.0,
-        **condition.options,
+        Criterion(
+            condition.measure, preset=condition.preset, min_coverage=0.0, **condition.options
+        ),
     )
     return objective(load_unload(LOAD_UNLOAD_TRUTH)) < 0.999 * fit.value
 
@@ -214,10 +213,7 @@ def scan(
     """Return the objective along every line."""
     objective = Objective(
         [variant.prepared(test, 11) for test in tests],
-        variant.measure,
-        preset="paper",
-        min_coverage=0.0,
-        **variant.options,
+        Criterion(variant.measure, preset="paper", min_coverage=0.0, **variant.options),
     )
     return [np.array([objective(loops) for loops in line]) for line in simulations]
 
@@ -250,9 +246,9 @@ def word_table(
     rows = []
     for name, words in WORDS.items():
         variant = VARIANTS[name]
-        options = {"preset": "paper", "min_coverage": 0.0, **variant.options}
+        criterion = Criterion(variant.measure, preset="paper", min_coverage=0.0, **variant.options)
         loop = test_loops()[4]
-        branch = Objective(loop, variant.measure, **options)(first_branch(loop))
+        branch = Objective(loop, criterion)(first_branch(loop))
         errors = {
             case: np.median([100 * curve_error(fit.parameters) for fit in found[name, case]])
             for case in ("noise 0.05", "noise 0.2236", "1 outlier", "5 outliers")

@@ -32,7 +32,7 @@ from matplotlib.figure import Figure
 from places import BUILD, LOOPS, RESULTS
 
 from curvewise import read_curve
-from curvewise.calibration import Identification, identify
+from curvewise.calibration import Criterion, Identification, SimulationStore, identify
 from curvewise.curves.named_curve import NamedCurve
 
 TESTS = ["dp780_tct_3pct.csv", "dp780_tct_6pct.csv"]
@@ -79,10 +79,10 @@ def main() -> None:
     runs = scratch / "femu_runs"
     verification = verify(paths, runs)
     model = CubeModel(paths, runs)
-    history = scratch / "histories" / ("femu_quick" if options.quick else "femu")
-    history.mkdir(parents=True, exist_ok=True)
+    stores = scratch / "stores" / ("femu_quick" if options.quick else "femu")
+    stores.mkdir(parents=True, exist_ok=True)
     found = {
-        measure: fit(model, tests, measure, history, options.workers, quick=options.quick)
+        measure: fit(model, tests, measure, stores, options.workers, quick=options.quick)
         for measure in (MEASURES[:3] if options.quick else MEASURES)
     }
     failures = survive_failures(model, tests, options.workers)
@@ -168,24 +168,23 @@ def fit(
     model: CubeModel,
     tests: Sequence[Array],
     measure: str,
-    histories: Path,
+    stores: Path,
     workers: int,
     *,
     quick: bool,
 ) -> Identification:
-    """Identify the parameters by one measure, or go on with what the history has."""
-    # The history knows tests and bounds; the deck is the model's, whose changes it cannot see.
+    """Identify the parameters by one measure, or go on with what its store has."""
+    # A store for each measure: each makes all of its runs itself.
     version = hashlib.sha256(model.deck.encode()).hexdigest()[:8]
     identification = identify(
         model,
         tests,
         BOUNDS,
-        measure=measure,
-        preset="paper",
+        measure=Criterion(measure, preset="paper"),
         method="sdrm",
         max_evaluations=18 if quick else None,
         workers=workers,
-        history=histories / f"{measure}_{version}.csv",
+        store=SimulationStore(stores / f"{measure}.db", version=version),
     )
     print(f"\n{TITLES[measure]}\n{identification}", flush=True)
     return identification
@@ -230,7 +229,7 @@ def survive_failures(model: CubeModel, tests: Sequence[Array], workers: int) -> 
         model,
         tests,
         DIVERGING_BOUNDS,
-        preset="paper",
+        measure=Criterion(preset="paper"),
         method="de",
         method_options={"popsize": 2},
         max_evaluations=36,

@@ -27,7 +27,14 @@ import femu_calculix as femu
 from places import BUILD, LOOPS, RESULTS
 
 from curvewise import read_curve
-from curvewise.calibration import Objective, SimulationStore, identify, identify_each, rescore
+from curvewise.calibration import (
+    Criterion,
+    Objective,
+    SimulationStore,
+    identify,
+    identify_each,
+    rescore,
+)
 
 SAME = 1e-9  # of a value, where the same code is computed anew
 
@@ -46,12 +53,13 @@ def main() -> None:
     tests, paths = [test for test, _ in samples], [path for _, path in samples]
     options.stores.mkdir(parents=True, exist_ok=True)
     model = cube.CubeModel(paths, options.stores / "femu_runs")
-    study = {"preset": options.preset, "workers": options.workers, "progress": False}
+    study = {"workers": options.workers, "progress": False}
     store = options.stores / f"shared_runs_{options.preset}.db"
     alone = options.stores / f"separate_runs_{options.preset}.db"
 
     started = time.monotonic()
-    found = identify_each(model, tests, femu.BOUNDS, measures=femu.MEASURES, store=store, **study)
+    criteria = [Criterion(measure, preset=options.preset) for measure in femu.MEASURES]
+    found = identify_each(model, tests, femu.BOUNDS, measures=criteria, store=store, **study)
     with SimulationStore(store) as runs:  # those of an interrupted script, too
         count = len(runs)
     print(found, f"{count} with those before; {time.monotonic() - started:.0f} s")
@@ -62,16 +70,16 @@ def main() -> None:
     for method in options.separate:
         one_by_one = [
             identify(
-                model, tests, femu.BOUNDS, measure=measure, method=method, store=alone, **study
+                model, tests, femu.BOUNDS, measure=criterion, method=method, store=alone, **study
             )
-            for measure in femu.MEASURES
+            for criterion in criteria
         ]
         results[method] = {
             "runs": sum(one.evaluations for one in one_by_one),
             "values": {one.measure: one.value for one in one_by_one},
         }
     print(table(results))
-    rescored = rescore(store, tests, "curve_length", preset="scaled")
+    rescored = rescore(store, tests, Criterion("curve_length", preset="scaled"))
     print(f"rescore of {len(rescored.history)} runs by another measure, without a solver")
     options.output.mkdir(exist_ok=True)
     path = options.output / "shared_runs.json"
@@ -89,7 +97,9 @@ def stored_searches(model: Any, tests: Sequence[Any]) -> dict[str, Any]:
     before = json.loads(file.read_text())["measures"]
     values = {}
     for measure, old in before.items():
-        values[measure] = Objective(tests, measure, preset="paper")(model(old["parameters"]))
+        values[measure] = Objective(tests, Criterion(measure, preset="paper"))(
+            model(old["parameters"])
+        )
         if abs(values[measure] / old["objective"] - 1.0) > SAME:
             raise SystemExit(
                 f"the optimum of {measure} is {values[measure]}, and {old['objective']} in {file}: "

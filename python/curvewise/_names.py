@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from difflib import get_close_matches
 
-__all__ = ["meant"]
+__all__ = ["did_you_mean"]
 
 
-def meant(names: Iterable[object], known: Iterable[str]) -> str:
+def did_you_mean(
+    names: Iterable[object], known: Iterable[str], shown: Callable[[str], str] = repr
+) -> str:
     """Return "; did you mean ...?" for names near to known ones, or nothing where none is near.
 
     Parameters
@@ -17,6 +19,8 @@ def meant(names: Iterable[object], known: Iterable[str]) -> str:
         As they were given, some of them perhaps right.
     known
         Those that there are.
+    shown
+        How a name is written, with its quotes.
     """
     known = list(known)
     plain = {_plain(name): name for name in known}
@@ -24,7 +28,7 @@ def meant(names: Iterable[object], known: Iterable[str]) -> str:
     for name in names:
         if isinstance(name, str) and name not in known:
             found += [plain[near] for near in get_close_matches(_plain(name), plain, n=1)]
-    listed = ", ".join(repr(name) for name in dict.fromkeys(found))
+    listed = ", ".join(shown(name) for name in dict.fromkeys(found))
     return f"; did you mean {listed}?" if listed else ""
 
 

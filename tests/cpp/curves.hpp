@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "choices.hpp"
 #include "curvewise/curve.hpp"
 
 namespace test {
@@ -62,16 +63,18 @@ class Curve {
     std::ptrdiff_t dim_;
 };
 
-class Random {
+class Random final : public Choices {
    public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
 
+    std::uint64_t bytes(int count) override { return engine_() >> (64 - 8 * count); }
+
     // From low to high; the top 53 bits, so that every library gives the same numbers.
-    double uniform(double low, double high) {
+    double uniform(double low, double high) override {
         return low + (high - low) * std::ldexp(static_cast<double>(engine_() >> 11), -53);
     }
     // 0, ..., count - 1.
-    std::ptrdiff_t index(std::ptrdiff_t count) {
+    std::ptrdiff_t index(std::ptrdiff_t count) override {
         return static_cast<std::ptrdiff_t>(engine_() % static_cast<std::uint64_t>(count));
     }
 

@@ -1,4 +1,4 @@
-"""A full disk: a search whose history, or store, can no longer be written.
+"""A full disk: a search whose store can no longer be written.
 
 It must end with an OSError that names the file. What was written before is whole: with room
 again, the search goes on, runs nothing twice that was kept, and has the bits of one that ran
@@ -20,6 +20,7 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -41,12 +42,11 @@ class Line:
         return np.column_stack((X, parameters["a"] * X + parameters["b"]))
 
 
-def search(model: Line, **where: Path) -> Identification:
+def search(model: Line, store: Path | None = None) -> Identification:
     experiment = Line()({"a": 2.0, "b": 1.0})
     options = {"maxiter": 8}
-    return identify(
-        model, experiment, BOUNDS, method="sdrm", method_options=options, progress=False, **where
-    )
+    keywords: dict[str, Any] = {"method": "sdrm", "method_options": options, "progress": False}
+    return identify(model, experiment, BOUNDS, store=store, **keywords)
 
 
 @contextmanager
@@ -73,60 +73,52 @@ def little_room(folder: Path, room: int) -> Iterator[None]:
         ballast.unlink()
 
 
-def kept(kind: str, file: Path) -> int:
-    """Return how many runs a history, or a store, holds."""
+def kept(file: Path) -> int:
+    """Return how many runs a store holds."""
     if not file.exists():
         return 0
-    if kind == "history":  # beside its runs it has a title, a header, and how the search ended
-        lines = file.read_bytes().splitlines(keepends=True)
-        return sum(line[:1].isdigit() and line.endswith(b"\n") for line in lines)
     with SimulationStore(file) as store:
         return len(store)
 
 
-def tried_once(kind: str, file: Path, room: int, full: Full, whole: Identification) -> str:
+def tried_once(file: Path, room: int, full: Full, whole: Identification) -> str:
     """Search on a full disk, then again with room; return "full", "enough", or what is wrong."""
     result = "enough"
     try:
         with full(file.parent, room):
-            search(Line(), **{kind: file})
+            search(Line(), file)
     except OSError as error:
         result = "full"
         if str(file) not in str(error):
             return f"{error!r} does not name the file"
-    before = kept(kind, file)
+    before = kept(file)
     model = Line()
-    found = search(model, **{kind: file})
+    found = search(model, file)
     if found.value != whole.value or found.parameters != whole.parameters:
         return f"{found.value.hex()} with room again, not {whole.value.hex()}"
-    # The best of a history is run once more, for its curves; a store has them.
-    needed = whole.evaluations - before
-    if not needed <= model.runs <= needed + (kind == "history"):
+    if model.runs != whole.evaluations - before:
         return f"{model.runs} runs, though {before} of {whole.evaluations} were kept"
     return result
 
 
 def tried(name: str, folder: Path, full: Full, most: int, times: int) -> int:
-    """Try both kinds of files; return how many went wrong."""
+    """Search again and again; return how many went wrong."""
     rng = random.Random(times)
     whole = search(Line())
-    wrong = 0
-    for kind in ("history", "store"):
-        results = []
-        for _ in range(times):
-            file = folder / f"search.{kind}"
-            results.append(tried_once(kind, file, rng.randrange(most), full, whole))
-            file.unlink()
-        bad = [result for result in results if result not in ("full", "enough")]
-        wrong += len(bad)
-        print(
-            f"{name}, {kind}: {times} searches, {results.count('full')} ended by OSError, "
-            f"{results.count('enough')} had room; {len(bad)} wrong",
-            *bad,
-            sep="\n    ",
-            flush=True,
-        )
-    return wrong
+    results = []
+    for _ in range(times):
+        file = folder / "search.db"
+        results.append(tried_once(file, rng.randrange(most), full, whole))
+        file.unlink()
+    bad = [result for result in results if result not in ("full", "enough")]
+    print(
+        f"{name}: {times} searches, {results.count('full')} ended by OSError, "
+        f"{results.count('enough')} had room; {len(bad)} wrong",
+        *bad,
+        sep="\n    ",
+        flush=True,
+    )
+    return len(bad)
 
 
 def main() -> int:
@@ -135,13 +127,13 @@ def main() -> int:
     times = parser.parse_args().times
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        wrong = tried("a file that may not grow", folder, no_growth, 40_000, times)
+        wrong = tried("a file that may not grow", folder, no_growth, 80_000, times)
         mount = ["mount", "-t", "tmpfs", "-o", "size=256k", "tmpfs", name]
         if os.getuid() != 0 or subprocess.run(mount, check=False, capture_output=True).returncode:
             print("a full file system: left out, since nobody here may mount one")
             return 1 if wrong else 0
         try:
-            wrong += tried("a full file system", folder, little_room, 60_000, times)
+            wrong += tried("a full file system", folder, little_room, 120_000, times)
         finally:
             subprocess.run(["umount", name], check=True)
     return 1 if wrong else 0

@@ -1,6 +1,6 @@
 """Searches that are killed: kill -9, or Ctrl-C, at a random moment, and two processes on one store.
 
-A search with a store and a history is started again until it has run through, and killed each time
+A search with a store is started again until it has run through, and killed each time
 but the last, at a moment drawn from all of its life: while Python starts, while the store is made,
 while a model runs, while a row is written. In the end it must have the bits of a search that was
 left alone; every run that the store held was not made again; the database is whole (SQLite's own
@@ -29,7 +29,7 @@ import numpy as np
 from curvewise.calibration import identify
 
 X = np.linspace(0.0, 1.0, 25)
-store, history, workers = sys.argv[1:]
+store, workers = sys.argv[1:]
 
 
 class Line:
@@ -46,7 +46,7 @@ if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in the background
     found = identify(
         Line(), np.column_stack((X, 2.0 * X + 1.0)), {"a": (0.0, 10.0), "b": (-5.0, 5.0)},
-        store=store, history=history or None, workers=int(workers), progress=False,
+        store=store, workers=int(workers), progress=False,
         method="sdrm", method_options={"maxiter": 8},
     )
     print(found.value.hex(), *(value.hex() for value in found.parameters.values()))
@@ -65,10 +65,9 @@ class Searches:
         self.whole = self.finished(self.started("whole"))
         self.seconds = time.monotonic() - begun
 
-    def started(self, name: str, *, history: str = "", workers: int = 1) -> subprocess.Popen[str]:
-        files = [str(self.folder / f"{name}.db"), history and str(self.folder / history)]
+    def started(self, name: str, *, workers: int = 1) -> subprocess.Popen[str]:
         return subprocess.Popen(
-            [sys.executable, str(self.script), *files, str(workers)],
+            [sys.executable, str(self.script), str(self.folder / f"{name}.db"), str(workers)],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
@@ -113,9 +112,8 @@ def killed_and_resumed(
 ) -> str:
     """Kill a search `kills` times; return what is wrong in the end, or nothing."""
     workers = rng.choice([1, 2])
-    history = f"{name}.csv"
     for _ in range(kills):
-        process = searches.started(name, history=history, workers=workers)
+        process = searches.started(name, workers=workers)
         time.sleep(rng.uniform(0.0, searches.seconds))
         os.kill(process.pid, number)
         _, errors = process.communicate(timeout=60)
@@ -123,14 +121,16 @@ def killed_and_resumed(
             return "a process is left"
         # Before Python has a handler for it, and after, the signal ends a process without a word.
         is_wordless = process.returncode == -number and not errors
-        is_ended = process.returncode == 0 or is_wordless or "KeyboardInterrupt" in errors
+        # While numpy is imported, the KeyboardInterrupt becomes an ImportError of numpy's.
+        is_said = "KeyboardInterrupt" in errors or "numpy C-extensions failed" in errors
+        is_ended = process.returncode == 0 or is_wordless or is_said
         if number == signal.SIGINT and not is_ended:
             return f"Ctrl-C ended in status {process.returncode}, {errors!r}"
     before = stored(searches.folder / f"{name}.db")
     if before < 0:
         return "the database is damaged"
     runs = searches.runs(name)
-    out = searches.finished(searches.started(name, history=history))
+    out = searches.finished(searches.started(name))
     if out != searches.whole:
         return f"resumed: {out}, not {searches.whole}"
     more = searches.runs(name) - runs

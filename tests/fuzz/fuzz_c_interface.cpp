@@ -13,7 +13,7 @@
 
 namespace {
 
-using stress::Choices;
+using test::Choices;
 
 constexpr double untouched = -12345.678;
 
@@ -202,7 +202,7 @@ void check_batch(Choices& choices) {
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    stress::ByteChoices choices(data, size);
+    test::ByteChoices choices(data, size);
     switch (choices.index(4)) {
         case 0:
             check_normalize(choices);

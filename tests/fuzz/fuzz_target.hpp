@@ -16,7 +16,7 @@ namespace fuzz {
 
 template <class Check>
 int run(const std::uint8_t* data, std::size_t size, Check check) {
-    stress::ByteChoices choices(data, size);
+    test::ByteChoices choices(data, size);
     stress::Record record;
     try {
         check(choices, record);

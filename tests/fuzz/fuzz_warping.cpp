@@ -4,7 +4,7 @@
 #include "fuzz_target.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    return fuzz::run(data, size, [](stress::Choices& choices, stress::Record& record) {
+    return fuzz::run(data, size, [](test::Choices& choices, stress::Record& record) {
         stress::check_warping(choices, record);
     });
 }

@@ -93,8 +93,10 @@ TESTS: dict[str, tuple[str, ...]] = {
         f"{CALIBRATION}/test_uncertainty.py",
         f"{CALIBRATION}/test_cases.py",
     ),
-    "calibration/history.py": (f"{CALIBRATION}/test_history.py",),
-    "calibration/store.py": (f"{CALIBRATION}/test_store.py",),
+    "calibration/records/store.py": (
+        f"{CALIBRATION}/test_store.py",
+        f"{CALIBRATION}/test_resuming.py",
+    ),
     "calibration/trust_region.py": (
         f"{CALIBRATION}/test_trust_region.py",
         f"{CALIBRATION}/test_methods.py",

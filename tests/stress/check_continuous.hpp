@@ -10,7 +10,7 @@
 
 #include "check_warping.hpp"
 #include "curvewise/curvewise.hpp"
-#include "nasty_curves.hpp"
+#include "hard_curves.hpp"
 #include "record.hpp"
 #include "textbook_continuous.hpp"
 
@@ -156,7 +156,7 @@ class ContinuousCheck {
 
 inline std::ptrdiff_t check_continuous(Choices& choices, Record& record) {
     const Kind kind = any_kind(choices);
-    NastyCurves curves(choices, kind, any_dimension(choices));
+    HardCurves curves(choices, kind, any_dimension(choices));
     const std::ptrdiff_t most = kind == Kind::lattice ? 7 : 10;
     const Curve P = curves.curve(choices.between(1, most));
     Curve Q = curves.other(P, choices.between(1, most));

@@ -11,7 +11,7 @@
 
 #include "check_warping.hpp"
 #include "curvewise/curvewise.hpp"
-#include "nasty_curves.hpp"
+#include "hard_curves.hpp"
 #include "record.hpp"
 #include "textbook_warping.hpp"
 
@@ -181,7 +181,7 @@ class MeanGradientCompareChecks {
     Choices& choices_;
     Record& record_;
     Kind kind_;
-    NastyCurves curves_;
+    HardCurves curves_;
     std::vector<Curve> X_;
     About with_;
 };

@@ -12,7 +12,7 @@
 
 #include "check_warping.hpp"
 #include "curvewise/curvewise.hpp"
-#include "nasty_curves.hpp"
+#include "hard_curves.hpp"
 #include "record.hpp"
 #include "textbook_planar.hpp"
 
@@ -240,7 +240,7 @@ class PlanarCheck {
 
 inline std::ptrdiff_t check_planar(Choices& choices, Record& record) {
     const Kind kind = any_kind(choices);
-    NastyCurves curves(choices, kind, 2);
+    HardCurves curves(choices, kind, 2);
     const Curve P = curves.curve(any_size(choices, 2, 40));
     const Curve Q = curves.other(P, choices.one_in(3) ? P.size() : any_size(choices, 2, 40));
     PlanarCheck(choices, record, kind, P, Q).run();

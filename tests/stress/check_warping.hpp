@@ -12,7 +12,7 @@
 
 #include "curvewise/curvewise.h"
 #include "curvewise/curvewise.hpp"
-#include "nasty_curves.hpp"
+#include "hard_curves.hpp"
 #include "record.hpp"
 #include "textbook_warping.hpp"
 
@@ -30,7 +30,8 @@ inline std::ptrdiff_t any_workers(Choices& choices) {
 inline curvewise::GroundDistance any_ground_distance(Choices& choices) {
     constexpr double orders[] = {1.0, 2.0, infinity, 1.5, 3.0, 40.0, 1.0 + 0x1p-52};
     curvewise::GroundDistance ground;
-    ground.metric = static_cast<curvewise::Metric>(choices.index(5));
+    ground.metric = oracle::metrics[static_cast<std::size_t>(
+        choices.index(static_cast<std::ptrdiff_t>(oracle::metrics.size())))];
     if (ground.metric == curvewise::Metric::minkowski) ground.p = orders[choices.index(7)];
     return ground;
 }
@@ -426,8 +427,7 @@ void check_subsequences(Choices& choices, const Judge& judge, const Options& opt
 
 template <class Options>
 std::ptrdiff_t check_warping(Choices& choices, Record& record, const char* measure,
-                             const Options& options, NastyCurves& curves,
-                             std::ptrdiff_t long_size) {
+                             const Options& options, HardCurves& curves, std::ptrdiff_t long_size) {
     const Judge judge(record, measure, options.ground);
     std::vector<Curve> XA, XB;
     About with{std::string(measure) + " metric " +
@@ -466,7 +466,7 @@ std::ptrdiff_t check_warping(Choices& choices, Record& record, const char* measu
 inline std::ptrdiff_t check_large(Choices& choices, Record& record) {
     const Kind kind = choices.one_in(4) ? Kind::walk : Kind::loop;
     const std::ptrdiff_t dim = choices.between(1, 3);
-    NastyCurves curves(choices, kind, dim);
+    HardCurves curves(choices, kind, dim);
     const Curve P = curves.curve(choices.between(1100, 1400));
     Curve Q = P;
     while (Q.size() == P.size()) Q = curves.other(P, choices.between(1110, 1300));
@@ -493,7 +493,7 @@ inline std::ptrdiff_t check_large(Choices& choices, Record& record) {
 
 inline std::ptrdiff_t check_warping(Choices& choices, Record& record) {
     const std::ptrdiff_t dim = any_dimension(choices);
-    NastyCurves curves(choices, any_kind(choices), dim);
+    HardCurves curves(choices, any_kind(choices), dim);
     const std::ptrdiff_t long_size = dim > 4 ? 40 : 90;
     if (choices.one_in(2)) {
         const FrechetOptions options = any_frechet_options(choices);

@@ -1,17 +1,19 @@
 """Random pairs of curves that break such programs, and options to go with them.
 
-The same kinds as in nasty_curves.hpp: ties, repeated points, one point, signed zeros, subnormals,
-both ends of the range of a double, large offsets, last bits, one far point. What is drawn hangs on
-the seed and the number of the pair alone.
+The same kinds as in tests/cpp/hard_curves.hpp: ties, repeated points, one point, signed zeros,
+subnormals, both ends of the range of a double, large offsets, last bits, one far point. What is
+drawn hangs on the seed and the number of the pair alone.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import numpy.typing as npt
+
+from curvewise._options import Metric
 
 Array = npt.NDArray[np.float64]
 
@@ -104,7 +106,7 @@ def _other(rng: np.random.Generator, kind: str, P: Array, m: int) -> Array:
 
 def _options(rng: np.random.Generator, n: int, m: int) -> dict[str, dict[str, Any]]:
     def ground() -> dict[str, Any]:
-        metric = rng.choice(["euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"])
+        metric = rng.choice(get_args(Metric))
         order = {"p": float(rng.choice([1.0, 2.0, np.inf, 1.5, 3.0]))}
         return {"metric": str(metric), **(order if metric == "minkowski" else {})}
 

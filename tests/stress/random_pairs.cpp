@@ -40,7 +40,7 @@ struct Run {
 // Most rounds are the sweeps', whose code differs from level to level. A round of the continuous
 // distance, whose extremes take numbers of thousands of bits, takes as long as a hundred of them.
 void play(Run& run) {
-    stress::RandomChoices choices(run.seed, run.round);
+    test::RandomChoices choices(run.seed, run.round);
     run.record.begin("--seed " + std::to_string(run.seed) + " --round " +
                      std::to_string(run.round));
     const auto count = [&](const char* part, std::ptrdiff_t pairs) {

@@ -11,9 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "curves.hpp"
+#include "hard_curves.hpp"
 
 namespace stress {
+
+using namespace test;
 
 struct Count {
     std::int64_t compared = 0;

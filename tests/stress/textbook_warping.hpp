@@ -5,42 +5,24 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <limits>
-#include <optional>
 #include <vector>
 
-#include "curves.hpp"
-#include "curvewise/ground_distance.hpp"
+#include "warping/oracle.hpp"
 
 namespace textbook {
 
 using curvewise::GroundDistance;
 using curvewise::Metric;
+using oracle::ground_distance;
+using oracle::is_exact;
+using oracle::Path;
+using oracle::Rules;
 using test::Curve;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-using Path = std::vector<std::array<std::int64_t, 2>>;
-
-struct Rules {
-    GroundDistance ground;
-    bool largest = false;  // the largest ground distance (Fréchet), not the sum (DTW)
-    double diagonal_weight = 1.0;
-    std::optional<std::ptrdiff_t> window;
-    bool open_begin = false;
-    bool open_end = false;
-};
-
-// Whether sums are in the order of the coordinates and every operation is correctly rounded, so
-// that there is one right answer to the last bit. (Powers are as good as the C library's.)
-inline bool is_exact(const GroundDistance& ground) {
-    return ground.metric != Metric::minkowski || ground.p == 1.0 || ground.p == 2.0 ||
-           std::isinf(ground.p);
-}
 
 inline bool is_euclidean(const GroundDistance& ground) {
     return ground.metric == Metric::euclidean ||
@@ -73,38 +55,13 @@ struct Table {
     double& distance(std::ptrdiff_t i, std::ptrdiff_t j) {
         return ground[static_cast<std::size_t>(i * m + j)];
     }
+    double cost(std::ptrdiff_t i, std::ptrdiff_t j) const {
+        return costs[static_cast<std::size_t>(i * m + j)];
+    }
+    double distance(std::ptrdiff_t i, std::ptrdiff_t j) const {
+        return ground[static_cast<std::size_t>(i * m + j)];
+    }
 };
-
-inline double ground_distance(const GroundDistance& ground, const Curve& P, std::ptrdiff_t i,
-                              const Curve& Q, std::ptrdiff_t j) {
-    const bool is_minkowski = ground.metric == Metric::minkowski;
-    const bool adds = ground.metric == Metric::cityblock || (is_minkowski && ground.p == 1.0);
-    double sum = 0.0, squares = 0.0, largest = 0.0;
-    for (std::ptrdiff_t c = 0; c < P.dim(); ++c) {
-        const double delta = std::abs(P(i, c) - Q(j, c));
-        sum += delta;
-        squares += delta * delta;
-        largest = std::max(largest, delta);
-    }
-    if (ground.metric == Metric::sqeuclidean) return squares;
-    if (P.dim() == 1 || adds) return sum;
-    if (ground.metric == Metric::chebyshev || (is_minkowski && std::isinf(ground.p))) {
-        return largest;
-    }
-    if (!is_minkowski || ground.p == 2.0) return std::sqrt(squares);
-    if (largest == 0.0) return 0.0;
-    double powers = 0.0;
-    for (std::ptrdiff_t c = 0; c < P.dim(); ++c) {
-        powers += std::pow(std::abs(P(i, c) - Q(j, c)) / largest, ground.p);
-    }
-    return largest * std::pow(powers, 1.0 / ground.p);
-}
-
-inline bool is_in_window(const Rules& rules, std::ptrdiff_t n, std::ptrdiff_t m, std::ptrdiff_t i,
-                         std::ptrdiff_t j) {
-    if (!rules.window || n == 1 || m == 1) return true;
-    return std::abs(i * (m - 1) - j * (n - 1)) <= *rules.window * (std::max(n, m) - 1);
-}
 
 // Of curves that can be squared.
 inline Table filled(const Curve& P, const Curve& Q, const Rules& rules) {
@@ -113,7 +70,7 @@ inline Table filled(const Curve& P, const Curve& Q, const Rules& rules) {
     Table t{n, m, std::vector<double>(cells, infinity), std::vector<double>(cells, infinity)};
     for (std::ptrdiff_t i = 0; i < n; ++i) {
         for (std::ptrdiff_t j = 0; j < m; ++j) {
-            if (!is_in_window(rules, n, m, i, j)) continue;
+            if (!oracle::is_allowed(n, m, i, j, rules.window)) continue;
             const double d = t.distance(i, j) = ground_distance(rules.ground, P, i, Q, j);
             const double up = i > 0 ? t.cost(i - 1, j) : infinity;
             const double left = j > 0 ? t.cost(i, j - 1) : infinity;
@@ -137,7 +94,7 @@ struct Answer {
     std::vector<double> table;
 };
 
-inline std::ptrdiff_t end_of(Table& t, const Rules& rules) {
+inline std::ptrdiff_t end_of(const Table& t, const Rules& rules) {
     std::ptrdiff_t end = t.m - 1;
     if (!rules.open_end) return end;
     for (std::ptrdiff_t j = t.m - 1; j >= 0; --j) {
@@ -146,9 +103,9 @@ inline std::ptrdiff_t end_of(Table& t, const Rules& rules) {
     return end;
 }
 
-// Back from the end; among equals the diagonal, then (i-1, j), then (i, j-1).
-inline Path traced(Table& t, const Rules& rules) {
-    std::ptrdiff_t i = t.n - 1, j = end_of(t, rules);
+// Back from column j of the last row; among equals the diagonal, then (i-1, j), then (i, j-1).
+inline Path traced(const Table& t, const Rules& rules, std::ptrdiff_t j) {
+    std::ptrdiff_t i = t.n - 1;
     Path path{{i, j}};
     while (i > 0 || (j > 0 && !rules.open_begin)) {
         const double up = i > 0 ? t.cost(i - 1, j) : infinity;
@@ -173,25 +130,25 @@ inline Path traced(Table& t, const Rules& rules) {
 // Value, path and table. For Fréchet with the Euclidean distance the path is that of the squares,
 // of which fewer are equal than of their roots; the values are taken from the roots.
 inline Answer answer(const Curve& P, const Curve& Q, const Rules& rules) {
-    const int k = range_exponent(P, Q);
+    // Of degree 0, the curves are compared as they are.
+    const int k = oracle::degree(rules.ground.metric) == 0 ? 0 : range_exponent(P, Q);
     const Curve p = k == 0 ? P : P.times_power_of_two(-k);
     const Curve q = k == 0 ? Q : Q.times_power_of_two(-k);
-    const bool squares = rules.ground.metric == Metric::sqeuclidean;
     Table t = filled(p, q, rules);
     Answer found;
     found.value = t.cost(t.n - 1, end_of(t, rules));
     if (rules.largest && is_euclidean(rules.ground) && P.dim() > 1) {
         Rules squared = rules;
         squared.ground = {Metric::sqeuclidean};
-        Table of_squares = filled(p, q, squared);
-        found.path = traced(of_squares, squared);
+        const Table of_squares = filled(p, q, squared);
+        found.path = traced(of_squares, squared, end_of(of_squares, squared));
     } else {
-        found.path = traced(t, rules);
+        found.path = traced(t, rules, end_of(t, rules));
     }
     found.table = std::move(t.costs);
-    const int degree = squares ? 2 * k : k;
-    found.value = std::ldexp(found.value, degree);
-    for (double& cost : found.table) cost = std::ldexp(cost, degree);
+    const int exponent = k * oracle::degree(rules.ground.metric);
+    found.value = std::ldexp(found.value, exponent);
+    for (double& cost : found.table) cost = std::ldexp(cost, exponent);
     return found;
 }
 
@@ -206,7 +163,7 @@ inline double unscaled_value(const Curve& P, const Curve& Q, const Rules& rules)
         for (std::ptrdiff_t j = 0; j < Q.size(); ++j) {
             const auto at = static_cast<std::size_t>(j);
             row[at] = infinity;
-            if (!is_in_window(rules, P.size(), Q.size(), i, j)) continue;
+            if (!oracle::is_allowed(P.size(), Q.size(), i, j, rules.window)) continue;
             const double d = ground_distance(rules.ground, P, i, Q, j);
             const double side = std::min(above[at], j > 0 ? row[at - 1] : infinity);
             const double diagonal = i > 0 && j > 0 ? above[at - 1] : infinity;

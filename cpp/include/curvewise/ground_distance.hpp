@@ -35,7 +35,16 @@ struct GroundDistance {
 
     /// The time that one distance in `dim` coordinates takes, roughly, in that of the fastest.
     constexpr double weight(double dim) const noexcept {
-        return dim * (metric == Metric::minkowski ? 16.0 : 1.0);
+        switch (metric) {
+            case Metric::euclidean:
+            case Metric::sqeuclidean:
+            case Metric::cityblock:
+            case Metric::chebyshev:
+                return dim;
+            case Metric::minkowski:
+                break;
+        }
+        return 16.0 * dim;
     }
 };
 

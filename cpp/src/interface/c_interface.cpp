@@ -32,38 +32,11 @@ CurveView view(const curvewise_curve* curve, const char* name) {
     return {given.data, given.n, given.dim, given.row_stride, given.col_stride};
 }
 
-// The enumerators of C are those of C++, in number and order.
-template <class Enum>
-constexpr bool is_same(int c_enumerator, Enum enumerator) noexcept {
-    return c_enumerator == static_cast<int>(enumerator);
-}
 using curvewise::Crossing;
 using curvewise::LengthScale;
 using curvewise::Metric;
 using curvewise::Spacing;
 using curvewise::StepPattern;
-static_assert(is_same(CURVEWISE_EUCLIDEAN, Metric::euclidean));
-static_assert(is_same(CURVEWISE_SQEUCLIDEAN, Metric::sqeuclidean));
-static_assert(is_same(CURVEWISE_CITYBLOCK, Metric::cityblock));
-static_assert(is_same(CURVEWISE_CHEBYSHEV, Metric::chebyshev));
-static_assert(is_same(CURVEWISE_MINKOWSKI, Metric::minkowski));
-static_assert(is_same(CURVEWISE_SYMMETRIC1, StepPattern::symmetric1));
-static_assert(is_same(CURVEWISE_SYMMETRIC2, StepPattern::symmetric2));
-static_assert(is_same(CURVEWISE_SPACING_DISTANCE, Spacing::distance));
-static_assert(is_same(CURVEWISE_SPACING_X, Spacing::x));
-static_assert(is_same(CURVEWISE_SPACING_ARC_LENGTH, Spacing::arc_length));
-static_assert(is_same(CURVEWISE_SPACING_MATCHED, Spacing::matched));
-static_assert(is_same(CURVEWISE_REARRANGE, Crossing::rearrange));
-static_assert(is_same(CURVEWISE_SPLIT, Crossing::split));
-static_assert(is_same(CURVEWISE_MEAN, LengthScale::mean));
-static_assert(is_same(CURVEWISE_MEAN_ABS, LengthScale::mean_abs));
-static_assert(is_same(CURVEWISE_RANGE, LengthScale::range));
-// Each enumeration of C ends where that of C++ does.
-static_assert(CURVEWISE_MINKOWSKI + 1 == choice_names(Metric{}).size());
-static_assert(CURVEWISE_SYMMETRIC2 + 1 == choice_names(StepPattern{}).size());
-static_assert(CURVEWISE_SPACING_MATCHED + 1 == choice_names(Spacing{}).size());
-static_assert(CURVEWISE_SPLIT + 1 == choice_names(Crossing{}).size());
-static_assert(CURVEWISE_RANGE + 1 == choice_names(LengthScale{}).size());
 
 template <int measure, class Options>
 constexpr bool is_measure =
@@ -82,7 +55,8 @@ static_assert(CURVEWISE_FRECHET_CONTINUOUS + 1 == measures);
                                 "; choose from 0 to " + std::to_string(count - 1));
 }
 
-// An int of C as the enumerator of the same place.
+// An int of C as the enumerator of the same place. A test holds the enumerations of C and C++
+// together, name by name (test_registry.py).
 template <class Enum>
 Enum choice(const char* option, int given) {
     constexpr int count = choice_names(Enum{}).size();

@@ -68,7 +68,9 @@ Condition condition(Preset preset, CurveLengthOptions options) {
 template <class Options>
 constexpr bool is_compared = !std::is_same_v<Options, FrechetContinuousOptions>;
 
-// A value that a Comparison has by name, too.
+// The values that a Comparison has as members, too.
+template <class Options>
+void keep(Comparison& /*found*/, const Options& /*of*/, double /*value*/) {}
 void keep(Comparison& found, const AreaOptions& /*of*/, double value) { found.area = value; }
 void keep(Comparison& found, const PcmOptions& /*of*/, double value) { found.pcm = value; }
 void keep(Comparison& found, const FrechetOptions& /*of*/, double value) { found.frechet = value; }

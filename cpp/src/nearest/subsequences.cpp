@@ -82,8 +82,7 @@ class SubsequenceSearch {
                    memory_},
           least_(curves.columns()) {
         squared_ = options.recurrence == kernels::Recurrence::frechet &&
-                   problem_.cost.metric == Metric::euclidean;
-        if (squared_) problem_.cost.metric = Metric::sqeuclidean;
+                   warping::put_off_root(problem_.cost);
     }
 
     std::vector<Subsequence> find(std::ptrdiff_t count) {
@@ -162,7 +161,8 @@ std::vector<Subsequence> find_subsequences(const CurveView& P, const CurveView& 
     Poller poller(control);
     const curves::CheckedCurve checked_p(P, "P", poller), checked_q(Q, "Q", poller);
     poller.begin(P.size() * Q.size());
-    const curves::RangeScale range(std::max(checked_p.largest, checked_q.largest));
+    const curves::RangeScale range =
+        warping::range_of(options.ground, std::max(checked_p.largest, checked_q.largest));
     const PackedCurve p(P, range, PointOrder::forward, poller);
     poller.poll_in_loop(0);
     const PackedCurve q(Q, range, PointOrder::reversed, poller);

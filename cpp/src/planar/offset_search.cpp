@@ -14,6 +14,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "curvewise/pcm.hpp"
+
 namespace curvewise::planar {
 namespace {
 
@@ -286,7 +288,7 @@ Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdif
 
 Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poller,
                    const SearchEffort& effort) {
-    constexpr std::ptrdiff_t count = 200;
+    constexpr std::ptrdiff_t count = PcmOptions{}.offsets;
     AreaAtOffset f(shorter, longer, poller);
     const double S = shorter.length();
     const double range = slack(shorter, longer);

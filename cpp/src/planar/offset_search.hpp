@@ -39,7 +39,7 @@ struct SearchEffort {
 };
 
 // The best of all offsets, to 1e-12 of S, or 1e-13 of the value where that is more, as long as that
-// takes no more than `effort.patience` evaluations; never above the grid of 200.
+// takes no more than `effort.patience` evaluations; never above the grid of pcm's default.
 Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poller,
                    const SearchEffort& effort = {});
 

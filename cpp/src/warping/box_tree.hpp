@@ -1,10 +1,9 @@
 // Boxes over the runs of points of a curve, as an implicit binary tree: a box of level 0 holds
 // `leaf_points` points that follow each other, one of level k two of level k - 1. Built in O(n d)
 // time and n d / 2 doubles. The smallest and largest ground distance between two boxes bound those
-// of all their points. They are computed by the operations of the kernels (subtract, square or
-// absolute value, add in coordinate order, correctly rounded root; nothing fused), each of which
-// is monotone in floating point too: a bound holds to the bit, without slack. minkowski's pow is
-// not monotone and has no bounds here.
+// of all their points. They are computed by the operations of the kernels
+// (kernels/metrics.inl.hpp), each of which is monotone in floating point too: a bound holds to the
+// bit, without slack. What is no such norm has no bounds.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 #include <vector>
 
 #include "runtime/poller.hpp"
-#include "warping/kernels/strip.hpp"
+#include "warping/ground_distance.hpp"
 #include "warping/packed_curve.hpp"
 
 namespace curvewise::warping {
@@ -77,41 +76,6 @@ class BoxTree {
     std::vector<std::ptrdiff_t> first_box_;  // of every level, and the number of all
     AlignedBuffer bounds_;
 };
-
-// What the kernels do with the differences of the coordinates.
-struct SquaresNorm {
-    static double add(double sum, double delta) noexcept { return sum + delta * delta; }
-    static double finish(double sum) noexcept { return sum; }
-};
-struct EuclideanNorm : SquaresNorm {
-    static double finish(double sum) noexcept { return std::sqrt(sum); }
-};
-struct SumNorm {
-    static double add(double sum, double delta) noexcept { return sum + std::abs(delta); }
-    static double finish(double sum) noexcept { return sum; }
-};
-struct MaximumNorm {
-    static double add(double sum, double delta) noexcept { return std::max(sum, std::abs(delta)); }
-    static double finish(double sum) noexcept { return sum; }
-};
-
-// Whether box distances bound those of points.
-inline bool has_box_bounds(Metric metric) noexcept { return metric != Metric::minkowski; }
-
-// Calls use(norm) with the norm of a ground distance that has box bounds, as a type.
-template <class Use>
-auto with_norm(Metric metric, Use use) {
-    switch (metric) {
-        case Metric::sqeuclidean:
-            return use(SquaresNorm{});
-        case Metric::cityblock:
-            return use(SumNorm{});
-        case Metric::chebyshev:
-            return use(MaximumNorm{});
-        default:
-            return use(EuclideanNorm{});
-    }
-}
 
 // No two points of the boxes are closer, in the norm's ground distance.
 template <class Norm>

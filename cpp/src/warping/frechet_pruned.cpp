@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "runtime/stopwatch.hpp"
 #include "warping/block_recursion.hpp"
@@ -178,7 +177,7 @@ class FrechetSearch {
     }
 
     static double in_length(double value) noexcept {
-        return std::is_same_v<Norm, SquaresNorm> ? std::sqrt(value) : value;
+        return Norm::degree == 2 ? std::sqrt(value) : value;
     }
 
     // Raises the lower bound until the distance is found.

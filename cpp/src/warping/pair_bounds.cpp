@@ -111,8 +111,7 @@ PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, co
 }
 
 bool PairBounds::is_bounded(std::ptrdiff_t j) const noexcept {
-    return has_box_bounds(metric_) &&
-           RangeScale(std::max(largest_, kept_.largest(j))).is_identity();
+    return kernel_ != nullptr && RangeScale(std::max(largest_, kept_.largest(j))).is_identity();
 }
 
 template <class Norm>
@@ -137,6 +136,7 @@ double PairBounds::quick_bound(std::ptrdiff_t j) const noexcept {
 }
 
 void PairBounds::quick(double* bounds) const {
+    std::fill_n(bounds, kept_.size(), 0.0);
     with_norm(metric_, [&](auto norm) {
         for (std::ptrdiff_t j = 0; j < kept_.size(); ++j) {
             bounds[j] = quick_bound<decltype(norm)>(j);

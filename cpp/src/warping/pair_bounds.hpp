@@ -16,8 +16,8 @@
 //
 // No bound is above the value as it is computed. Distances to boxes are computed by the monotone
 // operations of the ground distance (kernels/boxes.inl.hpp), and the ends' in the table's own
-// order: no slack. Sums in another order than the table's get the slack of CostSums. minkowski,
-// whose powers round as they like, and curves outside the usual range, have the bound 0.
+// order: no slack. Sums in another order than the table's get the slack of CostSums. What
+// is no norm (kernels/metrics.inl.hpp), and curves outside the usual range, have the bound 0.
 #pragma once
 
 #include <cstddef>
@@ -118,7 +118,7 @@ class PairBounds {
     const KeptBounds& kept_;
     const PackedCurve& P_;
     Metric metric_;
-    kernels::LeastFunction kernel_;
+    kernels::LeastFunction kernel_;  // null where there are no bounds
     double largest_;
     BoxTree tree_;
     std::vector<double> summary_;

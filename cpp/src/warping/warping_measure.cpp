@@ -59,7 +59,8 @@ class WarpingMeasure {
     template <class Use>
     auto with_problem(const PreparedP& P, const PreparedQ& Q, const pairwise::Call<Memory>& call,
                       Use use) const {
-        const RangeScale range(std::max(P.checked.largest, Q.checked.largest));
+        const RangeScale range =
+            warping::range_of(options_.ground, std::max(P.checked.largest, Q.checked.largest));
         if (range.is_identity()) {
             WarpingProblem problem(options_, {P.packed, Q.packed}, range, call);
             return use(problem);

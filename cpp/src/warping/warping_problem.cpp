@@ -97,9 +97,7 @@ WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& 
              call.workers,
              call.poller,
              call.memory} {
-    squared_ = options.recurrence == kernels::Recurrence::frechet &&
-               sweep_.cost.metric == Metric::euclidean;
-    if (squared_) sweep_.cost.metric = Metric::sqeuclidean;
+    squared_ = is_frechet() && put_off_root(sweep_.cost);
 }
 
 double WarpingProblem::distance(double cutoff) {

@@ -16,10 +16,12 @@ from .identify_each import identify_each
 from .line_plot import LinePlot, line_plot
 from .models.command import CommandModel, SolverError
 from .objective.cases import Case
-from .objective.objective import MEASURES, Objective, Score
+from .objective.criterion import MEASURES, Criterion
+from .objective.objective import Objective, Score
 from .problem.evaluations import Progress
 from .problem.space import Below, Log, Tied
-from .records.store import SimulationStore, StoredRun
+from .records.store import SimulationStore
+from .records.stored_run import StoredRun
 from .rescoring import Rescored, rescore
 from .uncertainty.uncertainty import Uncertainty
 
@@ -28,6 +30,7 @@ __all__ = [
     "Below",
     "Case",
     "CommandModel",
+    "Criterion",
     "CrossValidation",
     "Fold",
     "Identification",

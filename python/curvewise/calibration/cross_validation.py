@@ -8,16 +8,12 @@ determine the parameters. Cost: as many identifications as there are loops.
 
 from __future__ import annotations
 
-import inspect
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .._options import Preset
 from ..curves.inputs import Array
 from ..curves.several_curves import as_points, curve_list
 from ..showing.result import Table, Tabular
@@ -25,6 +21,7 @@ from .answers.identification import Identification
 from .identify import identify
 from .models.identity import model_identity
 from .models.pool import Model
+from .objective.criterion import Criterion, Measure
 from .objective.objective import Objective
 from .problem.selection import Selection
 from .problem.space import Bounds
@@ -78,7 +75,7 @@ class CrossValidation(Tabular):
 
     folds: tuple[Fold, ...]
     measure: str
-    preset: Preset
+    preset: str
 
     def __repr__(self) -> str:
         return f"CrossValidation({len(self.folds)} folds, measure={self.measure!r})"
@@ -102,8 +99,7 @@ def cross_validate(
     experiments: Any,
     bounds: Bounds,
     *,
-    history: str | os.PathLike[str] | None = None,
-    weights: Any = None,
+    measure: Measure = "area",
     **keywords: Any,
 ) -> CrossValidation:
     """Identify the parameters without each of the loops in turn, and predict it.
@@ -115,11 +111,8 @@ def cross_validate(
         loop are not looked at while the others are fitted.
     experiments : sequence of array_like
         At least two measured curves.
-    bounds, weights, **keywords
+    bounds, measure, **keywords
         As for :func:`identify`.
-    history : path-like, optional
-        One file for every fold: "fold.csv" becomes "fold_without_0.csv" and so on. An
-        interrupted cross-validation is resumed where it was.
 
     Returns
     -------
@@ -136,8 +129,8 @@ def cross_validate(
     Notes
     -----
     Time: for k loops that of k identifications, and k runs of the model; with ``store=`` a run that
-    several folds ask for is made once. The paper's section on
-    cross-validation leaves out each of its five loops.
+    several folds ask for is made once, and what was interrupted goes on where it was. The paper's
+    section on cross-validation leaves out each of its five loops.
 
     Examples
     --------
@@ -156,8 +149,6 @@ def cross_validate(
     count = len(curves)
     if count < 2:
         raise ValueError("there is one experiment; cross-validation needs at least 2")
-    if weights is not None and len(weights) != count:
-        raise ValueError(f"weights has {len(weights)} entries; give one for each of {count} loops")
     folds = []
     for left_out in range(count):
         kept = tuple(i for i in range(count) if i != left_out)
@@ -165,18 +156,20 @@ def cross_validate(
             Selection(model, kept, count),
             [curves[i] for i in kept],
             bounds,
-            history=None if history is None else _fold_file(Path(history), left_out),
-            weights=None if weights is None else [weights[i] for i in kept],
+            measure=_measure_of(kept, measure, count),
             **keywords,
         )
         folds.append(_fold(model, curves, left_out, identification, keywords))
     return CrossValidation(tuple(folds), identification.measure, identification.preset)
 
 
-# Keywords of `identify` that do not change what a simulation is worth: those `Objective` lacks.
-_SEARCH_KEYWORDS = (
-    inspect.signature(identify).parameters.keys() - inspect.signature(Objective).parameters.keys()
-)
+def _measure_of(kept: Sequence[int], measure: Measure, count: int) -> Measure:
+    """Return the measure for the loops that are kept: with their weights, if it has any."""
+    if not isinstance(measure, Criterion) or (weights := measure.weights) is None:
+        return measure
+    if len(weights) != count:
+        raise ValueError(f"weights has {len(weights)} entries; give one for each of {count} loops")
+    return measure.weighing([weights[i] for i in kept])
 
 
 def _fold(
@@ -187,15 +180,16 @@ def _fold(
     keywords: dict[str, Any],
 ) -> Fold:
     """Return what the identification without a loop makes of that loop."""
-    options = {key: value for key, value in keywords.items() if key not in _SEARCH_KEYWORDS}
+    objective = identification.problem.objective
     simulation: Any
     try:
         simulation = curve_list(_at_optimum(model, identification, keywords))[left_out]
     except Exception as error:  # the left-out loop may be the one that fails
         simulation = error
-    score = Objective(curves[left_out], **options).score([simulation])
-    kept = [curve for i, curve in enumerate(curves) if i != left_out]
-    others = Objective(kept, **options).terms(list(identification.simulations))
+    assert objective.criterion is not None, "the loops have the same"
+    alone = Objective(curves[left_out], objective.criterion.weighing(None))
+    score = alone.predicted([simulation])
+    others = objective.predicted(list(identification.simulations)).terms
     return Fold(
         left_out,
         np.nan if score.failures else score.value,
@@ -207,13 +201,8 @@ def _fold(
 
 def _at_optimum(model: Model, identification: Identification, keywords: dict[str, Any]) -> Any:
     """Return the model's curves at the optimum, of the store if there is one."""
-    store, version = keywords.get("store"), keywords.get("version")
-    if store is None:
+    if (store := keywords.get("store")) is None:
         return model(dict(identification.parameters))
     with SimulationStore(store) as runs:
-        outcome = runs.look_up(model_identity(model, version).text, identification.parameters)
+        outcome = runs.look_up(model_identity(model, runs.version).text, identification.parameters)
     return model(dict(identification.parameters)) if outcome is None else outcome.simulations
-
-
-def _fold_file(history: Path, left_out: int) -> Path:
-    return history.with_name(f"{history.stem}_without_{left_out}{history.suffix}")

@@ -1,29 +1,28 @@
 """Identify the parameters of a model from measured curves, and what comes of it.
 
 `identify` puts together what the other modules do: an objective, a space, a pool of processes that
-runs the model, a history file, and a method that searches. Almost all time is the model's.
+runs the model, a store, and a method that searches. Almost all time is the model's.
 """
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from inspect import signature
 from typing import Any
 
-from .._options import Preset
-from .answers.identification import Identification, identification_of
+from .answers.ended_search import identification_of
+from .answers.identification import Identification
 from .methods.search import Plan, run_search
 from .models.pool import Model
-from .objective.cases import Case, CaseObjective, Cases
-from .objective.loop_measure import Measure, Part, unknown_options_explained
+from .objective.cases import Case, Cases
+from .objective.criterion import Measure, criterion_of
 from .objective.objective import Objective
 from .problem.evaluations import Progress
 from .problem.problem import Problem, models_of
 from .problem.selection import Selection
 from .problem.space import Bounds, Space
-from .records.store import StorePath
+from .records.store import StoreOrPath
 
 __all__ = ["identify"]
 
@@ -34,22 +33,15 @@ def identify(
     bounds: Bounds | None = None,
     *,
     measure: Measure = "area",
-    preset: Preset = "scaled",
     method: str = "trust-region",
     seed: int = 0,
     workers: int = 1,
     executor: Executor | None = None,
     progress: bool = True,
     callback: Callable[[Progress], Any] | None = None,
-    history: str | os.PathLike[str] | None = None,
-    store: StorePath | None = None,
-    version: str | None = None,
+    store: StoreOrPath | None = None,
     start: Mapping[str, float] | None = None,
     max_evaluations: int | None = None,
-    weights: Sequence[float] | None = None,
-    failure_value: float | None = None,
-    min_coverage: float = 0.5,
-    part: Part = "experiment",
     method_options: Mapping[str, Any] | None = None,
     **options: Any,
 ) -> Identification:
@@ -66,8 +58,9 @@ def identify(
     bounds : mapping of str to (low, high)
         The parameters and where to search. In the place of a pair: a number for a parameter that
         stays what it is, :class:`Log`, :class:`Below` another parameter, or :class:`Tied`.
-    measure, preset, weights, failure_value, min_coverage, part, **options
-        The objective: see :class:`Objective`.
+    measure : str, callable or Criterion, default "area"
+        What is minimised: see :class:`Criterion`, which has the preset, weights and what else
+        there is to say.
     method : {"sdrm+de", "trust-region", "de", "sdrm", "nelder-mead", "least_squares"}
         "trust-region": linear surfaces of the curves, on which the measure is minimised within a
         region around the best run: local, for expensive models; with the option slopes="fresh"
@@ -92,19 +85,12 @@ def identify(
         Show a progress bar (tqdm).
     callback : callable, optional
         Told a :class:`Progress` after every batch of evaluations; a true result ends the search.
-    history : path-like, optional
-        A CSV file to which every evaluation is appended at once. If it exists, the search is
-        resumed: it runs again with the evaluations that the file holds looked up instead of
-        computed, and goes on from there. Of a callable measure it knows the name alone.
-    store : path-like, optional
-        A file (see :class:`SimulationStore`) with the curves of every run, by model and
-        parameters. Runs that it holds are looked up, for whichever measure, method, weights or
-        fold they were made; new ones are added at once. Several searches may use it at a time.
-    version : str, optional
-        What you call the present state of the model. A store, and a history, take a model of
-        another version for another model. A store needs it for a Python function;
-        :class:`CommandModel`, and any model with an attribute `identity`, says by itself what it
-        is.
+    store : path-like or SimulationStore, optional
+        A file with the curves of every run, by model and parameters. Runs that it holds are
+        looked up, for whichever measure, method, weights or fold they were made; new ones are
+        added at once, so that an interrupted search goes on where it was. Several searches may
+        use it at a time. A Python function needs ``SimulationStore(path, version="1")``, with
+        another version whenever it changes; a :class:`CommandModel` does not.
     start : mapping of str to float, optional
         Where the search starts: the middle of the bounds if not given; for "de" one member of
         the first population.
@@ -125,25 +111,27 @@ def identify(
         that are made anyway, renewed by k runs for k parameters where they mislead, or "fresh",
         renewed after every step; with k workers, which run these side by side, it may be faster.
         "sdrm+de": a mapping for each, ``{"sdrm": {...}, "de": {...}}``.
+    **options
+        Options of the measure, where `measure` is no criterion.
 
     Returns
     -------
     Identification
-        The parameters, their value, the simulations, the history; prints as a table, plots
+        The parameters, their value, the simulations, every evaluation; prints as a table, plots
         itself.
 
     Raises
     ------
     ValueError
         Wrong bounds, options or experiments; simulations of another number or dimension than the
-        experiments; a history of another search; a model that cannot be pickled (workers > 1); a
-        store for a model without identity or version, or with runs of other code of that version.
+        experiments; a model that cannot be pickled (workers > 1); a store for a model without
+        identity or version, or with runs of other code of that version.
     RuntimeError
         No simulation of the first batch has succeeded: the message has the first reason.
     ImportError
         scipy or tqdm is missing: ``pip install "curvewise[calibration]"``.
     KeyboardInterrupt
-        Ctrl-C, after the processes have been stopped. The history file holds what was finished.
+        Ctrl-C, after the processes have been stopped. The store holds what was finished.
 
     Notes
     -----
@@ -151,9 +139,9 @@ def identify(
     takes 5, 9 or 17 an iteration (for up to 3, 7 or 15 parameters), in 14 to some 30 iterations
     with its default options (50 at most); "de" takes 15 k a generation for k parameters, in some
     100 generations.
-    Memory: the history. The search is over the unit cube, so that the units of parameters do not
-    matter. Sources: Storn & Price (1997) for "de", in the place of the paper's genetic algorithm;
-    Stander & Craig (2002) for "sdrm"; Nelder & Mead (1965). Failures are logged under
+    Memory: all evaluations. The search is over the unit cube, so that the units of parameters do
+    not matter. Sources: Storn & Price (1997) for "de", in the place of the paper's genetic
+    algorithm; Stander & Craig (2002) for "sdrm"; Nelder & Mead (1965). Failures are logged under
     "curvewise.calibration", the first as a warning.
 
     Examples
@@ -177,45 +165,26 @@ def identify(
         start,
         progress,
         callback,
-        history,
         max_evaluations,
     )
-    cases = _cases_of(model)
-    for one in (measure,) if cases is None else (case.measure for case in cases.cases):
-        plan.check(one)
     if bounds is None:
         raise TypeError("identify needs bounds: a dict of name: (low, high)")
     space = Space(bounds)
     if start is not None:
         space.unit(start)
-    if cases is not None:
-        changed = {**options, "experiments": experiments, "weights": weights}
-        if given := [name for name, value in changed.items() if value is not None]:
+    cases = _cases_of(model)
+    if cases is None:
+        criterion = criterion_of(measure, options, signature(identify).parameters)
+        objective = Objective(experiments, criterion)
+    else:
+        beside = {"experiments": experiments is not None, "measure": measure != "area"}
+        if given := [name for name, is_given in beside.items() if is_given] + list(options):
             raise ValueError(f"{', '.join(given)} given beside cases; give them to each Case")
-        problem = Problem(
-            cases.models,
-            cases.assembled,
-            CaseObjective(cases.cases),
-            space,
-            store,
-            version,
-            workers,
-            executor,
-        )
-        return identification_of(problem, plan, run_search(problem, plan))
-    with unknown_options_explained(measure, options, signature(identify).parameters):
-        objective = Objective(
-            experiments,
-            measure,
-            preset=preset,
-            weights=weights,
-            failure_value=failure_value,
-            min_coverage=min_coverage,
-            part=part,
-            **options,
-        )
-    models, assemble = models_of(model)
-    problem = Problem(models, assemble, objective, space, store, version, workers, executor)
+        objective = cases.objective()
+    for one in objective.measures:
+        plan.check(one)
+    models, assemble = models_of(model if cases is None else cases)
+    problem = Problem(models, assemble, objective, space, store, workers, executor)
     return identification_of(problem, plan, run_search(problem, plan))
 
 

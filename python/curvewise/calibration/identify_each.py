@@ -20,18 +20,17 @@ from typing import Any
 import numpy as np
 
 from ..curves.inputs import Array
-from ..curves.several_curves import as_points, curve_list
-from ..measures.registry import default_measures
-from .answers.identification import Identification, identification_of
+from .answers.ended_search import identification_of
+from .answers.identification import Identification
 from .answers.several_measures import SeveralMeasures
 from .methods.search import Plan, run_search
 from .models.pool import Model
-from .objective.loop_measure import measure_name
-from .objective.objective import Objective
+from .objective.criterion import Measure
+from .objective.objective import objectives_of
 from .problem.problem import Problem, models_of
 from .problem.space import Bounds, Space
 from .records.evaluation import Evaluation
-from .records.store import StorePath
+from .records.store import SimulationStore, StoreOrPath
 
 __all__ = ["identify_each"]
 
@@ -49,18 +48,16 @@ def identify_each(
     experiments: Any,
     bounds: Bounds,
     *,
-    measures: Sequence[str] | None = None,
+    measures: Sequence[Measure] | None = None,
     method: str = "trust-region",
     method_options: Mapping[str, Any] | None = None,
     seed: int = 0,
     workers: int = 1,
     executor: Any = None,
     progress: bool = True,
-    store: StorePath | None = None,
-    version: str | None = None,
+    store: StoreOrPath | None = None,
     start: Mapping[str, float] | None = None,
     max_evaluations: int | None = None,
-    **keywords: Any,
 ) -> SeveralMeasures:
     """Find the parameters by each of several measures, with runs shared among them.
 
@@ -68,20 +65,19 @@ def identify_each(
     ----------
     model, experiments, bounds
         As for :func:`identify`.
-    measures : sequence of str or callable, optional
+    measures : sequence of str, callable or Criterion, optional
         By default every measure that the curves' dimension allows. Each search begins where the
         ones before have been, so put the smoothest first.
     method, method_options
         As for :func:`identify`; the methods "trust-region" and "sdrm" gain most. The searches
         after the first have `initial_range` 0.1 unless it is given.
-    store, version
+    store
         As for :func:`identify`. Without a store runs are shared all the same, through a temporary
         one, and forgotten.
     max_evaluations : int, optional
         Of each measure.
-    seed, workers, executor, progress, start, **keywords
-        As for :func:`identify`, for all measures. Options of one measure alone are not taken here:
-        use :func:`identify` with a `store` for those.
+    seed, workers, executor, progress, start
+        As for :func:`identify`, for all measures.
 
     Returns
     -------
@@ -117,26 +113,21 @@ def identify_each(
     >>> [round(one.parameters["slope"], 2) for one in found.values()]
     [2.0, 2.0]
     """
-    if measures is None:
-        measures = default_measures(as_points(curve_list(experiments)[0], "P"))
-    names = [measure_name(measure) for measure in measures]
-    if not names or len(set(names)) != len(names):
-        raise ValueError(f"measures is {list(measures)}; give at least one, and none twice")
+    objectives = objectives_of(experiments, measures)
     space = Space(bounds)
-    objectives = [Objective(experiments, measure, **keywords) for measure in measures]
     options = dict(method_options or {})
-    plan = Plan(method, options, seed, start, progress, None, None, max_evaluations)
-    for measure in measures:
-        plan.check(measure)
+    plan = Plan(method, options, seed, start, progress, None, max_evaluations)
+    for objective in objectives.values():
+        plan.check(objective.measures[0])
     found: dict[str, Identification] = {}
     with ExitStack() as stack:
         if store is None:
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="curvewise_"))
-            store, version = Path(folder, "runs.db"), version or "of this call"
+            store = SimulationStore(Path(folder, "runs.db"), version="of this call")
         models, assemble = models_of(model)
         known: tuple[tuple[Array, Evaluation], ...] = ()
-        for name, objective in zip(names, objectives, strict=True):
-            problem = Problem(models, assemble, objective, space, store, version, workers, executor)
+        for name, objective in objectives.items():
+            problem = Problem(models, assemble, objective, space, store, workers, executor)
             if known:  # a start is given from here on: one search a measure
                 plan = replace(
                     plan,

@@ -13,12 +13,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from .._extras import required
-from .._options import Preset
 from ..curves.inputs import Array
 from ..drawing.lines import lines_by_name
-from ..measures.registry import default_measures
 from .models.pool import Model, ModelPool
-from .objective.objective import Objective
+from .objective.criterion import Measure
+from .objective.objective import Objective, objectives_of
 
 if TYPE_CHECKING:
     from ..drawing.picture import Picture
@@ -55,10 +54,7 @@ def line_plot(
     b: Mapping[str, float],
     *,
     points: int = 101,
-    measures: Sequence[str] | None = None,
-    preset: Preset = "scaled",
-    weights: Sequence[float] | None = None,
-    min_coverage: float = 0.5,
+    measures: Sequence[Measure] | None = None,
     workers: int = 1,
     progress: bool = True,
 ) -> LinePlot:
@@ -75,10 +71,8 @@ def line_plot(
         The ends of the line, with the same parameters.
     points : int, default 101
         How many points of the line, with its ends.
-    measures : sequence of str, optional
+    measures : sequence of str, callable or Criterion, optional
         For experiments: by default all five in the plane, frechet and dtw otherwise.
-    preset, weights, min_coverage
-        For experiments: as for :class:`Objective`.
     workers : int, default 1
         Processes in which the model runs at the same time; -1 for one per core.
     progress : bool, default True
@@ -118,11 +112,8 @@ def line_plot(
         raise ValueError(f"a has parameters {', '.join(a)} and b {', '.join(b)}; give the same")
     if points < 2:
         raise ValueError(f"points is {points}; give at least 2")
-    if isinstance(objectives, Mapping):
-        named = dict(objectives)
-    else:
-        shared = {"preset": preset, "weights": weights, "min_coverage": min_coverage}
-        named = _objectives(objectives, measures, shared)
+    is_named = isinstance(objectives, Mapping)
+    named = objectives if is_named else objectives_of(objectives, measures)
     t = np.linspace(0.0, 1.0, points)
     line = [{key: (1.0 - s) * a[key] + s * b[key] for key in a} for s in t.tolist()]
     values = _values(named, model, line, workers, progress)
@@ -130,15 +121,6 @@ def line_plot(
     scaled = {name: data[f"{name}_scaled"] for name in named}
     labels = ("position on the line from a to b", "objective, scaled on the line")
     return LinePlot(data, lines_by_name(t, scaled, labels))
-
-
-def _objectives(
-    experiments: Any, measures: Sequence[str] | None, shared: dict[str, Any]
-) -> dict[str, Objective]:
-    if measures is None:
-        first = Objective(experiments, "frechet", **shared).experiments[0]
-        measures = default_measures(first)
-    return {name: Objective(experiments, name, **shared) for name in measures}
 
 
 def _values(

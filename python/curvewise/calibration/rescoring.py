@@ -5,21 +5,19 @@ The curves are there, so nothing is run. Cost: the measure, for every run and lo
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .._options import Preset
 from ..curves.inputs import Array
 from ..curves.several_curves import as_points, curve_list
 from .models.identity import model_identity
-from .objective.loop_measure import Measure, Part
+from .objective.criterion import Measure
 from .objective.objective import Objective
 from .records.evaluation import Evaluation, as_records
-from .records.store import SimulationStore, StoredRun, StorePath
+from .records.store import SimulationStore, StoreOrPath
+from .records.stored_run import StoredRun
 
 __all__ = ["Rescored", "rescore"]
 
@@ -50,38 +48,31 @@ class Rescored:
     history: np.recarray[Any, Any] = field(repr=False)
     failures: tuple[tuple[int, str], ...] = field(repr=False)
     measure: str
-    preset: Preset
+    preset: str
 
 
 def rescore(
-    store: StorePath,
+    store: StoreOrPath,
     experiments: Any,
     measure: Measure = "area",
     *,
     model: Any = None,
-    version: str | None = None,
-    preset: Preset = "scaled",
-    weights: Sequence[float] | None = None,
-    failure_value: float | None = None,
-    min_coverage: float = 0.5,
-    part: Part = "experiment",
     **options: Any,
 ) -> Rescored:
     """Evaluate an objective at every stored run of a model, without running anything.
 
     Parameters
     ----------
-    store : path-like
-        A file that `identify` has filled.
+    store : path-like or SimulationStore
+        What `identify` has filled.
     experiments : array_like, shape (n, d), or sequence of such
         The measured curves.
-    measure, preset, weights, failure_value, min_coverage, part, **options
-        The objective: see :class:`Objective`.
+    measure, **options
+        As for :class:`Objective`.
     model : callable or str, optional
         Whose runs: the model, or its identity as :meth:`SimulationStore.models` lists it. Needed
-        where the store has runs of several.
-    version : str, optional
-        As for :func:`identify`, beside a model that is a function.
+        where the store has runs of several. Beside a model that is a function the store is a
+        :class:`SimulationStore` with the version.
 
     Returns
     -------
@@ -104,37 +95,29 @@ def rescore(
     >>> import tempfile
     >>> from pathlib import Path
     >>> import numpy as np
-    >>> from curvewise.calibration import identify, rescore
+    >>> from curvewise.calibration import SimulationStore, identify, rescore
     >>> x = np.linspace(0, 1, 20)
     >>> def line(p):
     ...     return np.column_stack((x, p["slope"] * x))
     >>> folder = tempfile.TemporaryDirectory()
-    >>> file = Path(folder.name, "lines.db")
-    >>> keywords = {"method": "sdrm", "store": file, "version": "1", "progress": False}
+    >>> store = SimulationStore(Path(folder.name, "lines.db"), version="1")
+    >>> keywords = {"method": "sdrm", "store": store, "progress": False}
     >>> found = identify(line, line({"slope": 2.0}), {"slope": (0, 10)}, **keywords)
-    >>> again = rescore(file, line({"slope": 2.0}), "dtw")
+    >>> again = rescore(store, line({"slope": 2.0}), "dtw")
     >>> len(again.history) == found.evaluations, round(again.parameters["slope"], 3)
     (True, 2.0)
     >>> folder.cleanup()
     """
-    objective = Objective(
-        experiments,
-        measure,
-        preset=preset,
-        weights=weights,
-        failure_value=failure_value,
-        min_coverage=min_coverage,
-        part=part,
-        **options,
-    )
+    objective = Objective(experiments, measure, **options)
     evaluations: list[Evaluation] = []
     best: StoredRun | None = None
     lowest = np.inf
     names: tuple[str, ...] = ()
-    if not Path(store).is_file():
-        raise FileNotFoundError(f"there is no store {str(store)!r}; give identify(..., store=...)")
+    file = SimulationStore(store).path
+    if not file.is_file():
+        raise FileNotFoundError(f"there is no store {str(file)!r}; give identify(..., store=...)")
     with SimulationStore(store) as runs:
-        for number, run in enumerate(runs.runs(_identity(runs, model, version)), 1):
+        for number, run in enumerate(runs.runs(_identity(runs, model)), 1):
             names = names or tuple(run.parameters)
             score = objective.score(run.simulations)
             message = run.message or "; ".join(score.failures)
@@ -145,7 +128,7 @@ def rescore(
             if score.value < lowest and not message:
                 best, lowest = run, score.value
     if best is None or best.simulations is None:
-        raise ValueError(f"{store} has no run of that model that succeeded")
+        raise ValueError(f"{file} has no run of that model that succeeded")
     return Rescored(
         best.parameters,
         lowest,
@@ -153,11 +136,11 @@ def rescore(
         as_records(evaluations, names),
         tuple((e.number, e.message) for e in evaluations if e.failed),
         objective.measure,
-        preset,
+        objective.preset,
     )
 
 
-def _identity(runs: SimulationStore, model: Any, version: str | None) -> str:
+def _identity(runs: SimulationStore, model: Any) -> str:
     known = runs.models()
     if model is None:
         if len(known) != 1:
@@ -166,7 +149,7 @@ def _identity(runs: SimulationStore, model: Any, version: str | None) -> str:
                 f"{runs.path} has runs of {len(known)} models ({listed}); name one: model=..."
             )
         return known[0]
-    wanted = model if isinstance(model, str) else model_identity(model, version).text
+    wanted = model if isinstance(model, str) else model_identity(model, runs.version).text
     if wanted not in known:
         raise ValueError(
             f"{runs.path} has no runs of {wanted}; it has those of: {'; '.join(known) or 'none'}"

@@ -1,4 +1,4 @@
-"""``curvewise report``: from a store, or a history, to a page that shows the search."""
+"""``curvewise report``: from a store to a page that shows the search, or to a table of it."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ def add_report(commands: Any) -> None:
     """Add the command to those of argparse."""
     command = commands.add_parser(
         "report",
-        help="write a search down as a page of HTML",
-        description="Write what a store or a history holds down as one page of HTML, which opens "
-        "without a network: tests and simulations, residuals, convergence, parameters with "
-        "intervals, and the settings to repeat it. Nothing is run.",
+        help="write a search down as a page of HTML, or as a table",
+        description="Write what a store holds down as one page of HTML, which opens without a "
+        "network: tests and simulations, residuals, convergence, parameters with intervals, and "
+        "the settings to repeat it. Nothing is run.",
     )
     command.set_defaults(run=_report)
-    command.add_argument("file", help="what identify(..., store=) or history= has filled")
+    command.add_argument("file", help="what identify(..., store=) has filled")
     command.add_argument("-o", "--output", metavar="FILE", default="report.html")
     command.add_argument(
         "--search",
@@ -28,9 +28,13 @@ def add_report(commands: Any) -> None:
         help="which of a store's searches; by default all of them, on one page",
     )
     command.add_argument("--list", action="store_true", help="list the searches and write nothing")
+    command.add_argument(
+        "--csv", metavar="FILE", help="write the evaluations of one search as a table, and no page"
+    )
 
 
 def _report(arguments: argparse.Namespace) -> int:
+    from ..calibration import SimulationStore
     from ..calibration.report import records_of, write_report
 
     records = records_of(arguments.file)
@@ -48,6 +52,11 @@ def _report(arguments: argparse.Namespace) -> int:
     if missing := [number for number in chosen if number not in records]:
         known = ", ".join(map(str, records))
         raise ValueError(f"{arguments.file} has no search {missing[0]}; it has {known}")
+    if arguments.csv:
+        with SimulationStore(arguments.file) as store:
+            store.to_csv(arguments.csv, chosen[0] if len(chosen) == 1 else None)
+        print(f"table: {arguments.csv}")
+        return 0
     write_report(arguments.output, [records[number] for number in chosen])
     print(f"report: {arguments.output}")
     return 0

@@ -1,20 +1,22 @@
 """The ground distance: how far each point of P is from each point of Q.
 
-The coordinates are added one after another, c = 0 .. d-1, never by np.sum, whose pairwise order
-gives other bits. In one dimension euclidean, cityblock, chebyshev and minkowski are all the
-absolute difference. Time O(n m d), memory O(n m).
+One row for each metric, in `_ROWS`: its arithmetic and what else the measures ask of it. The
+coordinates are added one after another, c = 0 .. d-1, never by np.sum, whose pairwise order gives
+other bits. Time O(n m d), memory O(n m).
 """
 
 from __future__ import annotations
 
-from typing import Any, cast, get_args
+from collections.abc import Callable
+from typing import Any, NamedTuple, cast, get_args
 
 import numpy as np
 
 from .._options import Metric, check_choice
 from .inputs import Array
+from .scaling import range_exponent, times_power_of_two
 
-__all__ = ["check_metric", "degree", "ground_distances"]
+__all__ = ["check_metric", "ground_distances", "in_range", "without_root"]
 
 
 _SAME_AS_MINKOWSKI: dict[float, Metric] = {
@@ -54,9 +56,25 @@ def _order(p: Any) -> float:
     return order
 
 
-def degree(metric: Metric) -> int:
-    """Return by which power of a factor the distance grows when both curves do."""
-    return 2 if metric == "sqeuclidean" else 1
+def in_range(P: Array, Q: Array, metric: Metric) -> tuple[Array, Array, int]:
+    """Return both curves in the range of what can be squared, and the exponent of the distances.
+
+    A distance between the curves is one between those that are returned, times 2**exponent. For a
+    metric of degree 0, for which what is small beside the largest coordinate counts too, the curves
+    stay as they are.
+    """
+    degree = _ROWS[metric].degree
+    exponent = range_exponent(P, Q) if degree > 0 else 0
+    P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
+    return P, Q, exponent * degree
+
+
+def without_root(metric: Metric, dim: int) -> Metric:
+    """Return what is under the root of a metric that takes one, and else the metric.
+
+    Where distances are only compared, the root may come last. In one dimension there is none.
+    """
+    return (_ROWS[metric].under_root if dim > 1 else None) or metric
 
 
 def ground_distances(P: Array, Q: Array, metric: Metric, p: float) -> Array:
@@ -65,19 +83,20 @@ def ground_distances(P: Array, Q: Array, metric: Metric, p: float) -> Array:
     The last axis of P and of Q is that of the coordinates; the others are broadcast: shapes
     (n, 1, d) and (m, d) give the (n, m) table, and (k, d) twice the distances of k pairs.
     """
-    # Absolute differences, one array for each coordinate.
-    deltas = [np.abs(P[..., c] - Q[..., c]) for c in range(P.shape[-1])]
-    if len(deltas) == 1 and metric != "sqeuclidean":
-        return cast(Array, deltas[0])
-    if metric == "cityblock":
-        return _added(deltas)
-    if metric == "chebyshev":
-        return cast(Array, np.maximum.reduce(deltas))
+    row = _ROWS[metric]
+    points = [(P[..., c], Q[..., c]) for c in range(P.shape[-1])]
+    if len(points) == 1 and row.is_absolute_in_one_dimension:
+        row = _ROWS["cityblock"]
     with np.errstate(under="ignore"):
-        if metric == "minkowski":
-            return _minkowski(deltas, p)
-        squares = _added([delta * delta for delta in deltas])
-        return squares if metric == "sqeuclidean" else np.sqrt(squares)
+        return row.distances(points, p)
+
+
+# The coordinates of the points, one pair of arrays for each.
+_Points = list[tuple[Array, Array]]
+
+
+def _deltas(points: _Points) -> list[Array]:
+    return [np.abs(p - q) for p, q in points]
 
 
 def _added(terms: list[Array]) -> Array:
@@ -87,9 +106,44 @@ def _added(terms: list[Array]) -> Array:
     return total
 
 
-def _minkowski(deltas: list[Array], p: float) -> Array:
+def _squares(points: _Points, _: float) -> Array:
+    return _added([delta * delta for delta in _deltas(points)])
+
+
+def _euclidean(points: _Points, order: float) -> Array:
+    return np.sqrt(_squares(points, order))
+
+
+def _cityblock(points: _Points, _: float) -> Array:
+    return _added(_deltas(points))
+
+
+def _chebyshev(points: _Points, _: float) -> Array:
+    return cast(Array, np.maximum.reduce(_deltas(points)))
+
+
+def _minkowski(points: _Points, order: float) -> Array:
     # Relative to the largest, so that no power overflows.
+    deltas = _deltas(points)
     largest = np.maximum.reduce(deltas)
     divisor = np.where(largest > 0, largest, 1.0)
-    powers = _added([(delta / divisor) ** p for delta in deltas])
-    return cast(Array, largest * powers ** (1 / p))
+    powers = _added([(delta / divisor) ** order for delta in deltas])
+    return cast(Array, largest * powers ** (1 / order))
+
+
+class _Row(NamedTuple):
+    """What the measures ask of a metric."""
+
+    distances: Callable[[_Points, float], Array]
+    degree: int  # by which power of a factor a distance grows when both curves do
+    is_absolute_in_one_dimension: bool  # |difference|, and computed as that
+    under_root: Metric | None = None  # of a root
+
+
+_ROWS: dict[Metric, _Row] = {
+    "euclidean": _Row(_euclidean, 1, True, under_root="sqeuclidean"),
+    "sqeuclidean": _Row(_squares, 2, False),
+    "cityblock": _Row(_cityblock, 1, True),
+    "chebyshev": _Row(_chebyshev, 1, True),
+    "minkowski": _Row(_minkowski, 1, True),
+}

@@ -18,9 +18,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .._options import Default, Metric, Order, StepPattern, Window, check_choice
-from ..curves.ground_distance import check_metric, degree, ground_distances
+from ..curves.ground_distance import check_metric, ground_distances, in_range
 from ..curves.inputs import Array, CurveLike, as_curves
-from ..curves.scaling import range_exponent, times_power_of_two
+from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
 from .checks import check_pair, whole_number
 
@@ -122,15 +122,14 @@ def _accumulate(
         raise ValueError(
             f"window=0 admits no path between {len(P)} and {len(Q)} points; use at least 1"
         )
-    exponent = range_exponent(P, Q)
-    P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
+    P, Q, exponent = in_range(P, Q, metric)
     ground = ground_distances(P[:, np.newaxis], Q, metric, order)
     if radius is not None:
         ground[~_sakoe_chiba_band(len(P), len(Q), radius)] = np.inf
     weight = 1.0 if step_pattern == "symmetric1" else 2.0
     costs = _cumulative_costs(ground, weight, open_begin)
     end = int(np.argmin(costs[-1])) if open_end else len(Q) - 1
-    return _Table(costs, ground, weight, end, open_begin, exponent * degree(metric))
+    return _Table(costs, ground, weight, end, open_begin, exponent)
 
 
 def _check_steps(step_pattern: StepPattern, window: Any, open_begin: bool, open_end: bool) -> Any:

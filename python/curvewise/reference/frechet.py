@@ -19,9 +19,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .._options import Default, Metric, Order
-from ..curves.ground_distance import check_metric, degree, ground_distances
+from ..curves.ground_distance import check_metric, ground_distances, in_range, without_root
 from ..curves.inputs import Array, CurveLike, as_curves
-from ..curves.scaling import range_exponent, times_power_of_two
+from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
 from .checks import check_pair
 
@@ -69,12 +69,10 @@ def _accumulate(P: CurveLike, Q: CurveLike, metric: Metric, p: Order) -> _Table:
     P, Q = as_curves(P, Q)
     metric, order = check_metric(metric, p)
     P, Q = check_pair(P, Q, "frechet")
-    exponent = range_exponent(P, Q)
-    P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
-    # In one dimension the Euclidean distance is a difference: there is no root to put off.
-    squared = metric == "euclidean" and P.shape[1] > 1
-    ground = ground_distances(P[:, np.newaxis], Q, "sqeuclidean" if squared else metric, order)
-    return _Table(_cumulative_leashes(ground), squared, exponent * degree(metric))
+    P, Q, exponent = in_range(P, Q, metric)
+    under_root = without_root(metric, P.shape[1])
+    ground = ground_distances(P[:, np.newaxis], Q, under_root, order)
+    return _Table(_cumulative_leashes(ground), under_root != metric, exponent)
 
 
 def _cumulative_leashes(ground: Array) -> Array:

@@ -16,9 +16,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .._options import Default, Metric, Order, WarpingName, Window
-from ..curves.ground_distance import check_metric, degree, ground_distances
+from ..curves.ground_distance import check_metric, ground_distances, in_range, without_root
 from ..curves.inputs import Array, CurveLike, as_curve
-from ..curves.scaling import range_exponent, times_power_of_two
+from ..curves.scaling import times_power_of_two
 from ..measures.results import DtwMean, Subsequence
 from .checks import check_pair
 from .dtw import dtw_path
@@ -70,18 +70,16 @@ def subsequence(
     """
     P, Q = check_pair(as_curve(P, "P"), as_curve(Q, "Q"), measure)
     metric, order = check_metric(metric, p)
-    exponent = range_exponent(P, Q)
-    P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
-    # As for frechet: squares, and one root at the end.
-    squared = measure == "frechet" and metric == "euclidean" and P.shape[1] > 1
-    ground = ground_distances(P[:, np.newaxis], Q, "sqeuclidean" if squared else metric, order)
+    P, Q, exponent = in_range(P, Q, metric)
+    under_root = without_root(metric, P.shape[1]) if measure == "frechet" else metric
+    ground = ground_distances(P[:, np.newaxis], Q, under_root, order)
     pieces = [_best_run(ground, measure, 0, ground.shape[1])]
     answers: list[Subsequence] = []
     while pieces and len(answers) < k:
         best = min(pieces, key=lambda piece: (piece[0], piece[2]))
         value, start, stop, begin, end = best
-        root = np.array(np.sqrt(value) if squared else value)
-        distance = float(times_power_of_two(root, exponent * degree(metric)))
+        root = np.array(value if under_root == metric else np.sqrt(value))
+        distance = float(times_power_of_two(root, exponent))
         if value == np.inf or distance > cutoff:
             break
         answers.append(Subsequence(distance, start, stop))

@@ -8,7 +8,6 @@ Time and memory are linear in what was printed, some 3 s for 10⁶ rows.
 
 from __future__ import annotations
 
-import difflib
 import math
 import os
 import re
@@ -18,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .._names import did_you_mean
 from ..curves.inputs import Array
 
 __all__ = ["Row", "SolverOutput", "as_number", "lines_of"]
@@ -233,11 +233,8 @@ class SolverOutput:
 
 def _instead(wanted: str, known: list[str]) -> str:
     named = [name for name in known if name and name != "time"]
-    folded = {name.lower(): name for name in named}
-    near = difflib.get_close_matches(wanted.lower(), folded, n=1)
-    hint = f"; did you mean {folded[near[0]]!r}?" if near else ""
     listed = f": there is {_listed(named)}" if named else ""
-    return f"{listed or ': its tables have no names of sets'}{hint}"
+    return f"{listed or ': its tables have no names of sets'}{did_you_mean([wanted], named)}"
 
 
 def _listed(items: Sequence[object]) -> str:

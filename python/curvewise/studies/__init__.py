@@ -7,7 +7,8 @@ parameters, and how to search; docs/study.md has every key.
 
 from .dry_run import DryRun
 from .formulas import Formula
-from .study import Found, Study
+from .result_files import StudyResult
+from .study import Study
 from .toml_source import StudyError
 
-__all__ = ["DryRun", "Formula", "Found", "Study", "StudyError"]
+__all__ = ["DryRun", "Formula", "Study", "StudyError", "StudyResult"]

@@ -6,24 +6,20 @@ the key that it is about. Cost: that of scaling the tests, and of reading the te
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from ..calibration.methods.search import Plan
+from .contents import Contents
 from .study_model import StudyModel
 from .toml_source import KeyPath, Source
-
-if TYPE_CHECKING:
-    from .study import Study
 
 __all__ = ["check_together"]
 
 
-def check_together(study: Study, source: Source) -> None:
+def check_together(study: Contents, source: Source) -> None:
     """Note what is wrong only when tests, measures and method come together.
 
     Parameters
     ----------
-    study : Study
+    study : Contents
         What the file says.
     source : Source
         The file, where problems are noted.
@@ -37,7 +33,7 @@ def check_together(study: Study, source: Source) -> None:
             "several measures; give one measure, and run the study once for each",
         )
         return
-    if study.has_cases and "failure_value" in study.search.objective:
+    if study.has_cases and "failure_value" in study.search.comparison:
         source.problem(("search", "failure_value"), "does not go with tests of their own kinds")
     models: dict[str, StudyModel] = {}
     try:  # in a folder that is there: reading a study makes none
@@ -45,7 +41,7 @@ def check_together(study: Study, source: Source) -> None:
     except (OSError, ValueError) as error:
         source.problem(("model",) if "" in study.models else ("models",), str(error))
         return
-    settings = study.search.search
+    settings = study.search.keywords
     for measure in study.search.measures:
         key = "measures" if len(study.search.measures) > 1 else "measure"
         try:
@@ -59,7 +55,6 @@ def check_together(study: Study, source: Source) -> None:
             start=None,
             progress=False,
             callback=None,
-            history=None,
             max_evaluations=settings.get("max_evaluations"),
         )
         try:
@@ -70,7 +65,7 @@ def check_together(study: Study, source: Source) -> None:
             source.problem(("search", where), f"does not go together: {error}")
 
 
-def _place_objective_error(study: Study, source: Source, key: str, message: str) -> None:
+def _place_objective_error(study: Contents, source: Source, key: str, message: str) -> None:
     """Note what an objective refuses, at the test or the key that it is about."""
     for i, test in enumerate(study.tests):
         if f"case {test.name!r}" in message or f"experiments[{i}]" in message:

@@ -22,7 +22,9 @@ from ..curves.inputs import Array
 from ..files.column_choice import TimeColumnWarning
 from ..files.curve_files import read_curve, read_named_columns
 from ..solvers import SolverOutput
+from . import keys
 from .formulas import Formula
+from .keys import key
 
 __all__ = ["FORMATS", "CurveSource", "Quantity", "format_of"]
 
@@ -41,20 +43,21 @@ FORMATS: dict[str, Callable[[Path], SolverOutput] | None] = {
 class Quantity:
     """One number a time of a solver's output: the arguments of `SolverOutput.history`."""
 
-    component: str
-    variable: str | None = None
-    set_name: str | None = None
-    number: int | None = None
-    point: int | None = None
-    combine: str | None = None
+    component: str = key(keys.text, "", required='its component, such as "vx"')
+    variable: str | None = key(keys.text)
+    set: str | None = key(keys.text)
+    node: int | None = key(keys.whole)
+    element: int | None = key(keys.whole)
+    point: int | None = key(keys.whole)
+    combine: str | None = key(keys.choice(("sum", "mean", "max", "min")))
 
     def of(self, output: SolverOutput) -> Array:
         """Return the history."""
         return output.history(
             self.component,
             variable=self.variable,
-            set_name=self.set_name,
-            number=self.number,
+            set_name=self.set,
+            number=self.element if self.node is None else self.node,
             point=self.point,
             combine=self.combine,
         )

@@ -12,21 +12,19 @@ import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ..calibration import SimulationStore, SolverError
+from ..calibration import SolverError
 from ..calibration.models.identity import model_identity
 from ..calibration.models.pool import Outcome
 from ..calibration.problem.space import Space
 from ..curves.inputs import Array
 from ..curves.several_curves import points_of
-from .entries import TestEntry
+from .contents import Contents
+from .measured_tests import MeasuredTest
 from .study_model import StudyModel
-
-if TYPE_CHECKING:
-    from .study import Study
 
 __all__ = ["DryRun", "dry_run", "least_runs"]
 
@@ -41,13 +39,13 @@ class Read:
 
     Attributes
     ----------
-    test : TestEntry
+    test : MeasuredTest
         The test.
     simulation : ndarray
         The curve that was read; shape (1, 1) for a number.
     """
 
-    test: TestEntry
+    test: MeasuredTest
     simulation: Array
 
     def __str__(self) -> str:
@@ -162,7 +160,7 @@ def least_runs(method: str, parameters: int, options: Mapping[str, Any], *, has_
     return least[method]
 
 
-def dry_run(study: Study) -> DryRun:
+def dry_run(study: Contents) -> DryRun:
     """Run every model of a study once; see `Study.check`."""
     space = Space(study.bounds)
     middle = space.point(np.full(len(space.names), 0.5))
@@ -190,26 +188,22 @@ def dry_run(study: Study) -> DryRun:
         if score.failures:
             raise ValueError(f"the run has no value by {name}: {'; '.join(score.failures)}")
         values[name] = score.value
-    search = study.search.search
-    method = str(search.get("method", "trust-region"))
-    runs = least_runs(
-        method, len(space.names), search.get("method_options", {}), has_start=bool(start)
-    )
-    limit = search.get("max_evaluations", runs)
-    workers = int(search.get("workers", 1))
+    search = study.search
+    method, options = search.method or "trust-region", search.method_options or {}
+    runs = least_runs(method, len(space.names), options, has_start=bool(start))
     return DryRun(
         parameters,
         tuple(folders),
         tuple(read),
         values,
         seconds,
-        min(runs, limit),
-        max(1, workers),
+        min(runs, search.max_evaluations or runs),
+        max(1, search.workers or 1),
     )
 
 
 def _run(
-    model: StudyModel, parameters: dict[str, float], study: Study, place: Path
+    model: StudyModel, parameters: dict[str, float], study: Contents, place: Path
 ) -> tuple[Path, tuple[Array, ...]]:
     """Run a model, store what comes, and return its folder and its curves."""
     before = set(place.iterdir())
@@ -220,8 +214,8 @@ def _run(
         raise SolverError(f"{error}{_end_of_log(str(error))}") from None
     seconds = time.perf_counter() - began
     (folder, *_) = set(place.iterdir()) - before
-    with SimulationStore(study.search.store) as store:
-        identity = model_identity(model, study.search.search.get("version"))
+    with study.store as store:
+        identity = model_identity(model, store.version)
         store.register(identity)
         store.save(identity.text, parameters, Outcome(result, "", seconds))
     return folder, points_of(result)

@@ -8,15 +8,18 @@ linear in the text, and in the columns when it is evaluated.
 
 from __future__ import annotations
 
-import difflib
+import operator
 import re
 from collections.abc import Callable, Iterable, Mapping
 from functools import reduce
+from itertools import repeat
 from typing import Any, TypeAlias
 
 import numpy as np
 
-__all__ = ["Formula", "undefined_name"]
+from .._names import did_you_mean
+
+__all__ = ["Formula", "undefined_names"]
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|(?P<name>[A-Za-z_]\w*)"
@@ -55,8 +58,18 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
 }
 _SEVERAL = ("max", "min")
 _CONSTANTS = {"pi": np.pi}
+_OPERATIONS: dict[str, Callable[..., Any]] = {
+    **_FUNCTIONS,
+    "negative": operator.neg,
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "**": operator.pow,
+}
 
-_Tree: TypeAlias = "tuple[Any, ...]"
+# A number, a name, or an operation with the trees of what it is done to.
+_Tree: TypeAlias = "float | str | tuple[Any, ...]"
 
 
 class Formula:
@@ -110,12 +123,15 @@ class Formula:
         return f"Formula({self.text!r})"
 
 
-def undefined_name(name: str, known: Iterable[str]) -> str:
-    """Return what to say of a name that is none of those that there are."""
+def undefined_names(formula: Formula, known: Iterable[str]) -> list[str]:
+    """Return what to say of each name in a formula that is none of those that there are."""
     names = list(known)
-    near = difflib.get_close_matches(name, names, n=1)
-    hint = f"; did you mean {near[0]!r}?" if near else ""
-    return f"uses {name!r}, which is none of {', '.join(names) or '(nothing)'}{hint}"
+    listed = ", ".join(names) or "(nothing)"
+    return [
+        f"uses {name!r}, which is none of {listed}{did_you_mean([name], names)}"
+        for name in formula.names
+        if name not in names
+    ]
 
 
 class _Parser:
@@ -180,10 +196,10 @@ class _Parser:
         kind, token = self._kind, self._token
         if kind == "number":
             self._advance()
-            tree: _Tree = ("number", float(token))
+            tree: _Tree = float(token)
         elif kind == "name":
             self._advance()
-            tree = self._call(token) if self._take("(") else ("name", token)
+            tree = self._call(token) if self._take("(") else token
         elif self._take("("):
             tree = self._sum()
             self._close()
@@ -194,16 +210,17 @@ class _Parser:
 
     def _call(self, name: str) -> _Tree:
         if name not in _FUNCTIONS:
-            near = difflib.get_close_matches(name, _FUNCTIONS, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"there is {', '.join(_FUNCTIONS)}"
-            raise self._error(f"there is no function {name!r}; {hint}")
+            hint = (
+                did_you_mean([name], _FUNCTIONS, shown=str) or f"; there is {', '.join(_FUNCTIONS)}"
+            )
+            raise self._error(f"there is no function {name!r}{hint}")
         arguments = [self._sum()]
         while self._take(","):
             arguments.append(self._sum())
         self._close()
         if len(arguments) > 1 and name not in _SEVERAL:
             raise self._error(f"{name} has one argument, not {len(arguments)}")
-        return ("call", name, *arguments)
+        return (name, *arguments)
 
     def _close(self) -> None:
         if not self._take(")"):
@@ -215,31 +232,18 @@ def _names(tree: _Tree) -> list[str]:
     found, pending = [], [tree]
     while pending:
         node = pending.pop()
-        if node[0] == "name" and node[1] not in _CONSTANTS:
-            found.append(node[1])
-        pending += [part for part in reversed(node[1:]) if isinstance(part, tuple)]
+        if isinstance(node, tuple):
+            pending += reversed(node[1:])
+        elif isinstance(node, str) and node not in _CONSTANTS:
+            found.append(node)
     return found
 
 
 def _value(tree: _Tree, values: Mapping[str, Any]) -> Any:
-    kind = tree[0]
-    if kind == "number":
-        return np.float64(tree[1])
-    if kind == "name":
-        value = values[tree[1]] if tree[1] in values else _CONSTANTS[tree[1]]
+    if isinstance(tree, float):
+        return np.float64(tree)
+    if isinstance(tree, str):
+        value = values[tree] if tree in values else _CONSTANTS[tree]
         return value if isinstance(value, np.ndarray) else np.float64(value)
-    if kind == "call":
-        return _FUNCTIONS[tree[1]](*(_value(part, values) for part in tree[2:]))
-    left = _value(tree[1], values)
-    if kind == "negative":
-        return -left
-    right = _value(tree[2], values)
-    if kind == "+":
-        return left + right
-    if kind == "-":
-        return left - right
-    if kind == "*":
-        return left * right
-    if kind == "/":
-        return left / right
-    return left**right
+    # By map, as a loop of Python's would double the depth of calls, which has a limit.
+    return _OPERATIONS[tree[0]](*map(_value, tree[1:], repeat(values)))

@@ -1,31 +1,41 @@
-"""The keys of one table of a study file: taken one by one, checked, and the rest refused.
+"""The keys of a study file: each is a described field of a dataclass, and one reader reads all.
 
-A key that is wrong is noted with its line and replaced by its default, so that the rest of the
-file is checked too.
+A field made by `key`, `key_at` or `table` says how its value is read, what stands in the place of a
+value that is missing or wrong, and what to write where the key has to be there. `Table.read` makes
+the dataclass of a table: it notes every wrong key with its line, goes on with the default, so that
+the rest of the file is checked too, and refuses the keys that are described nowhere.
 """
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, TypeVar
+from dataclasses import field, fields
+from typing import Any, TypeAlias, TypeVar
 
+from .._names import did_you_mean
 from .toml_source import KeyPath, Source
 
 __all__ = [
     "Table",
+    "as_it_is",
     "at_least",
     "choice",
+    "described",
     "flag",
     "fraction",
+    "key",
+    "key_at",
     "mapping",
     "name",
     "not_negative",
     "number",
     "numbers",
+    "path",
     "positive",
+    "reader",
+    "table",
     "text",
     "texts",
     "whole",
@@ -33,8 +43,40 @@ __all__ = [
 
 T = TypeVar("T")
 D = TypeVar("D")
+ReadAt: TypeAlias = "Callable[[Source, KeyPath, Any], Any]"
 
 _NAME = re.compile(r"[A-Za-z_]\w*")
+
+
+def key(read: Callable[[Any], Any], default: Any = None, *, required: str = "") -> Any:
+    """Describe a key of a table.
+
+    Parameters
+    ----------
+    read : callable
+        Makes what is meant of the file's value; raises ValueError with the rest of a sentence that
+        begins with the key.
+    default : object
+        In the place of what is missing or wrong.
+    required : str
+        What to write, where the key has to be there.
+    """
+    return key_at(lambda source, path, value: read(value), default, required=required)
+
+
+def key_at(read: ReadAt, default: Any = None, *, required: str = "") -> Any:
+    """Describe a key whose value means something else in another file, such as a path."""
+    return field(default=default, metadata={"read": read, "required": required, "is_table": False})
+
+
+def table(read: ReadAt) -> Any:
+    """Describe an inner table: where it is missing it is read as an empty one."""
+    return field(default=None, metadata={"read": read, "required": "", "is_table": True})
+
+
+def described(kind: type) -> dict[str, Mapping[str, Any]]:
+    """Return the keys that a dataclass describes, with what it says of each."""
+    return {item.name: item.metadata for item in fields(kind) if "read" in item.metadata}
 
 
 class Table:
@@ -48,76 +90,91 @@ class Table:
         Where the table is.
     values : mapping, or None
         What is in it, None where the table is missing; anything else is a problem.
+
+    Attributes
+    ----------
+    given : mapping
+        What the file gives, in its order.
+    wrong : set of str
+        The keys with which something is wrong.
     """
 
     def __init__(self, source: Source, path: KeyPath, values: Any) -> None:
         self.source, self.path = source, path
-        self._known: list[str] = []
+        self.wrong: set[str] = set()
+        self._problems = len(source.problems)
         if values is None:
             values = {}
         if not isinstance(values, Mapping):
             source.problem(path, f"is {values!r}; it is a table, [{path[-1]}]")
             values = {}
-        self._values = values
-
-    def __contains__(self, key: str) -> bool:
-        return key in self._values
+        self.given: Mapping[str, Any] = values
 
     @property
-    def keys(self) -> list[str]:
-        """The keys that the file gives, in its order."""
-        return list(self._values)
+    def is_right(self) -> bool:
+        """Whether nothing has been found wrong since the table was begun."""
+        return len(self.source.problems) == self._problems
 
-    def take(self, key: str, read: Callable[[Any], T], default: D, *, required: str = "") -> T | D:
-        """Return a key's value as `read` gives it; the default where it is missing or wrong.
+    def read(self, kind: type[T], **known: Any) -> T:
+        """Return the table as the dataclass that describes its keys.
 
         Parameters
         ----------
-        key : str
-            Which.
-        read : callable
-            Raises ValueError with the rest of a sentence that begins with the key.
-        default : object
-            In the place of what is missing or wrong.
-        required : str
-            What to write, where the key must be there.
+        kind : type
+            The dataclass.
+        **known : object
+            Those of its fields that are no keys.
         """
-        self._known.append(key)
-        if key not in self._values:
-            if required:
-                self.problem("", f"has no {key}; give {required}")
-            return default
-        try:
-            return read(self._values[key])
-        except ValueError as error:
-            self.problem(key, str(error))
-            return default
-
-    def raw(self, key: str) -> Any:
-        """Return a key's value as it is, None if it is missing."""
-        self._known.append(key)
-        return self._values.get(key)
+        keys = described(kind)
+        for name, how in keys.items():
+            if how["is_table"]:
+                known[name] = how["read"](self.source, (*self.path, name), self.given.get(name))
+            elif name in self.given:
+                try:
+                    known[name] = how["read"](self.source, (*self.path, name), self.given[name])
+                except ValueError as error:
+                    self.problem(name, str(error))
+            elif how["required"]:
+                self.problem("", f"has no {name}; give {how['required']}")
+        for name in self.given:
+            if name not in keys:
+                hint = did_you_mean([name], keys) or f"; the keys here are {', '.join(keys)}"
+                self.problem(name, f"is not a known key{hint}")
+        return kind(**known)
 
     def problem(self, key: str, message: str) -> None:
         """Note what is wrong with a key; with the table itself if the key is empty."""
+        self.wrong.add(key)
         self.source.problem((*self.path, key) if key else self.path, message)
 
-    def refuse_unknown(self) -> None:
-        """Note the keys that nobody has taken."""
-        for key in self._values:
-            if key not in self._known:
-                near = difflib.get_close_matches(key, self._known, n=1, cutoff=0.6)
-                hint = (
-                    f"did you mean {near[0]!r}?" if near else f"there is {', '.join(self._known)}"
-                )
-                self.problem(key, f"is no key of a study; {hint}")
+
+def reader(wanted: str, fits: Callable[[Any], Any], made: Callable[[Any], T]) -> Callable[[Any], T]:
+    """Return what reads a value that fits, and says what is wanted in the place of another."""
+
+    def read(value: Any) -> T:
+        if not fits(value):
+            raise ValueError(f"is {value!r}; give {wanted}")
+        return made(value)
+
+    return read
 
 
-def text(value: Any) -> str:
-    """Read a text that is not empty."""
-    if not isinstance(value, str) or not value.strip():
-        raise ValueError(f"is {value!r}; give a text")
+def as_it_is(value: Any) -> Any:
+    """Read what is checked elsewhere."""
     return value
+
+
+def path(source: Source, path: KeyPath, value: Any) -> Any:
+    """Read a path, which is relative to the file's folder."""
+    return source.resolved(value)
+
+
+text = reader("a text", lambda value: isinstance(value, str) and value.strip(), str)
+flag = reader("true or false", lambda value: isinstance(value, bool), bool)
+whole = reader(
+    "a whole number", lambda value: isinstance(value, int) and not isinstance(value, bool), int
+)
+mapping = reader("a table, { name = value }", lambda value: isinstance(value, Mapping), dict)
 
 
 def name(value: Any) -> str:
@@ -142,25 +199,9 @@ def number(value: Any) -> float:
     return float(value)
 
 
-def positive(value: Any) -> float:
-    """Read a number above 0."""
-    if number(value) <= 0:
-        raise ValueError(f"is {value!r}; give a number above 0")
-    return float(value)
-
-
-def not_negative(value: Any) -> float:
-    """Read a number that is 0 or above."""
-    if number(value) < 0:
-        raise ValueError(f"is {value!r}; give a number that is not negative")
-    return float(value)
-
-
-def fraction(value: Any) -> float:
-    """Read a number from 0 to 1."""
-    if not 0 <= number(value) <= 1:
-        raise ValueError(f"is {value!r}; give a number from 0 to 1")
-    return float(value)
+positive = reader("a number above 0", lambda value: number(value) > 0, float)
+not_negative = reader("a number that is not negative", lambda value: number(value) >= 0, float)
+fraction = reader("a number from 0 to 1", lambda value: 0 <= number(value) <= 1, float)
 
 
 def numbers(value: Any) -> tuple[float, ...]:
@@ -170,36 +211,9 @@ def numbers(value: Any) -> tuple[float, ...]:
     return tuple(number(item) for item in value)
 
 
-def whole(value: Any) -> int:
-    """Read a whole number."""
-    if isinstance(value, bool) or not isinstance(value, int):
-        raise ValueError(f"is {value!r}; give a whole number")
-    return value
-
-
 def at_least(least: int) -> Callable[[Any], int]:
     """Return what reads a whole number from a least one on."""
-
-    def read(value: Any) -> int:
-        if whole(value) < least:
-            raise ValueError(f"is {value}; give at least {least}")
-        return int(value)
-
-    return read
-
-
-def flag(value: Any) -> bool:
-    """Read true or false."""
-    if not isinstance(value, bool):
-        raise ValueError(f"is {value!r}; give true or false")
-    return value
-
-
-def mapping(value: Any) -> dict[str, Any]:
-    """Read a table whose keys are checked elsewhere."""
-    if not isinstance(value, Mapping):
-        raise ValueError(f"is {value!r}; give a table, {{ name = value }}")
-    return dict(value)
+    return reader(f"at least {least}", lambda value: whole(value) >= least, int)
 
 
 def choice(choices: Sequence[str]) -> Callable[[Any], str]:
@@ -207,9 +221,8 @@ def choice(choices: Sequence[str]) -> Callable[[Any], str]:
 
     def read(value: Any) -> str:
         if value not in choices:
-            near = difflib.get_close_matches(str(value), choices, n=1)
-            hint = f"did you mean {near[0]!r}?" if near else f"choose from {', '.join(choices)}"
-            raise ValueError(f"is {value!r}; {hint}")
+            hint = did_you_mean([str(value)], choices) or f"; choose from {', '.join(choices)}"
+            raise ValueError(f"is {value!r}{hint}")
         return str(value)
 
     return read

@@ -1,7 +1,7 @@
-"""The results of a study as files: result.toml, .json and .csv, the curves, and a picture.
+"""The results of a study: in memory, and as files result.json and result.csv, curves, a picture.
 
-The three hold the same; what is unknown is null in JSON, and nan in TOML. Nothing in them depends
-on when or how often the study was interrupted.
+What is unknown is null in JSON, and empty in CSV. Nothing in the files depends on when or how often
+the study was interrupted.
 """
 
 from __future__ import annotations
@@ -11,18 +11,17 @@ import json
 import math
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ..calibration import Identification, Uncertainty
+from ..calibration import Identification, SeveralMeasures, Uncertainty
 from ..installation import build_info
+from .contents import Contents
 
-if TYPE_CHECKING:
-    from .study import Found, Study
-
-__all__ = ["write_results"]
+__all__ = ["StudyResult", "write_results"]
 
 _COLUMNS = (
     "measure",
@@ -37,11 +36,39 @@ _COLUMNS = (
 )
 
 
-def write_results(study: Study, found: Found) -> None:
+@dataclass(frozen=True)
+class StudyResult:
+    """What a study has found.
+
+    Attributes
+    ----------
+    identifications : dict of str to Identification
+        By measure; one, unless the study asks for several.
+    uncertainties : dict of str to Uncertainty
+        Of each; empty where the study has ``uncertainty = false``.
+    several : SeveralMeasures or None
+        The same together, where there are several.
+    """
+
+    identifications: dict[str, Identification]
+    uncertainties: dict[str, Uncertainty]
+    several: SeveralMeasures | None = None
+
+    def __str__(self) -> str:
+        parts = [str(self.several)] if self.several is not None else []
+        for measure, found in self.identifications.items():
+            if self.several is None:
+                parts.append(str(found))
+            if measure in self.uncertainties:
+                title = f"by {measure}\n" if self.several is not None else ""
+                parts.append(f"{title}{self.uncertainties[measure]}")
+        return "\n\n".join(parts)
+
+
+def write_results(study: Contents, found: StudyResult) -> None:
     """Write everything into the study's folder for results."""
     folder = study.results
     contents = _contents(study, found)
-    (folder / "result.toml").write_text(_toml(contents), encoding="utf-8")
     (folder / "result.json").write_text(
         json.dumps(_without_nan(contents), indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
     )
@@ -64,7 +91,7 @@ def write_results(study: Study, found: Found) -> None:
     figure.savefig(folder / "loops.png", dpi=120)
 
 
-def _contents(study: Study, found: Found) -> dict[str, Any]:
+def _contents(study: Contents, found: StudyResult) -> dict[str, Any]:
     return {
         "study": study.path.name,
         "title": study.title,
@@ -121,29 +148,3 @@ def _without_nan(value: Any) -> Any:
     if isinstance(value, list):
         return [_without_nan(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _toml(values: Mapping[str, Any], path: tuple[str, ...] = ()) -> str:
-    """Return nested tables as TOML, plain values first."""
-    lines = [f"[{'.'.join(map(_toml_key, path))}]"] if path else []
-    inner = []
-    for key, value in values.items():
-        if isinstance(value, Mapping):
-            inner.append(_toml(value, (*path, key)))
-        else:
-            lines.append(f"{_toml_key(key)} = {_toml_value(value)}")
-    return "\n".join([*lines, "", *inner])
-
-
-def _toml_key(key: str) -> str:
-    return key if re.fullmatch(r"[\w-]+", key, re.ASCII) else json.dumps(key)
-
-
-def _toml_value(value: Any) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, float):
-        return repr(float(value))
-    if isinstance(value, list):
-        return f"[{', '.join(map(_toml_value, value))}]"
-    return json.dumps(value, ensure_ascii=False)  # TOML's texts are JSON's

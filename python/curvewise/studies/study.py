@@ -8,71 +8,29 @@ where it was, and ends with the same bits.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 from ..calibration import (
-    Case,
-    CommandModel,
     Identification,
-    Objective,
     Progress,
     SeveralMeasures,
-    SimulationStore,
-    Uncertainty,
     identify,
     identify_each,
 )
-from ..calibration.models.command import LOG
-from ..calibration.models.identity import model_identity
-from ..calibration.models.templates import read_templates
-from ..calibration.objective.cases import CaseObjective
 from ..drawing.figures import matplotlib_required
 from .compatibility import check_together
+from .contents import Contents
 from .dry_run import DryRun, dry_run
-from .entries import ModelEntry, SearchEntry, TestEntry
-from .reading import Contents, read_contents
-from .result_files import write_results
-from .study_model import OutputReader, Picked, StudyModel
+from .reading import read_contents
+from .result_files import StudyResult, write_results
 from .toml_source import Source
 
-__all__ = ["Found", "Study"]
+__all__ = ["Study"]
 
 
-@dataclass(frozen=True)
-class Found:
-    """What a study has found.
-
-    Attributes
-    ----------
-    identifications : dict of str to Identification
-        By measure; one, unless the study asks for several.
-    uncertainties : dict of str to Uncertainty
-        Of each; empty where the study has ``uncertainty = false``.
-    several : SeveralMeasures or None
-        The same together, where there are several.
-    """
-
-    identifications: dict[str, Identification]
-    uncertainties: dict[str, Uncertainty]
-    several: SeveralMeasures | None = None
-
-    def __str__(self) -> str:
-        parts = [str(self.several)] if self.several is not None else []
-        for measure, found in self.identifications.items():
-            if self.several is None:
-                parts.append(str(found))
-            if measure in self.uncertainties:
-                title = f"by {measure}\n" if self.several is not None else ""
-                parts.append(f"{title}{self.uncertainties[measure]}")
-        return "\n\n".join(parts)
-
-
-@dataclass(frozen=True)
-class Study:
+class Study(Contents):
     r"""An identification that a file describes.
 
     Made by :meth:`read`.
@@ -83,13 +41,13 @@ class Study:
         The file.
     title : str
         What it calls itself.
-    tests : tuple of TestEntry
+    tests : tuple of MeasuredTest
         The measured curves.
-    models : mapping of str to ModelEntry
+    models : mapping of str to SolverModel
         What simulates them.
     bounds : mapping
         The parameters, as :func:`curvewise.calibration.identify` takes them.
-    search : SearchEntry
+    search : SearchSettings
         How to search.
     results : Path
         The folder for results.
@@ -121,14 +79,6 @@ class Study:
     >>> round(found.identifications["area"].parameters["E"], 3)
     2.0
     """
-
-    path: Path
-    title: str
-    tests: tuple[TestEntry, ...]
-    models: Mapping[str, ModelEntry]
-    bounds: Mapping[str, Any]
-    search: SearchEntry
-    results: Path
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Study:
@@ -162,11 +112,10 @@ class Study:
         As for the class.
         """
         source = Source(path)
-        contents: Contents = read_contents(source)
-        study = cls(source.path, *contents)
-        check_together(study, source)
+        contents = read_contents(source)
+        check_together(contents, source)
         source.raise_problems()
-        return study
+        return cls(**vars(contents))
 
     def check(self) -> DryRun:
         """Run every model once, at the start of the search, and say what was read.
@@ -195,7 +144,7 @@ class Study:
 
     def run(
         self, *, progress: bool = True, callback: Callable[[Progress], Any] | None = None
-    ) -> Found:
+    ) -> StudyResult:
         """Search, or go on with a search that was interrupted, and write the results.
 
         Parameters
@@ -207,7 +156,7 @@ class Study:
 
         Returns
         -------
-        Found
+        StudyResult
             The identifications with their uncertainties; the folder `results` has them as files.
 
         Raises
@@ -236,7 +185,7 @@ class Study:
         if self.search.uncertainty:
             samples = self.search.uncertainty
             uncertainties = {n: one.uncertainty(samples=samples) for n, one in found[0].items()}
-        results = Found(found[0], uncertainties, found[1])
+        results = StudyResult(found[0], uncertainties, found[1])
         write_results(self, results)
         return results
 
@@ -244,87 +193,16 @@ class Study:
         """Return how many runs of the study's models its store holds."""
         if not self.search.store.exists():
             return 0
-        with SimulationStore(self.search.store) as store:
+        with self.store as store:
             names = [self.identity(model) for model in self.study_models().values()]
             return sum(1 for name in names for _ in store.runs(name))
-
-    def identity(self, model: StudyModel) -> str:
-        """Return what the store knows the runs of a model by."""
-        return model_identity(model, self.search.search.get("version")).text
-
-    def study_models(self, kept_in: Path | None = None) -> dict[str, StudyModel]:
-        """Return the models as functions of the parameters.
-
-        Parameters
-        ----------
-        kept_in : Path, optional
-            Where the folders of runs are made and kept, whatever the file says. The folder that
-            is used is made if it is not there.
-        """
-        made = {}
-        for name, entry in self.models.items():
-            sources = tuple(test.output for test in self.tests if test.model == name)
-            scratch = kept_in or entry.scratch
-            if scratch is not None and not scratch.is_dir():
-                scratch.mkdir(parents=True, exist_ok=True)
-            given = [value.name for value in entry.values]
-            command_model = CommandModel(
-                entry.templates,
-                entry.command,
-                OutputReader(sources, entry.success),
-                parameters=_placeholders(entry, (*self.bounds, *given)),
-                timeout=entry.timeout,
-                environment=dict(entry.environment),
-                scratch=scratch,
-                keep=kept_in is not None or entry.keep,
-            )
-            made[name] = StudyModel(command_model, entry.values)
-        return made
-
-    @property
-    def has_cases(self) -> bool:
-        """Whether the tests differ in more than their weights."""
-        own = any(test.own or test.is_number for test in self.tests)
-        return own or len(self.models) > 1
-
-    def cases(self, models: Mapping[str, StudyModel]) -> list[Case]:
-        """Return the tests as cases of an identification."""
-        cases = []
-        for test in self.tests:
-            place = [t.name for t in self.tests if t.model == test.model].index(test.name)
-            settings = {**self.search.objective, "measure": self.search.measures[0], **test.own}
-            settings.pop("failure_value", None)
-            cases.append(
-                Case(
-                    test.name,
-                    models[test.model],
-                    test.experiment,
-                    weight=test.weight,
-                    response=Picked(place, test.is_number),
-                    **settings,
-                )
-            )
-        return cases
-
-    def objective(self, models: Mapping[str, StudyModel], measure: str) -> Objective:
-        """Return what is minimised."""
-        if self.has_cases:
-            return CaseObjective(self.cases(models))
-        return Objective(
-            [test.experiment for test in self.tests], measure, **self._objective_keywords()
-        )
-
-    def _objective_keywords(self) -> dict[str, Any]:
-        keywords = dict(self.search.objective)
-        options = keywords.pop("options", {})
-        return {**keywords, **options, "weights": [test.weight for test in self.tests]}
 
     def _searched(
         self, progress: bool, callback: Callable[[Progress], Any] | None
     ) -> tuple[dict[str, Identification], SeveralMeasures | None]:
         keywords: dict[str, Any] = {
-            **self.search.search,
-            "store": self.search.store,
+            **self.search.keywords,
+            "store": self.store,
             "progress": progress,
             "start": self.search.start or None,
         }
@@ -334,19 +212,10 @@ class Study:
             return {found.measure: found}, None
         (model,) = models.values()
         tests = [test.experiment for test in self.tests]
-        keywords.update(self._objective_keywords())
-        if len(self.search.measures) > 1:
-            measures = list(self.search.measures)
+        measures = [self.criterion(measure) for measure in self.search.measures]
+        if len(measures) > 1:
             several = identify_each(model, tests, self.bounds, measures=measures, **keywords)
             return dict(several), several
-        (measure,) = self.search.measures
+        (measure,) = measures
         found = identify(model, tests, self.bounds, measure=measure, callback=callback, **keywords)
-        return {measure: found}, None
-
-
-def _placeholders(entry: ModelEntry, known: tuple[str, ...]) -> list[str]:
-    """Return the names that the templates have placeholders of."""
-    used = {
-        p.name for template in read_templates(entry.templates, LOG) for p in template.placeholders
-    }
-    return [name for name in known if name in used]
+        return {found.measure: found}, None

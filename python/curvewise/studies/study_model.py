@@ -16,22 +16,13 @@ import numpy as np
 
 from ..calibration import CommandModel
 from ..curves.inputs import Array
+from . import keys
 from .curve_sources import CurveSource
 from .formulas import Formula
+from .keys import key, key_at
+from .toml_source import KeyPath, Source
 
-__all__ = ["DeckTable", "DeckValue", "FormulaOfParameters", "OutputReader", "Picked", "StudyModel"]
-
-
-class FormulaOfParameters:
-    """A tied parameter: a formula of those listed before it."""
-
-    def __init__(self, text: str) -> None:
-        self.text = text
-        self.formula = Formula(text)
-
-    def __call__(self, parameters: Mapping[str, float]) -> float:
-        """Return its value."""
-        return float(self.formula(parameters))
+__all__ = ["DeckTable", "DeckValue", "OutputReader", "Picked", "StudyModel"]
 
 
 @dataclass(frozen=True)
@@ -49,6 +40,28 @@ class DeckValue:
     def value(self, values: Mapping[str, Any]) -> float:
         """Return the number."""
         return float(self.formula(values))
+
+
+def _line(source: Source, path: KeyPath, value: Any) -> tuple[Formula, ...]:
+    """Read a list of formulas; each that is none is a problem of its own."""
+    line = []
+    for text in keys.texts(value):
+        try:
+            line.append(Formula(text))
+        except ValueError as error:
+            source.problem(path, str(error))
+    return tuple(line)
+
+
+def _number_format(value: Any) -> str:
+    try:
+        format(1.0, keys.text(value))
+    except ValueError:
+        raise ValueError(f"is {value!r}; give a format of numbers, such as '.8g'") from None
+    return str(value)
+
+
+_separator = keys.reader("a text, or nothing in quotes", lambda value: isinstance(value, str), str)
 
 
 @dataclass(frozen=True)
@@ -70,11 +83,11 @@ class DeckTable:
     """
 
     name: str
-    over: str
-    points: tuple[float, ...]
-    line: tuple[Formula, ...]
-    format: str
-    separator: str
+    over: str = key(keys.name, "", required="what the formulas call the numbers")
+    points: tuple[float, ...] = key(keys.numbers, (), required="a list of numbers, one a line")
+    line: tuple[Formula, ...] = key_at(_line, (), required="a list of formulas")
+    format: str = key(_number_format, ".8g")
+    separator: str = key(_separator, ", ")
 
     @property
     def uses(self) -> tuple[str, ...]:

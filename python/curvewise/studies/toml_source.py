@@ -12,6 +12,7 @@ import os
 import re
 import sys
 from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -204,9 +205,7 @@ class _Locator:
             if self._next_is("["):
                 table = self._header()
             else:
-                path = (*table, *self._key(table))
-                self._expect("=")
-                self._value(path)
+                self._assignment(table)
 
     def _header(self) -> KeyPath:
         is_array = self._at + 1 < len(self._tokens) and self._tokens[self._at + 1][0] == "["
@@ -230,12 +229,14 @@ class _Locator:
                 path = (*path, self._arrays[path])
         return path
 
-    def _key(self, table: KeyPath) -> list[str]:
+    def _assignment(self, table: KeyPath) -> None:
         line = self._tokens[self._at][1]
         names = self._names()
         for i in range(len(names)):
             self.lines.setdefault((*table, *names[: i + 1]), line)
-        return names
+        assert self._next_is("=")
+        self._at += 1
+        self._value((*table, *names))
 
     def _names(self) -> list[str]:
         names = [_unquoted(self._tokens[self._at][0])]
@@ -247,27 +248,26 @@ class _Locator:
 
     def _value(self, path: KeyPath) -> None:
         if self._next_is("["):
-            self._at += 1
-            item = 0
-            while self._skip_lines() and not self._next_is("]"):
+            for item in self._items("]"):
                 self.lines.setdefault((*path, item), self._tokens[self._at][1])
                 self._value((*path, item))
-                item += 1
-                if self._skip_lines() and self._next_is(","):
-                    self._at += 1
-            self._at += 1
         elif self._next_is("{"):
-            self._at += 1
-            while self._skip_lines() and not self._next_is("}"):
-                names = self._key(path)
-                self._expect("=")
-                self._value((*path, *names))
-                if self._skip_lines() and self._next_is(","):
-                    self._at += 1
-            self._at += 1
+            for _ in self._items("}"):
+                self._assignment(path)
         else:  # a date or a number may be several tokens
             while self._at < len(self._tokens) and self._tokens[self._at][0] not in "\n,]}":
                 self._at += 1
+
+    def _items(self, closing: str) -> Iterator[int]:
+        """Count what stands between brackets, each item being read before the next."""
+        self._at += 1
+        for item in count():
+            if not self._skip_lines() or self._next_is(closing):
+                break
+            yield item
+            if self._skip_lines() and self._next_is(","):
+                self._at += 1
+        self._at += 1
 
     def _skip_lines(self) -> bool:
         while self._next_is("\n"):
@@ -276,10 +276,6 @@ class _Locator:
 
     def _next_is(self, token: str) -> bool:
         return self._at < len(self._tokens) and self._tokens[self._at][0] == token
-
-    def _expect(self, token: str) -> None:
-        assert self._next_is(token)
-        self._at += 1
 
 
 def _tokens(text: str) -> Iterator[tuple[str, int]]:

@@ -17,6 +17,7 @@
 
 #include "curves.hpp"
 #include "curvewise/curvewise.hpp"
+#include "warping/oracle.hpp"
 
 namespace {
 
@@ -213,14 +214,7 @@ int main(int argc, char** argv) {
         return 0;
     }
     if (argc > 1) pairs = std::atol(argv[1]);
-    for (const auto& [ground, name] : std::vector<std::pair<GroundDistance, std::string>>{
-             {{Metric::euclidean, 2.0}, "euclidean"},
-             {{Metric::sqeuclidean, 2.0}, "sqeuclidean"},
-             {{Metric::cityblock, 2.0}, "cityblock"},
-             {{Metric::chebyshev, 2.0}, "chebyshev"},
-             {{Metric::minkowski, 3.0}, "minkowski"}}) {
-        warping_of(ground, name);
-    }
+    for (const Metric metric : oracle::metrics) warping_of({metric, 3.0}, oracle::name(metric));
     planar();
     others();
     return 0;

@@ -1,5 +1,5 @@
-// The definitions that the tests of DTW and Fréchet compare with: ground distances, and every
-// warping path there is, one by one (exponential time).
+// The definitions that all tests of DTW and Fréchet compare with: the ground distances, what a path
+// may be and costs, and every warping path there is, one by one (exponential time).
 //
 // Comparisons are exact. Adding d, or taking the larger of d, is monotone in floating point too,
 // so the smallest of all path sums, each rounded in path order, is what the recurrence computes.
@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "curves.hpp"
@@ -26,27 +27,66 @@ using test::Curve;
 
 using Path = std::vector<std::array<std::int64_t, 2>>;
 
+inline constexpr auto metrics = [] {
+    std::array<Metric, choice_names(Metric{}).size()> all{};
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<Metric>(k);
+    return all;
+}();
+
+inline std::string name(Metric metric) {
+    return choice_names(metric)[static_cast<std::size_t>(metric)];
+}
+
 inline double ground_distance(const GroundDistance& ground, const Curve& P, std::ptrdiff_t i,
                               const Curve& Q, std::ptrdiff_t j) {
+    const std::ptrdiff_t dim = P.dim();
     double squares = 0.0, sum = 0.0, largest = 0.0, powers = 0.0;
-    for (std::ptrdiff_t c = 0; c < P.dim(); ++c) {
+    for (std::ptrdiff_t c = 0; c < dim; ++c) {
         const double delta = std::abs(P(i, c) - Q(j, c));
         squares += delta * delta;
         sum += delta;
         largest = std::max(largest, delta);
     }
-    const bool is_minkowski = ground.metric == Metric::minkowski;
-    if (ground.metric == Metric::sqeuclidean) return squares;
-    if (ground.metric == Metric::cityblock || (is_minkowski && ground.p == 1.0)) return sum;
-    if (ground.metric == Metric::chebyshev || (is_minkowski && std::isinf(ground.p))) {
-        return largest;
+    switch (ground.metric) {
+        case Metric::euclidean:
+            return dim == 1 ? largest : std::sqrt(squares);
+        case Metric::sqeuclidean:
+            return squares;
+        case Metric::cityblock:
+            return sum;
+        case Metric::chebyshev:
+            return largest;
+        case Metric::minkowski:
+            break;
     }
-    if (!is_minkowski || ground.p == 2.0) return std::sqrt(squares);
-    if (largest == 0.0) return 0.0;
-    for (std::ptrdiff_t c = 0; c < P.dim(); ++c) {
+    if (dim == 1 || largest == 0.0 || std::isinf(ground.p)) return largest;
+    if (ground.p == 1.0) return sum;
+    if (ground.p == 2.0) return std::sqrt(squares);
+    for (std::ptrdiff_t c = 0; c < dim; ++c) {
         powers += std::pow(std::abs(P(i, c) - Q(j, c)) / largest, ground.p);
     }
     return largest * std::pow(powers, 1.0 / ground.p);
+}
+
+// By which power of a factor it grows when both curves do.
+inline int degree(Metric metric) {
+    switch (metric) {
+        case Metric::sqeuclidean:
+            return 2;
+        case Metric::euclidean:
+        case Metric::cityblock:
+        case Metric::chebyshev:
+        case Metric::minkowski:
+            break;
+    }
+    return 1;
+}
+
+// Whether sums are in the order of the coordinates and every operation is correctly rounded, so
+// that there is one right answer to the last bit. (Powers are as good as the C library's.)
+inline bool is_exact(const GroundDistance& ground) {
+    return ground.metric != Metric::minkowski || ground.p == 1.0 || ground.p == 2.0 ||
+           std::isinf(ground.p);
 }
 
 // What a path costs, and which paths there are.

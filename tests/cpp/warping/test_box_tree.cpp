@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "check.hpp"
-#include "curves.hpp"
+#include "oracle.hpp"
 #include "unpolled.hpp"
 #include "warping/box_tree.hpp"
 
@@ -26,9 +26,6 @@ using curvewise::warping::with_norm;
 using test::Curve;
 using test::Random;
 using test::unpolled;
-
-constexpr Metric metrics[] = {Metric::euclidean, Metric::sqeuclidean, Metric::cityblock,
-                              Metric::chebyshev};
 
 struct Side {
     Side(const Curve& curve, PointOrder order)
@@ -112,9 +109,16 @@ void compare(const Curve& P, const Curve& Q, Random& random) {
     const Side rows(P, PointOrder::forward), columns(Q, PointOrder::reversed);
     check_boxes(P, rows.tree);
     check_boxes(Q, columns.tree);
-    for (const Metric metric : metrics) {
+    for (const Metric metric : oracle::metrics) {
         with_norm(metric, [&](auto norm) {
             using Norm = decltype(norm);
+            for (std::ptrdiff_t i = 0; i < P.size(); ++i) {
+                for (std::ptrdiff_t j = 0; j < Q.size(); ++j) {
+                    CHECK_EQUAL(curvewise::warping::point_distance<Norm>(
+                                    rows.tree.points(), i, columns.tree.points(), j, P.dim()),
+                                oracle::ground_distance({metric}, P, i, Q, j));
+                }
+            }
             for (std::ptrdiff_t p = 0; p < rows.tree.levels(); ++p) {
                 for (std::ptrdiff_t q = 0; q < columns.tree.levels(); ++q) {
                     check_bounds<Norm>(rows.tree, columns.tree, p, q);

@@ -55,15 +55,14 @@ void path_behind_a_dead_cell() {
 
 void check_against_all_couplings(const Curve& P, const Curve& Q) {
     const check::Note note(test::described(P, Q));
-    for (const Metric metric : {Metric::euclidean, Metric::sqeuclidean, Metric::cityblock,
-                                Metric::chebyshev, Metric::minkowski}) {
+    for (const Metric metric : oracle::metrics) {
         const FrechetOptions options{{metric, 2.5}};
         oracle::Rules rules;
         rules.ground = options.ground;
         rules.largest = true;
         const double expected = oracle::AllPaths(P, Q, rules).cheapest();
         const Alignment alignment = frechet_path(P, Q, options);
-        if (metric == Metric::minkowski) {
+        if (!oracle::is_exact(options.ground)) {
             CHECK_CLOSE(frechet(P, Q, options), expected, 1e-12);
             CHECK_CLOSE(oracle::path_cost(alignment.path, P, Q, rules), expected, 1e-12);
         } else {
@@ -117,7 +116,7 @@ void root_of_the_squares() {
 void symmetry() {
     Random random(23);
     const Curve P = random.curve(70, 4), Q = random.curve(300, 4);
-    for (const Metric metric : {Metric::euclidean, Metric::cityblock, Metric::chebyshev}) {
+    for (const Metric metric : oracle::metrics) {
         CHECK_EQUAL(frechet(P, Q, {{metric}}), frechet(Q, P, {{metric}}));
         CHECK_EQUAL(frechet(P, P, {{metric}}), 0.0);
     }

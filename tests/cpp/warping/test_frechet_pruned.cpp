@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "check.hpp"
-#include "curves.hpp"
 #include "hard_curves.hpp"
+#include "oracle.hpp"
 #include "unpolled.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/frechet_corridor.hpp"
 #include "warping/frechet_pruned.hpp"
+#include "warping/ground_distance.hpp"
 #include "warping/path.hpp"
 #include "warping/sweep.hpp"
 
@@ -49,7 +50,6 @@ using test::unpolled;
 using test::with_plateaus;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Metric metrics[] = {Metric::sqeuclidean, Metric::cityblock, Metric::chebyshev};
 std::ptrdiff_t pairs = 300;  // in each test
 
 class Comparison {
@@ -61,9 +61,9 @@ class Comparison {
     void run() const {
         for (const Level& level : available_levels()) {
             const check::Note note(level.name);
-            for (const Metric metric : metrics) {
-                const check::Note metric_note("metric " + std::to_string(static_cast<int>(metric)));
-                compare(level, metric);
+            for (const Metric metric : oracle::metrics) {
+                const check::Note metric_note(oracle::name(metric));
+                if (level.kernels->reach(metric, rows_.dim()) != nullptr) compare(level, metric);
             }
         }
     }
@@ -259,12 +259,20 @@ void mazes() {
     }
 }
 
-// What has no bounds is never asked for blocks: there is no kernel to call by mistake.
-void kernels_of_the_others() {
+// A kernel of blocks or boxes is there exactly where a distance has bounds: there is none to call
+// by mistake. Of the Fréchet table, one holds blocks of what has no root.
+void kernels_where_there_are_bounds() {
     for (const Level& level : available_levels()) {
-        for (const Metric metric : {Metric::euclidean, Metric::minkowski}) {
-            CHECK(level.kernels->reach(metric, 2) == nullptr);
-            CHECK(level.kernels->values(metric, 2) == nullptr);
+        for (const Metric metric : oracle::metrics) {
+            const check::Note note(oracle::name(metric));
+            const bool has_bounds = curvewise::warping::has_box_bounds(metric);
+            curvewise::kernels::Cost cost{metric, false};
+            const bool has_blocks = has_bounds && !curvewise::warping::put_off_root(cost);
+            for (const std::ptrdiff_t dim : {1, 2, 3, 4}) {
+                CHECK_EQUAL(level.kernels->least(metric, dim) != nullptr, has_bounds);
+                CHECK_EQUAL(level.kernels->reach(metric, dim) != nullptr, has_blocks);
+                CHECK_EQUAL(level.kernels->values(metric, dim) != nullptr, has_blocks);
+            }
         }
     }
 }
@@ -327,7 +335,7 @@ int main(int argc, char** argv) {
                        {"mazes", mazes},
                        {"turn in a free block", turn_in_a_free_block},
                        {"through a free block", through_a_free_block},
-                       {"kernels of the others", kernels_of_the_others},
+                       {"kernels where there are bounds", kernels_where_there_are_bounds},
                        {"sizes around a block", sizes_around_a_block},
                        {"steps are counted once", steps_are_counted_once}});
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "check.hpp"
-#include "curves.hpp"
 #include "curvewise/curvewise.hpp"
+#include "oracle.hpp"
 #include "pairwise/batch.hpp"
 
 namespace {
@@ -78,10 +78,9 @@ void bounds_of_leashes_hold() {
 
 void bounds_of_every_metric_hold() {
     Random random(11);
-    for (const Metric metric : {Metric::euclidean, Metric::sqeuclidean, Metric::cityblock,
-                                Metric::chebyshev, Metric::minkowski}) {
+    for (const Metric metric : oracle::metrics) {
         for (const std::ptrdiff_t dim : {1, 2, 3, 5}) {
-            const check::Note note("metric " + std::to_string(static_cast<int>(metric)));
+            const check::Note note(oracle::name(metric));
             FrechetOptions frechet_options;
             frechet_options.ground = {metric, 3.0};
             bounds_hold(frechet_options, dim, random);
@@ -99,7 +98,7 @@ void bounds_of_every_metric_hold() {
             bounds_hold(options, dim, random);
             options.normalize = true;
             bounds_hold(options, dim, random);
-            options.window_fraction = 0.3;
+            options.window_fraction = 0.5;  // of few points a window that admits paths, too
             bounds_hold(options, dim, random);
             options.normalize = false;
             options.window_fraction.reset();

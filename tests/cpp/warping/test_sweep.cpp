@@ -1,4 +1,4 @@
-// The strip sweep against a plain scan of the table, row by row: last row, whole table and paths,
+// The strip sweep against the textbook's table, filled row by row: last row, whole table and paths,
 // to the bit, at every instruction-set level of this machine, in one thread and in several, with
 // paths found in one table and by divide and conquer, and with the columns narrowed to what a path
 // of the given cost may visit. The sizes are those around a SIMD vector of 2, 4 or 8 doubles and
@@ -10,9 +10,9 @@
 #include <limits>
 #include <string>
 
+#include "../../stress/textbook_warping.hpp"
 #include "check.hpp"
 #include "curves.hpp"
-#include "oracle.hpp"
 #include "unpolled.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/ground_distance.hpp"
@@ -47,85 +47,11 @@ struct Setup {
     bool open_begin = false;
     std::ptrdiff_t workers = 1;
 
-    // pow promises no bits; orders 1, 2 and inf of minkowski go without it.
-    bool is_exact() const {
-        return ground.metric != Metric::minkowski || ground.p == 1.0 || ground.p == 2.0 ||
-               std::isinf(ground.p);
-    }
+    bool is_exact() const { return oracle::is_exact(ground); }
     oracle::Rules rules() const {
         return {ground, recurrence == Recurrence::frechet,
                 recurrence == Recurrence::dtw_symmetric2 ? 2.0 : 1.0, window, open_begin};
     }
-};
-
-// c[i, j] = min(min(c[i-1, j], c[i, j-1]) + d, c[i-1, j-1] + w d), or max(d, min of the three),
-// and the predecessor it comes from.
-class RowScan {
-   public:
-    RowScan(const Curve& P, const Curve& Q, const Setup& setup)
-        : P_(P), Q_(Q), setup_(setup), cells_(static_cast<std::size_t>(P.size() * Q.size())) {
-        for (std::ptrdiff_t i = 0; i < P.size(); ++i) {
-            for (std::ptrdiff_t j = 0; j < Q.size(); ++j) {
-                if (oracle::is_allowed(P.size(), Q.size(), i, j, setup.window)) scan(i, j);
-            }
-        }
-    }
-
-    double value(std::ptrdiff_t i, std::ptrdiff_t j) const {
-        return i < 0 || j < 0 ? infinity : cells_[index(i, j)].value;
-    }
-
-    Path path_to(std::ptrdiff_t j) const {
-        std::ptrdiff_t i = P_.size() - 1;
-        Path path{{i, j}};
-        while (i > 0 || (j > 0 && !setup_.open_begin)) {
-            const Cell& cell = cells_[index(i, j)];
-            i -= cell.row_step;
-            j -= cell.column_step;
-            path.push_back({i, j});
-        }
-        std::reverse(path.begin(), path.end());
-        return path;
-    }
-
-   private:
-    struct Cell {
-        double value = infinity;
-        std::ptrdiff_t row_step = 0;  // from its predecessor
-        std::ptrdiff_t column_step = 0;
-    };
-
-    std::size_t index(std::ptrdiff_t i, std::ptrdiff_t j) const {
-        return static_cast<std::size_t>(i * Q_.size() + j);
-    }
-
-    void scan(std::ptrdiff_t i, std::ptrdiff_t j) {
-        const oracle::Rules rules = setup_.rules();
-        const double d = oracle::ground_distance(setup_.ground, P_, i, Q_, j);
-        Cell& cell = cells_[index(i, j)];
-        if (i == 0 && (j == 0 || setup_.open_begin)) {
-            cell.value = d;
-            return;
-        }
-        const double up = value(i - 1, j), left = value(i, j - 1);
-        double side = std::min(up, left);
-        double diagonal = value(i - 1, j - 1);
-        if (!rules.largest) {
-            side += d;
-            diagonal += rules.diagonal_weight * d;
-        }
-        const bool by_diagonal = diagonal <= side && i > 0 && j > 0;
-        const bool by_row = i > 0 && up <= left;
-        cell.value = std::min(side, diagonal);
-        if (rules.largest) cell.value = std::max(cell.value, d);
-        cell.row_step = by_diagonal || by_row;
-        cell.column_step = by_diagonal || !by_row;
-    }
-
-    const Curve& P_;
-    const Curve& Q_;
-    const Setup& setup_;
-    std::vector<Cell> cells_;
 };
 
 class Comparison {
@@ -134,7 +60,7 @@ class Comparison {
         : P_(P),
           Q_(Q),
           setup_(setup),
-          expected_(P, Q, setup),
+          expected_(textbook::filled(P, Q, setup.rules())),
           band_(P.size(), Q.size(), setup.window),
           rows_(P, RangeScale(1.0), PointOrder::forward, unpolled),
           columns_(Q, RangeScale(1.0), PointOrder::reversed, unpolled),
@@ -164,7 +90,7 @@ class Comparison {
     static constexpr std::ptrdiff_t cells_per_worker = 1 << 12;
 
     void check_value(double actual, std::ptrdiff_t i, std::ptrdiff_t j) const {
-        const double value = expected_.value(i, j);
+        const double value = expected_.cost(i, j);
         if (setup_.is_exact() ? actual == value : std::abs(actual - value) <= 1e-12 * value) return;
         const check::Note note("cell " + std::to_string(i) + ", " + std::to_string(j));
         CHECK_EQUAL(actual, value);
@@ -182,7 +108,7 @@ class Comparison {
     // leaves nothing; then the path within what was left.
     void check_narrowed(SweepProblem problem) const {
         const LiveColumns band = problem.columns;
-        const double value = expected_.value(P_.size() - 1, Q_.size() - 1);
+        const double value = expected_.cost(P_.size() - 1, Q_.size() - 1);
         const std::vector<double> after_row = suffix_sums(P_.size(), [&](auto i) {
             return smallest(Q_.size(), [&](auto j) { return ground_distance(i, j); });
         });
@@ -248,7 +174,7 @@ class Comparison {
     std::ptrdiff_t first_best() const {
         std::ptrdiff_t best = 0;
         for (std::ptrdiff_t j = 1; j < Q_.size(); ++j) {
-            if (expected_.value(P_.size() - 1, j) < expected_.value(P_.size() - 1, best)) best = j;
+            if (expected_.cost(P_.size() - 1, j) < expected_.cost(P_.size() - 1, best)) best = j;
         }
         return best;
     }
@@ -260,8 +186,8 @@ class Comparison {
         CHECK(oracle::is_path(path, P_, Q_, rules));
         if (setup_.is_exact()) {
             const std::ptrdiff_t column = open_end ? first_best() : Q_.size() - 1;
-            CHECK_EQUAL(value, expected_.value(P_.size() - 1, column));
-            CHECK_EQUAL(path, expected_.path_to(column));
+            CHECK_EQUAL(value, expected_.cost(P_.size() - 1, column));
+            CHECK_EQUAL(path, textbook::traced(expected_, rules, column));
             CHECK_EQUAL(oracle::path_cost(path, P_, Q_, rules), value);
         } else {
             CHECK_CLOSE(oracle::path_cost(path, P_, Q_, rules), value, 1e-12);
@@ -271,7 +197,7 @@ class Comparison {
     const Curve& P_;
     const Curve& Q_;
     const Setup& setup_;
-    RowScan expected_;
+    textbook::Table expected_;
     Band band_;
     PackedCurve rows_;
     PackedCurve columns_;
@@ -279,13 +205,11 @@ class Comparison {
 };
 
 constexpr std::ptrdiff_t dimensions[] = {1, 2, 3, 4, 7};
-constexpr Metric metrics[] = {Metric::euclidean, Metric::sqeuclidean, Metric::cityblock,
-                              Metric::chebyshev};
 constexpr Recurrence recurrences[] = {Recurrence::dtw_symmetric1, Recurrence::dtw_symmetric2,
                                       Recurrence::frechet};
 
 std::string described(const Setup& setup) {
-    return "metric " + std::to_string(static_cast<int>(setup.ground.metric)) + ", recurrence " +
+    return oracle::name(setup.ground.metric) + ", recurrence " +
            std::to_string(static_cast<int>(setup.recurrence)) + ", window " +
            (setup.window ? std::to_string(*setup.window) : "none") +
            (setup.open_begin ? ", open_begin" : "") + ", workers " + std::to_string(setup.workers);
@@ -321,10 +245,10 @@ void sizes_around_a_vector() {
             for (const std::ptrdiff_t dim : dimensions) {
                 const Curve P = random.lattice_curve(n, dim), Q = random.lattice_curve(m, dim);
                 const Curve R = random.curve(n, dim), S = random.curve(m, dim);
-                for (const Metric metric : metrics) {
+                for (const Metric metric : oracle::metrics) {
                     for (const Recurrence recurrence : recurrences) {
-                        compare_windows(P, Q, {{metric}, recurrence, {}}, {0, 1, 2});
-                        compare_windows(R, S, {{metric}, recurrence, {}}, {1, 3});
+                        compare_windows(P, Q, {{metric, 2.5}, recurrence, {}}, {0, 1, 2});
+                        compare_windows(R, S, {{metric, 2.5}, recurrence, {}}, {1, 3});
                     }
                 }
             }
@@ -341,9 +265,9 @@ void sizes_around_a_strip() {
                 const bool lattice = random.index(2) == 0;
                 const Curve P = lattice ? random.lattice_curve(n, dim) : random.curve(n, dim);
                 const Curve Q = lattice ? random.lattice_curve(m, dim) : random.curve(m, dim);
-                for (const Metric metric : metrics) {
+                for (const Metric metric : oracle::metrics) {
                     for (const Recurrence recurrence : recurrences) {
-                        compare_windows(P, Q, {{metric}, recurrence, {}}, {2});
+                        compare_windows(P, Q, {{metric, 2.5}, recurrence, {}}, {2});
                     }
                 }
                 compare(Q, P, {{Metric::euclidean}, Recurrence::dtw_symmetric2, {}});

@@ -6,10 +6,20 @@ import itertools
 
 import numpy as np
 import pytest
-from test_history import assert_same
+from test_resuming import assert_same
 
 from curvewise import datasets
-from curvewise.calibration import Below, Case, Log, Tied, identify
+from curvewise.calibration import (
+    Below,
+    Case,
+    Criterion,
+    Log,
+    Objective,
+    SimulationStore,
+    Tied,
+    identify,
+)
+from curvewise.calibration.objective.cases import Cases
 from curvewise.calibration.problem.space import Space
 
 CYCLE = np.concatenate(
@@ -92,6 +102,38 @@ def test_a_cycle_a_tension_test_and_a_strength_in_one_call():
     assert set(found.uncertainty(samples=20).standard_errors) == set(TRUTH)
 
 
+def test_terms_answer_for_their_objective():
+    """What searches and records ask is the same question of cases as of loops."""
+    by_name = Cases(three_cases()).objective()
+    assert not by_name.has_function
+    assert by_name.measures == ["dtw", "sum_of_squares", "area"]
+    assert not by_name.is_least_squares
+    assert by_name.titles == ["cycle", "tension", "strength"]
+    assert by_name.sigmas == [None, 4.0, 8.0]
+    assert [written["sigma"] for written in by_name.settings["cases"]] == by_name.sigmas
+    of_function = Case("own", cycle, material(TRUTH, CYCLE), measure=largest_difference)
+    objective = Cases([*three_cases(), of_function]).objective()
+    assert objective.has_function
+    assert objective.measure == "dtw + sum_of_squares + area + largest_difference"
+    others = [2.0 * curve for curve in by_name.experiments]
+    assert by_name.of_other_tests(others)(others) == 0.0
+
+
+def largest_difference(P, Q):
+    return float(np.abs(P - Q).max())
+
+
+def test_a_case_has_a_criterion_of_its_own():
+    test, criterion = material(TRUTH, CYCLE), Criterion("dtw", preset="raw", metric="cityblock")
+    moved = test + np.array([0.0, 4.0])
+    objective = Cases([Case("a", cycle, test, measure=criterion)]).objective()
+    assert objective([moved]) == Objective(test, criterion)(moved)
+    assert objective.preset == "raw"
+    given = Criterion("dtw", failure_value=7.0)
+    objective = Cases([Case("a", cycle, test, measure=given, weight=2.0)]).objective()
+    assert objective([None]) == 14.0
+
+
 def test_cases_count_in_units_of_their_noise():
     """A simulation that is off by sigma everywhere counts 1; squares n; a number its deviation."""
     moved = material(TRUTH, TENSION) + np.array([0.0, 4.0])
@@ -126,17 +168,17 @@ def test_a_case_that_fails_leaves_the_others():
 
 
 def test_cases_in_a_store_run_once(tmp_path):
-    keywords = {"bounds": BOUNDS, "store": tmp_path / "s.db", "version": "1", **QUIET}
+    keywords = {"bounds": BOUNDS, "store": SimulationStore(tmp_path / "s.db", version="1"), **QUIET}
     first = identify(three_cases(), **keywords)
     again = identify(three_cases(), **keywords)
     assert first.runs == 2 * first.evaluations  # two models
     assert again.runs == 0
     assert_same(first, again)
-    history = {**keywords, "store": None, "history": tmp_path / "h.csv"}
-    identify(three_cases(), **history)
     other = [*three_cases()[:2], Case("strength", tension, 500.0, response=strength, sigma=1.0)]
-    with pytest.raises(ValueError, match="the history of another search"):
-        identify(other, **history)
+    identify(other, **keywords)
+    with keywords["store"] as store:
+        one, two = store.searches().values()
+    assert one.settings["cases"] != two.settings["cases"]
 
 
 @pytest.mark.parametrize(
@@ -148,6 +190,7 @@ def test_cases_in_a_store_run_once(tmp_path):
         ([Case("a", cycle, 1.0, sigma=0.0)], "case 'a': sigma is 0.0"),
         ([Case("a", cycle, np.inf)], "case 'a': the experiment is inf"),
         ([Case("a", cycle, 1.0)], "its experiment is a number; give the case a response"),
+        ([Case("a", cycle, 1.0, measure=Criterion(weights=[1]))], "case 'a': its Criterion has"),
         (
             [Case("a", lambda p: [cycle(p)] * 2, cycle(TRUTH))],
             "case 'a': the model returned 2 curves; give a response",
@@ -160,8 +203,10 @@ def test_cases_that_are_wrong(cases, message):
 
 
 def test_what_belongs_to_a_case_is_not_given_beside_it():
-    with pytest.raises(ValueError, match="weights given beside cases; give them to each Case"):
-        identify(three_cases(), bounds=BOUNDS, weights=[1, 2, 3], **QUIET)
+    with pytest.raises(ValueError, match="measure given beside cases; give them to each Case"):
+        identify(three_cases(), measure=Criterion(weights=[1, 2, 3]), bounds=BOUNDS, **QUIET)
+    with pytest.raises(ValueError, match="window given beside cases; give them to each Case"):
+        identify(three_cases(), window=3, bounds=BOUNDS, **QUIET)
     with pytest.raises(TypeError, match="identify needs bounds"):
         identify(three_cases())
 

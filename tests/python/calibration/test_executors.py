@@ -9,10 +9,10 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from test_history import assert_same
 from test_identify import BOUNDS, EXPERIMENT, fragile_line, line
+from test_resuming import assert_same
 
-from curvewise.calibration import identify
+from curvewise.calibration import SimulationStore, identify
 
 KEYWORDS = {"method": "sdrm", "progress": False, "method_options": {"maxiter": 3}}
 
@@ -45,7 +45,7 @@ def test_dask_threads_processes_and_none_give_the_same_bits(dask_executor):
 
 
 def test_an_executor_fills_a_store(dask_executor, tmp_path):
-    keywords = {**KEYWORDS, "store": tmp_path / "s.db", "version": "1"}
+    keywords = {**KEYWORDS, "store": SimulationStore(tmp_path / "s.db", version="1")}
     found = identify(line, EXPERIMENT, BOUNDS, executor=dask_executor, **keywords)
     again = identify(line, EXPERIMENT, BOUNDS, **keywords)
     assert again.runs == 0

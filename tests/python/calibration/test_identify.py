@@ -8,10 +8,10 @@ import sys
 
 import numpy as np
 import pytest
-from test_history import assert_same
+from test_resuming import assert_same
 
 import curvewise
-from curvewise.calibration import Log, identify
+from curvewise.calibration import Criterion, Log, SimulationStore, identify
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
@@ -66,8 +66,8 @@ def moved(parameters):
 
 def test_deviations_are_those_of_the_measure_with_its_options():
     experiments = [line({"a": 2.0, "b": 1.0}), line({"a": 2.2, "b": 1.0}) * (1.0, 2.0)]
-    options = {"preset": "raw", "step_pattern": "symmetric2", "window": 3}
-    found = identify(moved, experiments, BOUNDS, measure="dtw", **options, **QUICK)
+    criterion = Criterion("dtw", preset="raw", step_pattern="symmetric2", window=3)
+    found = identify(moved, experiments, BOUNDS, measure=criterion, **QUICK)
     expected = [
         curvewise.compare(
             *pair, preset="raw", options={"dtw": {"step_pattern": "symmetric2", "window": 3}}
@@ -83,8 +83,8 @@ def test_deviations_of_a_part():
     def beginning(parameters):
         return line(parameters)[:10]
 
-    options = {"open_end": True, "part": "simulation"}
-    found = identify(beginning, EXPERIMENT, BOUNDS, measure="dtw", **options, **QUICK)
+    criterion = Criterion("dtw", open_end=True, part="simulation")
+    found = identify(beginning, EXPERIMENT, BOUNDS, measure=criterion, **QUICK)
     P, Q = curvewise.normalize(EXPERIMENT, found.simulations[0])
     path = curvewise.dtw_path(Q, P, open_end=True)
     expected = path.distance / len(path.path) * np.ptp(EXPERIMENT[:, 1])
@@ -127,7 +127,7 @@ def test_the_middle_of_a_logarithmic_range_is_not_a_bound():
 
 def test_measures_that_cannot_be_computed_are_nan():
     centred = line({"a": 2.0, "b": -1.0})  # mean of y is 0: curve_length, raw, is not defined
-    found = identify(line, centred, BOUNDS, preset="raw", **QUICK)
+    found = identify(line, centred, BOUNDS, measure=Criterion(preset="raw"), **QUICK)
     assert np.isnan(found.measures["curve_length"])
     assert np.isfinite(found.measures["dtw"])
 
@@ -324,7 +324,8 @@ def mean_difference(P, Q):
 
 
 def test_a_measure_of_ones_own(tmp_path):
-    keywords = {"measure": mean_difference, "progress": False, "history": tmp_path / "own.csv"}
+    store = SimulationStore(tmp_path / "own.db", version="1")
+    keywords = {"measure": mean_difference, "progress": False, "store": store}
     found = identify(line, EXPERIMENT, BOUNDS, method="de", **keywords)
     assert found.measure == "mean_difference"
     assert found.measures["mean_difference"] == found.value
@@ -335,18 +336,16 @@ def test_a_measure_of_ones_own(tmp_path):
 
 
 @pytest.mark.parametrize("options", [{"measure": "pcm"}, {"measure": "dtw", "open_end": True}])
-def test_a_model_of_a_piece_of_the_experiment(options, tmp_path):
+def test_a_model_of_a_piece_of_the_experiment(options):
     """The test goes up and down a parabola, the model simulates its first third alone."""
     experiment = np.column_stack((X, 4.0 * X * (1.0 - X)))
 
     def first_third(parameters):
         return np.column_stack((X[:9], parameters["a"] * X[:9] + parameters["b"] * X[:9] ** 2))
 
-    keywords = {"method": "de", "progress": False, "part": "simulation"} | options
-    found = identify(first_third, experiment, BOUNDS, **keywords, history=tmp_path / "part.csv")
+    keywords = {"method": "de", "progress": False}
+    keywords["measure"] = Criterion(**options, part="simulation")
+    found = identify(first_third, experiment, BOUNDS, **keywords)
     assert found.parameters["a"] == pytest.approx(4.0, abs=1e-3)
     assert found.parameters["b"] == pytest.approx(-4.0, abs=4e-3)
     assert found.measures["pcm"] < 1e-3
-    keywords["part"] = "experiment"
-    with pytest.raises(ValueError, match=r"its options is .*'part': 'simulation'"):
-        identify(first_third, experiment, BOUNDS, **keywords, history=tmp_path / "part.csv")

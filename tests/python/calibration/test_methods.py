@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from curvewise import datasets
-from curvewise.calibration import Case, identify
+from curvewise.calibration import Case, Criterion, identify
 
 TRUE = {"E": 200e3, "yield": 300.0, "C": 80e3}
 BOUNDS = {"E": (150e3, 260e3), "yield": (150.0, 500.0), "C": (20e3, 200e3)}
@@ -75,9 +75,8 @@ def test_least_squares_recovers_known_parameters():
         lambda p: [model(p), first_branch(p)],
         loops,
         BOUNDS,
-        measure="curve_length",
+        measure=Criterion("curve_length", weights=[1.0, 2.0]),
         method="least_squares",
-        weights=[1.0, 2.0],
     )
     assert found.converged
     assert largest_error(found) < 1e-5
@@ -96,7 +95,7 @@ def test_loops_that_are_functions_of_time(method):
     clean = np.column_stack([np.interp(time, np.arange(len(STRAIN)), c) for c in timed(TRUE).T])
     noisy = clean.copy()
     noisy[:, 1] += np.random.default_rng(1).normal(0.0, 4.0, len(time))
-    keywords = {"measure": "sum_of_squares", "over": 2, "method": method}
+    keywords = {"measure": "sum_of_squares", "abscissa": 2, "method": method}
     found = quiet_identify(timed, clean, BOUNDS, **keywords)
     assert largest_error(found) < 1e-4
     found = quiet_identify(timed, noisy, BOUNDS, **keywords)
@@ -105,8 +104,8 @@ def test_loops_that_are_functions_of_time(method):
         assert abs(found.parameters[name] - TRUE[name]) < 3.5 * error
         assert error < 0.02 * TRUE[name]
     assert found.uncertainty().sigma == pytest.approx(4.0, rel=0.2)
-    with pytest.raises(ValueError, match="over is 3; P has the columns 0 to 2"):
-        quiet_identify(timed, clean, BOUNDS, measure="sum_of_squares", over=3)
+    with pytest.raises(ValueError, match="abscissa is 3; P has the columns 0 to 2"):
+        quiet_identify(timed, clean, BOUNDS, measure="sum_of_squares", abscissa=3)
     with pytest.raises(ValueError, match="needs x and y, shape"):
         quiet_identify(timed, clean, BOUNDS, measure="sum_of_squares")
 
@@ -116,7 +115,7 @@ def test_a_model_driven_by_the_tests_own_strains(method):
     """One option: least squares on stress, point by point, though the strain turns back."""
     noisy = model(TRUE)
     noisy[:, 1] += np.random.default_rng(1).normal(0.0, 4.0, len(noisy))
-    keywords = {"measure": "sum_of_squares", "over": "points", "method": method}
+    keywords = {"measure": "sum_of_squares", "abscissa": "points", "method": method}
     found = quiet_identify(model, noisy, BOUNDS, **keywords)
     squares = ((found.simulations[0] - noisy)[:, 1] ** 2).sum()
     assert found.value == pytest.approx(squares / np.ptp(noisy[:, 1]) ** 2, rel=1e-12)
@@ -127,10 +126,11 @@ def test_a_model_driven_by_the_tests_own_strains(method):
         assert abs(found.parameters[name] - TRUE[name]) < 3.5 * error
     assert found.uncertainty().sigma == pytest.approx(4.0, rel=0.2)
 
-    case = Case("loop", model, noisy, "sum_of_squares", sigma=4.0, options={"over": "points"})
+    points = Criterion("sum_of_squares", abscissa="points")
+    case = Case("loop", model, noisy, measure=points, sigma=4.0)
     of_case = identify([case], bounds=BOUNDS, method=method, progress=False)
     assert of_case.value == pytest.approx(squares / 4.0**2, rel=1e-3)
-    with pytest.raises(RuntimeError, match=r"21 points and the experiment \d+; over='points'"):
+    with pytest.raises(RuntimeError, match=r"21 points and the experiment \d+; abscissa='points'"):
         quiet_identify(first_branch, noisy, BOUNDS, **keywords)
     with pytest.raises(RuntimeError, match=r"off by .* %.*driven by the experiment's x"):
         quiet_identify(lambda p: model(p)[::-1], noisy, BOUNDS, **keywords)
@@ -331,7 +331,7 @@ def test_a_valley_that_is_not_the_deepest_is_left():
         height = float(np.mean(Q[:, 1] - P[:, 1]))
         return min(abs(height + 0.3) + 0.5, abs(height - 0.3))
 
-    keywords = {"measure": two_minima, "preset": "raw", "start": {"height": -0.3}}
+    keywords = {"measure": Criterion(two_minima, preset="raw"), "start": {"height": -0.3}}
     found = quiet_identify(
         lambda p: np.column_stack((x, np.full(20, p["height"]))),
         np.column_stack((x, np.zeros(20))),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from curvewise.calibration import Objective, identify, identify_each
+from curvewise.calibration import Criterion, Objective, identify, identify_each
 
 X = np.linspace(0.0, 1.0, 20)
 
@@ -24,12 +24,13 @@ SQUARES = {"method": "least_squares", "measure": "sum_of_squares"}
         ({"method": "trust_region"}, ValueError, "unknown method .*you mean 'trust-region'"),
         ({"method": "Nelder Mead"}, ValueError, "unknown method .*you mean 'nelder-mead'"),
         ({"measure": "freched"}, ValueError, "unknown measure .*you mean 'frechet'"),
-        ({"preset": "scald"}, ValueError, "unknown preset .*you mean 'scaled'"),
-        ({"part": "simulations"}, ValueError, "unknown part .*you mean 'simulation'"),
+        ({"preset": "raw"}, TypeError, r"keyword; use measure=Criterion\('area', preset=...\)"),
+        ({"presett": "raw"}, TypeError, "area has no option 'presett'; .*you mean 'preset'"),
+        ({"measure": Criterion(), "spacing": "x"}, TypeError, "spacing given beside a Criterion"),
         ({"max_evaluation": 5}, TypeError, "no option 'max_evaluation'.*'max_evaluations'"),
         ({"spaceing": "x"}, TypeError, "no option 'spaceing'; it has .*you mean 'spacing'"),
         ({"measure": "dtw", "windw": 3}, TypeError, "no option 'windw'.*you mean 'window'"),
-        ({"measure": "sum_of_squares", "ovr": 0}, TypeError, "not ovr; did you mean 'over'"),
+        ({"measure": "sum_of_squares", "absissa": 0}, TypeError, "'absissa'.*you mean 'abscissa'"),
         ({"method_options": {"diffstep": 1}}, ValueError, "no option diffstep.*'diff_step'"),
         (
             {"method": "de", "method_options": {"pop_size": 3}},
@@ -63,6 +64,13 @@ def test_nothing_is_offered_where_nothing_is_near():
         identify(line, EXPERIMENT, {"a": (0, 10)}, method="magic")
     with pytest.raises(TypeError, match=r"it has spacing, crossing, squared$"):
         Objective(EXPERIMENT, "area", wibble=1)
+
+
+def test_of_the_settings_of_a_criterion():
+    with pytest.raises(ValueError, match=r"unknown preset .*you mean 'scaled'"):
+        Criterion(preset="scald")
+    with pytest.raises(ValueError, match=r"unknown part .*you mean 'simulation'"):
+        Criterion(part="simulations")
 
 
 def test_of_several_measures_too():

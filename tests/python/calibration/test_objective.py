@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import pickle
 
@@ -10,7 +11,7 @@ import pandas as pd
 import pytest
 
 import curvewise
-from curvewise.calibration import MEASURES, Objective
+from curvewise.calibration import MEASURES, Criterion, Objective
 
 EXPERIMENT, SIMULATION = curvewise.datasets.hysteresis_pair()
 BRANCH = EXPERIMENT[:60]  # the first loading: x does not turn back
@@ -23,7 +24,7 @@ FIVE = [name for name in MEASURES if name != "sum_of_squares"]
 def test_value_is_that_of_compare(measure, preset):
     compared = curvewise.compare(EXPERIMENT, SIMULATION, preset=preset, measures=[measure])
     expected = compared[measure]
-    objective = Objective(EXPERIMENT, measure, preset=preset)
+    objective = Objective(EXPERIMENT, Criterion(measure, preset=preset))
     assert objective(SIMULATION) == expected
     assert objective([SIMULATION]) == expected
     assert objective.failures == 0
@@ -32,7 +33,7 @@ def test_value_is_that_of_compare(measure, preset):
 @pytest.mark.parametrize("measure", FIVE)
 def test_weighted_sum_over_loops(measure):
     loops = [EXPERIMENT, EXPERIMENT[:150]]
-    objective = Objective(loops, measure, weights=[2.0, 0.5])
+    objective = Objective(loops, Criterion(measure, weights=[2.0, 0.5]))
     terms = objective.terms([SIMULATION, OTHER])
     expected = [
         curvewise.compare(P, Q, measures=[measure])[measure]
@@ -43,9 +44,9 @@ def test_weighted_sum_over_loops(measure):
 
 
 def test_options_override_those_of_the_preset():
-    objective = Objective(EXPERIMENT, "dtw", preset="paper", step_pattern="symmetric1")
+    objective = Objective(EXPERIMENT, Criterion("dtw", preset="paper", step_pattern="symmetric1"))
     assert objective(SIMULATION) == curvewise.compare(EXPERIMENT, SIMULATION)["dtw"]
-    objective = Objective(EXPERIMENT, "area", preset="paper", crossing="split")
+    objective = Objective(EXPERIMENT, Criterion("area", preset="paper", crossing="split"))
     expected = curvewise.area(EXPERIMENT, SIMULATION, spacing="x", crossing="split")
     assert objective(SIMULATION) == expected
 
@@ -53,10 +54,10 @@ def test_options_override_those_of_the_preset():
 def test_sum_of_squares_interpolates_at_the_experiments_x():
     P = np.array([(0.0, 0.0), (1.0, 1.0), (2.0, 4.0)])
     Q = np.array([(0.0, 1.0), (2.0, 5.0)])
-    assert Objective(P, "sum_of_squares", preset="raw")(Q) == 1.0 + 4.0 + 1.0
+    assert Objective(P, Criterion("sum_of_squares", preset="raw"))(Q) == 1.0 + 4.0 + 1.0
     assert Objective(P, "sum_of_squares")(Q) == 6.0 / 16.0  # scaled by the extent in y
-    assert Objective(P[::-1], "sum_of_squares", preset="raw")(Q) == 6.0
-    assert Objective(P, "sum_of_squares", preset="raw")(Q[::-1]) == 6.0
+    assert Objective(P[::-1], Criterion("sum_of_squares", preset="raw"))(Q) == 6.0
+    assert Objective(P, Criterion("sum_of_squares", preset="raw"))(Q[::-1]) == 6.0
 
 
 @pytest.mark.parametrize(
@@ -68,7 +69,7 @@ def test_sum_of_squares_interpolates_at_the_experiments_x():
     ],
 )
 def test_sum_of_squares_does_not_make_up_what_was_not_simulated(simulation, reason):
-    objective = Objective([(0, 0), (1, 1), (2, 4)], "sum_of_squares", preset="raw")
+    objective = Objective([(0, 0), (1, 1), (2, 4)], Criterion("sum_of_squares", preset="raw"))
     (message,) = objective.score(np.array(simulation)).failures
     assert reason in message
     assert objective(simulation) == objective.failure_value[0]
@@ -104,7 +105,7 @@ def test_failed_simulation_has_a_finite_penalty_and_is_counted(name, measure):
 
 @pytest.mark.parametrize("measure", FIVE)
 def test_one_failed_loop_of_two(measure):
-    objective = Objective([EXPERIMENT, EXPERIMENT], measure, weights=[1.0, 3.0])
+    objective = Objective([EXPERIMENT, EXPERIMENT], Criterion(measure, weights=[1.0, 3.0]))
     terms, failures = objective.score([SIMULATION, None])[1:]
     assert terms[0] == Objective(EXPERIMENT, measure)(SIMULATION)
     assert terms[1] == objective.failure_value[1]
@@ -119,7 +120,7 @@ def test_one_failed_loop_of_two(measure):
 @pytest.mark.parametrize("preset", ["scaled", "raw"])
 def test_penalty_grows_with_the_units(measure, preset):
     small, large = (
-        Objective(BRANCH * [1.0, factor], measure, preset=preset).failure_value[0]
+        Objective(BRANCH * [1.0, factor], Criterion(measure, preset=preset)).failure_value[0]
         for factor in (1.0, 1e3)
     )
     grows = preset == "raw" and measure not in ("pcm", "curve_length")
@@ -127,21 +128,21 @@ def test_penalty_grows_with_the_units(measure, preset):
 
 
 def test_penalty_can_be_given():
-    objective = Objective([EXPERIMENT, EXPERIMENT], failure_value=7.0, weights=[1, 2])
+    objective = Objective([EXPERIMENT, EXPERIMENT], Criterion(failure_value=7.0, weights=[1, 2]))
     assert objective(None) == 21.0
 
 
 def test_pcm_needs_coverage():
-    objective = Objective(EXPERIMENT, "pcm", min_coverage=0.5)
+    objective = Objective(EXPERIMENT, Criterion("pcm", min_coverage=0.5))
     died_early = EXPERIMENT[:60]  # follows the experiment to the point, then ends
     assert curvewise.pcm(EXPERIMENT, died_early) < 0.02
     assert objective(died_early) == objective.failure_value[0]
     assert "min_coverage is 0.5" in objective.score(died_early).failures[0]
-    assert Objective(EXPERIMENT, "pcm", min_coverage=0.0)(died_early) < 0.02
+    assert Objective(EXPERIMENT, Criterion("pcm", min_coverage=0.0))(died_early) < 0.02
 
 
 def test_pcm_of_a_piece_of_an_experiment_passes():
-    objective = Objective(EXPERIMENT[100:140], "pcm", min_coverage=0.9)
+    objective = Objective(EXPERIMENT[100:140], Criterion("pcm", min_coverage=0.9))
     assert objective(EXPERIMENT) < 0.1
     assert objective.failures == 0
 
@@ -202,13 +203,13 @@ def test_wrong_experiments_and_measures_are_refused(arguments, message):
 )
 def test_wrong_options_are_refused(keywords, message):
     with pytest.raises(ValueError, match=message):
-        Objective(EXPERIMENT, "area", **keywords)
+        Objective(EXPERIMENT, Criterion("area", **keywords))
 
 
 def test_an_option_that_the_measure_lacks_is_refused():
     with pytest.raises(TypeError, match="window"):
         Objective(EXPERIMENT, "area", window=3)
-    with pytest.raises(TypeError, match="sum_of_squares has the option over alone, not"):
+    with pytest.raises(TypeError, match="sum_of_squares has no option 'window'; it has abscissa"):
         Objective(BRANCH, "sum_of_squares", window=3)
 
 
@@ -224,7 +225,7 @@ def test_a_model_hooked_up_wrongly_is_an_error():
 
 @pytest.mark.parametrize("measure", ["curve_length", "sum_of_squares"])
 def test_residuals_add_up_to_the_value(measure):
-    objective = Objective([BRANCH, BRANCH], measure, weights=[1.0, 3.0])
+    objective = Objective([BRANCH, BRANCH], Criterion(measure, weights=[1.0, 3.0]))
     simulations = [BRANCH * [1.0, 1.1], BRANCH * [1.0, 0.8]]
     squares = objective.residuals(simulations) ** 2
     terms = objective.terms(simulations)
@@ -256,7 +257,7 @@ def test_part_says_which_curve_dtw_matches_to_a_piece_of_the_other(options):
     P, Q = EXPERIMENT, SIMULATION[:90]
     scaled = curvewise.normalize(P, Q)
     of_experiment = Objective(P, "dtw", **options)
-    of_simulation = Objective(P, "dtw", part="simulation", **options)
+    of_simulation = Objective(P, Criterion("dtw", part="simulation", **options))
     assert of_experiment(Q) == curvewise.dtw(*scaled, **options)
     assert of_simulation(Q) == curvewise.dtw(*scaled[::-1], **options)
     assert of_simulation.part == "simulation"
@@ -265,8 +266,8 @@ def test_part_says_which_curve_dtw_matches_to_a_piece_of_the_other(options):
 def test_a_piece_of_the_experiment_is_perfect():
     """Figure 15 of the paper: the whole loop is the test, its first branch is the simulation."""
     branch = EXPERIMENT[:60]
-    assert Objective(EXPERIMENT, "dtw", part="simulation", open_end=True)(branch) == 0.0
-    objective = Objective(EXPERIMENT, "pcm", part="simulation")
+    assert Objective(EXPERIMENT, Criterion("dtw", part="simulation", open_end=True))(branch) == 0.0
+    objective = Objective(EXPERIMENT, Criterion("pcm", part="simulation"))
     assert objective(branch) == 0.0
     assert objective.failures == 0  # though it has less than min_coverage of the length
     assert Objective(EXPERIMENT, "pcm").score(branch).failures
@@ -277,7 +278,7 @@ def test_a_piece_of_the_experiment_is_perfect():
 )
 def test_part_of_a_measure_of_whole_curves_is_refused(measure, options):
     with pytest.raises(ValueError, match="compares whole curves; part='simulation' needs"):
-        Objective(EXPERIMENT, measure, part="simulation", **options)
+        Objective(EXPERIMENT, Criterion(measure, part="simulation", **options))
 
 
 def largest_difference(P, Q, *, coordinate=1):
@@ -288,10 +289,10 @@ def largest_difference(P, Q, *, coordinate=1):
 def test_a_measure_of_ones_own():
     P = np.array([(0.0, 0.0), (1.0, 2.0), (2.0, 0.0)])
     Q = np.add(P, [0.5, -1.0])
-    assert Objective(P, largest_difference, preset="raw")(Q) == 1.0
-    assert Objective(P, largest_difference, preset="paper")(Q) == 1.0
+    assert Objective(P, Criterion(largest_difference, preset="raw"))(Q) == 1.0
+    assert Objective(P, Criterion(largest_difference, preset="paper"))(Q) == 1.0
     assert Objective(P, largest_difference)(Q) == 0.5  # of the box's height
-    objective = Objective([P, P], largest_difference, weights=[1.0, 2.0], coordinate=0)
+    objective = Objective([P, P], Criterion(largest_difference, weights=[1.0, 2.0], coordinate=0))
     assert objective([Q, Q]) == 0.25 + 2 * 0.25
     assert objective.measure == "largest_difference"
     assert pickle.loads(pickle.dumps(objective))([Q, Q]) == 0.75
@@ -306,11 +307,29 @@ def test_a_function_of_the_measures_has_its_bits():
 
 
 def test_a_measure_of_ones_own_has_no_residuals():
-    objective = Objective(BRANCH, curvewise.mse, preset="raw")
+    objective = Objective(BRANCH, Criterion(curvewise.mse, preset="raw"))
     with pytest.raises(ValueError, match="measure 'mse' is not a sum of squares"):
         objective.residuals(BRANCH)
 
 
 def test_series():
-    objective = Objective(EXPERIMENT[:, 1], "dtw", preset="raw")
+    objective = Objective(EXPERIMENT[:, 1], Criterion("dtw", preset="raw"))
     assert objective(SIMULATION[:, 1]) == curvewise.dtw(EXPERIMENT[:, 1], SIMULATION[:, 1])
+
+
+def test_a_criterion_is_frozen_and_prints_as_what_makes_it():
+    criterion = Criterion("pcm", min_coverage=0.8, weights=[1, 2], offsets=50)
+    assert repr(criterion) == "Criterion('pcm', min_coverage=0.8, weights=[1.0, 2.0], offsets=50)"
+    assert criterion == Criterion(**criterion.settings)
+    assert hash(criterion) == hash(pickle.loads(pickle.dumps(criterion)))
+    assert criterion != Criterion("pcm", min_coverage=0.8, weights=[1, 2], offsets=60)
+    assert criterion.weighing(None).weights is None
+    assert repr(Criterion(largest_difference)) == "Criterion('largest_difference')"
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        criterion.preset = "raw"
+
+
+def test_options_of_a_function_are_those_of_its_keywords():
+    with pytest.raises(TypeError, match=r"'cordinate'; it has coordinate; did you mean 'coord"):
+        Criterion(largest_difference, cordinate=0)
+    Criterion(lambda P, Q, **options: 0.0, anything=1)

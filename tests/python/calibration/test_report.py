@@ -1,4 +1,4 @@
-"""Reports: the same page from the search, its store and its history, and what is on it."""
+"""Reports: the same page from the search, and its store, and what is on it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from curvewise.calibration import Case, Log, Tied, identify, identify_each
+from curvewise.calibration import (
+    Case,
+    Criterion,
+    Log,
+    SimulationStore,
+    Tied,
+    identify,
+    identify_each,
+)
 from curvewise.calibration.report import figures, page, records_of
 from curvewise.calibration.report.branches import branches_of
 from curvewise.calibration.report.repeating import code_to_repeat
@@ -23,7 +31,8 @@ from curvewise.curves.named_curve import NamedCurve
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 X = np.linspace(0.0, 1.0, 20)
 BOUNDS = {"a": (0.5, 10.0), "b": Log(0.1, 10.0), "c": 3.0, "d": Tied(lambda p: 2.0 * p["a"])}
-QUICK = {"measure": "sum_of_squares", "preset": "raw", "method": "sdrm", "progress": False}
+SQUARES = Criterion("sum_of_squares", preset="raw")
+QUICK = {"measure": SQUARES, "method": "sdrm", "progress": False}
 NAMES = ("strain <1>", "stress & more")
 
 
@@ -48,20 +57,32 @@ def experiments():
 def search(tmp_path_factory):
     """Return a search, its folder, and the page that it wrote itself."""
     folder = tmp_path_factory.mktemp("report")
-    files = {"store": folder / "s.db", "history": folder / "h.csv"}
-    found = identify(model, experiments(), BOUNDS, version="1", **files, **QUICK)
-    before = page(list(records_of(files["store"]).values()))
+    store = SimulationStore(folder / "s.db", version="1")
+    found = identify(model, experiments(), BOUNDS, store=store, **QUICK)
+    before = page(list(records_of(store.path).values()))
     found.report(folder / "found.html")
     return found, folder, before
 
 
-def test_the_page_of_a_store_and_of_a_history_is_that_of_the_search(search):
+def test_the_page_of_a_store_is_that_of_the_search(search):
     _, folder, before = search
     own = (folder / "found.html").read_bytes()
-    for file in ("s.db", "h.csv"):
-        assert cli.main(["report", str(folder / file), "-o", str(folder / "x.html")]) == 0
-        assert (folder / "x.html").read_bytes() == own
+    assert cli.main(["report", str(folder / "s.db"), "-o", str(folder / "x.html")]) == 0
+    assert (folder / "x.html").read_bytes() == own
     assert before.encode() == own  # the uncertainty, from what was written down
+
+
+def test_a_search_without_a_store_has_the_same_page(search, tmp_path):
+    """Beside the times of the runs, and the model's name without a version."""
+    found, _, _ = search
+    alone = identify(model, experiments(), BOUNDS, **QUICK)
+    record, stored = alone.record(), found.record()
+    assert record.ending.to_json() == stored.ending.to_json()
+    assert [replace(one, seconds=0.0, simulations=None) for one in record.evaluations] == [
+        replace(one, seconds=0.0, simulations=None) for one in stored.evaluations
+    ]
+    alone.report(tmp_path / "alone.html")
+    assert "Residuals by branch" in (tmp_path / "alone.html").read_text()
 
 
 def test_a_page_is_small_complete_and_loads_nothing(search):
@@ -79,7 +100,7 @@ def test_a_page_is_small_complete_and_loads_nothing(search):
     for name, error in found.uncertainty().standard_errors.items():
         assert f"{found.parameters[name]:.6g}" in visible
         assert f"{error:.3g}" in visible
-    assert found.recorder.details["versions"]["numpy"] == np.__version__
+    assert found.record().details["versions"]["numpy"] == np.__version__
 
 
 def test_the_call_on_the_page_makes_the_search_again(search):
@@ -95,12 +116,12 @@ def test_the_call_on_the_page_makes_the_search_again(search):
 
 def test_cases_are_written_down_too(tmp_path):
     cases = [
-        Case("a curve", line, experiments()[0], "sum_of_squares", sigma=0.05),
+        Case("a curve", line, experiments()[0], measure="sum_of_squares", sigma=0.05),
         Case(
             "a number",
             line,
             1.1,
-            "sum_of_squares",
+            measure="sum_of_squares",
             weight=2.0,
             sigma=0.1,
             response=lambda c: c[0, 1],
@@ -111,8 +132,7 @@ def test_cases_are_written_down_too(tmp_path):
         bounds={"a": (0.5, 8.0), "b": (0.1, 10.0)},
         method="sdrm",
         progress=False,
-        store=tmp_path / "s.db",
-        version="1",
+        store=SimulationStore(tmp_path / "s.db", version="1"),
     )
     before = page(list(records_of(tmp_path / "s.db").values()))
     found.report(tmp_path / "found.html")
@@ -129,17 +149,16 @@ def test_an_interrupted_search_has_a_page(tmp_path):
             raise KeyboardInterrupt
         return model(parameters)
 
+    store = SimulationStore(tmp_path / "s.db", version="1")
     with pytest.raises(KeyboardInterrupt):
-        identify(interrupted, experiments(), BOUNDS, store=tmp_path / "s.db", version="1", **QUICK)
+        identify(interrupted, experiments(), BOUNDS, store=store, **QUICK)
     (record,) = records_of(tmp_path / "s.db").values()
     assert record.ending is None
     assert 0 < len(record.evaluations) < 8
     assert len(record.curves) == 2  # of the best so far, from the store
     text = page([record])
     assert "The search has not ended" in text
-    again = identify(
-        interrupted, experiments(), BOUNDS, store=tmp_path / "s.db", version="1", **QUICK
-    )
+    again = identify(interrupted, experiments(), BOUNDS, store=store, **QUICK)
     (record,) = records_of(tmp_path / "s.db").values()  # it takes the place of its former self
     assert record.ending is not None
     assert len(record.evaluations) == again.evaluations
@@ -149,29 +168,29 @@ def test_a_page_of_nothing_but_failures(tmp_path):
     def failing(parameters):
         raise ValueError("no licence")
 
+    store = SimulationStore(tmp_path / "s.db", version="1")
     with pytest.raises(RuntimeError, match="no licence"):
-        identify(failing, experiments(), BOUNDS, store=tmp_path / "s.db", version="1", **QUICK)
+        identify(failing, experiments(), BOUNDS, store=store, **QUICK)
     (record,) = records_of(tmp_path / "s.db").values()
     assert page([record]).count("no licence") == len(record.evaluations) > 0
     assert "Nothing has been evaluated yet" in page([replace(record, evaluations=())])
 
 
-def test_a_result_is_not_lost_where_its_history_is(tmp_path, caplog):
-    file = tmp_path / "h.csv"
-
-    def deleting(progress):
-        file.unlink(missing_ok=True)
-
-    found = identify(line, experiments()[0], BOUNDS, history=file, callback=deleting, **QUICK)
-    assert found.converged
-    assert "how the search ended could not be written down" in caplog.text
-    with pytest.raises(OSError, match=r"h\.csv"):
+def test_a_result_is_not_lost_where_its_store_is(search, tmp_path):
+    store = SimulationStore(tmp_path / "s.db", version="1")
+    found = identify(model, experiments(), BOUNDS, store=store, **QUICK)
+    store.path.unlink()
+    found.report(tmp_path / "x.html")
+    assert not store.path.exists()
+    assert found.parameters == search[0].parameters
+    store.path.write_text("another file")
+    with pytest.raises(ValueError, match=r"s\.db is not a store"):
         found.report(tmp_path / "x.html")
 
 
 def test_several_searches_of_a_store_on_one_page(tmp_path, capsys):
     # A single design over all of the bounds leaves no runs near the optimum: no intervals.
-    keywords = {"method": "sdrm", "preset": "raw", "progress": False, "max_evaluations": 5}
+    keywords = {"method": "sdrm", "progress": False, "max_evaluations": 5}
     keywords["method_options"] = {"initial_range": 1.0}
     store = str(tmp_path / "s.db")
     bounds = {"a": (0.5, 8.0), "b": (0.1, 10.0)}
@@ -179,9 +198,8 @@ def test_several_searches_of_a_store_on_one_page(tmp_path, capsys):
         model,
         experiments(),
         bounds,
-        measures=["sum_of_squares", "curve_length"],
-        store=store,
-        version="1",
+        measures=[SQUARES, Criterion("curve_length", preset="raw")],
+        store=SimulationStore(store, version="1"),
         **keywords,
     )
     assert cli.main(["report", store, "--list"]) == 0
@@ -205,9 +223,8 @@ def test_a_function_as_a_measure_is_not_written_down(tmp_path):
 
     keywords = {**QUICK, "measure": distance, "method": "trust-region"}
     bounds = {"a": (0.5, 8.0), "b": (0.1, 10.0)}
-    found = identify(
-        line, experiments()[0], bounds, store=tmp_path / "s.db", version="1", **keywords
-    )
+    store = SimulationStore(tmp_path / "s.db", version="1")
+    found = identify(line, experiments()[0], bounds, store=store, **keywords)
     (record,) = records_of(tmp_path / "s.db").values()
     assert found.uncertainty_runs == 0
     assert "The measure is a function" in page([record])
@@ -217,40 +234,23 @@ def test_a_function_as_a_measure_is_not_written_down(tmp_path):
     assert "95 % from" in page([record])
 
 
-def test_files_from_before_reports_open_and_say_what_to_do(tmp_path, capsys):
-    """A store of the first format, and a history without the tests."""
-    store, history = tmp_path / "old.db", tmp_path / "old.csv"
-    identify(line, experiments()[0], BOUNDS, store=store, version="1", **QUICK, history=history)
-    with sqlite3.connect(store) as database:
+def test_stores_from_before_reports_open_and_say_what_to_do(tmp_path, capsys):
+    store = SimulationStore(tmp_path / "old.db", version="1")
+    identify(line, experiments()[0], BOUNDS, store=store, **QUICK)
+    with sqlite3.connect(store.path) as database:
         database.executescript("DROP TABLE searches; DROP TABLE evaluations;")
     database.close()
-    assert cli.main(["report", str(store)]) == 1
+    assert cli.main(["report", str(store.path)]) == 1
     assert "runs are looked up, and none is made again" in capsys.readouterr().err
-    found = identify(line, experiments()[0], BOUNDS, store=store, version="1", **QUICK)
+    found = identify(line, experiments()[0], BOUNDS, store=store, **QUICK)
     assert found.runs == 0
-    assert len(records_of(store)) == 1
+    assert len(records_of(store.path)) == 1
     text = tmp_path / "text.csv"
     text.write_text("strain,stress\n0,0\n1,2\n")
     assert cli.main(["report", str(text)]) == 1
-    assert "is not a history" in capsys.readouterr().err
+    assert "is not a store" in capsys.readouterr().err
     assert cli.main(["report", str(tmp_path / "none.db")]) == 1
     assert not (tmp_path / "none.db").exists()
-
-
-def test_a_history_without_its_tests_is_resumed_but_not_reported(tmp_path):
-    from curvewise.calibration.records import history
-
-    file = tmp_path / "h.csv"
-    first = identify(line, experiments()[0], BOUNDS, history=file, **QUICK)
-    title, *lines = file.read_text().splitlines()
-    settings = re.sub(r', "report": \{.*\}\}$', "}", title.rpartition(",")[0])
-    assert settings != title.rpartition(",")[0]
-    kept = [one for one in lines if not one.startswith("# ended")]
-    file.write_text(history._with_checksum(settings) + "\n".join(kept) + "\n")
-    with pytest.raises(ValueError, match="did not write the tests down"):
-        records_of(file)
-    again = identify(line, experiments()[0], BOUNDS, history=file, **QUICK)
-    assert again.parameters == first.parameters
 
 
 def test_without_plotly_the_message_says_what_to_install(search, monkeypatch, tmp_path):

@@ -13,10 +13,11 @@ import time
 
 import numpy as np
 import pytest
-from test_history import assert_same
+from test_resuming import assert_same
 
 from curvewise.calibration import (
     CommandModel,
+    Criterion,
     Objective,
     SimulationStore,
     cross_validate,
@@ -79,7 +80,7 @@ def test_runs_are_shared_by_measures_methods_and_weights(tmp_path):
     keywords = {**SDRM, "method_options": {"maxiter": 1}, "store": tmp_path / "s.db"}
     identify(counted, EXPERIMENT, BOUNDS, measure="area", **keywords)
     assert counted.runs == 5
-    identify(counted, EXPERIMENT, BOUNDS, measure="dtw", weights=[3.0], **keywords)
+    identify(counted, EXPERIMENT, BOUNDS, measure=Criterion("dtw", weights=[3.0]), **keywords)
     assert counted.runs == 5
     keywords["method_options"] = {"sdrm": {"maxiter": 1}, "de": {"maxiter": 1, "popsize": 4}}
     identify(counted, EXPERIMENT, BOUNDS, **keywords | {"method": "sdrm+de"})
@@ -89,7 +90,7 @@ def test_runs_are_shared_by_measures_methods_and_weights(tmp_path):
 
 
 def test_workers_fill_the_store_too(tmp_path):
-    keywords = {**QUICK, "store": tmp_path / "s.db", "version": "1"}
+    keywords = {**QUICK, "store": SimulationStore(tmp_path / "s.db", version="1")}
     two = identify(fragile_line, EXPERIMENT, BOUNDS, workers=2, **keywords)
     assert_same(two, identify(fragile_line, EXPERIMENT, BOUNDS, **keywords))
 
@@ -98,9 +99,11 @@ def test_rescore_runs_nothing_and_gives_the_objective(tmp_path):
     counted = Counted(fragile_line)
     found = identify(counted, EXPERIMENT, BOUNDS, store=tmp_path / "s.db", **SDRM)
     runs = counted.runs
-    again = rescore(tmp_path / "s.db", EXPERIMENT, "dtw", weights=[2.0], metric="cityblock")
+    again = rescore(
+        tmp_path / "s.db", EXPERIMENT, Criterion("dtw", weights=[2.0], metric="cityblock")
+    )
     assert counted.runs == runs
-    objective = Objective(EXPERIMENT, "dtw", weights=[2.0], metric="cityblock")
+    objective = Objective(EXPERIMENT, Criterion("dtw", weights=[2.0], metric="cityblock"))
     for row in again.history:
         curve = None if row.failed else line({"a": row.a, "b": row.b})
         assert row.value == objective(curve)
@@ -115,12 +118,13 @@ def test_rescore_wants_to_know_which_model(tmp_path):
     with pytest.raises(FileNotFoundError, match="there is no store"):
         rescore(file, EXPERIMENT)
     for version in ("1", "2"):
-        identify(line, EXPERIMENT, BOUNDS, store=file, version=version, **SDRM)
+        store = SimulationStore(file, version=version)
+        identify(line, EXPERIMENT, BOUNDS, store=store, **SDRM)
     with pytest.raises(ValueError, match=r"runs of 2 models \(line, version 1; line, version 2\)"):
         rescore(file, EXPERIMENT)
     with pytest.raises(ValueError, match="has no runs of line, version 3; it has those of: line"):
-        rescore(file, EXPERIMENT, model=line, version="3")
-    one = rescore(file, EXPERIMENT, model=line, version="1")
+        rescore(SimulationStore(file, version="3"), EXPERIMENT, model=line)
+    one = rescore(SimulationStore(file, version="1"), EXPERIMENT, model=line)
     assert one.value == rescore(file, EXPERIMENT, model="line, version 2").value
 
 
@@ -172,16 +176,6 @@ def test_an_edited_template_is_another_model(tmp_path):
     assert len(identities) == 5
 
 
-def test_a_history_of_an_edited_template_is_refused(tmp_path):
-    keywords = {"method": "nelder-mead", "progress": False, "max_evaluations": 2}
-    keywords["history"] = tmp_path / "h.csv"
-    identify(command_model(tmp_path), EXPERIMENT, BOUNDS, **keywords)
-    identify(command_model(tmp_path), EXPERIMENT, BOUNDS, **keywords)
-    edited = command_model(tmp_path, slope="2 * <<a>>")
-    with pytest.raises(ValueError, match="the history of another search: its model is"):
-        identify(edited, EXPERIMENT, BOUNDS, **keywords)
-
-
 def with_source(source):
     names = {"np": np, "X": X}
     exec(source, names)
@@ -189,12 +183,14 @@ def with_source(source):
 
 
 def test_a_function_needs_a_version_and_keeps_to_it(tmp_path):
-    keywords = {**SDRM, "store": tmp_path / "s.db"}
-    with pytest.raises(ValueError, match="which state of line its runs are of; give version='1'"):
-        identify(line, EXPERIMENT, BOUNDS, **keywords)
-    with pytest.raises(ValueError, match="version is 2; give a text"):
-        identify(line, EXPERIMENT, BOUNDS, version=2, **keywords)
-    keywords["version"] = "1"
+    file = tmp_path / "s.db"
+    wanted = r"which state of line its runs are of; give store=SimulationStore\(path, version='1'\)"
+    with pytest.raises(ValueError, match=wanted):
+        identify(line, EXPERIMENT, BOUNDS, store=file, **SDRM)
+    for version in (2, ""):
+        with pytest.raises(ValueError, match=f"version is {version!r}; give a text"):
+            SimulationStore(file, version=version)
+    keywords = {**SDRM, "store": SimulationStore(file, version="1")}
     source = "def model(p):\n    return np.column_stack((X, p['a'] * X + p['b']))\n"
     identify(with_source(source), EXPERIMENT, BOUNDS, **keywords)
     commented = source.replace("\n    r", "\n    '''A line.'''\n\n    # With a comment.\n    r")
@@ -202,14 +198,15 @@ def test_a_function_needs_a_version_and_keeps_to_it(tmp_path):
     for changed in (source.replace("* X", "* X * X"), source.replace("p['b']", "2 * p['b']")):
         with pytest.raises(ValueError, match="model, version 1, whose code or data were others"):
             identify(with_source(changed), EXPERIMENT, BOUNDS, **keywords)
-        identify(with_source(changed), EXPERIMENT, BOUNDS, **keywords | {"version": changed})
+        other = {**SDRM, "store": SimulationStore(file, version=changed)}
+        identify(with_source(changed), EXPERIMENT, BOUNDS, **other)
 
 
 def test_the_data_of_a_model_count(tmp_path):
     def scaled(factor, parameters):
         return factor * line(parameters)
 
-    keywords = {**SDRM, "store": tmp_path / "s.db", "version": "1"}
+    keywords = {**SDRM, "store": SimulationStore(tmp_path / "s.db", version="1")}
     for factor in (np.array([1.0, 1.0]), np.array([1.0, 1.0])):
         identify(functools.partial(scaled, factor), EXPERIMENT, BOUNDS, **keywords)
     with pytest.raises(ValueError, match=r"partial of .*scaled, version 1, whose code or data"):
@@ -237,7 +234,7 @@ def model(p):
 def other():
     return 1
 """
-    keywords = {**SDRM, "store": tmp_path / "s.db", "version": "1"}
+    keywords = {**SDRM, "store": SimulationStore(tmp_path / "s.db", version="1")}
     identify(in_module(source), EXPERIMENT, BOUNDS, **keywords)
     for same in (source, source.replace("return 1", "return 2")):
         identify(in_module(same), EXPERIMENT, BOUNDS, **keywords)
@@ -259,10 +256,10 @@ def test_what_a_version_is_for(tmp_path, recwarn):
 
         return model
 
-    keywords = {**SDRM, "store": tmp_path / "s.db"}
-    first = identify(made({"factor": 1.0}), EXPERIMENT, BOUNDS, version="1", **keywords)
-    stale = identify(made({"factor": 0.5}), EXPERIMENT, BOUNDS, version="1", **keywords)
-    fresh = identify(made({"factor": 0.5}), EXPERIMENT, BOUNDS, version="2", **keywords)
+    one, two = (SimulationStore(tmp_path / "s.db", version=version) for version in "12")
+    first = identify(made({"factor": 1.0}), EXPERIMENT, BOUNDS, store=one, **SDRM)
+    stale = identify(made({"factor": 0.5}), EXPERIMENT, BOUNDS, store=one, **SDRM)
+    fresh = identify(made({"factor": 0.5}), EXPERIMENT, BOUNDS, store=two, **SDRM)
     assert (stale.runs, stale.parameters) == (0, first.parameters)
     assert fresh.runs > 0
     assert fresh.parameters["a"] == pytest.approx(2.0 * first.parameters["a"], rel=1e-3)
@@ -286,25 +283,6 @@ def test_folds_of_a_cross_validation_share_runs(tmp_path):
     assert str(shared) == str(alone)
 
 
-def test_the_history_beside_a_store_is_a_table(tmp_path):
-    import pandas as pd
-
-    counted = Counted(line)
-    keywords = {**SDRM, "store": tmp_path / "s.db", "history": tmp_path / "h.csv"}
-    found = identify(counted, EXPERIMENT, BOUNDS, **keywords)
-    table = pd.read_csv(tmp_path / "h.csv", comment="#")
-    assert table.value.to_numpy() == pytest.approx(found.history.value, rel=1e-15)
-    assert table.simulations.isna().all()  # the store has them
-    text = (tmp_path / "h.csv").read_bytes()
-    assert_same(found, identify(counted, EXPERIMENT, BOUNDS, **keywords))
-    assert counted.runs == found.evaluations
-    assert (tmp_path / "h.csv").read_bytes() == text
-    (tmp_path / "h.csv").unlink()
-    assert_same(found, identify(counted, EXPERIMENT, BOUNDS, **keywords))
-    assert counted.runs == found.evaluations
-    assert (tmp_path / "h.csv").read_bytes() == text
-
-
 def test_failures_are_kept_until_they_are_forgotten(tmp_path):
     counted = Counted(fragile_line)
     keywords = {**SDRM, "store": tmp_path / "s.db"}
@@ -322,14 +300,30 @@ def test_failures_are_kept_until_they_are_forgotten(tmp_path):
 def test_other_files_are_refused(tmp_path):
     (tmp_path / "text.db").write_text("a,b\n" * 1000)
     with pytest.raises(ValueError, match=r"text\.db is not a store; give the name of a file"):
-        SimulationStore(tmp_path / "text.db")
+        SimulationStore(tmp_path / "text.db").models()
     with sqlite3.connect(tmp_path / "other.db") as other:
         other.execute("CREATE TABLE t (x)")
     other.close()
     with pytest.raises(ValueError, match=r"other\.db is not a store of this version"):
-        SimulationStore(tmp_path / "other.db")
+        SimulationStore(tmp_path / "other.db").models()
     with pytest.raises(OSError, match="cannot be opened"):
-        SimulationStore(tmp_path / "no" / "folder.db")
+        SimulationStore(tmp_path / "no" / "folder.db").models()
+    assert not (tmp_path / "no").exists()
+
+
+def test_a_store_is_made_when_it_is_used_and_opened_again(tmp_path):
+    store = SimulationStore(tmp_path / "s.db", version="1")
+    assert repr(store) == f"SimulationStore({str(tmp_path / 's.db')!r}, version='1')"
+    assert not store.path.exists()
+    for _ in range(2):
+        with store:
+            assert (len(store), store.models(), store.searches()) == (0, [], {})
+    again = SimulationStore(store)
+    assert (again.path, again.version) == (store.path, "1")
+    assert SimulationStore(store, version="2").version == "2"
+    with store:  # a search has a connection of its own
+        identify(line, EXPERIMENT, BOUNDS, store=store, **SDRM)
+        assert store.models() == ["line, version 1"]
 
 
 def test_what_is_new_is_written_at_once_after_a_pause(tmp_path, monkeypatch):
@@ -343,13 +337,13 @@ def test_what_is_new_is_written_at_once_after_a_pause(tmp_path, monkeypatch):
             return [other.execute(count).fetchone()[0] for count in counts]
 
     with SimulationStore(file) as store:
-        search = store.searches.begin({}, {})
+        search = store.begin_search("{}", "{}")
         monkeypatch.setattr("curvewise.calibration.records.store._PAUSE", 1e9)
         store.save("line", {"a": 1.0}, outcome)
-        store.note(search, Evaluation(1, (1.0,), 0.0, failed=False, seconds=1.0))
+        store.add_evaluation(search, Evaluation(1, (1.0,), 0.0, failed=False, seconds=1.0))
         assert written() == [0, 0]
         monkeypatch.setattr("curvewise.calibration.records.store._PAUSE", -1.0)
-        store.note(search, Evaluation(2, (2.0,), 0.0, failed=False, seconds=1.0))
+        store.add_evaluation(search, Evaluation(2, (2.0,), 0.0, failed=False, seconds=1.0))
         assert written() == [1, 2]
         store.save("line", {"a": 2.0}, outcome)
         assert written() == [2, 2]

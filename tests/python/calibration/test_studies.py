@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 import curvewise
-from curvewise.calibration import Objective, cross_validate, line_plot
+from curvewise.calibration import (
+    Criterion,
+    Objective,
+    SimulationStore,
+    cross_validate,
+    line_plot,
+)
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
@@ -49,10 +55,9 @@ def test_options_and_weights_reach_the_folds():
         loops,
         odd_loops(),
         BOUNDS,
-        weights=[1.0, 1.0, 0.0],
-        measure="dtw",
-        preset="paper",
-        step_pattern="symmetric1",
+        measure=Criterion(
+            "dtw", weights=[1.0, 1.0, 0.0], preset="paper", step_pattern="symmetric1"
+        ),
         **QUIET,
     )
     assert (checked.measure, checked.preset) == ("dtw", "paper")
@@ -85,11 +90,13 @@ def test_summary_is_a_table():
     assert means == pytest.approx(values.mean(axis=0), rel=1e-3)
 
 
-def test_histories_of_the_folds(tmp_path):
-    file = tmp_path / "fold.csv"
-    first = cross_validate(loops, odd_loops(), BOUNDS, history=file, **QUIET)
-    assert sorted(f.name for f in tmp_path.iterdir()) == [f"fold_without_{i}.csv" for i in range(3)]
-    again = cross_validate(loops, odd_loops(), BOUNDS, history=file, **QUIET)
+def test_the_folds_are_searches_of_one_store(tmp_path):
+    store = SimulationStore(tmp_path / "s.db", version="1")
+    first = cross_validate(loops, odd_loops(), BOUNDS, store=store, **QUIET)
+    with store:
+        assert len(store.searches()) == 3
+    again = cross_validate(loops, odd_loops(), BOUNDS, store=store, **QUIET)
+    assert sum(fold.identification.runs for fold in again.folds) == 0
     assert str(again) == str(first)
 
 
@@ -97,7 +104,7 @@ def test_one_loop_cannot_be_cross_validated():
     with pytest.raises(ValueError, match="at least 2"):
         cross_validate(loops, loops(TRUE)[0], BOUNDS, **QUIET)
     with pytest.raises(ValueError, match="weights has 2 entries"):
-        cross_validate(loops, loops(TRUE), BOUNDS, weights=[1, 2], **QUIET)
+        cross_validate(loops, loops(TRUE), BOUNDS, measure=Criterion(weights=[1, 2]), **QUIET)
 
 
 A, B = {"a": 1.0, "b": 1.0}, {"b": 1.0, "a": 3.0}
@@ -122,8 +129,8 @@ def test_line_plot_of_experiments(workers):
 
 def test_line_plot_of_objectives():
     objectives = {
-        "jumping": Objective(loops(TRUE), "area", preset="raw"),
-        "continuous": Objective(loops(TRUE), "area", preset="raw", crossing="split"),
+        "jumping": Objective(loops(TRUE), Criterion("area", preset="raw")),
+        "continuous": Objective(loops(TRUE), Criterion("area", preset="raw", crossing="split")),
     }
     data, _ = line_plot(objectives, loops, A, B, points=5, progress=False)
     assert data.dtype.names[1:] == ("jumping", "jumping_scaled", "continuous", "continuous_scaled")
@@ -151,8 +158,10 @@ def test_line_plot_of_simulations_that_are_short_for_pcm():
     keywords = {"points": 3, "measures": ["pcm"], "progress": False}
     data, _ = line_plot(loops(TRUE), short, A, B, **keywords)
     assert np.isnan(data.pcm).all()
-    data, _ = line_plot(loops(TRUE), short, A, B, min_coverage=0.0, **keywords)
-    assert data.pcm[0] == Objective(loops(TRUE), "pcm", min_coverage=0.0)(short(A))
+    data, _ = line_plot(
+        loops(TRUE), short, A, B, **keywords | {"measures": [Criterion("pcm", min_coverage=0.0)]}
+    )
+    assert data.pcm[0] == Objective(loops(TRUE), Criterion("pcm", min_coverage=0.0))(short(A))
 
 
 def test_line_plot_refuses_what_is_no_line():

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from curvewise.calibration import Case, Objective, identify
-from curvewise.calibration.objective.cases import CaseObjective
+from curvewise.calibration import Case, Criterion, Objective, identify
+from curvewise.calibration.objective.cases import Cases
 from curvewise.calibration.surfaces.nonsmooth_descent import nonsmooth_descent
 from curvewise.calibration.surfaces.surface_minimum import SurfaceMinimum
 from curvewise.calibration.surfaces.surfaces import Responses, Surfaces, thinned_rows
@@ -28,7 +28,7 @@ def numerical(function, curve):
 @pytest.mark.parametrize("measure", ["area", "dtw", "curve_length", "sum_of_squares"])
 def test_gradient_of_an_objective_is_that_of_its_value(measure):
     short = TEST[3:25] * (0.9, 200.0)
-    objective = Objective([TEST, short], measure, weights=[1.0, 3.0])
+    objective = Objective([TEST, short], Criterion(measure, weights=[1.0, 3.0]))
     simulations = [LIKE, LIKE * (1.0, 190.0)]
     assert objective.has_gradient
     value, gradients = objective.value_and_gradient(simulations)
@@ -45,7 +45,7 @@ def test_gradient_of_differences_over_time(turned):
     simulation = np.column_stack((LIKE[:20], np.linspace(0.0, 1.0, 20)))
     if turned:
         timed, simulation = timed[::-1], simulation[::-1]
-    objective = Objective(timed, "sum_of_squares", over=2)
+    objective = Objective(timed, "sum_of_squares", abscissa=2)
     _, (gradient,) = objective.value_and_gradient(simulation)
     expected = numerical(lambda c: objective.predicted(c).value, simulation)
     np.testing.assert_allclose(gradient, expected, atol=1e-6 * np.abs(expected).max())
@@ -54,7 +54,7 @@ def test_gradient_of_differences_over_time(turned):
 def test_gradient_point_by_point():
     """Of a loop, whose simulation may be off in x by a little."""
     loop = np.column_stack((np.sin(6.0 * X), np.cos(5.0 * X)))
-    objective = Objective(loop, "sum_of_squares", over="points")
+    objective = Objective(loop, "sum_of_squares", abscissa="points")
     simulation = loop + np.column_stack((0.002 * X, 0.1 * X))
     _, (gradient,) = objective.value_and_gradient(simulation)
     expected = numerical(lambda c: objective.predicted(c).value, simulation)
@@ -66,7 +66,7 @@ def test_gradient_of_numbers():
         Case("strength", abs, 600.0, sigma=10.0, weight=2.0),
         Case("square", abs, 5.0, measure="sum_of_squares"),
     ]
-    objective = CaseObjective(cases)
+    objective = Cases(cases).objective()
     value, gradients = objective.value_and_gradient([[[620.0]], [[6.0]]])
     assert value == pytest.approx(2.0 * 2.0 + 0.2**2)
     assert [gradient.item() for gradient in gradients] == pytest.approx([0.2, 2.0 * 0.2 / 5.0])
@@ -106,7 +106,7 @@ def test_a_thinned_objective_counts_the_same(measure):
     """The loop of many points weighs beside the other as it did, sum over points or not."""
     x = np.linspace(0.0, 1.0, 4000)
     dense = np.column_stack((x, np.sin(3.0 * x)))
-    objective = Objective([dense, TEST], measure, weights=[1.0, 5.0])
+    objective = Objective([dense, TEST], Criterion(measure, weights=[1.0, 5.0]))
     thinned = objective.thinned(300)
     assert [len(curve) for curve in thinned.experiments] == [300, len(TEST)]
     moved = np.array([0.0, 0.3])
@@ -164,7 +164,11 @@ def test_where_thinned_curves_mislead_all_points_decide():
         return float(abs(Q[-1, 1] - (-0.5 if len(P) < 1000 else 0.9)))
 
     minimum = SurfaceMinimum(
-        Objective(test, misled, preset="raw"), responses, np.random.default_rng(0), 1e-9, int
+        Objective(test, Criterion(misled, preset="raw")),
+        responses,
+        np.random.default_rng(0),
+        1e-9,
+        int,
     )
     best = minimum.lowest(surfaces, surfaces.centre, (np.zeros(2), np.ones(2)))
     assert minimum.value(surfaces, best) < 1e-3

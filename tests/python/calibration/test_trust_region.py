@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from curvewise.calibration.methods.registry.trust_region import (
+
+from curvewise.calibration.methods.trust_region import (
     _descend,
     _Rules,
     _Search,
     _simplex,
     trust_region,
 )
-
 from curvewise.calibration.problem.evaluations import Finish
 from curvewise.calibration.records.evaluation import Evaluation
 

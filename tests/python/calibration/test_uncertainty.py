@@ -10,7 +10,7 @@ import pytest
 from scipy import stats
 
 from curvewise import datasets
-from curvewise.calibration import identify, identify_each
+from curvewise.calibration import SimulationStore, identify, identify_each
 
 X = np.linspace(0.0, 1.0, 40)
 BOUNDS = {"a": (-10.0, 10.0), "b": (-20.0, 20.0), "c": (-20.0, 20.0)}
@@ -276,9 +276,10 @@ def test_several_measures_share_their_runs():
 
 
 def test_several_measures_from_a_store_run_nothing_again(tmp_path):
-    keywords = {"measures": ["area", "dtw"], "progress": False, "store": tmp_path / "s.db"}
-    first = identify_each(parabola, TEST, BOUNDS, version="1", **keywords)
-    again = identify_each(parabola, TEST, BOUNDS, version="1", **keywords)
+    store = SimulationStore(tmp_path / "s.db", version="1")
+    keywords = {"measures": ["area", "dtw"], "progress": False, "store": store}
+    first = identify_each(parabola, TEST, BOUNDS, **keywords)
+    again = identify_each(parabola, TEST, BOUNDS, **keywords)
     assert again.runs == 0
     assert np.array_equal(first.optima, again.optima)
     with pytest.raises(ValueError, match="give at least one, and none twice"):

@@ -11,17 +11,19 @@ import math
 import subprocess
 import sys
 from ctypes import POINTER, Structure, byref, c_char, c_double, c_int, c_ssize_t, c_void_p
+from typing import get_args
 
 import numpy as np
 import pytest
 from programs import MARKS
 
 import curvewise
+from curvewise._options import Metric
 
 pytestmark = MARKS
 
 OK, INVALID_ARGUMENT, NO_MEMORY, FAILED = range(4)
-METRICS = ["euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"]
+METRICS = get_args(Metric)
 MEASURES = ["area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous"]
 
 

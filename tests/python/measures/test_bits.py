@@ -9,9 +9,10 @@ against the reference and, apart from it, for what a path must be: its steps, it
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import functools
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +20,7 @@ import pytest
 
 import curvewise
 from curvewise import reference
+from curvewise._options import Metric
 
 Array = npt.NDArray[np.float64]
 Options = dict[str, Any]
@@ -28,11 +30,7 @@ DIMENSIONS = (1, 2, 3, 4, 7)
 # Computed exactly alike by kernel and reference; orders 1, 2 and inf go by other metrics' names.
 EXACT_GROUNDS: tuple[Options, ...] = (
     {},
-    {"metric": "euclidean"},
-    {"metric": "sqeuclidean"},
-    {"metric": "cityblock"},
-    {"metric": "chebyshev"},
-    {"metric": "minkowski"},
+    *({"metric": metric} for metric in get_args(Metric)),
     {"metric": "minkowski", "p": 1},
     {"metric": "minkowski", "p": 2.0},
     {"metric": "minkowski", "p": np.inf},
@@ -189,12 +187,14 @@ def ground_distances(pair: Pair, path: npt.NDArray[np.int64]) -> Array:
     if metric == "minkowski":
         metric = {1: "cityblock", 2: "euclidean", np.inf: "chebyshev"}[pair.ground.get("p", 2)]
     delta = np.abs(P[path[:, 0]] - Q[path[:, 1]])
-    if metric == "chebyshev":
-        return np.asarray(delta.max(axis=1))
-    total = np.zeros(len(path))
-    for column in delta.T:
-        total += column if metric == "cityblock" else column * column
-    return np.sqrt(total) if metric == "euclidean" else total
+    squares = functools.reduce(np.add, (column * column for column in delta.T))
+    by_metric: dict[str, Callable[[], Array]] = {
+        "euclidean": lambda: np.sqrt(squares),
+        "sqeuclidean": lambda: squares,
+        "cityblock": lambda: functools.reduce(np.add, delta.T),
+        "chebyshev": lambda: delta.max(axis=1),
+    }
+    return by_metric[metric]()
 
 
 def path_faults(pair: Pair, path: npt.NDArray[np.int64], options: Options) -> list[str]:

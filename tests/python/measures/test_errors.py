@@ -10,7 +10,7 @@ import itertools
 import re
 from collections.abc import Callable, Iterator
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 import pandas as pd
@@ -18,6 +18,7 @@ import pytest
 
 import curvewise
 from curvewise import reference
+from curvewise._options import Metric
 
 # Functions that store a table, with the bytes of one cell.
 TOO_LARGE = ["frechet_table", "dtw_table"]
@@ -201,12 +202,11 @@ def option_cases(function: str) -> Iterator[tuple[str, Case]]:
 
 
 def metric_cases() -> Iterator[tuple[str, Case]]:
-    metrics = "euclidean, sqeuclidean, cityblock, chebyshev, minkowski"
-    yield from unknown("metric", metrics, "euclidean")
+    yield from unknown("metric", ", ".join(get_args(Metric)), "euclidean")
     for p in (0.5, 0, -1, 0.999, -np.inf, np.nan, "two", [3]):
         message = f"p is {p!r}; minkowski needs 1 <= p <= inf"
         yield f"p={p}", Case(good(), good(4), {"metric": "minkowski", "p": p}, message)
-    for metric in metrics.split(", ")[:-1]:
+    for metric in [metric for metric in get_args(Metric) if metric != "minkowski"]:
         message = f"p applies to metric='minkowski' only, not to '{metric}'"
         yield f"p-{metric}", Case(good(), good(4), {"metric": metric, "p": 2}, message)
 

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import numpy as np
 import pytest
 
 import curvewise
 from curvewise import reference, value_and_gradient
+from curvewise._options import Metric
 
 GROUND = [
-    {"metric": "sqeuclidean"},
-    {"metric": "cityblock"},
-    {"metric": "chebyshev"},
+    *({"metric": metric} for metric in get_args(Metric)),
     {"metric": "minkowski", "p": 3},
     {"metric": "minkowski", "p": 1},
     {"metric": "minkowski", "p": np.inf},

@@ -19,7 +19,7 @@ import pytest
 
 import curvewise
 from curvewise import reference
-from curvewise.calibration import Objective
+from curvewise.calibration import Criterion, Objective
 
 Array = npt.NDArray[np.float64]
 Options = dict[str, Any]
@@ -380,7 +380,7 @@ def test_area_of_each_preset() -> None:
     assert Objective(P)(Q) == matched
     of_table_4 = curvewise.area(P, Q, spacing="x")
     assert curvewise.compare(P, Q, measures=area, preset="paper")["area"] == of_table_4
-    assert Objective(P, preset="paper")(Q) == of_table_4
+    assert Objective(P, Criterion(preset="paper"))(Q) == of_table_4
     assert curvewise.compare(P, Q, measures=area, preset="raw")["area"] == curvewise.area(P, Q)
 
 

@@ -7,7 +7,7 @@ where the mathematics says "equal", the test says ==.
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -16,12 +16,14 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import curvewise
+from curvewise._options import Metric
 
 Array = npt.NDArray[np.float64]
 
 PROFILE = settings(derandomize=True, deadline=None, max_examples=150)
 
-METRICS = st.sampled_from(["euclidean", "sqeuclidean", "cityblock", "chebyshev"])
+METRICS = st.sampled_from(get_args(Metric))
+NORMS = st.sampled_from(["euclidean", "sqeuclidean", "cityblock", "chebyshev"])
 EXACT_METRICS = st.sampled_from(["sqeuclidean", "cityblock", "chebyshev"])
 STEP_PATTERNS = st.sampled_from(["symmetric1", "symmetric2"])
 POWERS_OF_TWO = st.integers(-40, 40).map(lambda k: 2.0**k)
@@ -78,7 +80,7 @@ def test_frechet_obeys_the_triangle_inequality(curves: list[Array], metric: Any)
     assert curvewise.frechet(P, R, metric=metric) <= around * (1 + 1e-15)
 
 
-@given(groups(2), METRICS, STEP_PATTERNS, EIGHTHS, POWERS_OF_TWO)
+@given(groups(2), NORMS, STEP_PATTERNS, EIGHTHS, POWERS_OF_TWO)
 @PROFILE
 def test_translation_and_powers_of_two_change_no_bit(
     pair: list[Array], metric: Any, pattern: Any, shift: float, factor: float
@@ -109,7 +111,7 @@ def test_the_ends_of_the_range_lose_no_bit(pair: list[Array], exponent: int) -> 
     assert np.array_equal(curvewise.dtw_path(*scaled).path, path)
 
 
-@given(groups(2), METRICS, EXACT_METRICS)
+@given(groups(2), NORMS, EXACT_METRICS)
 @PROFILE
 def test_reversal(pair: list[Array], metric: Any, exact: Any) -> None:
     P, Q = pair
@@ -147,7 +149,7 @@ def test_subdivision_changes_frechet_by_at_most_the_longest_edge(
     assert min(coarse, refined) >= ends * (1 - 1e-15)
 
 
-@given(groups(2), METRICS, STEP_PATTERNS)
+@given(groups(2), NORMS, STEP_PATTERNS)
 @PROFILE
 def test_a_wider_window_never_gives_more(pair: list[Array], metric: Any, pattern: Any) -> None:
     P, Q = pair
@@ -161,7 +163,7 @@ def test_a_wider_window_never_gives_more(pair: list[Array], metric: Any, pattern
     assert math.isfinite(values[0])
 
 
-@given(groups(2), METRICS)
+@given(groups(2), NORMS)
 @PROFILE
 def test_every_freedom_of_the_path_lowers_dtw(pair: list[Array], metric: Any) -> None:
     P, Q = pair

@@ -12,13 +12,14 @@ import json
 import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import numpy.typing as npt
 import pytest
 
 from curvewise import reference
+from curvewise._options import Metric
 
 Array = npt.NDArray[np.float64]
 Step = tuple[int, int]
@@ -57,6 +58,7 @@ def ground_by_hand(P: Array, Q: Array, metric: str) -> Array:
         "sqeuclidean": lambda delta: sum(delta**2),
         "cityblock": lambda delta: sum(abs(delta)),
         "chebyshev": lambda delta: max(abs(delta)),
+        "minkowski": lambda delta: math.sqrt(sum(delta**2)),  # of order 2, the default
     }[metric]
     return np.array([[norm(p - q) for q in Q] for p in P])
 
@@ -73,7 +75,7 @@ def integer_pairs(seed: int, count: int, longest: int) -> Iterator[tuple[Array, 
 # dtw and frechet against the enumeration of all paths
 
 
-@pytest.mark.parametrize("metric", ["euclidean", "sqeuclidean", "cityblock", "chebyshev"])
+@pytest.mark.parametrize("metric", get_args(Metric))
 @pytest.mark.parametrize(("step_pattern", "weight"), [("symmetric1", 1.0), ("symmetric2", 2.0)])
 def test_dtw_is_the_cheapest_of_all_warping_paths(
     metric: Any, step_pattern: Any, weight: float
@@ -89,7 +91,7 @@ def test_dtw_is_the_cheapest_of_all_warping_paths(
         assert path_cost(ground, path, weight) == found.distance
 
 
-@pytest.mark.parametrize("metric", ["euclidean", "sqeuclidean", "cityblock", "chebyshev"])
+@pytest.mark.parametrize("metric", get_args(Metric))
 def test_frechet_is_the_shortest_leash_of_all_couplings(metric: Any) -> None:
     for P, Q in integer_pairs(2, 60, 5):
         ground = ground_by_hand(P, Q, metric)

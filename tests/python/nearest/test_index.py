@@ -7,19 +7,20 @@ from __future__ import annotations
 
 import pickle
 import threading
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pytest
 
 import curvewise
 from curvewise import Index
+from curvewise._options import Metric
 
 # Measures with options that have bounds of their own, or none.
 CASES: list[tuple[str, dict[str, Any]]] = [
-    ("dtw", {}),
+    *(("dtw", {"metric": metric}) for metric in get_args(Metric)),
+    *(("frechet", {"metric": metric}) for metric in get_args(Metric)),
     ("dtw", {"step_pattern": "symmetric2"}),
-    ("dtw", {"metric": "sqeuclidean"}),
     ("dtw", {"window": 4}),
     ("dtw", {"window": 40, "metric": "cityblock", "step_pattern": "symmetric2"}),
     ("dtw", {"window": 0.5, "step_pattern": "symmetric2", "normalize": True}),
@@ -28,9 +29,6 @@ CASES: list[tuple[str, dict[str, Any]]] = [
     ("dtw", {"open_begin": True, "open_end": True, "metric": "chebyshev"}),
     ("dtw", {"metric": "minkowski", "p": 3}),
     ("dtw", {"prune": False}),
-    ("frechet", {}),
-    ("frechet", {"metric": "chebyshev"}),
-    ("frechet", {"metric": "sqeuclidean"}),
     ("frechet_continuous", {}),
     ("area", {}),
     ("pcm", {"offsets": 20}),

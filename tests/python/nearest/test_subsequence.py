@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import numpy as np
 import pytest
 
 import curvewise
 from curvewise import reference
+from curvewise._options import Metric
 
 
 def triples(found: list[curvewise.Subsequence]) -> list[tuple[float, int, int]]:
@@ -26,7 +29,7 @@ def pairs(count: int) -> list[tuple[np.ndarray, np.ndarray]]:
 
 
 @pytest.mark.parametrize("measure", ["dtw", "frechet"])
-@pytest.mark.parametrize("metric", ["euclidean", "sqeuclidean", "cityblock", "chebyshev"])
+@pytest.mark.parametrize("metric", get_args(Metric))
 def test_equal_to_the_reference(measure, metric):
     for i, (P, Q) in enumerate(pairs(25)):
         options = {"measure": measure, "metric": metric, "k": 1 + i % 8}

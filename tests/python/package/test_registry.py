@@ -241,6 +241,7 @@ def c_choices(enum: str, prefix: str) -> list[str]:
     text = C_HEADER.read_text(encoding="utf-8")
     body = re.search(rf"enum curvewise_{enum} {{(.*?)}}", text, re.DOTALL)
     assert body, enum
+    assert "=" not in body[1]  # numbered from 0 on, as in C++
     names = re.findall(r"CURVEWISE_(\w+)", body[1])
     return [name.lower().removeprefix(prefix) for name in names]
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import get_args
 
 import numpy as np
 import pandas as pd
 import pytest
 
 import curvewise
+from curvewise._options import Metric
 
 GOOD = [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)]
 BAD: list[tuple[Callable[[], object], type[Exception], str]] = [
@@ -81,8 +83,7 @@ BAD: list[tuple[Callable[[], object], type[Exception], str]] = [
     (
         lambda: curvewise.cdist([GOOD], metric="manhattan"),
         ValueError,
-        "unknown metric 'manhattan'; choose from euclidean, sqeuclidean, cityblock, chebyshev, "
-        "minkowski",
+        f"unknown metric 'manhattan'; choose from {', '.join(get_args(Metric))}",
     ),
     (
         lambda: curvewise.cdist([GOOD], [GOOD], "euclidean"),
@@ -95,7 +96,7 @@ BAD: list[tuple[Callable[[], object], type[Exception], str]] = [
         lambda: curvewise.cdist([GOOD], [GOOD], metric="dtw"),
         ValueError,
         "'dtw' is a measure, of curves; the metric is the ground distance between their points, "
-        "one of euclidean, sqeuclidean, cityblock, chebyshev, minkowski: use measure='dtw'",
+        f"one of {', '.join(get_args(Metric))}: use measure='dtw'",
     ),
     (
         lambda: curvewise.cdist([GOOD], measure="no_such"),

@@ -57,7 +57,7 @@ WRONG = {
         "study.toml, line 5: tests[1].file cannot be used: the first two of the 3 columns of "
         "{folder}/test.csv are time and strain; name those wanted: "
         'columns = ["strain", "stress"]\n'
-        "study.toml, line 6: tests[1].colums is no key of a study; did you mean 'columns'?",
+        "study.toml, line 6: tests[1].colums is not a known key; did you mean 'columns'?",
     ),
     "a column that is not there": (
         'columns = ["strain", "stress"]',
@@ -108,7 +108,7 @@ WRONG = {
         "b = [-5, 5]",
         "B = [-5, 5]",
         "study.toml, line 13: model.templates deck.py, line 1: <<b>>: nothing is called b; there "
-        "is a, B",
+        "is a, B; did you mean <<B>>?",
     ),
     "a tied parameter that goes before": (
         "a = [0, 10]",

@@ -139,18 +139,16 @@ ReachFunction select_reach_in(std::ptrdiff_t dim) noexcept {
     return reach<Norm, 0>;
 }
 
-// The table of Fréchet holds squares where the ground distance is Euclidean.
+// The table of Fréchet holds what is without a root.
 ReachFunction select_reach(Metric metric, std::ptrdiff_t dim) noexcept {
-    switch (metric) {
-        case Metric::sqeuclidean:
-            return select_reach_in<Squares>(dim);
-        case Metric::cityblock:
-            return select_reach_in<AbsoluteSum>(dim);
-        case Metric::chebyshev:
-            return select_reach_in<AbsoluteMaximum>(dim);
-        default:
+    return with_row<PackArithmetic, DividerRoot>(metric, [=](auto row) -> ReachFunction {
+        using Row = decltype(row);
+        if constexpr (Row::is_norm && !Row::is_root) {
+            return select_reach_in<Row>(dim);
+        } else {
             return nullptr;
-    }
+        }
+    });
 }
 
 template <class Norm>
@@ -162,14 +160,12 @@ ValueFunction select_values_in(std::ptrdiff_t dim) noexcept {
 }
 
 ValueFunction select_values(Metric metric, std::ptrdiff_t dim) noexcept {
-    switch (metric) {
-        case Metric::sqeuclidean:
-            return select_values_in<Squares>(dim);
-        case Metric::cityblock:
-            return select_values_in<AbsoluteSum>(dim);
-        case Metric::chebyshev:
-            return select_values_in<AbsoluteMaximum>(dim);
-        default:
+    return with_row<PackArithmetic, DividerRoot>(metric, [=](auto row) -> ValueFunction {
+        using Row = decltype(row);
+        if constexpr (Row::is_norm && !Row::is_root) {
+            return select_values_in<Row>(dim);
+        } else {
             return nullptr;
-    }
+        }
+    });
 }

@@ -41,19 +41,13 @@ LeastFunction select_least_in(std::ptrdiff_t dim) noexcept {
     return least<Norm, 0>;
 }
 
-// The rounding of minkowski's powers is not monotone.
 LeastFunction select_least(Metric metric, std::ptrdiff_t dim) noexcept {
-    switch (metric) {
-        case Metric::euclidean:
-            return select_least_in<RootOfSquares<DividerRoot>>(dim);
-        case Metric::sqeuclidean:
-            return select_least_in<Squares>(dim);
-        case Metric::cityblock:
-            return select_least_in<AbsoluteSum>(dim);
-        case Metric::chebyshev:
-            return select_least_in<AbsoluteMaximum>(dim);
-        case Metric::minkowski:
-            break;
-    }
-    return nullptr;
+    return with_row<PackArithmetic, DividerRoot>(metric, [=](auto row) -> LeastFunction {
+        using Row = decltype(row);
+        if constexpr (Row::is_norm) {
+            return select_least_in<Row>(dim);
+        } else {
+            return nullptr;
+        }
+    });
 }

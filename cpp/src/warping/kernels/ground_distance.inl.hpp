@@ -5,6 +5,16 @@
 
 #include "square_root.inl.hpp"
 
+struct PackArithmetic {
+    using Number = Pack;
+    static Pack sum(const Pack& a, const Pack& b) noexcept { return simd::padd(a, b); }
+    static Pack product(const Pack& a, const Pack& b) noexcept { return simd::pmul(a, b); }
+    static Pack larger(const Pack& a, const Pack& b) noexcept { return simd::pmax(a, b); }
+    static Pack absolute(const Pack& a) noexcept { return simd::pabs(a); }
+};
+
+#include "metrics.inl.hpp"
+
 // Sum of squared differences in a number of dimensions known at compile time.
 template <int dim>
 struct SquaredCost {
@@ -66,32 +76,6 @@ struct BufferedCost {
     Pack at(std::ptrdiff_t, std::ptrdiff_t k) const noexcept { return load(cost + k); }
 };
 
-struct Squares {
-    static Pack add(const Pack& sum, const Pack& delta) noexcept {
-        return simd::padd(sum, simd::pmul(delta, delta));
-    }
-    static Pack finish(const Pack& sum) noexcept { return sum; }
-};
-
-template <class Root>
-struct RootOfSquares : Squares {
-    static Pack finish(const Pack& sum) noexcept { return Root::of(sum); }
-};
-
-struct AbsoluteSum {
-    static Pack add(const Pack& sum, const Pack& delta) noexcept {
-        return simd::padd(sum, simd::pabs(delta));
-    }
-    static Pack finish(const Pack& sum) noexcept { return sum; }
-};
-
-struct AbsoluteMaximum {
-    static Pack add(const Pack& sum, const Pack& delta) noexcept {
-        return simd::pmax(sum, simd::pabs(delta));
-    }
-    static Pack finish(const Pack& sum) noexcept { return sum; }
-};
-
 template <class Norm>
 void fill_cost(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
                std::ptrdiff_t high) noexcept {
@@ -107,39 +91,32 @@ void fill_cost(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
     }
 }
 
-// Scalar: std::pow dominates. The largest difference is factored out so that no power overflows.
-void fill_minkowski(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
-                    std::ptrdiff_t high) noexcept {
+// Of what is no norm, a pair of points at a time.
+template <class Row>
+void fill_one_by_one(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
+                     std::ptrdiff_t high) noexcept {
     const double* const q = strip.q + strip.columns - 1 - t;
     for (std::ptrdiff_t k = low; k <= high; ++k) {
-        const auto delta = [&](std::ptrdiff_t c) {
-            return std::abs(strip.p[c * strip.p_stride + k] - q[c * strip.q_stride + k]);
-        };
-        double largest = 0.0;
-        for (std::ptrdiff_t c = 0; c < strip.dim; ++c) {
-            if (delta(c) > largest) largest = delta(c);
-        }
-        double sum = 0.0;
-        for (std::ptrdiff_t c = 0; c < strip.dim && largest > 0.0; ++c) {
-            sum += std::pow(delta(c) / largest, strip.minkowski_p);
-        }
-        strip.cost[k] = largest * std::pow(sum, 1.0 / strip.minkowski_p);
+        strip.cost[k] =
+            Row::distance([&](std::ptrdiff_t c) { return strip.p[c * strip.p_stride + k]; },
+                          [&](std::ptrdiff_t c) { return q[c * strip.q_stride + k]; }, strip.dim,
+                          strip.minkowski_p);
     }
 }
 
+template <class Root>
+CostFunction select_fill_with(Metric metric) noexcept {
+    return with_row<PackArithmetic, Root>(metric, [](auto row) -> CostFunction {
+        using Row = decltype(row);
+        if constexpr (Row::is_norm) {
+            return fill_cost<Row>;
+        } else {
+            return fill_one_by_one<Row>;
+        }
+    });
+}
+
 CostFunction select_fill(Cost cost) noexcept {
-    switch (cost.metric) {
-        case Metric::euclidean:
-            return cost.squares_in_domain ? fill_cost<RootOfSquares<FastRoot>>
-                                          : fill_cost<RootOfSquares<DividerRoot>>;
-        case Metric::sqeuclidean:
-            return fill_cost<Squares>;
-        case Metric::cityblock:
-            return fill_cost<AbsoluteSum>;
-        case Metric::chebyshev:
-            return fill_cost<AbsoluteMaximum>;
-        case Metric::minkowski:
-            break;
-    }
-    return fill_minkowski;
+    return cost.squares_in_domain ? select_fill_with<FastRoot>(cost.metric)
+                                  : select_fill_with<DividerRoot>(cost.metric);
 }

@@ -13,29 +13,30 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..._options import Preset
 from ...comparing.deviations import Deviation, deviation
 from ...curves.inputs import Array
-from ...curves.several_curves import points_of
 from ...drawing.loops import loops_and_convergence
 from ...measures.registry import Condition
 from ...showing.result import Result, Table
-from ..methods.search import Ended, Plan
-from ..objective.loop_measure import Part
+from ..objective.criterion import Part
 from ..problem.problem import Problem
 from ..problem.tables import measure_table, parameter_table
-from ..records.evaluation import Evaluation, as_records
+from ..records.evaluation import Evaluation
 from ..records.recorder import Recorder
-from ..report import write_report
+from ..records.search_record import Ending, SearchRecord
+from ..report.page import write_report
+from ..report.uncertainty_summary import summary_of
 from ..uncertainty.determined import determined_by
 from ..uncertainty.sensitivity import Optimum, design_runs, optimum_surfaces, sensitivity_of
 from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
-from .ending import record_of, write_down
 
 if TYPE_CHECKING:
     from ...drawing.picture import Picture
 
-__all__ = ["Identification", "identification_of"]
+__all__ = ["Identification"]
+
+# Slopes with more numbers than this (16 MB) are not written down.
+_MOST_SLOPES = 2_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +89,7 @@ class Identification(Result):
     seed: int
     bounds: dict[str, tuple[float, float]]
     measure: str
-    preset: Preset
+    preset: str
     runs: int
     problem: Problem = field(repr=False)
     kept: tuple[tuple[Array, Evaluation], ...] = field(repr=False)
@@ -282,7 +283,52 @@ class Identification(Result):
         ...     Path(folder, "report.html").stat().st_size < 5e6
         True
         """
-        write_report(path, [record_of(self, uncertainty)])
+        write_report(path, [self.record(uncertainty)])
+
+    def record(self, uncertainty: Uncertainty | None = None) -> SearchRecord:
+        """Take down what is known of the uncertainty, and return all that a report is made of.
+
+        Parameters
+        ----------
+        uncertainty : Uncertainty, optional
+            As for :meth:`report`.
+
+        Raises
+        ------
+        OSError, ValueError
+            The store of the search cannot be written.
+        """
+        ending = self.recorder.ending or self.ending()
+        if uncertainty is None and ending.uncertainty is None and self._has_surfaces:
+            uncertainty = self.uncertainty()
+        if uncertainty is not None:
+            ending = replace(ending, uncertainty=summary_of(uncertainty))
+        self.recorder.end(ending)
+        return self.recorder.record()
+
+    def ending(self) -> Ending:
+        """Return what is written down of how the search ended, without the uncertainty."""
+        unit = slopes = None
+        if self._has_surfaces:
+            optimum = self._optimum()
+            if optimum.surfaces.slopes.size <= _MOST_SLOPES:
+                unit, slopes = self._unit, optimum.surfaces.slopes
+        return Ending(
+            converged=bool(self.converged),
+            message=self.message,
+            parameters=dict(self.parameters),
+            value=float(self.value),
+            measures={name: float(value) for name, value in self.measures.items()},
+            deviations=[one and list(one) for one in self.deviations],
+            simulations=self.simulations,
+            unit=unit,
+            slopes=slopes,
+        )
+
+    @property
+    def _has_surfaces(self) -> bool:
+        """Whether the curves around the optimum are known without runs of the model."""
+        return len(self.simulations) == len(self.experiments) and not self.uncertainty_runs
 
     def followed_by(self, later: Identification) -> Identification:
         """Return a later search of the same problem as the continuation of this one."""
@@ -332,33 +378,3 @@ class Identification(Result):
             self.problem.objective.axes(names),
             self.problem.objective.titles,
         )
-
-
-def identification_of(problem: Problem, plan: Plan, ended: Ended) -> Identification:
-    """Return what a search has found."""
-    evaluations, objective = ended.evaluations, problem.objective
-    done, best = evaluations.done, evaluations.best
-    found = Identification(
-        parameters=problem.space.dictionary(best.point),
-        value=best.value,
-        measures=objective.by_measure(ended.simulations),
-        simulations=points_of(ended.simulations),
-        experiments=objective.experiments,
-        history=as_records(done, problem.space.names),
-        failures=tuple((e.number, e.message) for e in done if e.failed),
-        converged=ended.finish.converged,
-        message=ended.finish.message,
-        method=plan.method,
-        seed=plan.seed,
-        bounds=problem.space.bounds,
-        measure=objective.measure,
-        preset=objective.preset,
-        runs=ended.runs,
-        problem=problem,
-        kept=evaluations.kept,
-        part=objective.part,
-        condition=objective.condition,
-        recorder=ended.recorder,
-    )
-    write_down(found)
-    return found

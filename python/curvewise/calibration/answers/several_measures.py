@@ -11,8 +11,7 @@ import numpy as np
 
 from ...drawing.loops import loops_and_places
 from ...showing.result import Result, Table
-from ..report import write_report
-from .ending import record_of
+from ..report.page import write_report
 from .identification import Identification
 
 if TYPE_CHECKING:
@@ -128,7 +127,7 @@ class SeveralMeasures(Mapping[str, Identification], Result):
         ImportError, ValueError, OSError
             As :meth:`Identification.report`.
         """
-        write_report(path, [record_of(one, None) for one in self._identifications.values()])
+        write_report(path, [one.record() for one in self.values()])
 
     @property
     def _first(self) -> Identification:

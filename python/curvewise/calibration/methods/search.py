@@ -1,24 +1,19 @@
-"""One search from its start to its end: history, processes, progress, and whatever ends it."""
+"""One search from its start to its end: records, processes, progress, and whatever ends it."""
 
 from __future__ import annotations
 
-import hashlib
-import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from ..._extras import required
-from ..._names import meant
+from ..._names import did_you_mean
 from ...curves.inputs import Array
-from ..objective.cases import CaseObjective
-from ..objective.loop_measure import Measure, measure_name
-from ..objective.objective import LEAST_SQUARES, Objective
+from ..objective.criterion import LEAST_SQUARES, Measure
 from ..problem.details import details_of
 from ..problem.evaluations import Evaluations, Finish, Progress, SearchEndedError
 from ..problem.problem import Problem
 from ..records.evaluation import Evaluation
-from ..records.history import History
 from ..records.recorder import Recorder
 from .registry import METHODS, options_of, search
 
@@ -35,7 +30,6 @@ class Plan:
     start: Mapping[str, float] | None
     progress: bool
     callback: Callable[[Progress], Any] | None
-    history: str | os.PathLike[str] | None
     max_evaluations: int | None
 
     def check(self, measure: Measure) -> None:
@@ -43,7 +37,7 @@ class Plan:
         if self.method not in METHODS:
             raise ValueError(
                 f"unknown method {self.method!r}; choose from {', '.join(METHODS)}"
-                f"{meant([self.method], METHODS)}"
+                f"{did_you_mean([self.method], METHODS)}"
             )
         if self.method == "least_squares" and measure not in LEAST_SQUARES:
             raise ValueError(
@@ -55,7 +49,7 @@ class Plan:
             raise ValueError(
                 f"method_options has {', '.join(self.method_options)}; "
                 f"method {self.method!r} takes a dict for each of {', '.join(stages)}"
-                f"{meant(self.method_options, stages)}"
+                f"{did_you_mean(self.method_options, stages)}"
             )
         for name, stage in stages.items():
             chosen = self.method_options if len(stages) == 1 else self.method_options.get(name, {})
@@ -70,7 +64,7 @@ def _check_options(method: str, stage: Callable[..., Finish], options: Mapping[s
     if unknown := set(options) - set(known):
         raise ValueError(
             f"method {method!r} has no option {', '.join(sorted(unknown))}; "
-            f"it has {', '.join(known)}{meant(sorted(unknown), known)}"
+            f"it has {', '.join(known)}{did_you_mean(sorted(unknown), known)}"
         )
 
 
@@ -87,7 +81,7 @@ class Ended(NamedTuple):
 def run_search(
     problem: Problem, plan: Plan, known: Sequence[tuple[Array, Evaluation]] = ()
 ) -> Ended:
-    """Search, or go on with what a history has.
+    """Search, or go on with what a store has.
 
     Parameters
     ----------
@@ -100,44 +94,31 @@ def run_search(
     required("scipy.optimize")
     tqdm = required("tqdm.auto").tqdm
     settings, details = _settings(problem, plan), details_of(problem, plan.max_evaluations)
-    record = History(
-        plan.history,
-        settings,
-        problem.space.names,
-        keep_simulations=not problem.store,
-        details=details,
-    )
-    recorder = Recorder(settings, details, problem.store, plan.history)
-    try:
-        with problem.simulator() as simulator:
-            recorder.begin(simulator.store)
-            with tqdm(total=plan.max_evaluations, unit="run", disable=not plan.progress) as bar:
-                evaluations = Evaluations(
-                    simulator,
-                    problem.objective,
-                    problem.space,
-                    record,
-                    recorder,
-                    limit=plan.max_evaluations,
-                    callback=plan.callback,
-                    bar=bar,
-                    known=known,
-                )
-                try:
-                    finish = search(evaluations, plan.method, start, plan.seed, plan.method_options)
-                except SearchEndedError as end:
-                    finish = Finish(False, str(end))
-            simulations = evaluations.best_simulations()
-    finally:
-        record.close()
-        recorder.stop()
+    with problem.simulator() as simulator:
+        recorder = Recorder(settings, details, simulator.store)
+        with tqdm(total=plan.max_evaluations, unit="run", disable=not plan.progress) as bar:
+            evaluations = Evaluations(
+                simulator,
+                problem.objective,
+                problem.space,
+                recorder,
+                limit=plan.max_evaluations,
+                callback=plan.callback,
+                bar=bar,
+                known=known,
+            )
+            try:
+                finish = search(evaluations, plan.method, start, plan.seed, plan.method_options)
+            except SearchEndedError as end:
+                finish = Finish(False, str(end))
+        simulations = evaluations.best_simulations()
     return Ended(evaluations, finish, simulations, simulator.runs, recorder)
 
 
 def _settings(problem: Problem, plan: Plan) -> dict[str, Any]:
     """Return what decides the value of a simulation and the course of the search."""
     settings = {
-        **_objective_settings(problem.objective),
+        **problem.objective.settings,
         "bounds": problem.space.settings,
         "method": plan.method,
         "method_options": dict(plan.method_options),
@@ -147,26 +128,3 @@ def _settings(problem: Problem, plan: Plan) -> dict[str, Any]:
     if (identities := problem.identities()) is not None:
         settings["model"] = identities
     return settings
-
-
-def _objective_settings(objective: Objective) -> dict[str, Any]:
-    digest = hashlib.sha256()
-    for curve in objective.experiments:
-        digest.update(repr(curve.shape).encode() + curve.tobytes())
-    options = dict(objective.options)
-    if isinstance(objective, CaseObjective):
-        options["cases"] = [
-            [case.name, measure_name(case.measure), case.sigma, case.preset, dict(case.options)]
-            for case in objective.cases
-        ]
-    if objective.part != "experiment":  # histories from before this option have none
-        options["part"] = objective.part
-    return {
-        "measure": objective.measure,
-        "preset": objective.preset,
-        "options": options,
-        "weights": objective.weights.tolist(),
-        "failure_value": objective.failure_value.tolist(),
-        "min_coverage": objective.min_coverage,
-        "experiments": digest.hexdigest(),
-    }

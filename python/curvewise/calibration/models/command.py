@@ -92,10 +92,10 @@ class CommandModel:
     whichever way (Ctrl-C included), so do all processes of the run's group (on Windows: the
     program itself).
 
-    A store, or a history, knows the model by its `identity`: the text of its templates, its command
-    and environment, and the function that reads (its own code, not that of functions it calls).
+    A store knows the model by its `identity`: the text of its templates, its command and
+    environment, and the function that reads (its own code, not that of functions it calls).
     What it cannot see is another version of the program, or of a file that the deck names
-    and that is no template: give ``identify(..., version=...)`` for those.
+    and that is no template: give ``SimulationStore(path, version=...)`` for those.
 
     Parameters may also be text, which is inserted as it is, e.g. a table of a hardening curve
     that a function has made of two numbers before it calls the model.

@@ -61,10 +61,9 @@ def model_identity(model: Any, version: str | None) -> ModelIdentity:
     if version is None:
         raise ValueError(
             f"the store cannot know which state of {qualified_name(model)} its runs are of; give "
-            "version='1', and another version whenever the model changes"
+            "store=SimulationStore(path, version='1'), and another version whenever the model "
+            "changes"
         )
-    if not isinstance(version, str) or not version:
-        raise ValueError(f"version is {version!r}; give a text, such as '1'")
     return ModelIdentity(f"{qualified_name(model)}, version {version}", fingerprint(model))
 
 

@@ -140,7 +140,7 @@ class ModelPool:
         except BrokenExecutor as error:
             raise RuntimeError(
                 f"the executor has broken down ({error}); start a new one and run this again: what "
-                "a history or a store holds is not lost"
+                "a store holds is not lost"
             ) from error
         finally:
             for future in futures:

@@ -16,7 +16,7 @@ import numpy as np
 from ...curves.inputs import Array
 
 __all__ = [
-    "Over",
+    "Abscissa",
     "check_common_x",
     "differences",
     "squared_differences",
@@ -24,7 +24,7 @@ __all__ = [
     "y_column",
 ]
 
-Over: TypeAlias = int | Literal["points"]
+Abscissa: TypeAlias = int | Literal["points"]
 
 # How far, relative to the experiment's extent in x, rounding may put the ends apart.
 _SLACK = 1e-9
@@ -33,38 +33,40 @@ _SLACK = 1e-9
 _SAME_X = 0.01
 
 
-def y_column(over: Over) -> int:
-    """Return the column that is compared over another: the second, or the first over the second."""
-    return 0 if over == 1 else 1
+def y_column(abscissa: Abscissa) -> int:
+    """Return the column that is compared: the second, or the first if that is the abscissa."""
+    return 0 if abscissa == 1 else 1
 
 
-def check_common_x(P: Array, over: Over = 0) -> None:
+def check_common_x(P: Array, abscissa: Abscissa = 0) -> None:
     """Refuse an experiment whose x, or other column that y is a function of, is not monotonic."""
-    if over == "points":
+    if abscissa == "points":
         if P.shape[1] < 2:
             raise ValueError(f"P has shape {P.shape}; sum_of_squares needs x and y, shape (n, 2)")
         return
-    if over == 0 and P.shape[1] != 2:
+    if abscissa == 0 and P.shape[1] != 2:
         raise ValueError(
             f"P has shape {P.shape}; sum_of_squares needs x and y, shape (n, 2), or a third column "
-            "such as time, over=2"
+            "such as time, abscissa=2"
         )
-    if not (isinstance(over, int) and 0 <= over < P.shape[1]) or P.shape[1] < 2:
+    if not (isinstance(abscissa, int) and 0 <= abscissa < P.shape[1]) or P.shape[1] < 2:
         raise ValueError(
-            f"over is {over!r}; P has the columns 0 to {P.shape[1] - 1}, or give 'points'"
+            f"abscissa is {abscissa!r}; P has the columns 0 to {P.shape[1] - 1}, or give 'points'"
         )
-    steps = np.diff(P[:, over])
+    steps = np.diff(P[:, abscissa])
     if (steps > 0).any() and (steps < 0).any():
-        if over:
-            raise ValueError(f"column {over} of P turns back; give one that grows, such as time")
+        if abscissa:
+            raise ValueError(
+                f"column {abscissa} of P turns back; give one that grows, such as time"
+            )
         raise ValueError(
             "x of P turns back; sum_of_squares compares at a common x: use area, dtw or another "
-            "measure for loops, or over='points' if the simulation has the points of P"
+            "measure for loops, or abscissa='points' if the simulation has the points of P"
         )
 
 
-def differences(P: Array, Q: Array, *, over: Over = 0) -> Array:
-    """Return y of Q at P's x, or at its column `over`, or point by point, minus y of P.
+def differences(P: Array, Q: Array, *, abscissa: Abscissa = 0) -> Array:
+    """Return y of Q at P's x, or at its column `abscissa`, or point by point, minus y of P.
 
     Raises
     ------
@@ -73,15 +75,15 @@ def differences(P: Array, Q: Array, *, over: Over = 0) -> Array:
     """
     if not np.isfinite(Q).all():
         raise ValueError("the simulation is not finite")
-    if over == "points":
+    if abscissa == "points":
         return _point_by_point(P, Q)
-    name = "x" if over == 0 else f"column {over}"
-    x, y = Q[:, over], Q[:, y_column(over)]
+    name = "x" if abscissa == 0 else f"column {abscissa}"
+    x, y = Q[:, abscissa], Q[:, y_column(abscissa)]
     if x[0] > x[-1]:
         x, y = x[::-1], y[::-1]
     if (np.diff(x) < 0).any():
         raise ValueError(f"{name} of the simulation turns back; sum_of_squares needs it monotonic")
-    wanted = P[:, over]
+    wanted = P[:, abscissa]
     low, high = wanted.min(), wanted.max()
     slack = _SLACK * (high - low)
     if x[0] > low + slack or x[-1] < high - slack:
@@ -89,7 +91,7 @@ def differences(P: Array, Q: Array, *, over: Over = 0) -> Array:
             f"the simulation covers {name} from {x[0]:.6g} to {x[-1]:.6g}, "
             f"the experiment goes from {low:.6g} to {high:.6g}"
         )
-    difference: Array = np.interp(wanted, x, y) - P[:, y_column(over)]
+    difference: Array = np.interp(wanted, x, y) - P[:, y_column(abscissa)]
     return difference
 
 
@@ -97,7 +99,7 @@ def _point_by_point(P: Array, Q: Array) -> Array:
     """Return y of Q minus y of P, which have the same x."""
     if len(Q) != len(P):
         raise ValueError(
-            f"the simulation has {len(Q)} points and the experiment {len(P)}; over='points' "
+            f"the simulation has {len(Q)} points and the experiment {len(P)}; abscissa='points' "
             "compares them one by one"
         )
     apart = np.abs(Q[:, 0] - P[:, 0]) / (np.ptp(P[:, 0]) or 1.0)
@@ -105,38 +107,40 @@ def _point_by_point(P: Array, Q: Array) -> Array:
         i = int(np.argmax(apart))
         raise ValueError(
             f"x of the simulation is off by {100.0 * apart[i]:.3g} % of the experiment's extent at "
-            f"point {i}; over='points' needs a model that is driven by the experiment's x"
+            f"point {i}; abscissa='points' needs a model that is driven by the experiment's x"
         )
     difference: Array = Q[:, 1] - P[:, 1]
     return difference
 
 
-def squared_differences(P: Array, Q: Array, *, over: Over = 0) -> float:
+def squared_differences(P: Array, Q: Array, *, abscissa: Abscissa = 0) -> float:
     """Return the sum of the squared differences."""
-    return float(np.sum(differences(P, Q, over=over) ** 2))
+    return float(np.sum(differences(P, Q, abscissa=abscissa) ** 2))
 
 
-def squared_differences_and_gradient(P: Array, Q: Array, *, over: Over = 0) -> tuple[float, Array]:
+def squared_differences_and_gradient(
+    P: Array, Q: Array, *, abscissa: Abscissa = 0
+) -> tuple[float, Array]:
     """Return the sum of the squared differences and its derivative by every coordinate of Q."""
-    difference = differences(P, Q, over=over)
-    if over == "points":
+    difference = differences(P, Q, abscissa=abscissa)
+    if abscissa == "points":
         slopes = np.zeros_like(Q)
-        slopes[:, y_column(over)] = 2.0 * difference
+        slopes[:, y_column(abscissa)] = 2.0 * difference
         return float(difference @ difference), slopes
-    is_reversed = Q[0, over] > Q[-1, over]
+    is_reversed = Q[0, abscissa] > Q[-1, abscissa]
     rows = np.arange(len(Q))[::-1] if is_reversed else np.arange(len(Q))
-    x, y = Q[rows, over], Q[rows, y_column(over)]
+    x, y = Q[rows, abscissa], Q[rows, y_column(abscissa)]
     gradient = np.zeros_like(Q)
     if len(Q) == 1:
-        gradient[0, y_column(over)] = 2.0 * difference.sum()
+        gradient[0, y_column(abscissa)] = 2.0 * difference.sum()
         return float(difference @ difference), gradient
-    wanted = P[:, over]
+    wanted = P[:, abscissa]
     before = np.clip(np.searchsorted(x, wanted, side="right") - 1, 0, len(x) - 2)
     length = x[before + 1] - x[before]
     length = np.where(length > 0, length, 1.0)
     share = np.clip((wanted - x[before]) / length, 0.0, 1.0)
     slope = (y[before + 1] - y[before]) / length
     for place, part in ((before, 1.0 - share), (before + 1, share)):
-        np.add.at(gradient[:, y_column(over)], rows[place], 2.0 * difference * part)
-        np.add.at(gradient[:, over], rows[place], -2.0 * difference * part * slope)
+        np.add.at(gradient[:, y_column(abscissa)], rows[place], 2.0 * difference * part)
+        np.add.at(gradient[:, abscissa], rows[place], -2.0 * difference * part * slope)
     return float(difference @ difference), gradient

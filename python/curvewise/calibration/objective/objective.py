@@ -1,50 +1,29 @@
-"""From simulations to one number: the weighted sum of a measure over several loops.
+"""From simulations to one number: a weighted sum of terms, of which each has an experiment.
 
 The experiments are checked and scaled once, when an objective is made; what is wrong with them is
 an error then. What is wrong with a simulation later is no error: an optimiser tries parameters at
 which the model fails, and has to be told that they are bad, so a failed simulation has a finite,
 large value. A simulation of the wrong shape is an error: the model is hooked up wrongly, which no
-parameters will cure. Cost: that of the measure, for every loop.
+parameters will cure. Cost: that of the measure, for every term.
 """
 
 from __future__ import annotations
 
+import hashlib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..._docstrings import filled, listed
-from ..._names import meant
-from ..._options import Preset
 from ...curves.inputs import Array
-from ...curves.several_curves import curve_list
+from ...curves.several_curves import as_points, curve_list
 from ...curves.thinning import thinned_rows
-from ...measures import registry
-from ...measures.registry import PRESETS, default_measures
-from .loop import FailedSimulationError, Loop
-from .loop_measure import (
-    Measure,
-    Part,
-    check_part,
-    condition_of,
-    measure_name,
-    unknown_options_explained,
-)
-from .loops import Loops
+from ...measures.registry import Condition, default_measures
+from .criterion import LEAST_SQUARES, Criterion, Measure, Part, criterion_of
+from .terms import CurveTerm, FailedSimulationError, Label, Term
 
-__all__ = ["LEAST_SQUARES", "MEASURES", "Objective", "Score"]
-
-MEASURES = (*registry.MEASURES, "sum_of_squares")
-# Those that are made of differences whose squares are added up.
-LEAST_SQUARES = (
-    *(name for name, info in registry.MEASURES.items() if info.residuals),
-    "sum_of_squares",
-)
-
-# A failed loop has this many times the value of a simulation that is wrong by the loop's height.
-_FAILURE = 1e6
+__all__ = ["Objective", "Score", "objectives_of"]
 
 
 class Score(NamedTuple):
@@ -54,10 +33,10 @@ class Score(NamedTuple):
     ----------
     value : float
         The weighted sum of the terms.
-    terms : ndarray, shape (loops,)
-        The value of the measure, or the penalty, for every loop.
+    terms : ndarray, shape (experiments,)
+        The value of the measure, or the penalty, for every experiment.
     failures : tuple of str
-        For every failed loop a line that says why.
+        For every failed simulation a line that says why.
     """
 
     value: float
@@ -65,132 +44,123 @@ class Score(NamedTuple):
     failures: tuple[str, ...]
 
 
-@filled(measures=listed(MEASURES))
-class Objective(Loops):
-    """The weighted sum of a measure over one or several loops; what an optimiser minimises.
+class Objective:
+    """A weighted sum of terms, one for every experiment; what an optimiser minimises.
 
     Parameters
     ----------
     experiments : array_like, shape (n, d), or sequence of such
         One measured curve or several. A list whose items are points or numbers is one curve;
         several series are arrays of shape (n, 1).
-    measure : {measures} or callable
-        A measure by its name, or a function of the experiment, the simulation and the options
-        that returns a float; where it raises ValueError the simulation has failed.
-        "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
-        the experiment's x, which must not turn back. Of loops that have a third column, such as
-        time or the step, ``over=2`` compares y at the same time instead; of a model that is driven
-        by the experiment's own x, as a material point by the measured strains,
-        ``over="points"`` compares y point by point.
-    preset : {"scaled", "paper", "raw"}
-        As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
-        that loops, and x and y, count alike, and takes area with ``spacing="matched"``, which
-        hardly depends on the simulation's increments; "paper" has Algorithm 1. sum_of_squares and
-        functions are given the curves as they are in the other two.
-    weights : sequence of float, optional
-        A factor for every loop, not negative; 1 if not given.
-    failure_value : float, optional
-        The term of a loop whose simulation failed, finite and positive. By default 10⁶ times
-        what the measure gives for a simulation that is its experiment moved up by its own
-        height, which fits every measure and unit.
-    min_coverage : float, default 0.5
-        For "pcm": a simulation shorter than this fraction of its experiment's length (both
-        scaled) counts as failed, since partial curve mapping scores a piece of the curve well.
-        An experiment that is a piece of its simulation is what it is made for, and passes.
-    part : {"experiment", "simulation"}
-        Which curve may be a piece of the other, with "pcm" and with "dtw" that has an open end.
-        "experiment": a test that starts late or stops early, against the whole simulation.
-        "simulation": a model of the first branch alone, against the whole loop; dtw is then that
-        of the simulation to the experiment, and "pcm" has no `min_coverage`.
+    measure : str, callable or Criterion, default "area"
+        How each is compared with its simulation: see :class:`Criterion`.
     **options
-        Options of the measure, which override the preset's.
+        Options of the measure, where `measure` is no criterion.
 
     Attributes
     ----------
     experiments : tuple of ndarray
-        As given, in float64 and of shape (n, d).
-    measure : str
-        The measure's name; of a callable its ``__name__``, or its type's.
-    condition : Condition or None
-        Whether it is computed on scaled curves, and its options, the preset's included; None for
-        "sum_of_squares" and for a function.
-    weights, failure_value, scales : ndarray, shape (loops,)
-        The factors; the terms of failed loops; the values, by measure, of simulations that are
-        wrong by the loop's height.
+        As given, in float64 and of shape (n, d); a number has the shape (1, 1).
+    criterion : Criterion or None
+        That of all terms; None where each has its own, as cases have.
+    measure, preset : str
+        By their names; of cases those of each, with " + " between them.
+    measures : list of str or callable
+        The measure of every term.
+    weights, failure_value, scales : ndarray, shape (experiments,)
+        The factors; the terms of failed simulations; the values, by measure, of simulations that
+        are wrong by their experiment's height.
     failures : int
-        How many simulations have failed so far, counted by loop.
+        How many simulations have failed so far, counted by experiment.
+    titles, names, sigmas, extents, y_columns : list
+        For every experiment: its number or the case's name; what its columns are called, if that
+        is known; the noise, where it is given; the extent in each coordinate, of a number the
+        number itself; the column that noise is in.
+    residual_counts, residual_factors : list of int, ndarray
+        For every experiment: how many residuals it has, and by what a difference in y is multiplied
+        to be a residual of "sum_of_squares".
+    is_least_squares : bool
+        Whether the value is a weighted sum of squares of `residuals`.
+    has_function : bool
+        Whether a measure is a function of the user's, which cannot be written down.
+    has_gradient : bool
+        Whether there is a gradient that is of use to a minimisation.
+    can_be_thinned : bool
+        Whether some of the points of tests and simulations will do, for an estimate. Not where y is
+        compared at each point of the test, which costs little anyway.
 
     Raises
     ------
     ValueError
-        An unknown measure, preset, part or option; an experiment that the measure refuses; a
-        wrong number of weights; a part for a measure of whole curves.
+        An experiment that the measure refuses; a wrong number of weights; as for
+        :class:`Criterion`.
     TypeError
         An experiment does not hold real numbers; an option that the measure does not have.
 
     Notes
     -----
-    A call takes the time and memory of the measure for every loop. The paper's section 3 sums
-    over loops with equal weights.
+    A call takes the time and memory of the measure for every experiment. The paper's section 3
+    sums over loops with equal weights.
 
     Examples
     --------
-    >>> from curvewise.calibration import Objective
-    >>> objective = Objective([(0, 0), (1, 2), (2, 0)], "area", preset="raw")
+    >>> from curvewise.calibration import Criterion, Objective
+    >>> objective = Objective([(0, 0), (1, 2), (2, 0)], Criterion("area", preset="raw"))
     >>> objective([(0, 1), (1, 3), (2, 1)])
     2.0
     >>> objective(None), objective.failures  # a simulation that failed
     (4000000.0, 1)
     """
 
-    def __init__(
-        self,
-        experiments: Any,
-        measure: Measure = "area",
-        *,
-        preset: Preset = "scaled",
-        weights: Sequence[float] | None = None,
-        failure_value: float | None = None,
-        min_coverage: float = 0.5,
-        part: Part = "experiment",
-        **options: Any,
-    ) -> None:
-        if not callable(measure) and measure not in MEASURES:
-            raise ValueError(
-                f"unknown measure {measure!r}; choose from {', '.join(MEASURES)}"
-                f"{meant([measure], MEASURES)}"
-            )
-        if preset not in PRESETS:
-            raise ValueError(
-                f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}"
-                f"{meant([preset], PRESETS)}"
-            )
-        if not 0.0 <= min_coverage <= 1.0:
-            raise ValueError(f"min_coverage is {min_coverage}; it must be from 0 to 1")
-        self.measure = measure_name(measure)
-        self._measure = measure
-        self._has_residuals = measure in LEAST_SQUARES
-        self.preset = preset
-        self.options = dict(options)
-        self.min_coverage = min_coverage
-        self.part = part
-        self.failures = 0
-        condition = condition_of(preset, measure)
-        options = {**condition.options, **options}
-        has_condition = not callable(measure) and measure in PRESETS[preset]
-        self.condition = condition._replace(options=options) if has_condition else None
-        check_part(part, measure, options)
+    def __init__(self, experiments: Any, measure: Measure = "area", **options: Any) -> None:
+        criterion = criterion_of(measure, options)
         curves = curve_list(experiments)
-        names = ["P"] if len(curves) == 1 else [f"experiments[{i}]" for i in range(len(curves))]
-        with unknown_options_explained(measure, self.options):
-            self._loops = [
-                Loop(curve, name, measure, condition.scaled, options, part, min_coverage)
-                for curve, name in zip(curves, names, strict=True)
-            ]
-        self.experiments = tuple(loop.experiment for loop in self._loops)
-        self.weights = _checked_weights(weights, len(self._loops))
-        self.scales = np.array([loop.scale for loop in self._loops])
-        self.failure_value = _checked_failure_value(failure_value, self.scales)
+        count = len(curves)
+        weights = criterion.weights or (1.0,) * count
+        if len(weights) != count:
+            raise ValueError(
+                f"weights has shape ({len(weights)},); give one for each of {count} loops"
+            )
+        labels = [Label("Loop 0", "P", "")]
+        if count > 1:
+            labels = [Label(f"Loop {i}", f"experiments[{i}]", f"loop {i}: ") for i in range(count)]
+        self._sum_up(
+            [
+                CurveTerm(curve, criterion, label, weight)
+                for curve, label, weight in zip(curves, labels, weights, strict=True)
+            ],
+            criterion,
+        )
+
+    @classmethod
+    def of_terms(cls, terms: Sequence[Term], criterion: Criterion | None = None) -> Objective:
+        """Return the sum of terms; with their criterion, where they have the same."""
+        objective = cls.__new__(cls)
+        objective._sum_up(terms, criterion)
+        return objective
+
+    def _sum_up(self, terms: Sequence[Term], criterion: Criterion | None) -> None:
+        self._terms, self.criterion = tuple(terms), criterion
+        self.failures = 0
+        self.experiments = tuple(term.experiment for term in terms)
+        self.weights = np.array([term.weight for term in terms])
+        self.scales = np.array([term.scale for term in terms])
+        self.failure_value = np.array([term.failure_value for term in terms])
+        self.measures = [term.criterion.measure for term in terms]
+        self.measure = " + ".join(dict.fromkeys(term.criterion.name for term in terms))
+        self.preset = " + ".join(dict.fromkeys(term.criterion.preset for term in terms))
+        self.titles = [term.label.title for term in terms]
+        self.names = [term.names for term in terms]
+        self.extents = [term.extent for term in terms]
+        self.y_columns = [term.y for term in terms]
+        self.sigmas = [term.sigma for term in terms]
+        self.residual_counts = [term.residual_count for term in terms]
+        heights = np.array([term.height for term in terms])
+        self.residual_factors: Array = np.sqrt(self.weights) / heights
+        self.is_least_squares = all(term.is_least_squares for term in terms)
+        self.has_function = any(callable(term.criterion.measure) for term in terms)
+        self.has_gradient = all(term.has_gradient for term in terms)
+        self.can_be_thinned = all(term.can_be_thinned for term in terms)
 
     def __call__(self, simulations: Any) -> float:
         """Return the weighted sum of the terms.
@@ -204,7 +174,7 @@ class Objective(Loops):
         return self.score(simulations).value
 
     def terms(self, simulations: Any) -> Array:
-        """Return the value of the measure for every loop, without the weights."""
+        """Return the value of the measure for every experiment, without the weights."""
         return self.score(simulations).terms
 
     def score(self, simulations: Any) -> Score:
@@ -224,20 +194,20 @@ class Objective(Loops):
 
     def predicted(self, simulations: Any) -> Score:
         """Return what `score` returns, but count nothing: for curves no model has computed."""
-        terms = np.empty(len(self._loops))
+        terms = np.empty(len(self._terms))
         failures = []
         for i, simulation in enumerate(self._matched(simulations)):
             try:
-                terms[i] = self._loops[i].value(simulation)
+                terms[i] = self._terms[i].value(simulation)
             except FailedSimulationError as error:
                 terms[i] = self.failure_value[i]
-                failures.append(self._located(str(error), i))
+                failures.append(f"{self._terms[i].label.prefix}{error}")
         return Score(float(self.weights @ terms), terms, tuple(failures))
 
     def value_and_gradient(self, simulations: Any) -> tuple[float, list[Array]]:
         """Return what `predicted` returns as value, and its derivative by every coordinate.
 
-        The derivative is that of the measure with its path held; 0 for loops that fail.
+        The derivative is that of the measure with its path held; 0 for simulations that fail.
 
         Parameters
         ----------
@@ -254,7 +224,7 @@ class Objective(Loops):
         gradients = []
         for i, simulation in enumerate(self._matched(simulations)):
             try:
-                value, gradient = self._loops[i].value_and_gradient(simulation)
+                value, gradient = self._terms[i].value_and_gradient(simulation)
             except FailedSimulationError:
                 value, gradient = self.failure_value[i], np.zeros(np.shape(simulation))
             total += float(self.weights[i] * value)
@@ -267,20 +237,17 @@ class Objective(Loops):
         Its terms are weighted so that a simulation that is wrong by a loop's height costs the same.
         """
         rows = [thinned_rows(curve, most) for curve in self.experiments]
-        pairs = list(zip(self.experiments, rows, strict=True))
-        if all(len(kept) == len(curve) for curve, kept in pairs):
+        pairs = list(zip(self._terms, rows, strict=True))
+        if all(len(kept) == len(term.experiment) for term, kept in pairs):
             return None
-        thinned = self.of_other_tests([curve[kept] for curve, kept in pairs])
-        thinned.weights = self.weights * self.scales / thinned.scales
-        thinned.failure_value = self.failure_value * thinned.scales / self.scales
-        return thinned
+        return self.of_terms([term.thinned(kept) for term, kept in pairs], self.criterion)
 
     def residuals(self, simulations: Any) -> Array:
         """Return what `scipy.optimize.least_squares` squares and adds up.
 
-        That is the differences whose squares make up the terms, loop after loop, each times the
-        square root of the loop's weight. Those of a failed loop are equal and add up to its
-        failure value (squared for curve_length, whose value is the root of a sum).
+        That is the differences whose squares make up the terms, one term after the other, each
+        times the square root of the term's weight. Those of a failed simulation are equal and add
+        up to its failure value (squared for curve_length, whose value is the root of a sum).
 
         Parameters
         ----------
@@ -292,103 +259,128 @@ class Objective(Loops):
         ValueError
             The measure is not "curve_length" or "sum_of_squares"; as for `score`.
         """
-        if not self._has_residuals:
+        if any(measure not in LEAST_SQUARES for measure in self.measures):
             raise ValueError(
                 f"measure {self.measure!r} is not a sum of squares; "
                 f"least squares needs {' or '.join(map(repr, LEAST_SQUARES))}"
             )
-        parts = []
-        for i, simulation in enumerate(self._matched(simulations)):
-            loop = self._loops[i]
-            try:
-                part = loop.residuals(simulation)
-            except FailedSimulationError:
-                total = self.failure_value[i]
-                total = total if self.measure == "sum_of_squares" else total**2
-                part = np.full(loop.residual_count, math.sqrt(total / loop.residual_count))
-            parts.append(math.sqrt(self.weights[i]) * part)
-        return np.concatenate(parts)
-
-    @property
-    def is_least_squares(self) -> bool:
-        """Whether the value is a weighted sum of squares of `residuals`."""
-        return self.measure == "sum_of_squares" and self._has_residuals
-
-    @property
-    def has_function(self) -> bool:
-        """Whether the measure is a function of the user's."""
-        return callable(self._measure)
+        pairs = zip(self._terms, self._matched(simulations), strict=True)
+        return np.concatenate(
+            [math.sqrt(term.weight) * term.residuals_or_penalty(Q) for term, Q in pairs]
+        )
 
     def fitted(self, simulations: Any) -> list[Array] | None:
         """Return the experiments with the simulated y, where y is compared at a common x."""
-        if self.measure != "sum_of_squares" or not self._has_residuals:
+        if not self.is_least_squares:
             return None
-        fitted = []
-        for loop, simulation in zip(self._loops, self._matched(simulations), strict=True):
-            points = loop.experiment.copy()
-            points[:, loop.y] += loop.height * loop.residuals(simulation)
-            fitted.append(points)
-        return fitted
+        pairs = zip(self._terms, self._matched(simulations), strict=True)
+        return [term.fitted(simulation) for term, simulation in pairs]
 
     def of_other_tests(self, experiments: Sequence[Array]) -> Objective:
         """Return the same objective of other experiments, one for each."""
-        return self._like(experiments, self._measure, self.part, self.options)
+        pairs = zip(self._terms, experiments, strict=True)
+        return self.of_terms([term.of(other) for term, other in pairs], self.criterion)
 
     def by_measure(self, simulations: Any) -> dict[str, float]:
         """Return the value of simulations under every measure that the curves' dimension allows.
 
         This objective's own measure with its options, the others with the preset's; nan where one
-        refuses.
+        refuses. Where each term has a criterion of its own: the terms by their names, with their
+        weights; nan where one failed.
         """
-        values = {}
+        own = self.predicted(simulations)
+        if self.criterion is None:
+            failed = own.terms >= self.failure_value
+            values = np.where(failed, np.nan, self.weights * own.terms)
+            return dict(zip(self.titles, values.tolist(), strict=True))
+        by_name = {}
         for name in default_measures(self.experiments[0]):
-            if name == self.measure:
-                values[name] = self.predicted(simulations).value
-                continue
-            part = self.part if name == "pcm" else "experiment"
-            try:
-                score = self._like(self.experiments, name, part, {}).predicted(simulations)
-            except ValueError:  # e.g. curve_length, raw, of a loop centred on zero
-                values[name] = math.nan
-                continue
-            values[name] = math.nan if score.failures else score.value
-        if self.measure not in values:
-            values[self.measure] = self.predicted(simulations).value
-        return values
+            by_name[name] = own.value if name == self.measure else self._under(name, simulations)
+        return {**by_name, self.measure: own.value}
 
-    def _like(
-        self,
-        experiments: Sequence[Array],
-        measure: Measure,
-        part: Part,
-        options: Mapping[str, Any],
-    ) -> Objective:
-        """Return an objective of the same preset and weights."""
-        return Objective(
-            list(experiments),
-            measure,
-            preset=self.preset,
-            weights=self.weights.tolist(),
-            min_coverage=self.min_coverage,
-            part=part,
-            **options,
-        )
+    def _under(self, measure: str, simulations: Any) -> float:
+        """Return the value under another measure; nan where it refuses."""
+        criterion = self.criterion
+        assert criterion is not None, "by_measure asks it of terms with the same"
+        try:
+            other = Objective(
+                list(self.experiments),
+                Criterion(
+                    measure,
+                    preset=criterion.preset,
+                    part=criterion.part if measure == "pcm" else "experiment",
+                    min_coverage=criterion.min_coverage,
+                    weights=criterion.weights,
+                ),
+            )
+            score = other.predicted(simulations)
+        except ValueError:  # e.g. curve_length, raw, of a loop centred on zero
+            return math.nan
+        return math.nan if score.failures else score.value
+
+    @property
+    def part(self) -> Part:
+        """Which curve may be a piece of the other; "experiment" where each term has its own."""
+        return "experiment" if self.criterion is None else self.criterion.part
+
+    @property
+    def condition(self) -> Condition | None:
+        """Whether the measure is computed on scaled curves, and its options with the preset's.
+
+        None for "sum_of_squares", for a function, and where each term has its own.
+        """
+        if self.criterion is None or not self.criterion.is_of_the_registry:
+            return None
+        return self.criterion.condition
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """What a record writes down, in values that JSON can hold: of functions their names."""
+        digest = hashlib.sha256()
+        for curve in self.experiments:
+            digest.update(repr(curve.shape).encode() + curve.tobytes())
+        shared = self.criterion
+        return {
+            "measure": self.measure,
+            "preset": self.preset,
+            "criterion": None if shared is None else shared.settings,
+            "cases": [term.settings for term in self._terms] if shared is None else None,
+            "weights": self.weights.tolist(),
+            "experiments": digest.hexdigest(),
+        }
+
+    def axes(self, names: Sequence[str] | None = None) -> list[tuple[str, ...]]:
+        """Return for each experiment what its coordinates are called, as given or as columns."""
+        return [term.axes(names) for term in self._terms]
+
+    def _matched(self, simulations: Any) -> list[Any]:
+        """Return one simulation for every experiment."""
+        count = len(self._terms)
+        if simulations is None or isinstance(simulations, BaseException):
+            return [simulations] * count
+        curves = curve_list(simulations)
+        if len(curves) != count:
+            raise ValueError(
+                f"there are {len(curves)} simulations and {count} experiments; "
+                "the model must return a curve for every experiment"
+            )
+        return curves
 
 
-def _checked_weights(weights: Sequence[float] | None, count: int) -> Array:
-    if weights is None:
-        return np.ones(count)
-    array = np.asarray(weights, dtype=np.float64)
-    if array.shape != (count,):
-        raise ValueError(f"weights has shape {array.shape}; give one for each of {count} loops")
-    if not (np.isfinite(array).all() and (array >= 0).all() and array.any()):
-        raise ValueError("weights must be finite, not negative, and not all 0")
-    return array
+def objectives_of(experiments: Any, measures: Sequence[Measure] | None) -> dict[str, Objective]:
+    """Return an objective for each of several measures, by its name.
 
-
-def _checked_failure_value(failure_value: float | None, scales: Array) -> Array:
-    if failure_value is None:
-        return _FAILURE * scales
-    if not 0.0 < failure_value < math.inf:
-        raise ValueError(f"failure_value is {failure_value}; it must be finite and above 0")
-    return np.full(len(scales), float(failure_value))
+    Parameters
+    ----------
+    experiments
+        As for `Objective`.
+    measures
+        Names, functions or criteria; if None every measure that the curves' dimension allows.
+    """
+    if measures is None:
+        measures = list(default_measures(as_points(curve_list(experiments)[0], "P")))
+    criteria = [criterion_of(measure, {}) for measure in measures]
+    names = [criterion.name for criterion in criteria]
+    if not names or len(set(names)) != len(names):
+        raise ValueError(f"measures is {list(measures)}; give at least one, and none twice")
+    return {c.name: Objective(experiments, c) for c in criteria}

@@ -8,10 +8,7 @@ from typing import Any
 
 from ...installation import build_info
 from ..models.identity import qualified_name
-from ..objective.cases import CaseObjective
-from ..objective.loop_measure import measure_name
-from ..objective.objective import Objective
-from ..records.curve_text import text_of
+from ..records.search_record import text_of
 from .problem import Problem
 
 __all__ = ["details_of"]
@@ -20,8 +17,8 @@ __all__ = ["details_of"]
 def details_of(problem: Problem, max_evaluations: int | None) -> dict[str, Any]:
     """Return what a report needs beside the settings of a search; JSON can hold it.
 
-    Tests with the names of their columns and of the loops, the parameters searched for, the cases,
-    what the model is called, and the versions of what computes.
+    Tests with the names of their columns and of the tests, the parameters searched for, what the
+    model is called, and the versions of what computes.
     """
     objective = problem.objective
     return {
@@ -31,38 +28,11 @@ def details_of(problem: Problem, max_evaluations: int | None) -> dict[str, Any]:
         "titles": objective.titles,
         "parameters": list(problem.space.names),
         "y": list(objective.y_columns),
-        "has_function": _has_function(objective),
-        "cases": _cases(objective),
+        "has_function": objective.has_function,
         "model": problem.identities() or [qualified_name(model) for model in problem.models],
         "max_evaluations": max_evaluations,
         "versions": _versions(),
     }
-
-
-def _has_function(objective: Objective) -> bool:
-    """Return whether a measure is a function of the user's, which cannot be written down."""
-    if isinstance(objective, CaseObjective):
-        return any(callable(case.measure) for case in objective.cases)
-    return objective.has_function
-
-
-def _cases(objective: Objective) -> list[dict[str, Any]] | None:
-    if not isinstance(objective, CaseObjective):
-        return None
-    return [
-        {
-            "name": case.name,
-            "measure": measure_name(case.measure),
-            "weight": case.weight,
-            "sigma": case.sigma,
-            "preset": case.preset,
-            "min_coverage": case.min_coverage,
-            "part": case.part,
-            "options": dict(case.options),
-            "is_number": case.is_number,
-        }
-        for case in objective.cases
-    ]
 
 
 def _versions() -> dict[str, str]:

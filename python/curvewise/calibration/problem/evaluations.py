@@ -1,8 +1,8 @@
 """Between an optimiser and the model: runs each point once, records it, and stops in time.
 
 An optimiser asks for the values of a batch of points. Points that this search has already
-evaluated, or that its history file holds, are looked up; the others are run, in parallel if the
-pool has several processes. Numbers are given in the order in which the optimiser asked, so that
+evaluated are looked up; the others are run, in parallel if the pool has several processes, or come
+out of a store. Numbers are given in the order in which the optimiser asked, so that
 nothing that it sees depends on the number of processes or on what was run before an interruption.
 """
 
@@ -11,7 +11,6 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,7 +20,6 @@ from ...curves.several_curves import as_points, curve_list
 from ..models.pool import Outcome
 from ..objective.objective import Objective
 from ..records.evaluation import Evaluation, Point
-from ..records.history import History
 from ..records.recorder import Recorder
 from .simulator import Simulator
 from .space import Space
@@ -75,8 +73,8 @@ class Evaluations:
 
     Parameters
     ----------
-    simulator, objective, space, history, recorder
-        What runs the model, scores it, names the parameters, and keeps the records.
+    simulator, objective, space, recorder
+        What runs the model, scores it, names the parameters, and takes the search down.
     limit : int or None
         How many parameter sets to evaluate at most.
     callback : callable or None
@@ -92,7 +90,6 @@ class Evaluations:
         simulator: Simulator,
         objective: Objective,
         space: Space,
-        history: History,
         recorder: Recorder,
         *,
         limit: int | None,
@@ -102,8 +99,7 @@ class Evaluations:
     ) -> None:
         self._known = known
         self.objective = objective
-        self._simulator, self._space = simulator, space
-        self._history, self._recorder = history, recorder
+        self._simulator, self._space, self._recorder = simulator, space, recorder
         self._limit, self._callback, self._bar = limit, callback, bar
         self._done: dict[Point, Evaluation] = {}
         self._units: dict[Point, Array] = {}
@@ -204,8 +200,8 @@ class Evaluations:
         units : ndarray, shape (count, dimensions)
             Points of the unit cube.
         keep_simulations : bool
-            Keep the curves of simulations that succeed, in the history file too. A method that
-            wants them must ask for them every time.
+            Keep the curves of simulations that succeed. A method that wants them must ask for
+            them every time.
 
         Raises
         ------
@@ -236,24 +232,14 @@ class Evaluations:
         first = len(self._done) + 1
         finished: dict[Point, Evaluation] = {}
         simulations: dict[Point, Any] = {}
-        for i, point in enumerate(batch):
-            saved = self._history.saved.get(point)
-            # A file that was written beside a store has no curves; the store has them.
-            if saved is not None and (saved.simulations or saved.failed or not keep_simulations):
-                finished[point] = replace(saved, number=first + i)
-        self._bar.update(len(finished))
-        missing = [(first + i, p) for i, p in enumerate(batch) if p not in finished]
-        parameters = [self._space.dictionary(point) for _, point in missing]
-        for k, outcome in self._simulator.run(parameters):
-            number, point = missing[k]
-            finished[point] = self._judged(number, point, outcome, keep_simulations)
+        for k, outcome in self._simulator.run([self._space.dictionary(p) for p in batch]):
+            point = batch[k]
+            finished[point] = self._judged(first + k, point, outcome, keep_simulations)
             simulations[point] = outcome.simulations
-            if point not in self._history.saved:
-                self._history.write(finished[point])
             self._bar.update()
         for point in batch:
             self._done[point] = finished[point]
-            self._recorder.note(finished[point])
+            self._recorder.add(finished[point])
             if self._best is None or finished[point].value < self.best.value:
                 self._best = point
                 self._best_simulations = simulations.get(point)

@@ -15,7 +15,7 @@ from ..models.identity import model_identity
 from ..models.pool import Model, ModelPool, Outcome
 from ..objective.cases import Cases
 from ..objective.objective import Objective
-from ..records.store import SimulationStore, StorePath
+from ..records.store import SimulationStore, StoreOrPath
 from .selection import Selection
 from .simulator import Assemble, Dispatch, Simulator
 from .space import Space
@@ -43,7 +43,7 @@ class Problem:
         What is minimised.
     space : Space
         The parameters.
-    store, version, workers, executor
+    store, workers, executor
         As for `identify`.
     """
 
@@ -51,8 +51,7 @@ class Problem:
     assemble: Assemble
     objective: Objective
     space: Space
-    store: StorePath | None = None
-    version: str | None = None
+    store: StoreOrPath | None = None
     workers: int = 1
     executor: Executor | None = None
 
@@ -62,17 +61,18 @@ class Problem:
         with ExitStack() as stack:
             pool = ModelPool(Dispatch(self.models), self.workers, self.executor)
             stack.enter_context(pool)
-            store = None if self.store is None else SimulationStore(self.store)
-            if store is not None:
-                stack.enter_context(store)
-            yield Simulator(pool, self.models, self.assemble, store, self.version)
+            store = None
+            if self.store is not None:
+                store = stack.enter_context(SimulationStore(self.store))
+            yield Simulator(pool, self.models, self.assemble, store)
 
     def identities(self) -> list[str] | None:
         """Return what the models are known by, or None where nobody has said it."""
         known = all(isinstance(getattr(model, "identity", None), str) for model in self.models)
-        if self.version is None and not known:
+        if self.store is None and not known:
             return None
-        return [model_identity(model, self.version).text for model in self.models]
+        version = None if self.store is None else SimulationStore(self.store).version
+        return [model_identity(model, version).text for model in self.models]
 
 
 def models_of(model: Any) -> tuple[Sequence[Model], Assemble]:

@@ -47,8 +47,13 @@ class Simulator:
         Makes one outcome of those of all models.
     store : SimulationStore, optional
         Where runs are looked up and saved.
-    version : str, optional
-        Of the models; a store needs it for those without an `identity`.
+
+    Attributes
+    ----------
+    store
+        As given.
+    runs : int
+        How many runs of models this simulator has made.
     """
 
     def __init__(
@@ -57,26 +62,15 @@ class Simulator:
         models: Sequence[Model],
         assemble: Assemble,
         store: SimulationStore | None = None,
-        version: str | None = None,
     ) -> None:
-        self._pool, self._assemble, self._store = pool, assemble, store
+        self._pool, self._assemble, self.store = pool, assemble, store
         self._count = len(models)
         self._identities: list[ModelIdentity] = []
         if store is not None:
-            self._identities = [model_identity(model, version) for model in models]
+            self._identities = [model_identity(model, store.version) for model in models]
             for identity in self._identities:
                 store.register(identity)
-        self.runs = 0  # of models, by this simulator
-
-    @property
-    def store(self) -> SimulationStore | None:
-        """Where runs are saved."""
-        return self._store
-
-    @property
-    def has_store(self) -> bool:
-        """Whether runs can be looked up again."""
-        return self._store is not None
+        self.runs = 0
 
     def run(self, parameters: Sequence[dict[str, float]]) -> Iterator[tuple[int, Outcome]]:
         """Yield index and outcome of every dict, those that are stored first."""
@@ -93,13 +87,13 @@ class Simulator:
         for k, outcome in self._pool.run(calls):
             i, j = origins[k]
             self.runs += 1
-            if self._store is not None:
-                self._store.save(self._identities[j].text, parameters[i], outcome)
+            if self.store is not None:
+                self.store.save(self._identities[j].text, parameters[i], outcome)
             found[i][j] = outcome
             if None not in found[i]:
                 yield i, self._assemble([o for o in found[i] if o is not None])
 
     def _stored(self, values: dict[str, float]) -> list[Outcome | None]:
-        if self._store is None:
+        if self.store is None:
             return [None] * self._count
-        return [self._store.look_up(identity.text, values) for identity in self._identities]
+        return [self.store.look_up(identity.text, values) for identity in self._identities]

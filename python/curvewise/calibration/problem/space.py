@@ -21,8 +21,8 @@ from ..records.evaluation import Point
 
 __all__ = ["Below", "Bounds", "Log", "Space", "Tied"]
 
-# Columns of the history, beside the parameters.
-_RESERVED = ("evaluation", "value", "failed", "seconds", "message", "simulations")
+# Columns of the table of evaluations, beside the parameters.
+_RESERVED = ("evaluation", "value", "failed", "seconds", "message")
 
 # How far a parameter stays below another one, as a fraction of its bounds' range.
 _GAP = 1e-6
@@ -169,7 +169,7 @@ class Space:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """What a history has to know; for plain bounds the bounds."""
+        """What a search writes down of it; for plain bounds the bounds."""
         settings: dict[str, Any] = {}
         for name, given in self._given.items():
             if isinstance(given, Tied):

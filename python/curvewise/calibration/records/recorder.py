@@ -1,89 +1,72 @@
-"""Writes a search down as it goes: into its store, into its history, or just into memory.
+"""Takes a search down as it goes: in memory, and in its store, if it has one.
 
-What it has written can be read again as a :class:`SearchRecord`; a search with neither store nor
-history has one all the same, as long as the process lives.
+What was taken down is read again as a :class:`SearchRecord`, the same from either.
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 from .evaluation import Evaluation
-from .history import append_ending
-from .search_record import Ending, SearchRecord, as_json, canonical
-from .store import SimulationStore, StorePath
+from .search_record import Ending, SearchRecord, as_json
+from .store import SimulationStore
 
 __all__ = ["Recorder"]
 
 
-@dataclass
 class Recorder:
-    """Where a search is written down.
+    """Where a search is written down, from its first evaluation to what is known of its end.
 
     Parameters
     ----------
     settings, details
         As those of a :class:`SearchRecord`.
-    store, history : path-like or None
-        The files of the search.
-
-    Attributes
-    ----------
-    number : int or None
-        That of the search in its store.
+    store : SimulationStore or None
+        The open store of the search. After it has been closed only `end` is called.
     """
 
-    settings: Mapping[str, Any]
-    details: Mapping[str, Any]
-    store: StorePath | None
-    history: StorePath | None
-    number: int | None = None
-    ending: Ending | None = None
-    _open_store: SimulationStore | None = field(default=None, repr=False)
-    _evaluations: list[Evaluation] = field(default_factory=list, repr=False)
+    def __init__(
+        self,
+        settings: Mapping[str, Any],
+        details: Mapping[str, Any],
+        store: SimulationStore | None,
+    ) -> None:
+        self._settings, self._details = as_json(settings), as_json(details)
+        self._evaluations: list[Evaluation] = []
+        self._store = store
+        self._number = 0 if store is None else store.begin_search(self._settings, self._details)
+        self.ending: Ending | None = None
 
-    def begin(self, store: SimulationStore | None) -> None:
-        """Take down what is searched for, in a store that is open until the search ends."""
-        self._open_store = store
-        if store is not None:
-            self.number = store.searches.begin(self.settings, self.details)
+    @property
+    def has_store(self) -> bool:
+        """Whether what is taken down outlives the process."""
+        return self._store is not None
 
-    def note(self, evaluation: Evaluation) -> None:
-        """Take down an evaluation; the history has a line of its own for it."""
-        noted = canonical(evaluation)
-        self._evaluations.append(noted)
-        if self._open_store is not None and self.number is not None:
-            self._open_store.note(self.number, noted)
-
-    def stop(self) -> None:
-        """Let go of the store, which is about to be closed."""
-        self._open_store = None
+    def add(self, evaluation: Evaluation) -> None:
+        """Take down an evaluation."""
+        self._evaluations.append(evaluation)
+        if self._store is not None:
+            self._store.add_evaluation(self._number, evaluation)
 
     def end(self, ending: Ending) -> None:
-        """Take down how the search ended, or what has become known of it since."""
+        """Take down how the search ended, or what has become known of it since.
+
+        A store that has gone, as the temporary one of `identify_each` has, is not made again.
+
+        Raises
+        ------
+        OSError, ValueError
+            The store cannot be written; or another file is in its place.
+        """
         self.ending = ending
-        if self.number is not None and self.store_exists:
-            with SimulationStore(self.store or "") as store:
-                store.searches.end(self.number, ending)
-        if self.history is not None:
-            append_ending(self.history, ending.to_json())
+        if self._store is not None and self._store.path.is_file():
+            with SimulationStore(self._store) as store:
+                store.end_search(self._number, ending)
 
     def record(self) -> SearchRecord:
-        """Return what has been taken down, as any of the files gives it."""
-        settings, details = (json.loads(as_json(part)) for part in (self.settings, self.details))
-        ending = None if self.ending is None else Ending.from_json(self.ending.to_json())
+        """Return what has been taken down, as a store gives it."""
+        settings, details = json.loads(self._settings), json.loads(self._details)
+        ending = self.ending and Ending.from_json(self.ending.to_json())
         return SearchRecord(settings, details, tuple(self._evaluations), ending)
-
-    @property
-    def has_file(self) -> bool:
-        """Whether anything outlives the process."""
-        return self.store is not None or self.history is not None
-
-    @property
-    def store_exists(self) -> bool:
-        """Whether there is a store; that of `identify_each` without one was temporary."""
-        return self.store is not None and Path(self.store).is_file()

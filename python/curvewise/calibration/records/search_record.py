@@ -1,25 +1,26 @@
 """What is written down of a search, beside its runs: enough to report on it, and to repeat it.
 
 A record has three parts: what was asked for (tests, objective, space, method, seed, versions), the
-evaluations as they came, and the ending. A store and a history keep all three; both give back what
-was written bit for bit, so that a report made of a file is that made by the search itself.
+evaluations as they came, and the ending. A store keeps all three, and gives back what was written
+bit for bit, so that a report made of a store is that made by the search itself. Curves stand in
+JSON as text: the shape of each, and its float64 numbers in base64, eight bytes in eleven letters.
 """
 
 from __future__ import annotations
 
+import base64
 import json
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from ...curves.inputs import Array
-from .curve_text import curves_of, text_of
 from .evaluation import Evaluation
 
-__all__ = ["Ending", "SearchRecord", "as_json", "canonical"]
+__all__ = ["Ending", "SearchRecord", "as_json", "curves_of", "text_of"]
 
 _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
@@ -49,7 +50,7 @@ class Ending:
     parameters: dict[str, float]
     value: float
     measures: dict[str, float]
-    deviations: list[list[float] | None]
+    deviations: list[list[Any] | None]
     simulations: tuple[Array, ...]
     unit: Array | None = None
     slopes: Array | None = None
@@ -82,11 +83,11 @@ class SearchRecord:
     Attributes
     ----------
     settings : dict
-        What decides the course of the search, as a history has it.
+        What decides the course of the search.
     details : dict
         What a report needs beside: see `details_of`.
     evaluations : tuple of Evaluation
-        In the order of their numbers, without curves.
+        In the order of their numbers; those that are read from a store are without curves.
     ending : Ending or None
         None for a search that has been interrupted.
     simulations : tuple of ndarray
@@ -120,16 +121,6 @@ class SearchRecord:
         return list(self.details["parameters"])
 
 
-def canonical(evaluation: Evaluation) -> Evaluation:
-    """Return an evaluation as a record has it: what a line of a history holds, without curves."""
-    return replace(
-        evaluation,
-        seconds=float(f"{evaluation.seconds:.6g}"),
-        message=" ".join(evaluation.message.split()),
-        simulations=None,
-    )
-
-
 def as_json(value: Mapping[str, Any]) -> str:
     """Return JSON, with numpy's numbers as numbers and functions by their names."""
     return json.dumps(value, default=_plain)
@@ -141,3 +132,21 @@ def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.tolist()
     return _ADDRESS.sub("", repr(value))
+
+
+def text_of(curves: Sequence[Array]) -> str:
+    """Return curves as text without line breaks, commas or quotation marks."""
+    return " ".join(
+        f"{'x'.join(map(str, curve.shape))}:{base64.b64encode(curve.tobytes()).decode()}"
+        for curve in curves
+    )
+
+
+def curves_of(text: str) -> tuple[Array, ...]:
+    """Return the curves that a text stands for; none of an empty text."""
+    curves = []
+    for part in text.split():
+        shape, _, numbers = part.partition(":")
+        curve = np.frombuffer(base64.b64decode(numbers))
+        curves.append(curve.reshape(tuple(map(int, shape.split("x")))))
+    return tuple(curves)

@@ -1,97 +1,71 @@
-"""A store of simulations: every run's curves, by the model and its parameters.
+"""A store of simulations: every run's curves, by the model and its parameters, and the searches.
 
-An SQLite database. A run is found again by the identity of its model (see `model_identity`) and
-by what the model was called with, to the last bit; which measure, method, weights or loops it was
-made for does not matter. Beside the runs it has the searches that made them (search_table.py), for
-reports. A run is written when it ends, in a transaction of its own, or together
-with others that ended within a fifth of a second. So a process that is killed loses what was
-under way and a fifth of a second of what was not, and several processes may use one store at once.
+An SQLite database (database.py). A run is found again by the identity of its model (see
+`model_identity`) and by what the model was called with, to the last bit; which measure, method,
+weights or loops it was made for does not matter. A search is found again by the digest of its
+settings, so that one that is resumed, or made again, takes the place of its former self and keeps
+its number. Runs and evaluations are written together with others that came within a fifth of a
+second, in one transaction. So a process that is killed loses what was under way and a fifth of a
+second of what was not, and several processes may use one store at once.
 
 Cost: a transaction takes 20 milliseconds on a slow disk, a look-up some 50 microseconds; the
-file has 8 bytes for every number of every curve. The format is that of https://sqlite.org,
-through Python's own sqlite3.
+file has 8 bytes for every number of every curve, and some hundred bytes for every evaluation.
 """
 
 from __future__ import annotations
 
+import csv
+import hashlib
 import json
 import os
 import sqlite3
 import time
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
 from types import TracebackType
-from typing import Any, NamedTuple, TypeAlias
-
-import numpy as np
+from typing import Any, TypeAlias
 
 from ...curves.inputs import Array
-from ...curves.several_curves import as_points, curve_list
 from ..models.identity import ModelIdentity
 from ..models.pool import Outcome
+from .database import make_tables, opened, transaction
 from .evaluation import Evaluation
-from .search_table import SearchTable
-from .transactions import transaction
+from .search_record import Ending, SearchRecord
+from .stored_run import StoredRun, decoded, encoded, key_of
 
-__all__ = ["SimulationStore", "StoredRun"]
+__all__ = ["SimulationStore", "StoreOrPath"]
 
-StorePath: TypeAlias = str | os.PathLike[str]
-
-_FORMAT = 1
-_PATIENCE = 60.0  # seconds to wait for another process's transaction
 _PAUSE = (
     0.2  # seconds between transactions: models that take a millisecond should not wait for them
 )
-_TABLES = """
-CREATE TABLE IF NOT EXISTS models (identity TEXT PRIMARY KEY, fingerprint TEXT NOT NULL);
-CREATE TABLE IF NOT EXISTS runs (
-    identity TEXT NOT NULL, parameters TEXT NOT NULL, seconds REAL NOT NULL,
-    message TEXT NOT NULL, shapes TEXT NOT NULL, curves BLOB NOT NULL,
-    PRIMARY KEY (identity, parameters)
-);
-"""
-
-
-class StoredRun(NamedTuple):
-    """One run of a model.
-
-    Attributes
-    ----------
-    parameters : dict of str to float
-        What the model was called with.
-    simulations : list of ndarray, or None
-        What it returned, with None for a curve that it did not return; None if it failed.
-    message : str
-        Why it failed; empty if it did not.
-    seconds : float
-        How long it took.
-    """
-
-    parameters: dict[str, Any]
-    simulations: list[Array | None] | None
-    message: str
-    seconds: float
 
 
 class SimulationStore:
-    """A file that holds the curves of every run of one or several models.
+    """A file that holds the curves of every run of one or several models, and their searches.
 
     Parameters
     ----------
-    path : path-like
-        The file; it is made if it does not exist.
+    path : path-like, or SimulationStore
+        The file; it is made when it is first used, if it does not exist. Of another store the file
+        and the version, with a connection of its own.
+    version : str, optional
+        What you call the present state of the models, whose runs are stored under it. A Python
+        function needs one; :class:`CommandModel`, and any model with an attribute `identity`, says
+        by itself what it is.
 
     Raises
     ------
     ValueError
-        The file is something else than a store.
+        A version that is no text. When it is first used: the file is something else than a store.
     OSError
-        It cannot be made.
+        When it is first used: it cannot be made.
 
     Notes
     -----
     A context manager, which closes it. Not for several threads at once; several processes, each
-    with a `SimulationStore` of its own, may use one file.
+    with a `SimulationStore` of its own, may use one file, and every search takes one of its own.
 
     Examples
     --------
@@ -103,43 +77,38 @@ class SimulationStore:
     >>> def line(p):
     ...     return np.column_stack((x, p["slope"] * x))
     >>> folder = tempfile.TemporaryDirectory()
-    >>> file = Path(folder.name, "lines.db")
-    >>> keywords = {"method": "sdrm", "store": file, "version": "1", "progress": False}
+    >>> lines = SimulationStore(Path(folder.name, "lines.db"), version="1")
+    >>> keywords = {"method": "sdrm", "store": lines, "progress": False}
     >>> found = identify(line, line({"slope": 2.0}), {"slope": (0, 10)}, **keywords)
-    >>> with SimulationStore(file) as store:
+    >>> with lines as store:
     ...     len(store) == found.evaluations, store.models()
     (True, ['line, version 1'])
     >>> folder.cleanup()
     """
 
-    def __init__(self, path: StorePath) -> None:
-        self.path = Path(path)
-        self._unwritten: dict[tuple[str, str], tuple[Any, ...]] = {}
+    def __init__(self, path: StoreOrPath, *, version: str | None = None) -> None:
+        if version is not None and (not isinstance(version, str) or not version):
+            raise ValueError(f"version is {version!r}; give a text, such as '1'")
+        self.path: Path
+        self.version: str | None
+        if isinstance(path, SimulationStore):
+            self.path, self.version = path.path, version or path.version
+        else:
+            self.path, self.version = Path(path), version
+        self._new_runs: dict[tuple[str, str], tuple[Any, ...]] = {}
+        self._new_evaluations: list[tuple[Any, ...]] = []
         self._written = 0.0
-        try:
-            self._database = sqlite3.connect(self.path, timeout=_PATIENCE, isolation_level=None)
-        except sqlite3.OperationalError as error:
-            raise OSError(f"the store {self.path} cannot be opened: {error}") from error
-        try:
-            (format_,) = self._database.execute("PRAGMA user_version").fetchone()
-            tables = self._database.execute("SELECT count(*) FROM sqlite_master").fetchone()
-            if format_ not in (0, _FORMAT) or (format_ == 0 and tables != (0,)):
-                raise ValueError(f"{self.path} is not a store of this version; give another file")
-            if format_ == 0:
-                self._database.executescript(
-                    f"BEGIN IMMEDIATE; {_TABLES} PRAGMA user_version = {_FORMAT}; COMMIT;"
-                )
-        except sqlite3.DatabaseError as error:
-            self._database.close()
-            if "not a database" not in str(error):
-                raise OSError(f"the store {self.path} cannot be used: {error}") from error
-            raise ValueError(f"{self.path} is not a store; give the name of a file") from error
-        except ValueError:
-            self._database.close()
-            raise
-        self.searches = SearchTable(self._database)
+
+    @cached_property
+    def _database(self) -> sqlite3.Connection:
+        return opened(self.path)
+
+    def __repr__(self) -> str:
+        version = "" if self.version is None else f", version={self.version!r}"
+        return f"SimulationStore({str(self.path)!r}{version})"
 
     def __enter__(self) -> SimulationStore:
+        _ = self._database  # opens it
         return self
 
     def __exit__(
@@ -157,11 +126,14 @@ class SimulationStore:
         return int(count)
 
     def close(self) -> None:
-        """Write what is not written yet, and close the file."""
+        """Write what is not written yet, and close the file; the next use opens it again."""
         try:
             self._write()
         finally:
-            self._database.close()
+            if (database := self.__dict__.pop("_database", None)) is not None:
+                database.close()
+
+    # Runs of models.
 
     def models(self) -> list[str]:
         """Return the identities of the models that have runs here, in the order of their first."""
@@ -177,9 +149,7 @@ class SimulationStore:
             (identity,),
         )
         for parameters, *rest in rows:
-            outcome = _decoded(*rest)
-            values = {name: _number(text) for name, text in json.loads(parameters).items()}
-            yield StoredRun(values, outcome.simulations, outcome.message, outcome.seconds)
+            yield StoredRun.of_row(parameters, decoded(*rest))
 
     def forget_failures(self) -> int:
         """Delete the runs that failed, say for want of a licence; return how many there were."""
@@ -209,93 +179,170 @@ class SimulationStore:
 
     def look_up(self, identity: str, parameters: Mapping[str, Any]) -> Outcome | None:
         """Return what came of a run, or None if there is none."""
-        unwritten = self._unwritten.get((identity, _key(parameters)))
-        if unwritten is not None:
-            return _decoded(*unwritten[2:])
+        key = identity, key_of(parameters)
+        if (row := self._new_runs.get(key)) is not None:
+            return decoded(*row[2:])
         row = self._database.execute(
             "SELECT seconds, message, shapes, curves FROM runs "
             "WHERE identity = ? AND parameters = ?",
-            (identity, _key(parameters)),
+            key,
         ).fetchone()
-        return None if row is None else _decoded(*row)
+        return None if row is None else decoded(*row)
 
     def save(self, identity: str, parameters: Mapping[str, Any], outcome: Outcome) -> None:
         """Store a run; what the model should not have returned is left out, to be run again."""
         try:
-            shapes, numbers = _encoded(outcome)
+            shapes, numbers = encoded(outcome)
         except (TypeError, ValueError):  # the objective says what is wrong with it
             return
-        key = _key(parameters)
-        row = (identity, key, outcome.seconds, outcome.message, shapes, numbers)
-        self._unwritten[identity, key] = row
-        if time.monotonic() - self._written > _PAUSE:
-            self._write()
+        key = identity, key_of(parameters)
+        self._new_runs[key] = (*key, outcome.seconds, outcome.message, shapes, numbers)
+        self._write_after_pause()
 
-    def note(self, search: int, evaluation: Evaluation) -> None:
-        """Take down an evaluation of a search; see ``SearchTable``."""
-        self.searches.note(search, evaluation)
+    # Searches.
+
+    def begin_search(self, settings: str, details: str) -> int:
+        """Make a search known, without evaluations or ending, and return its number.
+
+        Parameters
+        ----------
+        settings, details : str
+            Those of a :class:`SearchRecord`, as JSON.
+        """
+        key = hashlib.sha256(settings.encode()).hexdigest()
+        with transaction(self._database):
+            make_tables(self._database)
+            self._database.execute(
+                "INSERT INTO searches (key, settings, details, ending) VALUES (?, ?, ?, '') "
+                "ON CONFLICT (key) DO UPDATE SET details = excluded.details, ending = ''",
+                (key, settings, details),
+            )
+            (number,) = self._database.execute(
+                "SELECT number FROM searches WHERE key = ?", (key,)
+            ).fetchone()
+            self._database.execute("DELETE FROM evaluations WHERE search = ?", (number,))
+        return int(number)
+
+    def add_evaluation(self, search: int, evaluation: Evaluation) -> None:
+        """Take down an evaluation of a search, whose curves are in the runs."""
+        point = json.dumps([value.hex() for value in evaluation.point])
+        row = (search, evaluation.number, point, evaluation.value, evaluation.failed)
+        self._new_evaluations.append((*row, evaluation.seconds, evaluation.message))
+        self._write_after_pause()
+
+    def end_search(self, search: int, ending: Ending) -> None:
+        """Write how a search ended."""
+        with transaction(self._database):
+            self._database.execute(
+                "UPDATE searches SET ending = ? WHERE number = ?", (ending.to_json(), search)
+            )
+
+    def searches(self) -> dict[int, SearchRecord]:
+        """Return all searches by their numbers, in the order in which they were begun."""
+        self._write()
+        exists = "SELECT count(*) FROM sqlite_master WHERE name = 'searches'"
+        if self._database.execute(exists).fetchone() == (0,):
+            return {}
+        rows = self._database.execute(
+            "SELECT number, settings, details, ending FROM searches ORDER BY number"
+        ).fetchall()
+        records = {}
+        for number, settings, details, ending in rows:
+            record = SearchRecord(
+                json.loads(settings),
+                json.loads(details),
+                self._evaluations(number),
+                Ending.from_json(ending) if ending else None,
+            )
+            records[number] = record if ending else replace(record, simulations=self._best(record))
+        return records
+
+    def to_csv(self, path: str | os.PathLike[str], search: int | None = None) -> None:
+        """Write the evaluations of a search to a table, for other programs.
+
+        A line for each: its number, the parameters, the objective's value, whether it failed, how
+        many seconds it took and why it failed. Numbers are written so that they read back with the
+        same bits (%.17g).
+
+        Parameters
+        ----------
+        path : path-like
+            The file; what is there is replaced.
+        search : int, optional
+            The number of the search; needed where the store has several.
+
+        Raises
+        ------
+        ValueError
+            The store has no such search, or several and none is named.
+        OSError
+            The file cannot be written.
+        """
+        records = self.searches()
+        number = next(iter(records), None) if search is None else search
+        if number not in records or (search is None and len(records) > 1):
+            known = ", ".join(map(str, records)) or "none"
+            wanted = "one search" if search is None else f"search {search}"
+            raise ValueError(f"{self.path} has not {wanted}; name one of its searches: {known}")
+        record = records[number]
+        with open(path, "w", encoding="utf-8", newline="") as file:
+            table = csv.writer(file, lineterminator="\n")
+            table.writerow(["evaluation", *record.names, "value", "failed", "seconds", "message"])
+            for one in record.evaluations:
+                numbers = [f"{value:.17g}" for value in (*one.point, one.value)]
+                row = [one.number, *numbers, int(one.failed), f"{one.seconds:.17g}", one.message]
+                table.writerow(row)
+
+    def _evaluations(self, search: int) -> tuple[Evaluation, ...]:
+        rows = self._database.execute(
+            "SELECT number, point, value, failed, seconds, message FROM evaluations "
+            "WHERE search = ? ORDER BY number",
+            (search,),
+        )
+        return tuple(
+            Evaluation(
+                number,
+                tuple(map(float.fromhex, json.loads(point))),
+                value,
+                bool(failed),
+                seconds,
+                message,
+            )
+            for number, point, value, failed, seconds, message in rows
+        )
+
+    def _best(self, record: SearchRecord) -> tuple[Array, ...]:
+        """Return the curves of the best run so far, if it is one run that has all of them."""
+        best, models = record.best, record.details["model"]
+        if best is None or best.failed or len(models) != 1:
+            return ()
+        wanted = dict(zip(record.names, best.point, strict=True))
+        for run in self.runs(models[0]):
+            if all(run.parameters.get(name) == value for name, value in wanted.items()):
+                curves = tuple(curve for curve in run.simulations or () if curve is not None)
+                return curves if len(curves) == len(record.experiments) else ()
+        return ()
+
+    def _write_after_pause(self) -> None:
         if time.monotonic() - self._written > _PAUSE:
             self._write()
 
     def _write(self) -> None:
-        if not self._unwritten and not self.searches.has_unwritten:
+        if not self._new_runs and not self._new_evaluations:
             return
         with transaction(self._database):
-            rows = self._unwritten.values()
-            self._database.executemany("INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?)", rows)
-            self.searches.write()
-        self._unwritten.clear()
-        self.searches.committed()
+            self._database.executemany(
+                "INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?)", self._new_runs.values()
+            )
+            if self._new_evaluations:  # else there may be no table: not every run has a search
+                self._database.executemany(
+                    "INSERT OR REPLACE INTO evaluations VALUES (?, ?, ?, ?, ?, ?, ?)",
+                    self._new_evaluations,
+                )
+        self._new_runs.clear()
+        self._new_evaluations.clear()
         self._written = time.monotonic()
 
 
-def _key(parameters: Mapping[str, Any]) -> str:
-    """Return parameters as a text that is the same for the same numbers, bit for bit."""
-    texts = {
-        name: value if isinstance(value, str) else float(value).hex()
-        for name, value in parameters.items()
-    }
-    return json.dumps(texts, sort_keys=True)
-
-
-def _number(text: str) -> Any:
-    try:
-        return float.fromhex(text)
-    except ValueError:
-        return text
-
-
-def _encoded(outcome: Outcome) -> tuple[str, bytes]:
-    """Return the shapes of the curves as JSON, null for one that is missing, and their numbers."""
-    if outcome.message:
-        return "null", b""
-    if outcome.simulations is None:
-        return "[null]", b""
-    shapes: list[tuple[int, ...] | None] = []
-    numbers = []
-    for curve in curve_list(outcome.simulations):
-        if curve is None:
-            shapes.append(None)
-            continue
-        if isinstance(curve, BaseException) or np.iscomplexobj(curve):
-            raise TypeError("not a curve of real numbers")
-        points = as_points([[curve]] if np.ndim(curve) == 0 else curve, "Q")
-        shapes.append(points.shape)
-        numbers.append(points.tobytes())
-    return json.dumps(shapes), b"".join(numbers)
-
-
-def _decoded(seconds: float, message: str, shapes: str, numbers: bytes) -> Outcome:
-    if message:
-        return Outcome(None, message, seconds)
-    flat = np.frombuffer(numbers)
-    curves: list[Array | None] = []
-    for shape in json.loads(shapes):
-        if shape is None:
-            curves.append(None)
-            continue
-        size = int(np.prod(shape))
-        curves.append(flat[:size].reshape(shape).copy())
-        flat = flat[size:]
-    is_missing = all(curve is None for curve in curves)
-    return Outcome(None if is_missing else curves, message, seconds)
+StoreOrPath: TypeAlias = SimulationStore | str | os.PathLike[str]
+"""A store of simulations as it is given: the file, or a `SimulationStore`, with a version."""

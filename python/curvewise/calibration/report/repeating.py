@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..objective.criterion import criterion_as_code
 from ..records.search_record import SearchRecord
 
 __all__ = ["code_to_repeat"]
 
 _DEFAULTS: dict[str, Any] = {
-    "min_coverage": 0.5,
     "start": None,
     "method_options": {},
     "max_evaluations": None,
 }
+_OF_A_CASE: dict[str, Any] = {"weight": 1.0, "sigma": None}
 
 
 def code_to_repeat(record: SearchRecord) -> str:
@@ -24,27 +25,23 @@ def code_to_repeat(record: SearchRecord) -> str:
     """
     settings, details = record.settings, record.details
     lines = [
-        "from curvewise.calibration import Below, Case, Log, identify",
+        "from curvewise.calibration import Below, Case, Criterion, Log, identify",
         "",
         "found = identify(",
     ]
-    if details["cases"] is None:
+    if settings["cases"] is None:
         lines += ["    model,", "    experiments,"]
     else:
-        lines += ["    [", *map(_case, details["cases"]), "    ],"]
+        lines += ["    [", *map(_case, settings["cases"]), "    ],"]
     lines.append("    bounds={")
     lines += [_bound(name, given) for name, given in settings["bounds"].items()]
     lines.append("    },")
-    keywords: dict[str, Any] = {}
-    if details["cases"] is None:
-        keywords |= {name: settings[name] for name in ("measure", "preset")}
-        if set(settings["weights"]) != {1.0}:
-            keywords["weights"] = settings["weights"]
-        keywords |= settings["options"]
-    keywords |= {name: settings[name] for name in ("method", "seed")}
+    if settings["criterion"] is not None:
+        lines.append(f"    measure={criterion_as_code(settings['criterion'])},")
+    keywords = {name: settings[name] for name in ("method", "seed")}
     for name, default in _DEFAULTS.items():
         value = settings[name] if name in settings else details[name]
-        if value != default and not (details["cases"] and name == "min_coverage"):
+        if value != default:
             keywords[name] = value
     lines += [f"    {name}={value!r}," for name, value in keywords.items()]
     return "\n".join([*lines, ")"])
@@ -62,7 +59,7 @@ def _bound(name: str, given: Any) -> str:
 
 
 def _case(case: dict[str, Any]) -> str:
-    others = {"measure": "area", "weight": 1.0, "sigma": None, "preset": "scaled"}
-    others |= {"min_coverage": 0.5, "part": "experiment", "options": {}}
-    given = [f"{name}={case[name]!r}" for name, value in others.items() if case[name] != value]
-    return f"        Case({', '.join([repr(case['name']), 'model', 'experiment', *given])}),"
+    given = [f"{name}={case[name]!r}" for name, usual in _OF_A_CASE.items() if case[name] != usual]
+    measure = f"measure={criterion_as_code(case['criterion'])}"
+    arguments = [repr(case["name"]), "model", "experiment", measure, *given]
+    return f"        Case({', '.join(arguments)}),"

@@ -15,12 +15,12 @@ import numpy as np
 from ...curves.inputs import Array
 from ...curves.named_curve import NamedCurve
 from ..models.pool import Outcome
-from ..objective.cases import Case, CaseObjective
+from ..objective.cases import Case, Cases
+from ..objective.criterion import Criterion
 from ..objective.objective import Objective
 from ..problem.problem import Problem
 from ..problem.space import Below, Bounds, Log, Space
-from ..records.curve_text import curves_of, text_of
-from ..records.search_record import SearchRecord
+from ..records.search_record import SearchRecord, curves_of, text_of
 from ..surfaces.surfaces import Responses, Surfaces
 from ..uncertainty.sensitivity import Optimum
 from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
@@ -94,27 +94,16 @@ def _objective(record: SearchRecord) -> Objective:
         NamedCurve(curve, names) if names else curve
         for curve, names in zip(record.experiments, details["named"], strict=True)
     ]
-    if details["cases"] is not None:
-        cases = [_case(case, test) for case, test in zip(details["cases"], tests, strict=True)]
-        return CaseObjective(cases)
-    options = {name: value for name, value in settings["options"].items() if name != "part"}
-    objective = Objective(
-        tests,
-        settings["measure"],
-        preset=settings["preset"],
-        weights=settings["weights"],
-        min_coverage=settings["min_coverage"],
-        part=settings["options"].get("part", "experiment"),
-        **options,
-    )
-    objective.failure_value = np.array(settings["failure_value"])
-    return objective
+    if settings["cases"] is None:
+        return Objective(tests, Criterion(**settings["criterion"]))
+    pairs = zip(settings["cases"], tests, strict=True)
+    return Cases([_case(written, test) for written, test in pairs]).objective()
 
 
-def _case(written: dict[str, Any], test: Array) -> Case:
-    others = {name: value for name, value in written.items() if name != "is_number"}
-    experiment = float(test[0, 0]) if written["is_number"] else test
-    return Case(model=_no_model, experiment=experiment, **others)
+def _case(written: dict[str, Any], test: Any) -> Case:
+    criterion = Criterion(**written["criterion"])
+    weighed = {name: written[name] for name in ("weight", "sigma")}
+    return Case(written["name"], _no_model, test, measure=criterion, **weighed)
 
 
 def space_of(record: SearchRecord) -> Space:

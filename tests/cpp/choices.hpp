@@ -1,5 +1,6 @@
-// Where a test takes its choices from: a random generator (random_pairs.cpp), or the bytes that a
-// fuzzer hands it (tests/fuzz). What is built from them, curves and options, is the same code.
+// Where a test takes its choices from: a random generator (Random of curves.hpp, RandomChoices), or
+// the bytes that a fuzzer hands it (tests/fuzz). What is built from them, curves and options, is
+// the same code.
 #pragma once
 
 #include <cmath>
@@ -8,7 +9,7 @@
 #include <cstring>
 #include <random>
 
-namespace stress {
+namespace test {
 
 class Choices {
    public:
@@ -23,7 +24,7 @@ class Choices {
     virtual std::uint64_t bytes(int count) = 0;
 
     // 0, ..., count - 1.
-    std::ptrdiff_t index(std::ptrdiff_t count) {
+    virtual std::ptrdiff_t index(std::ptrdiff_t count) {
         const std::uint64_t drawn = bytes(count <= 256 ? 1 : 4);
         return static_cast<std::ptrdiff_t>(drawn % static_cast<std::uint64_t>(count));
     }
@@ -32,7 +33,7 @@ class Choices {
     }
     bool one_in(std::ptrdiff_t count) { return index(count) == count - 1; }
     // From low to high, in steps of a 2^32nd.
-    double uniform(double low, double high) {
+    virtual double uniform(double low, double high) {
         return low + (high - low) * std::ldexp(static_cast<double>(bytes(4)), -32);
     }
     // Any double at all: nan and infinity too.
@@ -77,4 +78,4 @@ class ByteChoices final : public Choices {
     std::size_t left_;
 };
 
-}  // namespace stress
+}  // namespace test

@@ -1,0 +1,49 @@
+"""From a search that has ended to what it has found, which is written into its store."""
+
+from __future__ import annotations
+
+import logging
+
+from ...curves.several_curves import points_of
+from ..methods.search import Ended, Plan
+from ..problem.problem import Problem
+from ..records.evaluation import as_records
+from .identification import Identification
+
+__all__ = ["identification_of"]
+
+_log = logging.getLogger("curvewise.calibration")
+
+
+def identification_of(problem: Problem, plan: Plan, ended: Ended) -> Identification:
+    """Return what a search has found."""
+    evaluations, objective = ended.evaluations, problem.objective
+    done, best = evaluations.done, evaluations.best
+    found = Identification(
+        parameters=problem.space.dictionary(best.point),
+        value=best.value,
+        measures=objective.by_measure(ended.simulations),
+        simulations=points_of(ended.simulations),
+        experiments=objective.experiments,
+        history=as_records(done, problem.space.names),
+        failures=tuple((e.number, e.message) for e in done if e.failed),
+        converged=ended.finish.converged,
+        message=ended.finish.message,
+        method=plan.method,
+        seed=plan.seed,
+        bounds=problem.space.bounds,
+        measure=objective.measure,
+        preset=objective.preset,
+        runs=ended.runs,
+        problem=problem,
+        kept=evaluations.kept,
+        part=objective.part,
+        condition=objective.condition,
+        recorder=ended.recorder,
+    )
+    if found.recorder.has_store:
+        try:
+            found.recorder.end(found.ending())
+        except (OSError, ValueError) as error:  # no reason to lose what was found
+            _log.warning("how the search ended could not be written down: %s", error)
+    return found

@@ -1,0 +1,283 @@
+"""What is minimised: a measure, and everything that decides what it makes of two curves.
+
+The settings of an objective travel together, from `identify`, `rescore` and their like to the terms
+of an objective, and are checked once, when a criterion is made. Cost: none.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from inspect import signature
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from ..._docstrings import filled, listed
+from ..._names import did_you_mean
+from ..._options import Preset
+from ...measures import registry
+from ...measures.registry import PRESETS, Condition
+
+__all__ = [
+    "LEAST_SQUARES",
+    "MEASURES",
+    "Criterion",
+    "Measure",
+    "Part",
+    "criterion_as_code",
+    "criterion_of",
+]
+
+MEASURES = (*registry.MEASURES, "sum_of_squares")
+# Those that are made of differences whose squares are added up.
+LEAST_SQUARES = ("curve_length", "sum_of_squares")
+
+Part: TypeAlias = Literal["experiment", "simulation"]
+
+
+@filled(measures=listed(MEASURES))
+@dataclass(frozen=True, init=False, repr=False)
+class Criterion:
+    """What is minimised: a measure with its options, and how curves are made ready for it.
+
+    :func:`identify`, :class:`Objective`, :class:`Case`, :func:`rescore`, :func:`cross_validate` and
+    :func:`line_plot` take it in the place of a measure's name.
+
+    Parameters
+    ----------
+    measure : {measures} or callable
+        A measure by its name, or a function of the experiment, the simulation and the options
+        that returns a float; where it raises ValueError the simulation has failed.
+        "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
+        the experiment's x, which must not turn back. Its option `abscissa` says what y is
+        compared over: a column's number, 0 if not given (``abscissa=2`` of loops whose third
+        column is time or the step), or "points", point by point, for a model that is driven by
+        the experiment's own x, as a material point by the measured strains.
+    preset : {"scaled", "paper", "raw"}
+        As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
+        that experiments, and x and y, count alike, and takes area with ``spacing="matched"``,
+        which hardly depends on the simulation's increments; "paper" has Algorithm 1.
+        sum_of_squares and functions are given the curves as they are in the other two.
+    part : {"experiment", "simulation"}
+        Which curve may be a piece of the other, with "pcm" and with "dtw" that has an open end.
+        "experiment": a test that starts late or stops early, against the whole simulation.
+        "simulation": a model of the first branch alone, against the whole test; dtw is then that
+        of the simulation to the experiment, and "pcm" has no `min_coverage`.
+    min_coverage : float
+        For "pcm": a simulation shorter than this fraction of its experiment's length (both
+        scaled) counts as failed, since partial curve mapping scores a piece of the curve well.
+        An experiment that is a piece of its simulation is what it is made for, and passes.
+    weights : sequence of float, optional
+        A factor for every experiment, not negative; 1 if not given.
+    failure_value : float, optional
+        The term of an experiment whose simulation failed, finite and positive. By default 10⁶
+        times what the measure gives for a simulation that is its experiment moved up by its own
+        height, which fits every measure and unit.
+    **options
+        Options of the measure, which override the preset's.
+
+    Raises
+    ------
+    ValueError
+        An unknown measure, preset or part; a part for a measure of whole curves; numbers out of
+        their range.
+    TypeError
+        An option that the measure does not have.
+
+    Examples
+    --------
+    >>> from curvewise.calibration import Criterion, Objective
+    >>> criterion = Criterion("dtw", preset="raw", weights=[1, 2], window=3)
+    >>> criterion
+    Criterion('dtw', preset='raw', weights=[1.0, 2.0], window=3)
+    >>> Objective([[(0, 0), (1, 1)], [(0, 0), (1, 1)]], criterion)([[(0, 1), (1, 2)]] * 2)
+    6.0
+    """
+
+    measure: str | Callable[..., float]
+    preset: Preset
+    part: Part
+    min_coverage: float
+    weights: tuple[float, ...] | None
+    failure_value: float | None
+    options: dict[str, Any] = field(hash=False)
+
+    def __init__(
+        self,
+        measure: str | Callable[..., float] = "area",
+        *,
+        preset: Preset = "scaled",
+        part: Part = "experiment",
+        min_coverage: float = 0.5,
+        weights: Sequence[float] | None = None,
+        failure_value: float | None = None,
+        **options: Any,
+    ) -> None:
+        if not callable(measure):
+            _check_choice("measure", measure, MEASURES)
+        _check_choice("preset", preset, tuple(PRESETS))
+        _check_choice("part", part, ("experiment", "simulation"))
+        _check_options(measure, options, _SETTINGS)
+        if not 0.0 <= min_coverage <= 1.0:
+            raise ValueError(f"min_coverage is {min_coverage}; it must be from 0 to 1")
+        if failure_value is not None and not 0.0 < failure_value < math.inf:
+            raise ValueError(f"failure_value is {failure_value}; it must be finite and above 0")
+        for name, value in {
+            "measure": measure,
+            "preset": preset,
+            "part": part,
+            "min_coverage": min_coverage,
+            "weights": None if weights is None else _checked_weights(weights),
+            "failure_value": None if failure_value is None else float(failure_value),
+            "options": options,
+        }.items():
+            object.__setattr__(self, name, value)
+        chosen = self.condition.options
+        is_open = chosen.get("open_begin", False) or chosen.get("open_end", False)
+        if part == "simulation" and measure != "pcm" and not (measure == "dtw" and is_open):
+            raise ValueError(
+                f"measure {self.name!r} compares whole curves; part='simulation' needs "
+                "measure='pcm', or measure='dtw' with open_begin=True or open_end=True"
+            )
+
+    def __repr__(self) -> str:
+        return f"Criterion({', '.join(_arguments(self.settings))})"
+
+    @property
+    def name(self) -> str:
+        """The measure's name; of a callable its ``__name__``, or its type's."""
+        if isinstance(self.measure, str):
+            return self.measure
+        return str(getattr(self.measure, "__name__", type(self.measure).__name__))
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """What a record writes down: ``Criterion(**settings)`` makes it again, but of a function.
+
+        Of a function it has the name alone.
+        """
+        weights = None if self.weights is None else list(self.weights)
+        named = {name: getattr(self, name) for name in _SETTINGS}
+        return {"measure": self.name, **named, "weights": weights, **self.options}
+
+    @property
+    def is_of_the_registry(self) -> bool:
+        """Whether the measure is one that :func:`curvewise.compare` has too."""
+        return not callable(self.measure) and self.measure in registry.MEASURES
+
+    @property
+    def condition(self) -> Condition:
+        """Whether curves are scaled first, and the measure's options with those of the preset."""
+        if not self.is_of_the_registry:
+            return Condition(self.preset == "scaled", self.options)
+        scaled, options = PRESETS[self.preset][self.name]
+        return Condition(scaled, {**options, **self.options})
+
+    def weighing(self, weights: Sequence[float] | None) -> Criterion:
+        """Return the same criterion with other weights."""
+        return Criterion(**{**self.settings, "measure": self.measure, "weights": weights})
+
+
+Measure: TypeAlias = str | Callable[..., float] | Criterion
+"""What the functions of this package call a measure: a name, a function, or a criterion."""
+
+# The settings beside the measure and its options, with their defaults.
+_SETTINGS = {
+    name: parameter.default
+    for name, parameter in signature(Criterion).parameters.items()
+    if name not in ("measure", "options")
+}
+
+
+def criterion_of(
+    measure: Measure, options: Mapping[str, Any], others: Iterable[str] = ()
+) -> Criterion:
+    """Return the criterion that a function is given as `measure` and further keywords.
+
+    Parameters
+    ----------
+    measure
+        The criterion itself, or a measure whose options the keywords are.
+    options
+        The keywords.
+    others
+        What else a keyword could have been meant to be: arguments of that function.
+    """
+    if isinstance(measure, Criterion):
+        if options:
+            raise TypeError(f"{', '.join(options)} given beside a Criterion; give it to that")
+        return measure
+    if own := [name for name in options if name in _SETTINGS]:
+        settings = ", ".join(f"{name}=..." for name in own)
+        shown = repr(measure) if isinstance(measure, str) else "..."
+        raise TypeError(
+            f"{', '.join(own)} given as a keyword; use measure=Criterion({shown}, {settings})"
+        )
+    if callable(measure) or measure in MEASURES:
+        _check_options(measure, options, (*_SETTINGS, *others))
+    return Criterion(measure, **options)
+
+
+def criterion_as_code(settings: Mapping[str, Any]) -> str:
+    """Return what makes a criterion of these settings: the measure's name if that is enough."""
+    arguments = _arguments(settings)
+    return f"Criterion({', '.join(arguments)})" if len(arguments) > 1 else arguments[0]
+
+
+def _arguments(settings: Mapping[str, Any]) -> list[str]:
+    """Return the measure, and the settings that are not the defaults, as in a call."""
+    given = [
+        f"{name}={value!r}"
+        for name, value in settings.items()
+        if name != "measure" and (name not in _SETTINGS or value != _SETTINGS[name])
+    ]
+    return [repr(settings["measure"]), *given]
+
+
+def _check_choice(name: str, given: object, known: Sequence[str]) -> None:
+    if given not in known:
+        raise ValueError(
+            f"unknown {name} {given!r}; choose from {', '.join(known)}"
+            f"{did_you_mean([given], known)}"
+        )
+
+
+def _check_options(
+    measure: str | Callable[..., float], given: Iterable[str], others: Iterable[str]
+) -> None:
+    """Refuse options that a measure does not have."""
+    known = _option_names(measure)
+    if known is None or not (unknown := [name for name in given if name not in known]):
+        return
+    name = measure if isinstance(measure, str) else getattr(measure, "__name__", "the measure")
+    raise TypeError(
+        f"{name} has no option {', '.join(map(repr, unknown))}; it has {', '.join(known) or 'none'}"
+        f"{did_you_mean(unknown, [*known, *others])}"
+    )
+
+
+def _option_names(measure: str | Callable[..., float]) -> list[str] | None:
+    """Return the names of a measure's options, or None where it takes any or does not say."""
+    if measure == "sum_of_squares":
+        return ["abscissa"]
+    function = registry.MEASURES[measure].function if isinstance(measure, str) else measure
+    try:
+        parameters = list(signature(function).parameters.values())
+    except ValueError:  # of a builtin
+        return None
+    if any(p.kind is p.VAR_KEYWORD for p in parameters):
+        return None
+    curves = [p for p in parameters if p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)][:2]
+    named = [p for p in parameters if p.kind in (p.KEYWORD_ONLY, p.POSITIONAL_OR_KEYWORD)]
+    return [p.name for p in named if p not in curves]
+
+
+def _checked_weights(weights: Sequence[float]) -> tuple[float, ...]:
+    array = np.asarray(weights, dtype=np.float64)
+    if array.ndim != 1:
+        raise ValueError(f"weights has shape {array.shape}; give one for each experiment")
+    if not (np.isfinite(array).all() and (array >= 0).all() and array.any()):
+        raise ValueError("weights must be finite, not negative, and not all 0")
+    return tuple(array.tolist())

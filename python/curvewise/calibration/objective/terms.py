@@ -1,0 +1,349 @@
+"""The terms of an objective: an experiment each, a curve or a number, beside which simulations go.
+
+The experiment is checked and scaled once. What is wrong with it is an error then; what is wrong
+with a simulation later is a `FailedSimulationError`, in the place of which the objective takes the
+term's failure value. Cost: that of the measure.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...curves.inputs import Array, check_column_names, column_names
+from ...curves.named_curve import axis_names, known_names
+from ...curves.scaling import box
+from ...curves.several_curves import as_points
+from ...curves.thinning import Rows
+from ...measures import normalize
+from ...measures.results import PcmMatch
+from .common_x import check_common_x, y_column
+from .criterion import Criterion
+from .of_simulation import of_simulation
+
+__all__ = ["CurveTerm", "FailedSimulationError", "Label", "NumberTerm", "Term"]
+
+# A failed simulation costs as much as so many simulations that are wrong by the loop's height.
+_FAILURE = 1e6
+
+
+class FailedSimulationError(Exception):
+    """A simulation has no value; the message says why."""
+
+
+class Label(NamedTuple):
+    """What a term is called.
+
+    Attributes
+    ----------
+    title : str
+        In pictures and tables.
+    argument : str
+        Where its experiment is wrong.
+    prefix : str
+        What the reason of a failed simulation begins with.
+    """
+
+    title: str
+    argument: str
+    prefix: str
+
+
+class Term(ABC):
+    """One experiment, with its criterion and its weight.
+
+    Parameters
+    ----------
+    experiment
+        What simulations are compared with.
+    criterion : Criterion
+        How.
+    label : Label
+        What it is called.
+    factor : float
+        What the user weighs it with.
+    sigma : float, optional
+        The standard deviation of the noise in y; the weight is then in its units.
+
+    Attributes
+    ----------
+    experiment : ndarray, shape (n, d)
+        As given, in float64; of a number (1, 1).
+    names : tuple of str
+        What its columns are called; empty where that is not known.
+    y : int
+        The column that noise is in.
+    extent : ndarray, shape (d,)
+        Of the experiment in each coordinate; of a number the number itself.
+    height : float
+        By what y is divided before it is compared.
+    scale : float
+        The measure of a simulation that is wrong by the experiment's height.
+    residual_count : int
+        How many residuals there are.
+    has_gradient, can_be_thinned : bool
+        See `Objective`.
+    weight, failure_value : float
+        The factor of the value; what takes its place where a simulation has failed.
+    """
+
+    experiment: Array
+    names: tuple[str, ...]
+    y: int
+    extent: Array
+    height: float
+    scale: float
+    residual_count: int
+    has_gradient: bool
+    can_be_thinned: bool
+
+    def __init__(
+        self,
+        experiment: Any,
+        criterion: Criterion,
+        label: Label,
+        factor: float = 1.0,
+        sigma: float | None = None,
+    ) -> None:
+        self.criterion, self.label, self.factor, self.sigma = criterion, label, factor, sigma
+        self._prepare(experiment)
+        self.weight = self._weight()
+        given = criterion.failure_value
+        self.failure_value = _FAILURE * self.scale if given is None else given
+
+    def of(self, experiment: Any) -> Term:
+        """Return the same term of another experiment."""
+        return type(self)(experiment, self.criterion, self.label, self.factor, self.sigma)
+
+    def thinned(self, rows: Rows) -> Term:
+        """Return the term of some points of the experiment, weighted to count the same."""
+        thinned = self.of(self.experiment[rows])
+        thinned.weight = self.weight * self.scale / thinned.scale
+        thinned.failure_value = self.failure_value * thinned.scale / self.scale
+        return thinned
+
+    @property
+    def is_least_squares(self) -> bool:
+        """Whether the value is the sum of the squares of the residuals."""
+        return self.criterion.measure == "sum_of_squares"
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """What a record writes down beside the experiment."""
+        return {
+            "name": self.label.title,
+            "criterion": self.criterion.settings,
+            "weight": self.factor,
+            "sigma": self.sigma,
+        }
+
+    def axes(self, names: Sequence[str] | None) -> tuple[str, ...]:
+        """Return what the coordinates are called: as given, or as the columns are."""
+        given = names if self.experiment.size > 1 else None
+        if given is None and len(self.names) == self.experiment.shape[1]:
+            return self.names
+        return axis_names(self.experiment.shape[1], given)
+
+    def residuals_or_penalty(self, simulation: Any) -> Array:
+        """Return the residuals; those of a failed simulation are equal and add up to its value.
+
+        Squared for curve_length, whose value is the root of a sum.
+        """
+        try:
+            return self.residuals(simulation)
+        except FailedSimulationError:
+            total = self.failure_value if self.is_least_squares else self.failure_value**2
+            return np.full(self.residual_count, math.sqrt(total / self.residual_count))
+
+    def fitted(self, simulation: Any) -> Array:
+        """Return the experiment with the simulated y, of a sum of squares."""
+        points = self.experiment.copy()
+        points[:, self.y] += self.height * self.residuals(simulation)
+        return points
+
+    @abstractmethod
+    def value(self, simulation: Any) -> float:
+        """Return the value of the measure, or raise FailedSimulationError."""
+
+    @abstractmethod
+    def value_and_gradient(self, simulation: Any) -> tuple[float, Array]:
+        """Return the value and its derivative by the simulation's coordinates."""
+
+    @abstractmethod
+    def residuals(self, simulation: Any) -> Array:
+        """Return the differences that the measure squares, or raise FailedSimulationError."""
+
+    @abstractmethod
+    def _prepare(self, experiment: Any) -> None:
+        """Check the experiment, and set the attributes."""
+
+    def _weight(self) -> float:
+        """Return the factor, in units of the noise if that is given."""
+        return self.factor
+
+
+class CurveTerm(Term):
+    """A curve, scaled and ready to be compared with simulations."""
+
+    def _prepare(self, experiment: Any) -> None:
+        argument = self.label.argument
+        self.experiment = as_points(experiment, argument).copy()
+        self._columns = column_names(experiment)
+        self.names = tuple(known_names(experiment))
+        self._name = "the experiment" if argument == "P" else argument
+        try:
+            (P,) = normalize(self.experiment)  # refuses what is empty or not finite
+            self._box = box(self.experiment) if self.criterion.condition.scaled else None
+            P = self.experiment if self._box is None else P
+            extent = np.ptp(self.experiment, axis=0)
+            self.extent = np.where(extent > 0, extent, 1.0)
+            self.y = P.shape[1] - 1
+            if self.is_least_squares:
+                abscissa = self.criterion.options.get("abscissa", 0)
+                check_common_x(P, abscissa)
+                self.y = y_column(abscissa)
+            self.height = 1.0 if self._box is None else float(self._box[1][self.y])
+            self._measured = of_simulation(self.criterion, P)
+            # Fails here, not at the first simulation, for an experiment or option it refuses.
+            value = self._measured.value(_moved_up(P, self.y))
+            self.scale = value.value if isinstance(value, PcmMatch) else value
+        except ValueError as error:
+            prefix = "" if argument == "P" else f"{argument}, as P: "
+            raise ValueError(f"{prefix}{error}") from error
+        if not math.isfinite(self.scale):
+            raise ValueError(f"{argument}: the measure overflows; give the curve in larger units")
+        residuals = self._measured.residuals
+        self.residual_count = 0 if residuals is None else residuals(P).size
+        self.has_gradient = self._measured.gradient is not None
+        self.can_be_thinned = not self.is_least_squares
+
+    def _weight(self) -> float:
+        if self.sigma is None:
+            return self.factor
+        if self.is_least_squares:
+            return self.factor * float(self.height / self.sigma) ** 2
+        moved = self.experiment.copy()  # off by sigma everywhere
+        moved[:, self.y] += self.sigma
+        return self.factor / float(self.value(moved))
+
+    def value(self, simulation: Any) -> float:
+        """Return the value of the measure, or raise FailedSimulationError."""
+        Q = self._checked(simulation)
+        try:
+            value = self._measured.value(Q)
+        except ValueError as error:
+            raise FailedSimulationError(str(error)) from error
+        if isinstance(value, PcmMatch):
+            value = self._covered(value)
+        if not math.isfinite(value):
+            raise FailedSimulationError(f"the value of the measure is {value}")
+        return value
+
+    def value_and_gradient(self, simulation: Any) -> tuple[float, Array]:
+        """Return the value and its derivative by the simulation's coordinates."""
+        assert self._measured.gradient is not None, "see has_gradient"
+        Q = self._checked(simulation)
+        try:
+            value, gradient = self._measured.gradient(Q)
+        except ValueError as error:
+            raise FailedSimulationError(str(error)) from error
+        if not (math.isfinite(value) and np.isfinite(gradient).all()):
+            raise FailedSimulationError(f"the value of the measure is {value}")
+        return value, gradient if self._box is None else gradient / self._box[1]
+
+    def residuals(self, simulation: Any) -> Array:
+        """Return the differences that the measure squares, or raise FailedSimulationError."""
+        assert self._measured.residuals is not None, "Objective refuses measures without"
+        Q = self._checked(simulation)
+        try:
+            return self._measured.residuals(Q).ravel()
+        except ValueError as error:
+            raise FailedSimulationError(str(error)) from error
+
+    def _checked(self, simulation: Any) -> Array:
+        if simulation is None:
+            raise FailedSimulationError("no simulation")
+        if isinstance(simulation, BaseException):
+            raise FailedSimulationError(f"{type(simulation).__name__}: {simulation}")
+        if np.iscomplexobj(simulation):  # what Python makes of a root of a negative number
+            raise FailedSimulationError("the simulation is complex")
+        Q = as_points(simulation, "Q")
+        # Swapped columns would be scored as if they were not.
+        check_column_names(self._columns, self._name, column_names(simulation), "the simulation")
+        if Q.size == 0:
+            raise FailedSimulationError("the simulation is empty")
+        if Q.shape[1] != self.experiment.shape[1]:
+            raise ValueError(
+                f"a simulation has shape {Q.shape} and its experiment {self.experiment.shape}; "
+                "they must have the same number of coordinates"
+            )
+        if self._box is not None:
+            low, extent = self._box
+            with np.errstate(over="ignore", invalid="ignore"):  # reported by the measure
+                Q = (Q - low) / extent
+        return Q
+
+    def _covered(self, match: PcmMatch) -> float:
+        """Return the value of a match; too short a simulation is FailedSimulationError."""
+        least = 0.0 if self.criterion.part == "simulation" else self.criterion.min_coverage
+        if match.mapped == "Q" and match.coverage < least:
+            raise FailedSimulationError(
+                f"the simulation has {match.coverage:.3g} of the experiment's length, "
+                f"min_coverage is {least:g}"
+            )
+        return match.value
+
+
+class NumberTerm(Term):
+    """A number, of which simulations differ: in units of sigma, or else of the number itself."""
+
+    scale = 1.0
+    residual_count = 1
+    y = 0
+    names = ()
+    has_gradient = can_be_thinned = True
+
+    def _prepare(self, experiment: Any) -> None:
+        self.experiment = np.array(experiment, dtype=np.float64).reshape(1, 1)
+        self._target = float(self.experiment[0, 0])
+        if not math.isfinite(self._target):
+            raise ValueError(f"{self.label.argument}: the experiment is {self._target}")
+        self.height = self.sigma or abs(self._target) or 1.0
+        self.extent = np.array([abs(self._target) or 1.0])
+
+    def value(self, simulation: Any) -> float:
+        """Return the difference, or its square, in units of sigma or of the number."""
+        difference = float(self.residuals(simulation)[0])
+        return difference**2 if self.is_least_squares else abs(difference)
+
+    def value_and_gradient(self, simulation: Any) -> tuple[float, Array]:
+        """Return the value and its derivative by the number."""
+        difference = float(self.residuals(simulation)[0])
+        if self.is_least_squares:
+            return difference**2, np.array([[2.0 * difference / self.height]])
+        return abs(difference), np.array([[np.sign(difference) / self.height]])
+
+    def residuals(self, simulation: Any) -> Array:
+        """Return the difference."""
+        if simulation is None or isinstance(simulation, BaseException):
+            raise FailedSimulationError(str(simulation) if simulation else "no simulation")
+        value = as_points(simulation, "Q")
+        if value.size != 1:
+            raise ValueError(
+                f"a simulation has shape {value.shape} and its experiment is a number; "
+                "give the case a response"
+            )
+        if not np.isfinite(value).all():
+            raise FailedSimulationError(f"the simulation is {value[0, 0]}")
+        return np.array([(float(value[0, 0]) - self._target) / self.height])
+
+
+def _moved_up(curve: Array, y: int) -> Array:
+    """Return the curve, moved along a coordinate by its extent there."""
+    moved = curve.copy()
+    moved[:, y] += np.ptp(moved[:, y]) or 1.0
+    return moved

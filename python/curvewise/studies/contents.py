@@ -1,0 +1,128 @@
+"""All that a study file says, once it is checked, and what of it is asked of a search.
+
+Models, cases and objective are made of it here; `Study` is this, and what can be done with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..calibration import Case, CommandModel, Criterion, Objective, SimulationStore
+from ..calibration.models.command import LOG
+from ..calibration.models.identity import model_identity
+from ..calibration.models.templates import read_templates
+from ..calibration.objective.cases import Cases
+from .measured_tests import MeasuredTest
+from .search_settings import SearchSettings
+from .solver_models import SolverModel
+from .study_model import OutputReader, Picked, StudyModel
+
+__all__ = ["Contents"]
+
+
+@dataclass(frozen=True)
+class Contents:
+    """All that a study file says; see `Study`."""
+
+    path: Path
+    title: str
+    tests: tuple[MeasuredTest, ...]
+    models: Mapping[str, SolverModel]
+    bounds: Mapping[str, Any]
+    search: SearchSettings
+    results: Path
+
+    def identity(self, model: StudyModel) -> str:
+        """Return what the store knows the runs of a model by."""
+        return model_identity(model, self.store.version).text
+
+    @property
+    def store(self) -> SimulationStore:
+        """The runs of the study, with what the file calls the present state of the models."""
+        return SimulationStore(self.search.store, version=self.search.version)
+
+    def study_models(self, kept_in: Path | None = None) -> dict[str, StudyModel]:
+        """Return the models as functions of the parameters.
+
+        Parameters
+        ----------
+        kept_in : Path, optional
+            Where the folders of runs are made and kept, whatever the file says. The folder that
+            is used is made if it is not there.
+        """
+        made = {}
+        for name, entry in self.models.items():
+            sources = tuple(test.output for test in self.tests if test.model == name)
+            scratch = kept_in or entry.scratch
+            if scratch is not None and not scratch.is_dir():
+                scratch.mkdir(parents=True, exist_ok=True)
+            given = [value.name for value in entry.made]
+            command_model = CommandModel(
+                entry.templates,
+                entry.command,
+                OutputReader(sources, entry.success),
+                parameters=_placeholders(entry, (*self.bounds, *given)),
+                timeout=entry.timeout,
+                environment=dict(entry.environment),
+                scratch=scratch,
+                keep=kept_in is not None or entry.keep,
+            )
+            made[name] = StudyModel(command_model, entry.made)
+        return made
+
+    @property
+    def has_cases(self) -> bool:
+        """Whether the tests differ in more than their weights."""
+        own = any(test.own or test.is_number for test in self.tests)
+        return own or len(self.models) > 1
+
+    def cases(self, models: Mapping[str, StudyModel]) -> list[Case]:
+        """Return the tests as cases of an identification."""
+        cases = []
+        for test in self.tests:
+            place = [t.name for t in self.tests if t.model == test.model].index(test.name)
+            settings = {**self.search.comparison, "measure": self.search.measures[0], **test.own}
+            for name in ("failure_value", *(("part", "options") if test.is_number else ())):
+                settings.pop(name, None)
+            sigma = settings.pop("sigma", None)
+            cases.append(
+                Case(
+                    test.name,
+                    models[test.model],
+                    test.experiment,
+                    measure=_criterion(settings),
+                    weight=test.weight,
+                    sigma=sigma,
+                    response=Picked(place, test.is_number),
+                )
+            )
+        return cases
+
+    def objective(self, models: Mapping[str, StudyModel], measure: str) -> Objective:
+        """Return what is minimised."""
+        if self.has_cases:
+            return Cases(self.cases(models)).objective()
+        return Objective([test.experiment for test in self.tests], self.criterion(measure))
+
+    def criterion(self, measure: str) -> Criterion:
+        """Return how all tests are compared by a measure."""
+        weights = [test.weight for test in self.tests]
+        return _criterion({**self.search.comparison, "measure": measure, "weights": weights})
+
+
+def _criterion(settings: Mapping[str, Any]) -> Criterion:
+    """Return a criterion of a file's keys, among which the measure's options are a table."""
+    options = settings.get("options", {})
+    others = {name: value for name, value in settings.items() if name != "options"}
+    return Criterion(**others, **options)
+
+
+def _placeholders(entry: SolverModel, known: tuple[str, ...]) -> list[str]:
+    """Return the names that the templates have placeholders of."""
+    used = {
+        p.name for template in read_templates(entry.templates, LOG) for p in template.placeholders
+    }
+    return [name for name in known if name in used]
