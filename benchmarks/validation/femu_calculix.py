@@ -32,7 +32,7 @@ from matplotlib.figure import Figure
 from places import BUILD, LOOPS, RESULTS
 
 from curvewise import read_curve
-from curvewise.calibration import Identification, identify
+from curvewise.calibration import DifferentialEvolution, Identification, identify
 from curvewise.curves.named_curve import NamedCurve
 
 TESTS = ["dp780_tct_3pct.csv", "dp780_tct_6pct.csv"]
@@ -183,7 +183,7 @@ def fit(
         measure=measure,
         preset="paper",
         method="sdrm",
-        max_evaluations=18 if quick else None,
+        max_runs=18 if quick else None,
         workers=workers,
         history=histories / f"{measure}_{version}.csv",
     )
@@ -231,9 +231,8 @@ def survive_failures(model: CubeModel, tests: Sequence[Array], workers: int) -> 
         tests,
         DIVERGING_BOUNDS,
         preset="paper",
-        method="de",
-        method_options={"popsize": 2},
-        max_evaluations=36,
+        method=DifferentialEvolution(popsize=2),
+        max_runs=36,
         workers=workers,
         callback=start_killing,
     )

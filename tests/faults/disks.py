@@ -23,7 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
-from curvewise.calibration import Identification, SimulationStore, identify
+from curvewise.calibration import SDRM, Identification, SimulationStore, identify
 
 # Leaves a folder's files so many bytes.
 Full = Callable[[Path, int], AbstractContextManager[None]]
@@ -43,10 +43,7 @@ class Line:
 
 def search(model: Line, **where: Path) -> Identification:
     experiment = Line()({"a": 2.0, "b": 1.0})
-    options = {"maxiter": 8}
-    return identify(
-        model, experiment, BOUNDS, method="sdrm", method_options=options, progress=False, **where
-    )
+    return identify(model, experiment, BOUNDS, method=SDRM(maxiter=8), progress=False, **where)
 
 
 @contextmanager

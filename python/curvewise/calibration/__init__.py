@@ -14,6 +14,11 @@ from .cross_validation import CrossValidation, Fold, cross_validate
 from .identify import identify
 from .identify_each import identify_each
 from .line_plot import LinePlot, line_plot
+from .methods.differential_evolution import DifferentialEvolution
+from .methods.domain_reduction import SDRM
+from .methods.least_squares import LeastSquares
+from .methods.simplex import NelderMead
+from .methods.trust_region import TrustRegion
 from .models.command import CommandModel, SolverError
 from .objective.cases import Case
 from .objective.objective import MEASURES, Objective, Score
@@ -25,14 +30,18 @@ from .uncertainty.uncertainty import Uncertainty
 
 __all__ = [
     "MEASURES",
+    "SDRM",
     "Below",
     "Case",
     "CommandModel",
     "CrossValidation",
+    "DifferentialEvolution",
     "Fold",
     "Identification",
+    "LeastSquares",
     "LinePlot",
     "Log",
+    "NelderMead",
     "Objective",
     "Progress",
     "Rescored",
@@ -42,6 +51,7 @@ __all__ = [
     "SolverError",
     "StoredRun",
     "Tied",
+    "TrustRegion",
     "Uncertainty",
     "cross_validate",
     "identify",

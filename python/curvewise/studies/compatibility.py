@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..calibration.methods.search import Plan
+from ..calibration.methods.registry import method_of
 from .study_model import StudyModel
 from .toml_source import KeyPath, Source
 
@@ -45,29 +45,18 @@ def check_together(study: Study, source: Source) -> None:
     except (OSError, ValueError) as error:
         source.problem(("model",) if "" in study.models else ("models",), str(error))
         return
-    settings = study.search.search
+    method = method_of(study.search.search.get("method", "auto"))
     for measure in study.search.measures:
         key = "measures" if len(study.search.measures) > 1 else "measure"
         try:
             study.objective(models, measure)
         except (TypeError, ValueError) as error:
             _place_objective_error(study, source, key, str(error))
-        plan = Plan(
-            method=settings.get("method", "trust-region"),
-            method_options=settings.get("method_options", {}),
-            seed=0,
-            start=None,
-            progress=False,
-            callback=None,
-            history=None,
-            max_evaluations=settings.get("max_evaluations"),
-        )
         try:
             # Of cases, identify knows no common measure that is a sum of squares.
-            plan.check("area" if study.has_cases else measure)
+            method.check("area" if study.has_cases else measure)
         except ValueError as error:
-            where = "method_options" if "option" in str(error) else "method"
-            source.problem(("search", where), f"does not go together: {error}")
+            source.problem(("search", "method"), f"does not go together: {error}")
 
 
 def _place_objective_error(study: Study, source: Source, key: str, message: str) -> None:

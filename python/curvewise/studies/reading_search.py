@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from ..calibration import MEASURES
-from ..calibration.methods.registry import METHODS
+from ..calibration.methods.method import Method
+from ..calibration.methods.registry import METHODS, method_with
 from ..measures.registry import PRESETS
 from . import keys
 from .entries import SearchEntry
@@ -36,11 +37,10 @@ def read_search(
         "options": (keys.mapping, None),
     }
     search: dict[str, tuple[Callable[[Any], Any], Any]] = {
-        "method": (keys.choice(tuple(METHODS)), None),
-        "method_options": (keys.mapping, None),
+        "method": (_method, None),
         "seed": (keys.whole, None),
         "workers": (_workers, None),
-        "max_evaluations": (keys.at_least(1), None),
+        "max_runs": (keys.at_least(1), None),
         "version": (keys.text, None),
     }
     chosen = {key: table.take(key, *rest) for key, rest in {**objective, **search}.items()}
@@ -60,6 +60,16 @@ def read_search(
         path,
         uncertainty,
     )
+
+
+def _method(value: Any) -> Method:
+    """Read a method: its name, or a table of its name and options."""
+    if not isinstance(value, Mapping):
+        return METHODS[keys.choice(tuple(METHODS))(value)]
+    try:
+        return method_with(value)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"cannot be: {error}") from None
 
 
 def _measures(value: Any) -> tuple[str, ...]:

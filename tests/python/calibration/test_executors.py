@@ -12,9 +12,9 @@ import pytest
 from test_history import assert_same
 from test_identify import BOUNDS, EXPERIMENT, fragile_line, line
 
-from curvewise.calibration import identify
+from curvewise.calibration import SDRM, identify
 
-KEYWORDS = {"method": "sdrm", "progress": False, "method_options": {"maxiter": 3}}
+KEYWORDS = {"method": SDRM(maxiter=3), "progress": False}
 
 
 def deadly(parameters):

@@ -13,17 +13,13 @@ import time
 import numpy as np
 import pytest
 
-from curvewise.calibration import identify
+from curvewise.calibration import SDRM, DifferentialEvolution, identify
 from curvewise.calibration.records.evaluation import Evaluation
 from curvewise.calibration.records.history import History, append_ending, read_history
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
-QUICK = {
-    "method": "sdrm+de",
-    "progress": False,
-    "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}},
-}
+QUICK = {"method": DifferentialEvolution(maxiter=3, after=SDRM(maxiter=3)), "progress": False}
 
 
 def line(parameters):
@@ -54,11 +50,11 @@ def assert_same(one, other):
 
 
 @pytest.mark.parametrize("workers", [1, 2])
-@pytest.mark.parametrize("method", ["sdrm+de", "trust-region", "least_squares", "nelder-mead"])
+@pytest.mark.parametrize("method", ["sdrm+de", "trust-region", "least-squares", "nelder-mead"])
 def test_a_finished_search_is_replayed_from_its_file(tmp_path, method, workers):
     keywords = {"measure": "curve_length", "method": method, "progress": False}
     if method == "sdrm+de":
-        keywords["method_options"] = QUICK["method_options"]
+        keywords["method"] = QUICK["method"]
     file = tmp_path / "history.csv"
     first = identify(fragile_line, EXPERIMENT, BOUNDS, history=file, workers=workers, **keywords)
     text = file.read_bytes()
@@ -87,12 +83,12 @@ def test_history_file_can_be_read_by_pandas(tmp_path):
     assert "ValueError: too steep" in set(table.message)
 
 
-@pytest.mark.parametrize("method", ["sdrm+de", "least_squares"])
+@pytest.mark.parametrize("method", ["sdrm+de", "least-squares"])
 @pytest.mark.parametrize("cut", [0, 1, 30])
 def test_half_a_line_at_the_end_is_cut_off(tmp_path, method, cut):
     keywords = {"measure": "curve_length", "method": method, "progress": False}
     if method == "sdrm+de":
-        keywords["method_options"] = QUICK["method_options"]
+        keywords["method"] = QUICK["method"]
     file = tmp_path / "history.csv"
     whole = identify(line, EXPERIMENT, BOUNDS, history=file, **keywords)
     lines = file.read_bytes().splitlines(keepends=True)
@@ -195,7 +191,7 @@ def read_back(file, settings, names):
 SLOW_SCRIPT = """
     import signal, sys, time
     import numpy as np
-    from curvewise.calibration import identify
+    from curvewise.calibration import SDRM, DifferentialEvolution, identify
 
     X = np.linspace(0.0, 1.0, 25)
 
@@ -208,9 +204,8 @@ SLOW_SCRIPT = """
         try:
             identify(
                 line, line({"a": 2.0, "b": 1.0}), {"a": (0.0, 10.0), "b": (-5.0, 5.0)},
-                workers=int(sys.argv[1]), history=sys.argv[2], method="sdrm+de", method_options={
-                    "sdrm": {"maxiter": 3}, "de": {"maxiter": 3}
-                },
+                workers=int(sys.argv[1]), history=sys.argv[2],
+                method=DifferentialEvolution(maxiter=3, after=SDRM(maxiter=3)),
             )
         except KeyboardInterrupt:
             sys.exit(42)

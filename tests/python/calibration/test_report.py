@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from curvewise.calibration import Case, Log, Tied, identify, identify_each
+from curvewise.calibration import SDRM, Case, Log, Tied, identify, identify_each
 from curvewise.calibration.report import figures, page, records_of
 from curvewise.calibration.report.branches import branches_of
 from curvewise.calibration.report.repeating import code_to_repeat
@@ -171,8 +171,8 @@ def test_a_result_is_not_lost_where_its_history_is(tmp_path, caplog):
 
 def test_several_searches_of_a_store_on_one_page(tmp_path, capsys):
     # A single design over all of the bounds leaves no runs near the optimum: no intervals.
-    keywords = {"method": "sdrm", "preset": "raw", "progress": False, "max_evaluations": 5}
-    keywords["method_options"] = {"initial_range": 1.0}
+    keywords = {"preset": "raw", "progress": False, "max_runs": 5}
+    keywords["method"] = SDRM(initial_range=1.0)
     store = str(tmp_path / "s.db")
     bounds = {"a": (0.5, 8.0), "b": (0.1, 10.0)}
     each = identify_each(

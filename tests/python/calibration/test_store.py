@@ -16,7 +16,9 @@ import pytest
 from test_history import assert_same
 
 from curvewise.calibration import (
+    SDRM,
     CommandModel,
+    DifferentialEvolution,
     Objective,
     SimulationStore,
     cross_validate,
@@ -28,13 +30,9 @@ from curvewise.calibration.records.evaluation import Evaluation
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
-QUICK = {
-    "method": "sdrm+de",
-    "progress": False,
-    "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}},
-}
-SDRM = {"progress": False, "method": "sdrm", "method_options": {"maxiter": 3}}
-LONG = {"progress": False, "method": "sdrm", "method_options": {"maxiter": 8}}
+QUICK = {"method": DifferentialEvolution(maxiter=3, after=SDRM(maxiter=3)), "progress": False}
+SHORT = {"progress": False, "method": SDRM(maxiter=3)}
+LONG = {"progress": False, "method": SDRM(maxiter=8)}
 
 
 def line(parameters):
@@ -76,13 +74,13 @@ def test_a_finished_search_runs_nothing_again(tmp_path):
 def test_runs_are_shared_by_measures_methods_and_weights(tmp_path):
     """The first region is the same for all: five runs of it are made once."""
     counted = Counted(line)
-    keywords = {**SDRM, "method_options": {"maxiter": 1}, "store": tmp_path / "s.db"}
+    keywords = {"progress": False, "method": SDRM(maxiter=1), "store": tmp_path / "s.db"}
     identify(counted, EXPERIMENT, BOUNDS, measure="area", **keywords)
     assert counted.runs == 5
     identify(counted, EXPERIMENT, BOUNDS, measure="dtw", weights=[3.0], **keywords)
     assert counted.runs == 5
-    keywords["method_options"] = {"sdrm": {"maxiter": 1}, "de": {"maxiter": 1, "popsize": 4}}
-    identify(counted, EXPERIMENT, BOUNDS, **keywords | {"method": "sdrm+de"})
+    keywords["method"] = DifferentialEvolution(maxiter=1, popsize=4, after=SDRM(maxiter=1))
+    identify(counted, EXPERIMENT, BOUNDS, **keywords)
     assert counted.runs > 5
     with SimulationStore(tmp_path / "s.db") as store:
         assert len(store) == counted.runs
@@ -96,7 +94,7 @@ def test_workers_fill_the_store_too(tmp_path):
 
 def test_rescore_runs_nothing_and_gives_the_objective(tmp_path):
     counted = Counted(fragile_line)
-    found = identify(counted, EXPERIMENT, BOUNDS, store=tmp_path / "s.db", **SDRM)
+    found = identify(counted, EXPERIMENT, BOUNDS, store=tmp_path / "s.db", **SHORT)
     runs = counted.runs
     again = rescore(tmp_path / "s.db", EXPERIMENT, "dtw", weights=[2.0], metric="cityblock")
     assert counted.runs == runs
@@ -115,7 +113,7 @@ def test_rescore_wants_to_know_which_model(tmp_path):
     with pytest.raises(FileNotFoundError, match="there is no store"):
         rescore(file, EXPERIMENT)
     for version in ("1", "2"):
-        identify(line, EXPERIMENT, BOUNDS, store=file, version=version, **SDRM)
+        identify(line, EXPERIMENT, BOUNDS, store=file, version=version, **SHORT)
     with pytest.raises(ValueError, match=r"runs of 2 models \(line, version 1; line, version 2\)"):
         rescore(file, EXPERIMENT)
     with pytest.raises(ValueError, match="has no runs of line, version 3; it has those of: line"):
@@ -144,7 +142,7 @@ def command_model(folder, slope="<<a>>", read=read_curve, **keywords):
 def test_an_edited_template_is_another_model(tmp_path):
     """And so are another command, environment and reading function."""
     file = tmp_path / "s.db"
-    keywords = {"method": "nelder-mead", "progress": False, "max_evaluations": 2, "store": file}
+    keywords = {"method": "nelder-mead", "progress": False, "max_runs": 2, "store": file}
     one = identify(command_model(tmp_path), EXPERIMENT, BOUNDS, **keywords)
     with SimulationStore(file) as store:
         assert len(store) == 2
@@ -173,7 +171,7 @@ def test_an_edited_template_is_another_model(tmp_path):
 
 
 def test_a_history_of_an_edited_template_is_refused(tmp_path):
-    keywords = {"method": "nelder-mead", "progress": False, "max_evaluations": 2}
+    keywords = {"method": "nelder-mead", "progress": False, "max_runs": 2}
     keywords["history"] = tmp_path / "h.csv"
     identify(command_model(tmp_path), EXPERIMENT, BOUNDS, **keywords)
     identify(command_model(tmp_path), EXPERIMENT, BOUNDS, **keywords)
@@ -189,7 +187,7 @@ def with_source(source):
 
 
 def test_a_function_needs_a_version_and_keeps_to_it(tmp_path):
-    keywords = {**SDRM, "store": tmp_path / "s.db"}
+    keywords = {**SHORT, "store": tmp_path / "s.db"}
     with pytest.raises(ValueError, match="which state of line its runs are of; give version='1'"):
         identify(line, EXPERIMENT, BOUNDS, **keywords)
     with pytest.raises(ValueError, match="version is 2; give a text"):
@@ -209,7 +207,7 @@ def test_the_data_of_a_model_count(tmp_path):
     def scaled(factor, parameters):
         return factor * line(parameters)
 
-    keywords = {**SDRM, "store": tmp_path / "s.db", "version": "1"}
+    keywords = {**SHORT, "store": tmp_path / "s.db", "version": "1"}
     for factor in (np.array([1.0, 1.0]), np.array([1.0, 1.0])):
         identify(functools.partial(scaled, factor), EXPERIMENT, BOUNDS, **keywords)
     with pytest.raises(ValueError, match=r"partial of .*scaled, version 1, whose code or data"):
@@ -237,7 +235,7 @@ def model(p):
 def other():
     return 1
 """
-    keywords = {**SDRM, "store": tmp_path / "s.db", "version": "1"}
+    keywords = {**SHORT, "store": tmp_path / "s.db", "version": "1"}
     identify(in_module(source), EXPERIMENT, BOUNDS, **keywords)
     for same in (source, source.replace("return 1", "return 2")):
         identify(in_module(same), EXPERIMENT, BOUNDS, **keywords)
@@ -259,7 +257,7 @@ def test_what_a_version_is_for(tmp_path, recwarn):
 
         return model
 
-    keywords = {**SDRM, "store": tmp_path / "s.db"}
+    keywords = {**SHORT, "store": tmp_path / "s.db"}
     first = identify(made({"factor": 1.0}), EXPERIMENT, BOUNDS, version="1", **keywords)
     stale = identify(made({"factor": 0.5}), EXPERIMENT, BOUNDS, version="1", **keywords)
     fresh = identify(made({"factor": 0.5}), EXPERIMENT, BOUNDS, version="2", **keywords)
@@ -278,11 +276,11 @@ def test_folds_of_a_cross_validation_share_runs(tmp_path):
 
     counted = Counted(loops)
     experiments = loops({"a": 2.0, "b": 1.0})
-    keywords = {**SDRM, "store": tmp_path / "s.db"}
+    keywords = {**SHORT, "store": tmp_path / "s.db"}
     shared = cross_validate(counted, experiments, BOUNDS, **keywords)
     asked = sum(fold.identification.evaluations for fold in shared.folds)
     assert counted.runs <= asked - 2 * 5  # the first region of every fold is the same
-    alone = cross_validate(loops, experiments, BOUNDS, **SDRM)
+    alone = cross_validate(loops, experiments, BOUNDS, **SHORT)
     assert str(shared) == str(alone)
 
 
@@ -290,7 +288,7 @@ def test_the_history_beside_a_store_is_a_table(tmp_path):
     import pandas as pd
 
     counted = Counted(line)
-    keywords = {**SDRM, "store": tmp_path / "s.db", "history": tmp_path / "h.csv"}
+    keywords = {**SHORT, "store": tmp_path / "s.db", "history": tmp_path / "h.csv"}
     found = identify(counted, EXPERIMENT, BOUNDS, **keywords)
     table = pd.read_csv(tmp_path / "h.csv", comment="#")
     assert table.value.to_numpy() == pytest.approx(found.history.value, rel=1e-15)
@@ -307,7 +305,7 @@ def test_the_history_beside_a_store_is_a_table(tmp_path):
 
 def test_failures_are_kept_until_they_are_forgotten(tmp_path):
     counted = Counted(fragile_line)
-    keywords = {**SDRM, "store": tmp_path / "s.db"}
+    keywords = {**SHORT, "store": tmp_path / "s.db"}
     found = identify(counted, EXPERIMENT, BOUNDS, **keywords)
     raised = [message for _, message in found.failures if "too steep" in message]
     assert raised

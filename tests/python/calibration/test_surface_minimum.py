@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvewise.calibration.objective.objective.cases import CaseObjective
-from curvewise.calibration.surfaces.surfaces.nonsmooth_descent import nonsmooth_descent
-from curvewise.calibration.surfaces.surfaces.surface_minimum import SurfaceMinimum
-from curvewise.calibration.surfaces.surfaces.surfaces import Responses, Surfaces, thinned_rows
 
 from curvewise.calibration import Case, Objective, identify
+from curvewise.calibration.objective.cases import CaseObjective
+from curvewise.calibration.surfaces.nonsmooth_descent import nonsmooth_descent
+from curvewise.calibration.surfaces.surface_minimum import SurfaceMinimum
+from curvewise.calibration.surfaces.surfaces import Responses, Surfaces, thinned_rows
 
 X = np.linspace(0.0, 1.0, 31)
 TEST = np.column_stack((X, np.sin(3.0 * X)))
@@ -142,7 +142,7 @@ def test_the_minimum_on_surfaces_of_thousands_of_points(measure):
         lambda: calls.append(1),
     )
     exact = []
-    minimum._exact._thinking = lambda: exact.append(1)
+    minimum._exact._show_activity = lambda: exact.append(1)
     box = (np.zeros(2), np.ones(2))
     best = minimum.lowest(surfaces, surfaces.centre, box)
     if measure != "sum_of_squares":  # which costs little, and asks for every point

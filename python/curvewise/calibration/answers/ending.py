@@ -77,7 +77,8 @@ def _ending(found: Identification) -> Ending:
     if not _has_curves(found) or found.uncertainty_runs:
         return ending
     unit = found.problem.space.unit_of(found.parameters)
-    slopes = optimum_surfaces(found.problem, unit, found.simulations, found.kept).surfaces.slopes
+    runs = found.runs_with_curves
+    slopes = optimum_surfaces(found.problem, unit, found.simulations, runs).surfaces.slopes
     if slopes.size > _MOST_SLOPES:
         return ending
     return replace(ending, unit=unit, slopes=slopes)

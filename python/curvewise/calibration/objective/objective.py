@@ -43,6 +43,10 @@ LEAST_SQUARES = (
     "sum_of_squares",
 )
 
+# A fraction of the value of simulations that are wrong by their loops' heights. The smallest value
+# of an objective is 0, for a perfect model, so no tolerance relative to it alone is ever met.
+_NEGLIGIBLE = 1e-7
+
 # A failed loop has this many times the value of a simulation that is wrong by the loop's height.
 _FAILURE = 1e6
 
@@ -308,6 +312,11 @@ class Objective(Loops):
                 part = np.full(loop.residual_count, math.sqrt(total / loop.residual_count))
             parts.append(math.sqrt(self.weights[i]) * part)
         return np.concatenate(parts)
+
+    @property
+    def negligible(self) -> float:
+        """Differences of the value below this do not count."""
+        return _NEGLIGIBLE * float(self.weights @ self.scales)
 
     @property
     def is_least_squares(self) -> bool:

@@ -17,7 +17,7 @@ from .problem import Problem
 __all__ = ["details_of"]
 
 
-def details_of(problem: Problem, max_evaluations: int | None) -> dict[str, Any]:
+def details_of(problem: Problem, max_runs: int | None) -> dict[str, Any]:
     """Return what a report needs beside the settings of a search; JSON can hold it.
 
     Tests with the names of their columns and of the loops, the parameters searched for, the cases,
@@ -34,7 +34,7 @@ def details_of(problem: Problem, max_evaluations: int | None) -> dict[str, Any]:
         "has_function": _has_function(objective),
         "cases": _cases(objective),
         "model": problem.identities() or [qualified_name(model) for model in problem.models],
-        "max_evaluations": max_evaluations,
+        "max_runs": max_runs,
         "versions": _versions(),
     }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from ..records.search_record import SearchRecord
@@ -11,8 +12,7 @@ __all__ = ["code_to_repeat"]
 _DEFAULTS: dict[str, Any] = {
     "min_coverage": 0.5,
     "start": None,
-    "method_options": {},
-    "max_evaluations": None,
+    "max_runs": None,
 }
 
 
@@ -23,8 +23,10 @@ def code_to_repeat(record: SearchRecord) -> str:
     that follow from others by a function stand as comments.
     """
     settings, details = record.settings, record.details
+    method = settings["method_call"]
+    names = ["Below", "Case", "Log", *re.findall(r"\b[A-Z]\w+(?=\()", method), "identify"]
     lines = [
-        "from curvewise.calibration import Below, Case, Log, identify",
+        f"from curvewise.calibration import {', '.join(names)}",
         "",
         "found = identify(",
     ]
@@ -41,12 +43,13 @@ def code_to_repeat(record: SearchRecord) -> str:
         if set(settings["weights"]) != {1.0}:
             keywords["weights"] = settings["weights"]
         keywords |= settings["options"]
-    keywords |= {name: settings[name] for name in ("method", "seed")}
+    keywords["seed"] = settings["seed"]
     for name, default in _DEFAULTS.items():
         value = settings[name] if name in settings else details[name]
         if value != default and not (details["cases"] and name == "min_coverage"):
             keywords[name] = value
     lines += [f"    {name}={value!r}," for name, value in keywords.items()]
+    lines.append(f"    method={method},")
     return "\n".join([*lines, ")"])
 
 
