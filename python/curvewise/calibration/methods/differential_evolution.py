@@ -13,7 +13,6 @@ optimization over continuous spaces", J. Global Optimization 11 (1997) 341-359.
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -23,7 +22,7 @@ import numpy as np
 from ..._extras import required
 from ...curves.inputs import Array
 from ..problem.evaluations import Evaluations, Finish
-from .method import Method, check_passed_on
+from .method import Method, check_passed_on, taken_by_scipy
 
 __all__ = ["DifferentialEvolution"]
 
@@ -86,9 +85,8 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
                     "give either stall or callback to 'de': stall is a callback itself"
                 )
         if self.options:
-            parameters = inspect.signature(required("scipy.optimize").differential_evolution)
-            passed_on = [name for name in parameters.parameters if name not in _SET_HERE]
-            check_passed_on(self, self.options, passed_on)
+            known = taken_by_scipy("differential_evolution", _SET_HERE)
+            check_passed_on(self, self.options, known)
 
     def __str__(self) -> str:
         return self.name if self.after is None else f"{self.after}+{self.name}"
@@ -116,7 +114,7 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
         function = required("scipy.optimize").differential_evolution
         stalled = None if self.stall is None else _Stall(evaluations, *self.stall)
         # scipy 1.15 renamed `seed`; a Generator means the same under both names.
-        seed_name = "rng" if "rng" in inspect.signature(function).parameters else "seed"
+        seed_name = "rng" if "rng" in taken_by_scipy("differential_evolution", ()) else "seed"
         settings = {
             "x0": start,
             "popsize": self.popsize,

@@ -9,7 +9,6 @@ large-scale bound-constrained minimization problems", SIAM J. Sci. Comput. 21 (1
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -19,7 +18,7 @@ import numpy as np
 from ..._extras import required
 from ...curves.inputs import Array
 from ..problem.evaluations import Evaluations, Finish
-from .method import Method, check_passed_on
+from .method import Method, check_passed_on, taken_by_scipy
 
 __all__ = ["LeastSquares"]
 
@@ -73,9 +72,7 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
                 f"diff_step is {self.diff_step}; give a fraction of the bounds, such as 1e-3"
             )
         if self.options:
-            parameters = inspect.signature(required("scipy.optimize").least_squares).parameters
-            passed_on = [name for name in parameters if name not in _SET_HERE]
-            check_passed_on(self, self.options, passed_on)
+            check_passed_on(self, self.options, taken_by_scipy("least_squares", _SET_HERE))
 
     def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
         """Return the runs of two derivatives and of a step between them."""

@@ -7,11 +7,15 @@ one of the record's keywords, and an object of a class that leaves out one of it
 
 from __future__ import annotations
 
+import inspect
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import MISSING, dataclass, fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar, TypeVar
 
+import numpy as np
+
+from ..._extras import required
 from ..._names import meant
 from ...curves.inputs import Array
 from ..objective.loop_measure import Measure
@@ -20,10 +24,10 @@ from ..problem.evaluations import Evaluations, Finish
 
 __all__ = [
     "Method",
-    "check_fractions",
     "check_passed_on",
     "options_of",
     "refuse_unknown",
+    "taken_by_scipy",
     "with_other_defaults",
 ]
 
@@ -105,17 +109,15 @@ def options_of(method: Method) -> list[str]:
 
 def _changed(method: Method) -> list[str]:
     """Return which options are not what they are by default."""
-    changed = []
-    for field in fields(method):
-        default = {} if field.default is MISSING else field.default
-        if getattr(method, field.name) != default:
-            changed.append(field.name)
-    return changed
+    plain = type(method)()
+    return [name for name in options_of(method) if getattr(method, name) != getattr(plain, name)]
 
 
 def _code(value: Any) -> str:
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{key!r}: {_code(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, np.ndarray):  # whose own text leaves out the middle
+        value = value.tolist()
     return str(getattr(value, "__qualname__", None) or repr(value))
 
 
@@ -128,19 +130,17 @@ def refuse_unknown(method: str, given: Iterable[str], known: Collection[str]) ->
         )
 
 
-def check_passed_on(method: Method, given: Mapping[str, Any], known: Iterable[str]) -> None:
+def check_passed_on(method: Method, options: Mapping[str, Any], known: Iterable[str]) -> None:
     """Refuse what the library that a method passes options on to does not have."""
-    own = options_of(method)
-    if misplaced := [name for name in own if name in given]:
+    own = [name for name in options_of(method) if name != "options"]
+    if misplaced := [name for name in own if name in options]:
         raise ValueError(
             f"options has {', '.join(misplaced)}; give it to {type(method).__name__} itself"
         )
-    refuse_unknown(method.name, given, [*(n for n in own if n != "options"), *known])
+    refuse_unknown(method.name, options, [*own, *known])
 
 
-def check_fractions(method: Method, *names: str) -> None:
-    """Refuse options that are not fractions of the bounds' range."""
-    for name in names:
-        value = getattr(method, name)
-        if value is not None and not 0.0 < value <= 1.0:
-            raise ValueError(f"{name} is {value}; give a fraction of the bounds, such as 0.02")
+def taken_by_scipy(function: str, but: Collection[str]) -> list[str]:
+    """Return the names of the parameters of a function of scipy.optimize, except for some."""
+    parameters = inspect.signature(getattr(required("scipy.optimize"), function)).parameters
+    return [name for name in parameters if name not in but]

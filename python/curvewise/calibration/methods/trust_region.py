@@ -35,7 +35,7 @@ from ..records.evaluation import Evaluation
 from ..surfaces.nearby_runs import NearbyRuns, Run, narrowest, runs_near
 from ..surfaces.surface_minimum import SurfaceMinimum
 from ..surfaces.surfaces import Responses, Surfaces
-from .method import Method, check_fractions, with_other_defaults
+from .method import Method, with_other_defaults
 
 __all__ = ["TrustRegion"]
 
@@ -116,7 +116,9 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
             raise ValueError(
                 f"slopes is {self.slopes!r}; choose from {', '.join(get_args(Slopes))}"
             )
-        check_fractions(self, "initial_range", "diff_step")
+        for name, value in (("initial_range", self.first_radius), ("diff_step", self.diff_step)):
+            if not 0.0 < value <= 1.0:
+                raise ValueError(f"{name} is {value}; give a fraction of the bounds, such as 0.02")
         if self.starts < 1:
             raise ValueError(f"starts is {self.starts}; give at least 1")
 
