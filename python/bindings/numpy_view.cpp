@@ -12,7 +12,7 @@ CurveView view(const CurveArray& array) {
 }
 
 void warn_if_transposed(const CurveArray& P) {
-    py::module_::import("curvewise._curves").attr("warn_if_transposed")(P, "P");
+    py::module_::import("curvewise.curves.inputs").attr("warn_if_transposed")(P, "P");
 }
 
 }  // namespace curvewise::bindings

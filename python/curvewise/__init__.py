@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from . import _environment as _environment  # looks before the compiled module is loaded
 
 # isort: split
-from . import curves, datasets
+from . import curves, datasets, measures
 from ._core import build_info as _build_info
 from .comparing.comparison import Comparison, compare
 from .files.curve_files import read_curve
@@ -21,30 +21,7 @@ from .many.averages import dtw_mean, medoid
 from .many.nearest import Index
 from .many.pairwise import Prepared, available_measures, cdist, pdist
 from .many.subsequences import subsequence
-from .measures import (
-    area,
-    area_quads,
-    curve_length,
-    curve_length_residuals,
-    dtw,
-    dtw_info,
-    dtw_path,
-    dtw_table,
-    frechet,
-    frechet_continuous,
-    frechet_continuous_path,
-    frechet_info,
-    frechet_path,
-    frechet_table,
-    frechet_within,
-    mae,
-    mse,
-    normalize,
-    pcm,
-    pcm_match,
-    sum_of_squares,
-    value_and_gradient,
-)
+from .measures import *  # noqa: F403  # the names that measures/__init__ lists
 from .measures.results import (
     Alignment,
     AreaQuads,
@@ -67,6 +44,7 @@ if TYPE_CHECKING:
     from . import studies as studies
 
 __all__ = [
+    *measures.__all__,
     "Alignment",
     "AreaQuads",
     "Comparison",
@@ -78,39 +56,17 @@ __all__ = [
     "Subsequence",
     "WarpingInfo",
     "__version__",
-    "area",
-    "area_quads",
     "available_measures",
     "cdist",
     "compare",
-    "curve_length",
-    "curve_length_residuals",
     "curves",
     "datasets",
-    "dtw",
-    "dtw_info",
     "dtw_mean",
-    "dtw_path",
-    "dtw_table",
-    "frechet",
-    "frechet_continuous",
-    "frechet_continuous_path",
-    "frechet_info",
-    "frechet_path",
-    "frechet_table",
-    "frechet_within",
-    "mae",
     "medoid",
-    "mse",
-    "normalize",
-    "pcm",
-    "pcm_match",
     "pdist",
     "read_curve",
     "reference",
     "subsequence",
-    "sum_of_squares",
-    "value_and_gradient",
 ]
 
 _LAZY = (

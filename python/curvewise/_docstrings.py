@@ -12,7 +12,8 @@ import inspect
 from collections.abc import Callable, Iterable
 from typing import Any, TypeVar, get_args
 
-from ._options import MeasureName, Metric
+from ._core import measures
+from ._options import Metric
 
 __all__ = ["filled", "inherit", "listed"]
 
@@ -25,7 +26,7 @@ def listed(names: Iterable[str]) -> str:
 
 
 _SHARED = {
-    "measures": listed(get_args(MeasureName)),
+    "measures": listed(measures()),
     "metric": f"""\
 metric : {listed(get_args(Metric))}
     The ground distance between points.""",

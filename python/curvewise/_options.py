@@ -16,7 +16,6 @@ __all__ = [
     "Default",
     "Differentiable",
     "LengthScale",
-    "MeasureName",
     "Metric",
     "Offsets",
     "Order",
@@ -28,9 +27,6 @@ __all__ = [
     "check_choice",
 ]
 
-MeasureName: TypeAlias = Literal[
-    "area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous"
-]
 Differentiable: TypeAlias = Literal["area", "curve_length", "dtw", "frechet", "sum_of_squares"]
 WarpingName: TypeAlias = Literal["dtw", "frechet"]
 Preset: TypeAlias = Literal["scaled", "paper", "raw"]

@@ -14,10 +14,11 @@ import numpy as np
 import numpy.typing as npt
 
 from ._extras import extra
-from ._options import Default, MeasureName
+from ._options import Default
 from .curves.inputs import Array
 from .many.nearest import Index, Places
 from .many.pairwise import Curves
+from .measures.registry import MeasureName
 
 with extra("sklearn", "curvewise.sklearn needs scikit-learn >= 1.6"):
     # Absolute, so these are the packages of that name and not this module. They have no types.

@@ -17,8 +17,9 @@ from typing import Any, cast, get_args
 import numpy as np
 import numpy.typing as npt
 
+from .._options import Metric
 from ..curves.inputs import Array, CurveLike, as_curve
-from ..measures import Metric, dtw_table, frechet
+from ..measures import dtw_table, frechet
 from ._arrays import RealArray
 
 __all__ = ["dtw", "dtw_path", "frechet_dist"]

@@ -23,11 +23,11 @@ import numpy.typing as npt
 
 from .._core import check_batch, is_symmetric
 from .._extras import extra
-from .._options import MeasureName
 from ..curves.inputs import Array, as_curve_list, copy_of
 from ..many import pairwise
 from ..many.nearest import Index, _whole_number
 from ..many.pairwise import Curves, Measure
+from ..measures.registry import MeasureName
 from .cancelled import watch
 
 with extra("dask", "curvewise.dask needs dask"):

@@ -14,9 +14,10 @@ import numpy.typing as npt
 from .._core import check_batch, is_symmetric
 from .._core import dtw_mean as compiled_dtw_mean
 from .._docstrings import filled
-from .._options import Default, MeasureName, Window
+from .._options import Default, Window
 from .._progress import Report, reporting
 from ..curves.inputs import Array, CurveLike, as_curve, as_curve_list
+from ..measures.registry import MeasureName
 from ..measures.results import DtwMean
 from .pairwise import Curves, _check_names, cdist
 

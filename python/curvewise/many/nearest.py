@@ -18,9 +18,10 @@ import numpy.typing as npt
 from .._core import Index as CompiledIndex
 from .._docstrings import filled
 from .._extras import extra
-from .._options import Default, MeasureName
+from .._options import Default
 from .._progress import Report, reporting
 from ..curves.inputs import Array, as_curve_list
+from ..measures.registry import MeasureName
 from .pairwise import Curves, _check_names
 
 __all__ = ["Index"]

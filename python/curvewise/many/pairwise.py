@@ -18,7 +18,7 @@ from .._core import cdist as compiled_cdist
 from .._core import is_symmetric
 from .._core import pdist as compiled_pdist
 from .._docstrings import filled, listed
-from .._options import Default, MeasureName, Metric
+from .._options import Default, Metric
 from .._progress import Report, reporting
 from ..curves.foreign_curves import is_curve_of_another_package
 from ..curves.inputs import (
@@ -31,7 +31,7 @@ from ..curves.inputs import (
     copy_of,
     warn_if_transposed,
 )
-from ..measures.registry import MEASURES
+from ..measures.registry import MEASURES, MeasureName
 
 __all__ = ["Curves", "Measure", "Prepared", "available_measures", "cdist", "pdist"]
 

@@ -13,7 +13,6 @@ material parameters from hysteresis loops using inverse analysis", Int. J. Mater
 
 from __future__ import annotations
 
-from .._options import Crossing, LengthScale, Metric, Order, Spacing, StepPattern
 from .area import area, area_quads
 from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_info, dtw_path, dtw_table
@@ -24,12 +23,6 @@ from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, normalize, sum_of_squares
 
 __all__ = [
-    "Crossing",
-    "LengthScale",
-    "Metric",
-    "Order",
-    "Spacing",
-    "StepPattern",
     "area",
     "area_quads",
     "curve_length",

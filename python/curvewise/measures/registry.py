@@ -8,10 +8,9 @@ and its reference, are named and not imported, so that ``import curvewise`` stay
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 from .._core import presets
-from .._options import MeasureName
 from ..curves.inputs import Array
 from .area import area
 from .curve_length import curve_length, curve_length_residuals
@@ -27,8 +26,14 @@ __all__ = [
     "WARPINGS",
     "Condition",
     "MeasureInfo",
+    "MeasureName",
     "Warping",
     "default_measures",
+]
+
+
+MeasureName: TypeAlias = Literal[
+    "area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous"
 ]
 
 

@@ -21,41 +21,25 @@ material parameters from hysteresis loops using inverse analysis", Int. J. Mater
 
 from __future__ import annotations
 
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import TYPE_CHECKING
+
 from .. import measures as _measures
 from .._docstrings import inherit
 from . import nearest as nearest
-from .area import area, area_quads
-from .curve_length import curve_length, curve_length_residuals
-from .dtw import dtw, dtw_path, dtw_table
-from .frechet import frechet, frechet_path, frechet_table
-from .frechet_continuous import frechet_continuous, frechet_continuous_path, frechet_within
-from .gradient import value_and_gradient
-from .normalize import normalize
-from .pcm import pcm, pcm_match
-from .pointwise import mae, mse, sum_of_squares
 
-__all__ = [
-    "area",
-    "area_quads",
-    "curve_length",
-    "curve_length_residuals",
-    "dtw",
-    "dtw_path",
-    "dtw_table",
-    "frechet",
-    "frechet_continuous",
-    "frechet_continuous_path",
-    "frechet_path",
-    "frechet_table",
-    "frechet_within",
-    "mae",
-    "mse",
-    "normalize",
-    "pcm",
-    "pcm_match",
-    "sum_of_squares",
-    "value_and_gradient",
-]
+if TYPE_CHECKING:  # the same names and signatures; a test compares them one by one
+    from ..measures import *  # noqa: F403
 
-for _name in __all__:
-    inherit(globals()[_name], getattr(_measures, _name))
+__all__: list[str] = []
+
+# Of each module here the functions that are a measure's too.
+for _module in iter_modules(globals()["__path__"]):
+    for _name in import_module(f"{__name__}.{_module.name}").__all__:
+        if _name in _measures.__all__:
+            _function = getattr(import_module(f"{__name__}.{_module.name}"), _name)
+            inherit(_function, getattr(_measures, _name))
+            globals()[_name] = _function
+            __all__.append(_name)
+__all__.sort()

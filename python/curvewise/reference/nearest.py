@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, MeasureName, Metric, Order, WarpingName, Window
+from .._options import Default, Metric, Order, WarpingName, Window
 from ..curves.ground_distance import check_metric, degree, ground_distances
 from ..curves.inputs import Array, CurveLike, as_curve
 from ..curves.scaling import range_exponent, times_power_of_two
@@ -32,7 +32,7 @@ def kneighbors(
     curves: Curves,
     X: Curves,
     n_neighbors: int = 5,
-    measure: MeasureName = "dtw",
+    measure: str = "dtw",
     **options: Any,
 ) -> tuple[Array, npt.NDArray[np.int64]]:
     """Return distances and indices of the nearest of `curves`: a table, and a stable sort."""
@@ -42,7 +42,7 @@ def kneighbors(
 
 
 def radius_neighbors(
-    curves: Curves, X: Curves, radius: float, measure: MeasureName = "dtw", **options: Any
+    curves: Curves, X: Curves, radius: float, measure: str = "dtw", **options: Any
 ) -> tuple[list[Array], list[npt.NDArray[np.int64]]]:
     """Return distances and indices of those of `curves` within a radius, the nearest first."""
     distances, indices = [], []
@@ -120,9 +120,7 @@ def dtw_mean(
     return DtwMean(mean, np.array(costs), converged)
 
 
-def _all_distances(
-    X: Curves, curves: Curves, measure: MeasureName, options: dict[str, Any]
-) -> Array:
+def _all_distances(X: Curves, curves: Curves, measure: str, options: dict[str, Any]) -> Array:
     function: Callable[..., float] = getattr(import_module("curvewise.reference"), measure)
     return np.array([[function(P, Q, **options) for Q in curves] for P in X])
 
