@@ -8,17 +8,14 @@ hysteresis loops using inverse analysis", Int. J. Material Forming (2018). scipy
 needed: ``pip install "curvewise[calibration]"``.
 """
 
+from . import methods
 from .answers.identification import Identification
 from .answers.several_measures import SeveralMeasures
 from .cross_validation import CrossValidation, Fold, cross_validate
 from .identify import identify
 from .identify_each import identify_each
 from .line_plot import LinePlot, line_plot
-from .methods.differential_evolution import DifferentialEvolution
-from .methods.domain_reduction import SDRM
-from .methods.least_squares import LeastSquares
-from .methods.simplex import NelderMead
-from .methods.trust_region import TrustRegion
+from .methods import *  # noqa: F403  # the classes that methods/__init__ lists
 from .models.command import CommandModel, SolverError
 from .objective.cases import Case
 from .objective.objective import MEASURES, Objective, Score
@@ -29,19 +26,16 @@ from .rescoring import Rescored, rescore
 from .uncertainty.uncertainty import Uncertainty
 
 __all__ = [
+    *methods.__all__,
     "MEASURES",
-    "SDRM",
     "Below",
     "Case",
     "CommandModel",
     "CrossValidation",
-    "DifferentialEvolution",
     "Fold",
     "Identification",
-    "LeastSquares",
     "LinePlot",
     "Log",
-    "NelderMead",
     "Objective",
     "Progress",
     "Rescored",
@@ -51,7 +45,6 @@ __all__ = [
     "SolverError",
     "StoredRun",
     "Tied",
-    "TrustRegion",
     "Uncertainty",
     "cross_validate",
     "identify",

@@ -14,8 +14,8 @@ from typing import Any
 
 from .._options import Preset
 from .answers.identification import Identification, identification_of
+from .methods import method_of
 from .methods.method import Method
-from .methods.registry import method_of
 from .methods.search import Plan, run_search
 from .models.pool import Model
 from .objective.cases import Case, CaseObjective, Cases

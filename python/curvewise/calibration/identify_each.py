@@ -23,8 +23,8 @@ from ..curves.several_curves import as_points, curve_list
 from ..measures.registry import default_measures
 from .answers.identification import Identification, identification_of
 from .answers.several_measures import SeveralMeasures
+from .methods import method_of
 from .methods.method import Method
-from .methods.registry import method_of
 from .methods.search import Plan, run_search
 from .models.pool import Model
 from .objective.loop_measure import measure_name

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..calibration.methods.registry import method_of
+from ..calibration.methods import method_of
 from .study_model import StudyModel
 from .toml_source import KeyPath, Source
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..calibration import SimulationStore, SolverError
-from ..calibration.methods.registry import method_of
+from ..calibration.methods import method_of
 from ..calibration.models.identity import model_identity
 from ..calibration.models.pool import Outcome
 from ..calibration.problem.space import Space

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from ..calibration import MEASURES
+from ..calibration.methods import METHODS, method_with
 from ..calibration.methods.method import Method
-from ..calibration.methods.registry import METHODS, method_with
 from ..measures.registry import PRESETS
 from . import keys
 from .entries import SearchEntry

@@ -18,8 +18,8 @@ from curvewise.calibration import (
     identify,
     identify_each,
 )
+from curvewise.calibration.methods import METHODS, method_of, method_with
 from curvewise.calibration.methods.method import Method
-from curvewise.calibration.methods.registry import METHODS, method_of, method_with
 from curvewise.calibration.problem.evaluations import Finish
 
 X = np.linspace(0.0, 1.0, 20)

@@ -14,7 +14,7 @@ from curvewise.calibration import (
     identify,
     identify_each,
 )
-from curvewise.calibration.methods.registry import method_with
+from curvewise.calibration.methods import method_with
 
 X = np.linspace(0.0, 1.0, 20)
 

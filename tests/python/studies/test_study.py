@@ -21,7 +21,7 @@ import numpy as np
 import pytest
 
 from curvewise.calibration import TrustRegion, identify
-from curvewise.calibration.methods.registry import METHODS
+from curvewise.calibration.methods import METHODS
 from curvewise.commands import main
 from curvewise.studies import Study, StudyError
 from curvewise.studies.keys import Table
