@@ -22,7 +22,7 @@ import numpy as np
 from ..._extras import required
 from ...curves.inputs import Array
 from ..problem.evaluations import Evaluations, Finish
-from .method import Method, check_passed_on, taken_by_scipy
+from .method import Method, check_passed_on, taken_by
 
 __all__ = ["DifferentialEvolution"]
 
@@ -85,7 +85,7 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
                     "give either stall or callback to 'de': stall is a callback itself"
                 )
         if self.options:
-            known = taken_by_scipy("differential_evolution", _SET_HERE)
+            known = taken_by(required("scipy.optimize").differential_evolution, _SET_HERE)
             check_passed_on(self, self.options, known)
 
     def __str__(self) -> str:
@@ -114,7 +114,7 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
         function = required("scipy.optimize").differential_evolution
         stalled = None if self.stall is None else _Stall(evaluations, *self.stall)
         # scipy 1.15 renamed `seed`; a Generator means the same under both names.
-        seed_name = "rng" if "rng" in taken_by_scipy("differential_evolution", ()) else "seed"
+        seed_name = "rng" if "rng" in taken_by(function) else "seed"
         settings = {
             "x0": start,
             "popsize": self.popsize,

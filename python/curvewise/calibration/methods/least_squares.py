@@ -18,7 +18,7 @@ import numpy as np
 from ..._extras import required
 from ...curves.inputs import Array
 from ..problem.evaluations import Evaluations, Finish
-from .method import Method, check_passed_on, taken_by_scipy
+from .method import Method, check_passed_on, taken_by
 
 __all__ = ["LeastSquares"]
 
@@ -72,7 +72,8 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
                 f"diff_step is {self.diff_step}; give a fraction of the bounds, such as 1e-3"
             )
         if self.options:
-            check_passed_on(self, self.options, taken_by_scipy("least_squares", _SET_HERE))
+            known = taken_by(required("scipy.optimize").least_squares, _SET_HERE)
+            check_passed_on(self, self.options, known)
 
     def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
         """Return the runs of two derivatives and of a step between them."""

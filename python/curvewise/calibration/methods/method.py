@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import inspect
 from abc import ABC, abstractmethod
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from ..._extras import required
 from ..._names import meant
 from ...curves.inputs import Array
 from ..objective.loop_measure import Measure
@@ -27,7 +26,7 @@ __all__ = [
     "check_passed_on",
     "options_of",
     "refuse_unknown",
-    "taken_by_scipy",
+    "taken_by",
     "with_other_defaults",
 ]
 
@@ -140,7 +139,6 @@ def check_passed_on(method: Method, options: Mapping[str, Any], known: Iterable[
     refuse_unknown(method.name, options, [*own, *known])
 
 
-def taken_by_scipy(function: str, but: Collection[str]) -> list[str]:
-    """Return the names of the parameters of a function of scipy.optimize, except for some."""
-    parameters = inspect.signature(getattr(required("scipy.optimize"), function)).parameters
-    return [name for name in parameters if name not in but]
+def taken_by(function: Callable[..., Any], but: Collection[str] = ()) -> list[str]:
+    """Return the names of a function's parameters, except for some."""
+    return [name for name in inspect.signature(function).parameters if name not in but]

@@ -27,7 +27,7 @@ __all__ = ["nonsmooth_descent"]
 ValueAndGradient: TypeAlias = Callable[[Array], tuple[float, Array]]
 
 _TURN = 0.9  # by which the slope of a whole step is less; Wolfe's second constant
-_CURVATURE = 1e-12
+_CURVATURE = 1e-12  # least cosine between a step and the change of the gradient
 _ENOUGH = 1e-5  # gains below ten times this fraction of the value are small
 _PATIENCE = 4  # so many small gains in a row end a round
 _TRIALS = 10  # of a line search

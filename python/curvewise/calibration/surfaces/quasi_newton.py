@@ -17,7 +17,7 @@ from .bfgs import DECREASE, has_curvature, updated
 __all__ = ["quasi_newton"]
 
 _HALVINGS = 8  # of a step
-_CURVATURE = 1e-10
+_CURVATURE = 1e-10  # least cosine between a step and the change of the gradient
 
 
 def quasi_newton(
