@@ -16,7 +16,7 @@ from curvewise.drawing.palette import P_COLOUR, Q_COLOUR, SERIES
 
 P, Q = curvewise.datasets.hysteresis_pair()
 X = np.linspace(0.0, 1.0, 12)
-KEYWORDS = {"bounds": {"a": (0, 10)}, "progress": False, "max_evaluations": 6}
+KEYWORDS = {"bounds": {"a": (0, 10)}, "progress": False, "max_runs": 6}
 
 
 def line(parameters):

@@ -20,7 +20,7 @@ from ...curves.several_curves import points_of
 from ...drawing.loops import loops_and_convergence
 from ...measures.registry import Condition
 from ...showing.notebook import paragraph, picture, table
-from ..methods.search import Ended, Plan
+from ..methods.search import EndedSearch, Plan
 from ..objective.criterion import Part
 from ..problem.problem import Problem
 from ..records.evaluation import Evaluation, as_records
@@ -75,7 +75,7 @@ class Identification:
         As asked for.
     runs : int
         How many runs of the model were made for it; the others were looked up.
-    problem, kept, recorder
+    problem, runs_with_curves, recorder
         What was searched, the runs whose curves are known, and what writes the search down: for
         what comes after the search.
     condition : Condition or None
@@ -99,7 +99,7 @@ class Identification:
     preset: str
     runs: int
     problem: Problem = field(repr=False)
-    kept: tuple[tuple[Array, Evaluation], ...] = field(repr=False)
+    runs_with_curves: tuple[tuple[Array, Evaluation], ...] = field(repr=False)
     part: Part
     condition: Condition | None = field(repr=False)
     recorder: Recorder = field(repr=False)
@@ -178,7 +178,7 @@ class Identification:
     @property
     def uncertainty_runs(self) -> int:
         """How many runs of the model `uncertainty` will make: 0, or 2 for every parameter."""
-        return design_runs(self.problem, self._unit, self.kept)
+        return design_runs(self.problem, self._unit, self.runs_with_curves)
 
     @property
     def determined(self) -> dict[str, bool] | None:
@@ -190,7 +190,9 @@ class Identification:
         """
         if self.uncertainty_runs:
             return None
-        optimum = optimum_surfaces(self.problem, self._unit, self.simulations, self.kept)
+        optimum = optimum_surfaces(
+            self.problem, self._unit, self.simulations, self.runs_with_curves
+        )
         return determined_by(optimum, indifferent(optimum)[2])
 
     def uncertainty(
@@ -255,7 +257,9 @@ class Identification:
         {'slope': 0.041, 'intercept': 0.024}
         """
         runs = self.uncertainty_runs
-        optimum = optimum_surfaces(self.problem, self._unit, self.simulations, self.kept)
+        optimum = optimum_surfaces(
+            self.problem, self._unit, self.simulations, self.runs_with_curves
+        )
         return uncertainty_of(
             optimum, sigma=sigma, level=level, samples=samples, seed=seed, runs=runs
         )
@@ -333,7 +337,9 @@ class Identification:
         """Return what is written down of how the search ended, without the uncertainty."""
         unit = slopes = None
         if self._has_surfaces:
-            optimum = optimum_surfaces(self.problem, self._unit, self.simulations, self.kept)
+            optimum = optimum_surfaces(
+                self.problem, self._unit, self.simulations, self.runs_with_curves
+            )
             if optimum.surfaces.slopes.size <= _MOST_SLOPES:
                 unit, slopes = self._unit, optimum.surfaces.slopes
         return Ending(
@@ -367,7 +373,7 @@ class Identification:
             converged=later.converged,
             message=later.message,
             runs=self.runs + later.runs,
-            kept=later.kept,
+            runs_with_curves=later.runs_with_curves,
         )
 
     @property
@@ -420,7 +426,7 @@ class Identification:
         )
 
 
-def identification_of(problem: Problem, plan: Plan, ended: Ended) -> Identification:
+def identification_of(problem: Problem, plan: Plan, ended: EndedSearch) -> Identification:
     """Return what a search has found."""
     evaluations, objective = ended.evaluations, problem.objective
     done, best = evaluations.done, evaluations.best
@@ -434,14 +440,14 @@ def identification_of(problem: Problem, plan: Plan, ended: Ended) -> Identificat
         failures=tuple((e.number, e.message) for e in done if e.failed),
         converged=ended.finish.converged,
         message=ended.finish.message,
-        method=plan.method,
+        method=str(plan.method),
         seed=plan.seed,
         bounds=problem.space.bounds,
         measure=objective.measure,
         preset=objective.preset,
         runs=ended.runs,
         problem=problem,
-        kept=evaluations.kept,
+        runs_with_curves=evaluations.runs_with_curves,
         part=objective.part,
         condition=objective.condition,
         recorder=ended.recorder,
