@@ -192,7 +192,7 @@ def fit(
         workers=workers,
         store=SimulationStore(stores / f"{measure}.db", version=version),
     )
-    print(f"\n{TITLES[measure]}\n{identification.summary()}", flush=True)
+    print(f"\n{TITLES[measure]}\n{identification}", flush=True)
     return identification
 
 

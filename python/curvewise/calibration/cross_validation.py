@@ -16,7 +16,7 @@ import numpy as np
 
 from ..curves.inputs import Array
 from ..curves.several_curves import as_points, curve_list
-from ..showing.notebook import table
+from ..showing.result import Table, Tabular
 from .answers.identification import Identification
 from .identify import identify
 from .models.identity import model_identity
@@ -62,7 +62,7 @@ class Fold:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class CrossValidation:
+class CrossValidation(Tabular):
     """What `cross_validate` returns: a fold for every loop.
 
     Attributes
@@ -77,38 +77,21 @@ class CrossValidation:
     measure: str
     preset: str
 
-    def __str__(self) -> str:
-        return self.summary()
-
     def __repr__(self) -> str:
         return f"CrossValidation({len(self.folds)} folds, measure={self.measure!r})"
 
-    def _repr_html_(self) -> str:
-        header, *rows = self.rows()
-        return table(rows, header)
-
-    def rows(self) -> list[list[str]]:
-        """Return the summary's rows, the header first."""
-        names = list(self.folds[0].parameters)
-        rows = [["left out", *names, self.measure, "others"]]
-        for fold in self.folds:
-            numbers = [*fold.parameters.values(), fold.value, fold.others]
-            rows.append([f"loop {fold.left_out}", *(f"{number:.5g}" for number in numbers)])
-        columns = np.array(
+    def parts(self) -> Sequence[Table | str]:
+        """Return the parameters of every fold, the left-out loop's value, and the others'."""
+        numbers = np.array(
             [[*fold.parameters.values(), fold.value, fold.others] for fold in self.folds]
         )
-        rows.append(["mean", *(f"{number:.5g}" for number in columns.mean(axis=0))])
-        rows.append(["std", *(f"{number:.5g}" for number in columns.std(axis=0, ddof=1))])
-        return rows
-
-    def summary(self) -> str:
-        """Return a table: the parameters of every fold, the left-out loop's value, the others'."""
-        rows = self.rows()
-        widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-        return "\n".join(
-            "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))
-            for row in rows
-        )
+        names = [*(f"loop {fold.left_out}" for fold in self.folds), "mean", "std"]
+        columns = np.vstack([numbers, numbers.mean(axis=0), numbers.std(axis=0, ddof=1)])
+        rows = [
+            [name, *(f"{number:.5g}" for number in row)]
+            for name, row in zip(names, columns, strict=True)
+        ]
+        return [Table(rows, ["left out", *self.folds[0].parameters, self.measure, "others"])]
 
 
 def cross_validate(

@@ -14,8 +14,7 @@ import numpy as np
 
 from .._extras import required
 from ..curves.inputs import Array
-from ..drawing import figures as drawing
-from ..drawing.palette import series_colours
+from ..drawing.lines import lines_by_name
 from .models.pool import Model, ModelPool
 from .objective.criterion import Measure
 from .objective.objective import Objective, objectives_of
@@ -119,13 +118,9 @@ def line_plot(
     line = [{key: (1.0 - s) * a[key] + s * b[key] for key in a} for s in t.tolist()]
     values = _values(named, model, line, workers, progress)
     data = _records(t, values)
-    figure = drawing.new_figure(figsize=(7, 4.2), layout="constrained")
-    ax = figure.subplots()
-    for name, colour in zip(named, series_colours(len(named)), strict=True):
-        ax.plot(t, data[f"{name}_scaled"], color=colour, linewidth=1.2, label=name)
-    ax.set(xlabel="position on the line from a to b", ylabel="objective, scaled on the line")
-    figure.legend(loc="outside upper center", ncols=len(named), frameon=False)
-    return LinePlot(data, figure)
+    scaled = {name: data[f"{name}_scaled"] for name in named}
+    labels = ("position on the line from a to b", "objective, scaled on the line")
+    return LinePlot(data, lines_by_name(t, scaled, labels))
 
 
 def _values(

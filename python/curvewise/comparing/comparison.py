@@ -16,7 +16,7 @@ from ..curves.named_curve import copied, known_names
 from ..files.column_choice import is_time
 from ..measures import normalize
 from ..measures.registry import MEASURES, PRESETS, Condition, MeasureInfo, default_measures
-from ..showing.notebook import paragraph, picture, table
+from ..showing.result import Result, Table
 from .deviations import Deviations, cells, deviation
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ __all__ = ["PRESETS", "Comparison", "Preset", "compare"]
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison:
+class Comparison(Result):
     """The values of several measures for one pair of curves.
 
     ``comparison["dtw"]`` is one value, ``str(comparison)`` a table.
@@ -94,16 +94,20 @@ class Comparison:
 
         return plot_comparison(self, names=names)
 
-    def _repr_html_(self) -> str:
+    @property
+    def picture_shows(self) -> str:
+        """What the picture shows, for those who do not see it."""
+        return f"The curves, and what {', '.join(self.values)} saw in them"
+
+    def parts(self) -> Sequence[Table | str]:
+        """Return the values with the deviations, which `str` leaves out, and the preset."""
         deviations = self.deviations
-        rows = []
-        for name, value in self.values.items():
-            rows.append([name, f"{value:.6g}", *cells(deviations.get(name))])
+        rows = [
+            [name, f"{value:.6g}", *cells(deviations.get(name))]
+            for name, value in self.values.items()
+        ]
         header = ["measure", "value", "mean deviation, in units of y", "largest"]
-        about = f"The curves, and what {', '.join(self.values)} saw in them"
-        return "\n".join(
-            [table(rows, header), paragraph(f"preset {self.preset}"), picture(self.plot, about)]
-        )
+        return [Table(rows, header), f"preset {self.preset}"]
 
 
 @filled(

@@ -7,7 +7,7 @@ plot shows. Every measure but curve_length compares points of P with points of Q
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,7 +18,7 @@ from ..curves.inputs import Array
 from ..curves.travel import travel
 from ..measures import area, area_quads, frechet_continuous_path, normalize, pcm_match
 from ..measures.registry import MEASURES, Condition
-from ..showing.notebook import table
+from ..showing.result import Table, Tabular
 
 __all__ = ["Deviation", "Deviations", "cells", "deviation"]
 
@@ -67,21 +67,22 @@ class Deviation(NamedTuple):
         return f"{value:.4g} ({share:.2g} %)" if share < 99.5 else f"{value:.4g} ({share:.0f} %)"
 
 
-class Deviations(dict[str, Deviation]):
+class Deviations(Tabular, dict[str, Deviation]):
     """Deviations by measure; prints as a table."""
 
     def __str__(self) -> str:
         width = max(map(len, self), default=0)
-        return "\n".join(f"{name:<{width}}  {found}" for name, found in self.items())
+        return "\n".join(f"{name:<{width}}  {deviation}" for name, deviation in self.items())
 
-    def _repr_html_(self) -> str:
+    def parts(self) -> Sequence[Table | str]:
+        """Return mean and largest deviation by measure."""
         header = ["measure", "mean deviation, in units of y", "largest"]
-        return table([[name, *cells(found)] for name, found in self.items()], header)
+        return [Table([[name, *cells(deviation)] for name, deviation in self.items()], header)]
 
 
-def cells(found: Deviation | None) -> list[str]:
+def cells(deviation: Deviation | None) -> list[str]:
     """Return mean and largest as the cells of a table; empty where there is no deviation."""
-    return ["", ""] if found is None else [found.mean_text, found.largest_text]
+    return ["", ""] if deviation is None else [deviation.mean_text, deviation.largest_text]
 
 
 def deviation(

@@ -19,8 +19,7 @@ import numpy as np
 
 from .._extras import extra
 from ..curves.inputs import Array
-from ..curves.named_curve import axis_names
-from .palette import ACCENT_COLOUR, BETWEEN_COLOUR, FILL_COLOUR, P_COLOUR, Q_COLOUR
+from .palette import BETWEEN_COLOUR, P_COLOUR, Q_COLOUR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,18 +30,13 @@ if TYPE_CHECKING:
     from .picture import Picture
 
 __all__ = [
-    "ACCENT_COLOUR",
-    "BETWEEN_COLOUR",
-    "FILL_COLOUR",
     "MAX_LINKS",
-    "P_COLOUR",
-    "Q_COLOUR",
     "CurveArtists",
-    "axis_names",
     "draw_curves",
     "draw_links",
     "evenly",
     "label_axes",
+    "legend_above",
     "matplotlib_required",
     "new_figure",
     "panels",
@@ -89,7 +83,7 @@ def draw_curves(
 ) -> tuple[Line2D, Line2D]:
     """Draw curves in the plane, or series (d = 1) against the index: `apart`, with Q below P.
 
-    `names` are those of the coordinates, as `axis_names` gives them.
+    `names` are those of the coordinates, as `curves.named_curve.axis_names` gives them.
     """
     q_label = "Q"
     if P.shape[1] == 1:
@@ -118,6 +112,12 @@ def label_axes(ax: Axes, x: str, y: str) -> None:
     """Label the axes that have no label."""
     ax.set_xlabel(ax.get_xlabel() or x)
     ax.set_ylabel(ax.get_ylabel() or y)
+
+
+def legend_above(figure: Figure, ax: Axes) -> None:
+    """Put the legend of a panel above the figure, since a loop leaves no room within."""
+    handles, labels = ax.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper left", ncols=len(labels), frameon=False)
 
 
 def draw_links(ax: Axes, links: Array, label: str) -> LineCollection:

@@ -6,18 +6,21 @@ O(n + m).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from ..curves.inputs import Array
 from ..curves.named_curve import axis_names
-from .figures import label_axes, new_figure
+from .figures import label_axes, legend_above, new_figure
 from .links import draw_matching, draw_path, draw_placement
 from .palette import ACCENT_COLOUR
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from .picture import Picture
 
 __all__ = ["alignment_figure", "matching_figure", "placement_figure"]
@@ -27,24 +30,16 @@ Curves: TypeAlias = tuple[Array, Array] | None
 
 def alignment_figure(curves: Curves, path: npt.NDArray[np.int64]) -> Picture:
     """Draw curves and the pairs of a path, or the path alone."""
-    drawn = _drawn(curves)
-    if drawn is None:
-        return _path_alone(path, "index in Q", "index in P")
-    figure = new_figure(figsize=_size(drawn), layout="constrained")
-    names = axis_names(drawn[0].shape[1], None, *(curves or ()))
-    draw_path(figure.subplots(), drawn, path, names)
-    return _with_legend(figure)
+    return _linked(curves, path, draw_path, ("index in Q", "index in P"))
 
 
 def matching_figure(curves: Curves, walks: Array) -> Picture:
     """Draw curves and the leashes between two walks along them, or the walks alone."""
-    drawn = _drawn(curves)
-    if drawn is None:
-        return _path_alone(walks, "vertex of Q", "vertex of P")
-    figure = new_figure(figsize=_size(drawn), layout="constrained")
-    names = axis_names(drawn[0].shape[1], None, *(curves or ()))
-    draw_matching(figure.subplots(), drawn, drawn, walks, names)
-    return _with_legend(figure)
+
+    def draw(ax: Axes, curves: tuple[Array, Array], walks: Array, names: Sequence[str]) -> None:
+        draw_matching(ax, curves, curves, walks, names)
+
+    return _linked(curves, walks, draw, ("vertex of Q", "vertex of P"))
 
 
 def placement_figure(
@@ -53,31 +48,25 @@ def placement_figure(
     """Draw curves and where one of them has been placed on the other."""
     figure = new_figure(figsize=(6.4, 4.4), layout="constrained")
     names = axis_names(2, None, *curves)
-    draw_placement(figure.subplots(), curves, mapped, offset, points, names)
-    return _with_legend(figure)
-
-
-def _drawn(curves: Curves) -> tuple[Array, Array] | None:
-    """Return the curves with shape (n, d) where they are known and d is 1 or 2."""
-    if curves is None:
-        return None
-    P, Q = (curve[:, np.newaxis] if curve.ndim == 1 else curve for curve in curves)
-    return (P, Q) if P.shape[1] <= 2 else None
-
-
-def _size(drawn: tuple[Array, Array]) -> tuple[float, float]:
-    return (6.4, 4.4) if drawn[0].shape[1] == 2 else (9.0, 3.4)
-
-
-def _path_alone(path: npt.NDArray[np.int64] | Array, x: str, y: str) -> Picture:
-    figure = new_figure(figsize=(4.4, 4.4), layout="constrained")
     ax = figure.subplots()
-    ax.plot(*path.T[::-1], color=ACCENT_COLOUR, linewidth=1.3, label="path")
-    label_axes(ax, x, y)
-    return _with_legend(figure)
+    draw_placement(ax, curves, mapped, offset, points, names)
+    legend_above(figure, ax)
+    return figure
 
 
-def _with_legend(figure: Picture) -> Picture:
-    handles, labels = figure.axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper left", ncols=len(labels), frameon=False)
+def _linked(
+    curves: Curves, links: npt.NDArray[Any], draw: Callable[..., object], labels: tuple[str, str]
+) -> Picture:
+    """Draw curves with links between them; alone where the curves are unknown, or d is above 2."""
+    columns = [curve.reshape(len(curve), -1) for curve in curves or ()]
+    dim = columns[0].shape[1] if columns else 0
+    size = {1: (9.0, 3.4), 2: (6.4, 4.4)}.get(dim, (4.4, 4.4))
+    figure = new_figure(figsize=size, layout="constrained")
+    ax = figure.subplots()
+    if dim in (1, 2):
+        draw(ax, columns, links, axis_names(dim, None, *(curves or ())))
+    else:
+        ax.plot(*links.T[::-1], color=ACCENT_COLOUR, linewidth=1.3, label="path")
+        label_axes(ax, *labels)
+    legend_above(figure, ax)
     return figure

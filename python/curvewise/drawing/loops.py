@@ -1,22 +1,30 @@
-"""Measured loops with simulated ones, and how the search for these converged."""
+"""Measured loops with simulated ones, and how the search for these converged or what it found."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..curves.inputs import Array
-from . import figures as drawing
+from .figures import draw_curves, label_axes, legend_above, new_figure
+from .palette import (
+    ACCENT_COLOUR,
+    BETWEEN_COLOUR,
+    FILL_COLOUR,
+    GROUND_COLOUR,
+    Q_COLOUR,
+    series_colours,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .picture import Picture
 
-__all__ = ["drawn", "labels", "loops_and_convergence"]
+__all__ = ["loops_and_convergence", "loops_and_places", "xy_labels", "xy_of"]
 
 
 def loops_and_convergence(
@@ -57,26 +65,71 @@ def loops_and_convergence(
     -----
     The first two coordinates are drawn of curves that have more.
     """
-    count = len(experiments) + 1
+    figure, panels, last = _panels(titles, (4.2, 3.4))
+    pairs = zip(experiments, simulations, strict=True)
+    for i, (experiment, simulation) in enumerate(pairs):
+        measured, simulated = draw_curves(panels[i], experiment[:, :2], simulation[:, :2], names[i])
+        measured.set(label="experiment", marker=".", markersize=3, linewidth=0.6)
+        simulated.set_label("simulation")
+    legend_above(figure, panels[0])
+    _draw_convergence(history, objective, last)
+    return figure
+
+
+def loops_and_places(
+    experiments: Sequence[Array],
+    simulations: Mapping[str, Sequence[Array]],
+    places: Mapping[str, Mapping[str, float]],
+    names: Sequence[Sequence[str]],
+    titles: Sequence[str],
+) -> Picture:
+    """Draw several simulations of every experiment, and where their parameters are.
+
+    Parameters
+    ----------
+    experiments, names, titles
+        As for `loops_and_convergence`.
+    simulations : mapping of str to sequence of ndarray
+        By what they are called, a curve for every experiment.
+    places : mapping of str to mapping of str to float
+        By the same names where each parameter is between its bounds, 0 to 1.
+    """
+    figure, panels, last = _panels(titles, (4.6, 3.6))
+    colours = dict(zip(simulations, series_colours(len(simulations)), strict=True))
+    for i, (ax, experiment) in enumerate(zip(panels, experiments, strict=True)):
+        ax.plot(*xy_of(experiment), ".", color=FILL_COLOUR, markersize=3, label="experiment")
+        for name, curves in simulations.items():
+            ax.plot(*xy_of(curves[i]), color=colours[name], linewidth=1.1, label=name)
+        label_axes(ax, *xy_labels(names[i]))
+    legend_above(figure, panels[0])
+    parameters = list(next(iter(places.values())))
+    rows = range(len(parameters))
+    last.hlines(rows, 0.0, 1.0, color=GROUND_COLOUR, linewidth=4, zorder=0)
+    for name, of_parameters in places.items():
+        found = list(of_parameters.values())
+        last.plot(found, rows, "o", color=colours[name], markersize=5, markerfacecolor="none")
+    last.set_yticks(rows, parameters)
+    last.invert_yaxis()
+    last.set(xlim=(-0.03, 1.03), xlabel="place between the bounds", title="Parameters")
+    return figure
+
+
+def _panels(titles: Sequence[str], size: tuple[float, float]) -> tuple[Picture, list[Axes], Axes]:
+    """Return a figure, a panel for every loop, with its title if there are several, and one more.
+
+    `size` is that of a panel in inches.
+    """
+    count = len(titles) + 1
     columns = math.ceil(math.sqrt(count))
     rows = math.ceil(count / columns)
-    figure = drawing.new_figure(figsize=(4.2 * columns, 3.4 * rows), layout="constrained")
+    figure = new_figure(figsize=(size[0] * columns, size[1] * rows), layout="constrained")
     panels = figure.subplots(rows, columns, squeeze=False).ravel().tolist()
     for ax in panels[count:]:
         ax.remove()
-    pairs = zip(experiments, simulations, strict=True)
-    for i, (experiment, simulation) in enumerate(pairs):
-        measured, simulated = drawing.draw_curves(
-            panels[i], experiment[:, :2], simulation[:, :2], names[i]
-        )
-        measured.set(label="experiment", marker=".", markersize=3, linewidth=0.6)
-        simulated.set_label("simulation")
-        if count > 2:
-            panels[i].set_title(titles[i])
-    # Outside the panels, since a loop leaves no room within.
-    figure.legend(handles=[measured, simulated], loc="outside upper left", ncols=2, frameon=False)
-    _draw_convergence(history, objective, panels[count - 1])
-    return figure
+    if count > 2:
+        for ax, title in zip(panels, titles, strict=False):
+            ax.set_title(title)
+    return figure, panels[: count - 1], panels[count - 1]
 
 
 def _draw_convergence(history: np.recarray[Any, Any], objective: str, ax: Axes) -> None:
@@ -86,13 +139,13 @@ def _draw_convergence(history: np.recarray[Any, Any], objective: str, ax: Axes) 
         history.value[good],
         ".",
         markersize=2,
-        color=drawing.BETWEEN_COLOUR,
+        color=BETWEEN_COLOUR,
         label="evaluation",
     )
     ax.plot(
         history.evaluation,
         np.minimum.accumulate(history.value),
-        color=drawing.ACCENT_COLOUR,
+        color=ACCENT_COLOUR,
         linewidth=1.3,
         label="best so far",
     )
@@ -103,7 +156,7 @@ def _draw_convergence(history: np.recarray[Any, Any], objective: str, ax: Axes) 
             np.full(int((~good).sum()), 0.98),
             "|",
             transform=ax.get_xaxis_transform(),
-            color=drawing.Q_COLOUR,
+            color=Q_COLOUR,
             label="failed",
         )
     positive = history.value[good & (history.value > 0)]
@@ -114,13 +167,13 @@ def _draw_convergence(history: np.recarray[Any, Any], objective: str, ax: Axes) 
     ax.legend(loc="best" if len(history) < 1000 else "upper right", frameon=False)
 
 
-def labels(names: Sequence[str]) -> tuple[str, str]:
-    """Return the labels of the axes on which `drawn` is drawn."""
+def xy_labels(names: Sequence[str]) -> tuple[str, str]:
+    """Return the labels of the axes on which `xy_of` is drawn."""
     return ("index", names[0]) if len(names) == 1 else (names[0], names[1])
 
 
-def drawn(curve: Array) -> tuple[Array, Array]:
-    """Return what is drawn of a curve: its first two coordinates, or a series by its index."""
+def xy_of(curve: Array) -> tuple[Array, Array]:
+    """Return x and y to draw of a curve: its first two coordinates, or index and value."""
     if curve.shape[1] == 1:
         return np.arange(len(curve), dtype=np.float64), curve[:, 0]
     return curve[:, 0], curve[:, 1]

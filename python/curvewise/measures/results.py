@@ -6,14 +6,15 @@ they know the curves, the picture of what was found.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from ..showing.notebook import picture, table
+from ..drawing.linked_curves import alignment_figure, matching_figure, placement_figure
+from ..showing.result import Result, Table
 
 if TYPE_CHECKING:
     from ..drawing.picture import Picture
@@ -40,6 +41,9 @@ class _Record:
         names = [one.name for one in fields(self) if one.repr]
         return _printed(self, [(name, getattr(self, name)) for name in names])
 
+    def __str__(self) -> str:
+        return repr(self)
+
 
 def _printed(record: object, items: Iterable[tuple[str, Any]]) -> str:
     parts = [f"{name}={_short(value)}" for name, value in items]
@@ -51,7 +55,7 @@ def _short(value: Any) -> str:
 
 
 @dataclass(frozen=True, repr=False)
-class Alignment(_Record):
+class Alignment(_Record, Result):
     """A distance with the path that attains it.
 
     Attributes
@@ -79,13 +83,14 @@ class Alignment(_Record):
         ImportError
             matplotlib is not installed: ``pip install "curvewise[plot]"``.
         """
-        from ..drawing.linked_curves import alignment_figure
-
         return alignment_figure(self.curves, self.path)
 
-    def _repr_html_(self) -> str:
+    picture_shows = "The curves and which points are matched"
+
+    def parts(self) -> Sequence[Table | str]:
+        """Return the distance, and how long the path is."""
         rows = [["distance", f"{self.distance:.6g}"], ["pairs of points", f"{len(self.path)}"]]
-        return table(rows) + picture(self.plot, "The curves and which points are matched")
+        return [Table(rows)]
 
 
 class AreaQuads(NamedTuple):
@@ -107,7 +112,7 @@ class AreaQuads(NamedTuple):
 
 
 @dataclass(frozen=True, repr=False)
-class Matching(_Record):
+class Matching(_Record, Result):
     """A distance with two walks along the curves that attain it.
 
     Attributes
@@ -137,17 +142,17 @@ class Matching(_Record):
         ImportError
             matplotlib is not installed: ``pip install "curvewise[plot]"``.
         """
-        from ..drawing.linked_curves import matching_figure
-
         return matching_figure(self.curves, self.parameters)
 
-    def _repr_html_(self) -> str:
-        rows = [["distance", f"{self.distance:.6g}"]]
-        return table(rows) + picture(self.plot, "The curves and which points are matched")
+    picture_shows = "The curves and which points are matched"
+
+    def parts(self) -> Sequence[Table | str]:
+        """Return the distance."""
+        return [Table([["distance", f"{self.distance:.6g}"]])]
 
 
 @dataclass(frozen=True, repr=False)
-class PcmMatch(_Record):
+class PcmMatch(_Record, Result):
     """Where partial curve mapping places the shorter curve on the longer.
 
     Attributes
@@ -191,21 +196,21 @@ class PcmMatch(_Record):
         ValueError
             The curves are not known: the match is that of :mod:`curvewise.reference`.
         """
-        from ..drawing.linked_curves import placement_figure
-
         if self.curves is None:
             raise ValueError("the match does not know its curves; take that of curvewise.pcm_match")
         return placement_figure(self.curves, self.mapped, self.offset, self.points)
 
-    def _repr_html_(self) -> str:
+    picture_shows = "The curves and where the shorter lies"
+
+    def parts(self) -> Sequence[Table | str]:
+        """Return the value, and where the shorter curve lies."""
         rows = [
             ["value", f"{self.value:.6g}"],
             ["offset on the longer curve, scaled", f"{self.offset:.6g}"],
             ["coverage", f"{100 * self.coverage:.3g} %"],
             ["shorter curve", self.mapped],
         ]
-        drawn = picture(self.plot, "The curves and where the shorter lies") if self.curves else ""
-        return table(rows) + drawn
+        return [Table(rows)]
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,10 @@ import numpy.typing as npt
 from .._options import Default, Metric, Order, WarpingName
 from ..curves.ground_distance import check_metric, ground_distances
 from ..curves.inputs import Array, CurveLike
-from ..drawing import figures as drawing
+from ..curves.named_curve import axis_names
 from ..drawing.figures import CurveArtists
 from ..drawing.links import draw_path
+from ..drawing.palette import ACCENT_COLOUR
 from .measured import measured_and_drawn, warping_of
 
 if TYPE_CHECKING:
@@ -89,7 +90,7 @@ def plot_alignment(
             "plot_table any number"
         )
     path = warping.path(*measured, **options).path
-    axes = drawing.axis_names(drawn[0].shape[1], names, P, Q)
+    axes = axis_names(drawn[0].shape[1], names, P, Q)
     artists = draw_path(ax, drawn, path, axes, every=every)
     if measure == "dtw":
         return artists
@@ -100,7 +101,7 @@ def plot_alignment(
     ]
     (accent,) = ax.plot(
         *np.transpose(ends),
-        color=drawing.ACCENT_COLOUR,
+        color=ACCENT_COLOUR,
         linewidth=2,
         marker="o",  # a pair at distance 0 has no length to be seen
         markersize=4,

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 from .._options import Crossing, Default, Spacing
 from ..curves.inputs import CurveLike
+from ..curves.named_curve import axis_names
 from ..curves.scaling import box
-from ..drawing import figures as drawing
-from ..drawing.figures import CurveArtists
+from ..drawing.figures import MAX_LINKS, CurveArtists, draw_curves, matplotlib_required
+from ..drawing.palette import FILL_COLOUR
 from ..measures import area_quads
 from .measured import measured_and_drawn
 
@@ -70,20 +71,20 @@ def plot_area(
     2
     """
     measured, drawn = measured_and_drawn(P, Q, normalized)
-    axes = drawing.axis_names(drawn[0].shape[1], names, P, Q)
+    axes = axis_names(drawn[0].shape[1], names, P, Q)
     quads = area_quads(*measured, spacing=spacing, crossing=crossing).quads
     if normalized:
         low, extent = box(drawn[0])
         quads = low + extent * quads
-    with drawing.matplotlib_required():
+    with matplotlib_required():
         from matplotlib.collections import PolyCollection
-    lines = drawing.draw_curves(ax, *drawn, axes)
+    lines = draw_curves(ax, *drawn, axes)
     between = PolyCollection(
         list(quads),
-        facecolors=drawing.FILL_COLOUR,
+        facecolors=FILL_COLOUR,
         edgecolors="white",
         # Edges show how the area is cut where quadrilaterals are few, and hide it where many.
-        linewidths=0.6 if len(quads) <= drawing.MAX_LINKS else 0.0,
+        linewidths=0.6 if len(quads) <= MAX_LINKS else 0.0,
         alpha=0.5,  # what counts more than once is darker
         zorder=1,
         label="area",

@@ -7,7 +7,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ..curves.inputs import Array
-from ..drawing import figures as drawing
+from ..curves.named_curve import axis_names
+from ..drawing.figures import CurveArtists, draw_curves, new_figure, panels
 from ..measures.registry import MEASURES, Condition
 from .matching import plot_free_space
 from .measured import measured_and_drawn
@@ -80,12 +81,12 @@ def plot_comparison(comparison: Compared, *, names: Sequence[str] | None = None)
     P, Q = comparison.P, comparison.Q
     _, drawn = measured_and_drawn(P, Q, normalized=False)
     dim = drawn[0].shape[1]
-    axes = drawing.axis_names(dim, names, P, Q)
-    figure = drawing.new_figure(layout="constrained")
-    main, others = drawing.panels(figure, dim, len(comparison.values))
+    axes = axis_names(dim, names, P, Q)
+    figure = new_figure(layout="constrained")
+    main, others = panels(figure, dim, len(comparison.values))
     main.set_title(f"Preset: {comparison.preset}")
     P, Q = (curve[:, :2] for curve in drawn)
-    handles = list(drawing.draw_curves(main, P, Q, axes))
+    handles = list(draw_curves(main, P, Q, axes))
     for ax, (name, value) in zip(others, comparison.values.items(), strict=True):
         ax.set_title(f"{MEASURES[name].title}: {value:.4g}")
         accent = _draw_measure(comparison, name, ax, axes)
@@ -113,7 +114,7 @@ def _draw_measure(comparison: Compared, name: str, ax: Axes, axes: Sequence[str]
         ax.figure.colorbar(image)
         return None
     picture = getattr(import_module(__package__), info.picture)
-    artists: drawing.CurveArtists = picture(*curves, ax, names=axes, **options)
+    artists: CurveArtists = picture(*curves, ax, names=axes, **options)
     for line in (artists.P, artists.Q):
         line.set_linewidth(0.9)
     if dim == 2:

@@ -10,8 +10,8 @@ import numpy as np
 from .._options import Default, LengthScale
 from ..curves.arc_length import corresponding_positions, interpolate
 from ..curves.inputs import CurveLike
-from ..drawing import figures as drawing
-from ..drawing.figures import CurveArtists
+from ..curves.named_curve import axis_names
+from ..drawing.figures import CurveArtists, draw_curves, draw_links, evenly
 from ..measures import curve_length
 from .measured import measured_and_drawn
 
@@ -75,7 +75,7 @@ def plot_curve_length(
     curve_length(*measured, scale=scale)  # for its checks
     counterparts = interpolate(drawn[1], *corresponding_positions(*measured))
     links = np.stack([drawn[0], counterparts], axis=1)
-    axes = drawing.axis_names(2, names, P, Q)
-    lines = drawing.draw_curves(ax, *drawn, axes)
-    between = drawing.draw_links(ax, drawing.evenly(links), "points compared")
+    axes = axis_names(2, names, P, Q)
+    lines = draw_curves(ax, *drawn, axes)
+    between = draw_links(ax, evenly(links), "points compared")
     return CurveArtists(*lines, between)

@@ -9,9 +9,10 @@ import numpy as np
 
 from ..curves.arc_length import points_at
 from ..curves.inputs import CurveLike
-from ..drawing import figures as drawing
-from ..drawing.figures import CurveArtists
+from ..curves.named_curve import axis_names
+from ..drawing.figures import CurveArtists, label_axes, matplotlib_required
 from ..drawing.links import draw_matching
+from ..drawing.palette import ACCENT_COLOUR, BETWEEN_COLOUR, FILL_COLOUR
 from ..measures import frechet_continuous_path
 from .measured import measured_and_drawn
 
@@ -78,7 +79,7 @@ def plot_matching(
             f"P has shape {drawn[0].shape}; plot_matching draws 1 or 2 coordinates, "
             "plot_free_space any number"
         )
-    axes = drawing.axis_names(drawn[0].shape[1], names, P, Q)
+    axes = axis_names(drawn[0].shape[1], names, P, Q)
     walks = frechet_continuous_path(*measured).parameters
     return draw_matching(ax, measured, drawn, walks, axes)
 
@@ -132,7 +133,7 @@ def plot_free_space(
     >>> path.get_xydata()[[0, -1]].tolist()
     [[0.0, 0.0], [3.0, 1.0]]
     """
-    with drawing.matplotlib_required():
+    with matplotlib_required():
         from matplotlib.colors import ListedColormap
     (P, Q), _ = measured_and_drawn(P, Q, normalized)
     points = [curve.reshape(len(curve), -1) for curve in (P, Q)]
@@ -144,7 +145,7 @@ def plot_free_space(
     square = sum((p[:, np.newaxis, c] - q[:, c]) ** 2 for c in range(p.shape[1]))
     image = ax.imshow(
         square <= leash**2,
-        cmap=ListedColormap([drawing.FILL_COLOUR, "#FFFFFF"]),
+        cmap=ListedColormap([FILL_COLOUR, "#FFFFFF"]),
         vmin=0,
         vmax=1,
         origin="lower",
@@ -155,14 +156,14 @@ def plot_free_space(
     for draw, edges in ((ax.hlines, n), (ax.vlines, m)):
         if edges <= _LINES:
             across = m if draw == ax.hlines else n
-            draw(np.arange(1, edges), 0, across, colors=drawing.BETWEEN_COLOUR, linewidths=0.4)
+            draw(np.arange(1, edges), 0, across, colors=BETWEEN_COLOUR, linewidths=0.4)
     path = None
     if leash >= matching.distance:
         (path,) = ax.plot(
             *matching.parameters.T[::-1],
-            color=drawing.ACCENT_COLOUR,
+            color=ACCENT_COLOUR,
             linewidth=1.3,
             label="path",
         )
-    drawing.label_axes(ax, "vertex of Q", "vertex of P")
+    label_axes(ax, "vertex of Q", "vertex of P")
     return image, path

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from .._options import WarpingName
 from ..curves.inputs import CurveLike
-from ..drawing import figures as drawing
-from ..drawing.palette import TABLE_MAP
+from ..drawing.figures import label_axes, matplotlib_required
+from ..drawing.palette import ACCENT_COLOUR, TABLE_MAP
 from .measured import measured_and_drawn, warping_of
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def plot_table(
     >>> path.get_xydata().tolist()
     [[0.0, 0.0], [0.0, 1.0], [1.0, 2.0]]
     """
-    with drawing.matplotlib_required():
+    with matplotlib_required():
         from matplotlib.patheffects import withStroke
     warping = warping_of(measure)
     measured, _ = measured_and_drawn(P, Q, normalized)
@@ -97,11 +97,11 @@ def plot_table(
     )
     (line,) = ax.plot(
         *path.T[::-1],
-        color=drawing.ACCENT_COLOUR,
+        color=ACCENT_COLOUR,
         linewidth=1.3,
         path_effects=[withStroke(linewidth=3, foreground="white")],  # legible on any colour
         label="path",
     )
     ax.set(xlim=(-0.5, m - 0.5), ylim=(-0.5, n - 0.5))
-    drawing.label_axes(ax, "index in Q", "index in P")
+    label_axes(ax, "index in Q", "index in P")
     return image, line

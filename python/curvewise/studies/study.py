@@ -19,7 +19,7 @@ from ..calibration import (
     identify,
     identify_each,
 )
-from ..drawing import figures as drawing
+from ..drawing.figures import matplotlib_required
 from .compatibility import check_together
 from .contents import Contents
 from .dry_run import DryRun, dry_run
@@ -177,7 +177,7 @@ class Study(Contents):
         --------
         As for the class.
         """
-        with drawing.matplotlib_required():  # before the work rather than after it
+        with matplotlib_required():  # before the work rather than after it
             import_module("matplotlib.figure")
         self.results.mkdir(parents=True, exist_ok=True)
         found = self._searched(progress, callback)

@@ -274,6 +274,19 @@ def test_a_parameter_stays_below_by_a_millionth_of_its_range():
         assert above - below == pytest.approx(150e-6, rel=1e-6)
 
 
+def test_places_between_bounds_are_those_of_the_search():
+    space = Space({"a": (100.0, 200.0), "b": Below("a", 50.0, 200.0), "c": Log(1e-2, 1e4)})
+    parameters = {"a": 150.0, "b": 150.0 - 150e-6, "c": 5.0}
+    assert space.place("a", 150.0) == 0.5
+    assert space.place("b", 125.0) == 0.5
+    assert space.place("b", 100.0, parameters) == pytest.approx(0.5, abs=1e-6)
+    assert space.place("c", 10.0) == pytest.approx(0.5)
+    assert space.place("c", 0.0) == -np.inf
+    assert space.place("a", 210.0) == 1.1
+    assert space.at_bounds(parameters) == {"b": "upper"}
+    assert space.at_bounds({"a": 100.05, "b": 80.0, "c": 9.95e3}) == {"a": "lower", "c": "upper"}
+
+
 def test_a_start_among_ordered_and_logarithmic_parameters():
     bounds = {"C1": Log(1e3, 200e3), "C2": Below("C1", 1e3, 50e3), "E": (2e5, 2e5)}
     start = {"C1": 2e4, "C2": 3e3}

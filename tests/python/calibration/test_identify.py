@@ -11,7 +11,14 @@ import pytest
 from test_resuming import assert_same
 
 import curvewise
-from curvewise.calibration import SDRM, Criterion, DifferentialEvolution, SimulationStore, identify
+from curvewise.calibration import (
+    SDRM,
+    Criterion,
+    DifferentialEvolution,
+    Log,
+    SimulationStore,
+    identify,
+)
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
@@ -110,6 +117,15 @@ def test_summary_is_a_table():
     text = str(identify(line, EXPERIMENT, BOUNDS, **QUICK))
     for word in ("parameter", "a ", "b ", "dtw", "minimised", "sdrm+de, seed 0", "not converged"):
         assert word in text
+
+
+def test_the_middle_of_a_logarithmic_range_is_not_a_bound():
+    bounds = {"a": Log(1e-2, 1e4), "b": (-10.0, 10.0)}
+    start = {"a": 5.0, "b": -1.0}
+    keywords = {"start": start, "max_runs": 1, "progress": False}
+    found = identify(line, line(start), bounds, **keywords)
+    assert "at its" not in str(found)
+    assert "at its" not in found._repr_html_()
 
 
 def test_measures_that_cannot_be_computed_are_nan():
@@ -310,7 +326,7 @@ def test_a_measure_of_ones_own(tmp_path):
     found = identify(line, EXPERIMENT, BOUNDS, method="de", **keywords)
     assert found.measure == "mean_difference"
     assert found.measures["mean_difference"] == found.value
-    assert "mean_difference" in found.summary()
+    assert "mean_difference" in str(found)
     assert identify(line, EXPERIMENT, BOUNDS, method="de", **keywords).value == found.value
     with pytest.raises(ValueError, match="is not a sum of squares"):
         identify(line, EXPERIMENT, BOUNDS, method="least-squares", measure=mean_difference)

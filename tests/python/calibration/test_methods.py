@@ -362,7 +362,7 @@ def test_an_optimum_at_a_bound_is_reported():
         model, model(TRUE), {**BOUNDS, "yield": (320.0, 500.0)}, method="sdrm+de"
     )
     assert found.parameters["yield"] == pytest.approx(320.0, rel=1e-3)
-    (line,) = [line for line in found.summary().splitlines() if line.startswith("yield")]
+    (line,) = [line for line in str(found).splitlines() if line.startswith("yield")]
     assert line.endswith("at its lower bound")
 
 

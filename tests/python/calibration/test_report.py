@@ -231,7 +231,7 @@ def test_a_function_as_a_measure_is_not_written_down(tmp_path):
     found.report(tmp_path / "found.html", uncertainty=found.uncertainty(samples=20))
     (record,) = records_of(tmp_path / "s.db").values()
     assert (tmp_path / "found.html").read_text() == page([record])
-    assert "95 % interval" in page([record])
+    assert "95 % from" in page([record])
 
 
 def test_stores_from_before_reports_open_and_say_what_to_do(tmp_path, capsys):

@@ -76,7 +76,7 @@ def test_a_left_out_loop_that_fails_is_nan():
     assert np.isnan(checked.folds[2].value)
     assert checked.folds[2].simulation is None
     assert np.isfinite(checked.folds[1].value)
-    assert "nan" in checked.summary()
+    assert "nan" in str(checked)
 
 
 def test_summary_is_a_table():

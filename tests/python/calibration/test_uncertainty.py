@@ -97,7 +97,7 @@ def test_methods_that_keep_no_curves_take_two_runs_a_parameter():
     )
     assert found.uncertainty_runs == 6
     assert found.determined is None
-    assert "are the parameters determined? uncertainty() says, after 6 runs" in found.summary()
+    assert "are the parameters determined? uncertainty() says, after 6 runs" in str(found)
     before = len(runs)
     uncertainty = found.uncertainty()
     assert len(runs) - before == uncertainty.runs == 6
@@ -142,7 +142,7 @@ def test_three_parameters_of_a_loop_are_determined():
     truth = {"E": 200e3, "yield": 300.0, "C": 80e3}
     found = identify(hardening, with_noise(hardening(truth), 4.0), THREE, **QUIET)
     assert found.determined == dict.fromkeys(THREE, True)
-    assert "\nconverged: " in found.summary()
+    assert "\nconverged: " in str(found)
     uncertainty = found.uncertainty(samples=50)
     assert uncertainty.determined == dict.fromkeys(THREE, True)
     assert "all are determined" in str(uncertainty)
@@ -167,8 +167,8 @@ def test_parameters_that_only_act_together_are_not_determined():
     for seed in (1, 2):
         found = identify(model, test, bounds, seed=seed, **QUIET)
         assert found.determined == {"E": True, "C": False, "C2": False}
-        assert "undetermined: C, C2 (the objective hardly notices" in found.summary()
-        assert "converged" not in found.summary()
+        assert "undetermined: C, C2 (the objective hardly notices" in str(found)
+        assert "converged" not in str(found)
         uncertainty = found.uncertainty(samples=50)
         assert uncertainty.determined == {"E": True, "C": False, "C2": False}
         direction = uncertainty.weakest_direction

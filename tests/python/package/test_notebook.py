@@ -13,6 +13,7 @@ import pytest
 import curvewise
 from curvewise.calibration import cross_validate, identify, identify_each, line_plot
 from curvewise.drawing.palette import P_COLOUR, Q_COLOUR, SERIES
+from curvewise.showing.result import Result, Table
 
 P, Q = curvewise.datasets.hysteresis_pair()
 X = np.linspace(0.0, 1.0, 12)
@@ -59,6 +60,23 @@ def test_without_matplotlib_the_table_stands_alone(found, monkeypatch):
         assert shown.startswith("<table>")
         assert "<img" not in shown
         assert "No picture: pictures need matplotlib, which is not installed: pip install" in shown
+
+
+def test_a_result_without_tables_or_picture_is_an_error():
+    class Forgetful(Result):
+        picture_shows = "nothing"
+
+    with pytest.raises(TypeError, match=r"abstract methods '?parts'?(,| and) '?plot"):
+        Forgetful()
+
+
+def test_a_table_is_the_same_as_text_and_in_a_notebook():
+    table = Table([["a", "1.5", "at <1>"], ["long", "", ""]], ["", "value", ""], narrowest=7)
+    assert table.text() == "        value\na         1.5  at <1>\nlong"
+    shown = table.html()
+    assert '<td style="text-align: right">1.5</td>' in shown
+    assert '<td style="text-align: left">at &lt;1&gt;</td>' in shown
+    assert Table([], ["measure", "value"]).text() == "measure  value"
 
 
 def test_terminals_show_no_coordinates(found):

@@ -19,17 +19,18 @@ from ...curves.inputs import Array
 from ...curves.several_curves import points_of
 from ...drawing.loops import loops_and_convergence
 from ...measures.registry import Condition
-from ...showing.notebook import paragraph, picture, table
+from ...showing.result import Result, Table
 from ..methods.search import EndedSearch, Plan
 from ..objective.criterion import Part
 from ..problem.problem import Problem
+from ..problem.tables import measure_table, parameter_table
 from ..records.evaluation import Evaluation, as_records
 from ..records.recorder import Recorder
 from ..records.search_record import Ending, SearchRecord
 from ..report.page import write_report
 from ..report.uncertainty_summary import summary_of
 from ..uncertainty.determined import determined_by
-from ..uncertainty.sensitivity import design_runs, indifferent, optimum_surfaces
+from ..uncertainty.sensitivity import Optimum, design_runs, optimum_surfaces, sensitivity_of
 from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
 
 if TYPE_CHECKING:
@@ -39,15 +40,12 @@ __all__ = ["Identification", "identification_of"]
 
 _log = logging.getLogger("curvewise.calibration")
 
-# A parameter this near to a bound, as a fraction of the range, is said to be at the bound.
-_AT_BOUND = 1e-3
-
 # Slopes with more numbers than this (16 MB) are not written down.
 _MOST_SLOPES = 2_000_000
 
 
 @dataclass(frozen=True, eq=False)
-class Identification:
+class Identification(Result):
     """Identified parameters and how they were found.
 
     Attributes
@@ -127,38 +125,23 @@ class Identification:
         """How many parameter sets were evaluated."""
         return len(self.history)
 
-    def __str__(self) -> str:
-        return self.summary()
+    picture_shows = "The loops at the optimum, and the convergence"
 
-    def summary(self) -> str:
-        """Return a table of the parameters, of the measures, and of how the search went."""
-        width = max(map(len, (*self.parameters, *self.measures)))
-        lines = [f"{'parameter':<{width}}  {'value':>12}  {'from':>12}  {'to':>12}"]
-        for name, value in self.parameters.items():
-            if name not in self.bounds:
-                lines.append(
-                    f"{name:<{width}}  {value:>12.6g}  {self.problem.space.kind(name):>12}"
-                )
-                continue
-            low, high = self.bounds[name]
-            near = _AT_BOUND * (high - low)
-            note = "  at its lower bound" if value - low < near else ""
-            note = "  at its upper bound" if high - value < near else note
-            lines.append(f"{name:<{width}}  {value:>12.6g}  {low:>12.6g}  {high:>12.6g}{note}")
-        lines += ["", f"{'measure':<{width}}  {'value':>12}  (preset {self.preset})"]
-        for name, value in self.measures.items():
-            note = "  minimised" if name == self.measure else ""
-            lines.append(f"{name:<{width}}  {value:>12.6g}{note}")
-        deviations = [f"curve {k}: {d}" for k, d in enumerate(self.deviations) if d is not None]
-        if deviations:
-            lines += ["", f"deviation of {self.measure}, in units of y", *deviations]
-        failed = f", {len(self.failures)} failed" if self.failures else ""
-        lines += [
-            "",
-            f"{self.method}, seed {self.seed}: {self.evaluations} evaluations{failed}",
-            self._ending(),
+    def parts(self) -> Sequence[Table | str]:
+        """Return the parameters, the measures, the deviations, and how the search went."""
+        deviations = [
+            f"curve {k}: {one}" for k, one in enumerate(self.deviations) if one is not None
         ]
-        return "\n".join(lines)
+        if deviations:
+            deviations.insert(0, f"deviation of {self.measure}, in units of y")
+        failed = f", {len(self.failures)} failed" if self.failures else ""
+        went = f"{self.method}, seed {self.seed}: {self.evaluations} evaluations{failed}"
+        return [
+            parameter_table(self.problem.space, self.parameters),
+            measure_table(self.measures, self.measure, self.preset),
+            *(["\n".join(deviations)] if deviations else []),
+            f"{went}\n{self._ending()}",
+        ]
 
     def _ending(self) -> str:
         """Say how the search ended; what is not determined has not converged to anything."""
@@ -190,10 +173,8 @@ class Identification:
         """
         if self.uncertainty_runs:
             return None
-        optimum = optimum_surfaces(
-            self.problem, self._unit, self.simulations, self.runs_with_curves
-        )
-        return determined_by(optimum, indifferent(optimum)[2])
+        optimum = self._optimum()
+        return determined_by(optimum, sensitivity_of(optimum).reach)
 
     def uncertainty(
         self,
@@ -257,11 +238,8 @@ class Identification:
         {'slope': 0.041, 'intercept': 0.024}
         """
         runs = self.uncertainty_runs
-        optimum = optimum_surfaces(
-            self.problem, self._unit, self.simulations, self.runs_with_curves
-        )
         return uncertainty_of(
-            optimum, sigma=sigma, level=level, samples=samples, seed=seed, runs=runs
+            self._optimum(), sigma=sigma, level=level, samples=samples, seed=seed, runs=runs
         )
 
     def report(
@@ -337,9 +315,7 @@ class Identification:
         """Return what is written down of how the search ended, without the uncertainty."""
         unit = slopes = None
         if self._has_surfaces:
-            optimum = optimum_surfaces(
-                self.problem, self._unit, self.simulations, self.runs_with_curves
-            )
+            optimum = self._optimum()
             if optimum.surfaces.slopes.size <= _MOST_SLOPES:
                 unit, slopes = self._unit, optimum.surfaces.slopes
         return Ending(
@@ -380,6 +356,9 @@ class Identification:
     def _unit(self) -> Array:
         return self.problem.space.unit_of(self.parameters)
 
+    def _optimum(self) -> Optimum:
+        return optimum_surfaces(self.problem, self._unit, self.simulations, self.runs_with_curves)
+
     def plot(self, *, names: Sequence[str] | None = None) -> Picture:
         """Return a matplotlib Figure of the loops and of the convergence.
 
@@ -403,26 +382,6 @@ class Identification:
             f"{self.measure} ({self.preset})",
             self.problem.objective.axes(names),
             self.problem.objective.titles,
-        )
-
-    def _repr_html_(self) -> str:
-        rows = []
-        for name, value in self.parameters.items():
-            low, high = self.bounds.get(name, (value, value))
-            rows.append([name, f"{value:.6g}", f"{low:.6g}", f"{high:.6g}"])
-        measures = [
-            [name, f"{value:.6g}", "minimised" if name == self.measure else ""]
-            for name, value in self.measures.items()
-        ]
-        # The last part of the summary says how the search ended, in words.
-        ending = self.summary().rpartition("\n\n")[2]
-        return "\n".join(
-            [
-                table(rows, ["parameter", "value", "from", "to"]),
-                table(measures, ["measure", f"value (preset {self.preset})", ""]),
-                paragraph(ending),
-                picture(self.plot, "The loops at the optimum, and the convergence"),
-            ]
         )
 
 

@@ -27,6 +27,9 @@ _RESERVED = ("evaluation", "value", "failed", "seconds", "message")
 # How far a parameter stays below another one, as a fraction of its bounds' range.
 _GAP = 1e-6
 
+# A parameter this near to a bound, as a fraction of the range, is said to be at the bound.
+_AT_BOUND = 1e-3
+
 
 @dataclass(frozen=True)
 class Log:
@@ -109,6 +112,8 @@ class Space:
         Theirs.
     is_log : tuple of bool
         Whether each of them is searched for on a logarithmic scale.
+    fixed : dict of str to float
+        The parameters that stay what they are.
 
     Raises
     ------
@@ -124,8 +129,8 @@ class Space:
             raise ValueError("bounds is empty; give a dict of name: (low, high)")
         self.bounds: dict[str, tuple[float, float]] = {}
         self._given = dict(bounds)
-        self._others: list[tuple[int, int]] = []  # (parameter, the one that it stays below)
-        self._fixed: dict[str, float] = {}
+        self._others: dict[int, int] = {}  # of a parameter the one that it stays below
+        self.fixed: dict[str, float] = {}
         is_log = []
         for name, given in bounds.items():
             if not isinstance(name, str) or not name or name in _RESERVED:
@@ -134,10 +139,10 @@ class Space:
                 continue
             low, high = _pair(name, given)
             if low == high:
-                self._fixed[name] = low
+                self.fixed[name] = low
                 continue
             if isinstance(given, Below):
-                self._others.append((len(self.bounds), self._index(name, given.other)))
+                self._others[len(self.bounds)] = self._index(name, given.other)
             self.bounds[name] = (low, high)
             is_log.append(isinstance(given, Log))
         if not self.bounds:
@@ -147,7 +152,7 @@ class Space:
         self._low = np.array([low for low, _ in self.bounds.values()])
         self._high = np.array([high for _, high in self.bounds.values()])
         self._gaps = _GAP * (self._high - self._low)
-        for below, above in self._others:  # so that there is always room below
+        for below, above in self._others.items():  # so that there is always room below
             self._low[above] = max(self._low[above], self._low[below] + 2.0 * self._gaps[below])
             if not self._low[above] < self._high[above]:
                 raise ValueError(
@@ -174,17 +179,8 @@ class Space:
             elif isinstance(given, Log):
                 settings[name] = ["log", *_pair(name, given)]
             else:
-                settings[name] = self.bounds.get(name, self._fixed.get(name))
+                settings[name] = self.bounds.get(name, self.fixed.get(name))
         return settings
-
-    def kind(self, name: str) -> str:
-        """Return what is special about a parameter, in a word or two; empty if nothing is."""
-        given = self._given[name]
-        if name in self._fixed:
-            return "fixed"
-        if isinstance(given, Below):
-            return f"below {given.other}"
-        return {Tied: "tied", Log: "logarithmic"}.get(type(given), "")
 
     def point(self, unit: Array) -> Point:
         """Return the parameters at a point of the unit cube."""
@@ -192,7 +188,7 @@ class Space:
         scaled = self._low + unit * (self._high - self._low)
         for i in self._logs:
             scaled[i] = self._low[i] * (self._high[i] / self._low[i]) ** unit[i]
-        for below, above in self._others:
+        for below, above in self._others.items():
             high = min(self._high[below], scaled[above] - self._gaps[below])
             scaled[below] = self._low[below] + unit[below] * (high - self._low[below])
         return tuple(np.clip(scaled, self._low, self._high).tolist())
@@ -208,22 +204,59 @@ class Space:
         for key, value, low, high in zip(self.names, values, self._low, self._high, strict=True):
             if not low <= value <= high:
                 raise ValueError(f"{name}[{key!r}] is {value}; it must be from {low} to {high}")
-        unit: Array = (values - self._low) / (self._high - self._low)
-        for i in self._logs:
-            unit[i] = math.log(values[i] / self._low[i]) / math.log(self._high[i] / self._low[i])
-        for below, above in self._others:
-            high = min(self._high[below], values[above] - self._gaps[below])
-            if values[below] > high:
+        for below, above in self._others.items():
+            if values[below] > min(self._high[below], values[above] - self._gaps[below]):
                 raise ValueError(
                     f"{name}[{self.names[below]!r}] is {values[below]}; it must be below "
                     f"{self.names[above]}, {values[above]}"
                 )
-            unit[below] = (values[below] - self._low[below]) / (high - self._low[below])
-        return unit
+        return np.array([self.place(key, parameters[key], parameters) for key in self.names])
 
     def unit_of(self, parameters: Mapping[str, float]) -> Array:
         """Return where in the unit cube all that a model is called with lies."""
         return self.unit({name: parameters[name] for name in self.names}, "parameters")
+
+    def place(
+        self, name: str, value: float, parameters: Mapping[str, float] | None = None
+    ) -> float:
+        """Return where a value is between the bounds of its parameter.
+
+        Parameters
+        ----------
+        name : str
+            A parameter that is searched for.
+        value : float
+            Of it.
+        parameters : mapping of str to float, optional
+            All of them: with them the upper bound of a parameter that stays below another one is
+            at most the value of that one.
+
+        Returns
+        -------
+        float
+            0 at the lower bound and 1 at the upper one, less or more outside of them; on a
+            logarithmic scale where the parameter is searched for on one.
+        """
+        i, value = self.names.index(name), float(value)
+        low, high = float(self._low[i]), float(self._high[i])
+        if parameters is not None and i in self._others:
+            above = float(parameters[self.names[self._others[i]]])
+            high = min(high, above - float(self._gaps[i]))
+        if self.is_log[i]:
+            return math.log(value / low) / math.log(high / low) if value > 0 else -math.inf
+        return (value - low) / (high - low)
+
+    def at_bounds(self, parameters: Mapping[str, float]) -> dict[str, str]:
+        """Return "lower" or "upper" for every parameter that is at a bound, to 0.1 % of the range.
+
+        What a parameter that stays below another one may be at most counts as its upper bound.
+        """
+        places = {name: self.place(name, parameters[name], parameters) for name in self.names}
+        return {
+            name: "lower" if place < 0.5 else "upper"
+            for name, place in places.items()
+            if min(place, 1.0 - place) < _AT_BOUND
+        }
 
     def differential(self, unit: Array) -> Array:
         """Return the derivatives of the parameters by the place in the unit cube, shape (k, k)."""
@@ -247,7 +280,7 @@ class Space:
             elif isinstance(given, Tied):
                 values[name] = float(given.function(dict(values)))
             else:
-                values[name] = self._fixed[name]
+                values[name] = self.fixed[name]
         return values
 
 

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...curves.inputs import Array
-from ...drawing.loops import drawn, labels
+from ...drawing.loops import xy_labels, xy_of
 from ...drawing.palette import ACCENT_COLOUR, FILL_COLOUR, GROUND_COLOUR, P_COLOUR, Q_COLOUR, SERIES
 from ..problem.space import Space
 from ..records.evaluation import Evaluation
@@ -44,14 +44,14 @@ def loop(
     traces = [_line(experiment, "test", P_COLOUR, most, mode="lines+markers", width=0.7)]
     if simulation is not None:
         traces.append(_line(simulation, "simulation", Q_COLOUR, most, width=2.0))
-    return {"data": traces, "layout": _layout(*labels(axes), title=title)}
+    return {"data": traces, "layout": _layout(*xy_labels(axes), title=title)}
 
 
 def residuals(
     branches: Sequence[tuple[str, Array, Array]], axes: Sequence[str], title: str, most: int
 ) -> Figure:
     """Return the differences of test and simulation against x, a colour for each branch."""
-    x, y = labels(axes)
+    x, y = xy_labels(axes)
     each = max(10, most // len(branches))
     traces = [
         _line(
@@ -85,7 +85,7 @@ def weakest_direction(
     names = ("weakest direction", "and back")
     for curve, name, colour in zip(moved, names, (P_COLOUR, Q_COLOUR), strict=True):
         traces.append(_line(curve, name, colour, most, width=1.5, dash="dash"))
-    return {"data": traces, "layout": _layout(*labels(axes), title=title)}
+    return {"data": traces, "layout": _layout(*xy_labels(axes), title=title)}
 
 
 def convergence(evaluations: Sequence[Evaluation], objective: str) -> Figure:
@@ -130,22 +130,34 @@ def convergence(evaluations: Sequence[Evaluation], objective: str) -> Figure:
 def intervals(space: Space, parameters: dict[str, float], summary: dict[str, Any]) -> Figure:
     """Return every parameter with its interval between its bounds, a row each."""
     names = list(space.names)
-    traces: list[dict[str, Any]] = [
-        {
-            "type": "scatter",
-            "x": [part for _ in names for part in (0, 1, None)],
-            "y": [part for name in names for part in (name, name, None)],
-            "mode": "lines",
-            "line": {"color": GROUND_COLOUR, "width": 8},
-            "hoverinfo": "skip",
-            "name": "bounds",
-        }
-    ]
-    for good, colour in ((True, P_COLOUR), (False, Q_COLOUR)):
+    traces = [_bars(names, [(0.0, 1.0)] * len(names), "bounds", GROUND_COLOUR, 8)]
+    for good, label, colour in (
+        (True, "determined", P_COLOUR),
+        (False, "not determined", Q_COLOUR),
+    ):
         chosen = [name for name in names if summary["determined"][name] == good]
-        if chosen:
-            label = "determined" if good else "not determined"
-            traces += _interval_traces(space, chosen, parameters, summary, label, colour)
+        if not chosen:
+            continue
+        ends, places, texts = [], [], []
+        for name in chosen:
+            value, (low, high) = parameters[name], summary["intervals"][name]
+            first, last, place = (_place(space, parameters, name, x) for x in (low, high, value))
+            ends.append((first, last))
+            places.append(place)
+            texts.append(html.escape(f"{name} = {value:.5g}, {low:.5g} to {high:.5g}"))
+        bars = _bars(chosen, ends, label, colour, 3)
+        dots = {
+            "type": "scatter",
+            "x": places,
+            "y": chosen,
+            "mode": "markers",
+            "marker": {"color": colour, "size": 10},
+            "legendgroup": label,
+            "name": label,
+            "text": texts,
+            "hovertemplate": "%{text}<extra></extra>",
+        }
+        traces += [bars | {"legendgroup": label, "showlegend": False}, dots]
     layout = _layout("place between the bounds", "")
     layout["xaxis"]["range"] = [-0.03, 1.03]
     layout["yaxis"] |= {
@@ -158,44 +170,24 @@ def intervals(space: Space, parameters: dict[str, float], summary: dict[str, Any
     return {"data": traces, "layout": layout}
 
 
-def _interval_traces(
-    space: Space,
-    names: Sequence[str],
-    parameters: dict[str, float],
-    summary: dict[str, Any],
-    label: str,
-    colour: str,
-) -> list[dict[str, Any]]:
-    """Return the intervals of some parameters as lines, and their values as dots."""
-    ends: list[float | None] = []
-    texts = []
-    for name in names:
-        low, high = summary["intervals"][name]
-        ends += [_rounded(place_between(space, name, end)) for end in (low, high)]
-        ends.append(None)
-        texts.append(html.escape(f"{name} = {parameters[name]:.5g}, {low:.5g} to {high:.5g}"))
-    line = {
+def _bars(
+    names: Sequence[str], ends: Sequence[Sequence[Any]], label: str, colour: str, width: int
+) -> dict[str, Any]:
+    """Return a bar for each name, from one end to the other."""
+    return {
         "type": "scatter",
-        "x": ends,
+        "x": [x for both in ends for x in (*both, None)],
         "y": [part for name in names for part in (name, name, None)],
         "mode": "lines",
-        "line": {"color": colour, "width": 3},
+        "line": {"color": colour, "width": width},
         "hoverinfo": "skip",
-        "legendgroup": label,
-        "showlegend": False,
-    }
-    dots = {
-        "type": "scatter",
-        "x": [_rounded(place_between(space, name, parameters[name])) for name in names],
-        "y": list(names),
-        "mode": "markers",
-        "marker": {"color": colour, "size": 10},
-        "legendgroup": label,
         "name": label,
-        "text": texts,
-        "hovertemplate": "%{text}<extra></extra>",
     }
-    return [line, dots]
+
+
+def _place(space: Space, parameters: dict[str, float], name: str, value: float) -> float | None:
+    """Return where a value is between its bounds; outside of them the bound."""
+    return _rounded(min(max(space.place(name, value, parameters), 0.0), 1.0))
 
 
 def correlations(names: Sequence[str], table: Sequence[Sequence[float]]) -> Figure:
@@ -220,16 +212,6 @@ def correlations(names: Sequence[str], table: Sequence[Sequence[float]]) -> Figu
     return {"data": [trace], "layout": layout}
 
 
-def place_between(space: Space, name: str, value: float) -> float:
-    """Return where a value is between the bounds of its parameter: from 0 to 1."""
-    low, high = space.bounds[name]
-    if space.is_log[space.names.index(name)]:
-        if value <= 0:
-            return 0.0
-        low, high, value = math.log(low), math.log(high), math.log(value)
-    return min(max((value - low) / (high - low), 0.0), 1.0)
-
-
 def _line(
     curve: Array,
     name: str,
@@ -240,7 +222,7 @@ def _line(
     width: float = 1.0,
     dash: str = "solid",
 ) -> dict[str, Any]:
-    x, y = drawn(curve)
+    x, y = xy_of(curve)
     shown = _evenly(len(x), most)
     return {
         **_trace(x[shown], y[shown], name, mode),

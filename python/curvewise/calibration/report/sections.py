@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ...comparing.deviations import Deviation
+from ...comparing.deviations import Deviation, cells
+from ...showing.result import Table, paragraph
+from ..problem.tables import measure_table, parameter_table
 from ..records.search_record import SearchRecord
 from . import figures
 from .branches import branches_of
@@ -16,41 +18,12 @@ from .figures import Figure
 from .repeating import code_to_repeat
 from .uncertainty_summary import moved_curves, space_of
 
-__all__ = ["AddFigure", "headline", "most_points", "overview", "sections_of", "table"]
+__all__ = ["AddFigure", "headline", "most_points", "overview", "sections_of"]
 
 AddFigure = Callable[[Figure, str], str]
 """Takes a figure and what it shows in words, and returns the HTML of its place."""
 
 _MOST_FAILURES = 100  # in the table; the others are counted
-
-
-def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table of HTML; columns of numbers are set to the right."""
-    columns = zip(*rows, strict=True) if rows else [[""] for _ in header]
-    are_numbers = [all(map(_is_number, column)) for column in columns]
-    lines = ['<div class="table"><table><thead>', _row(header, "th", are_numbers)]
-    lines += ["</thead><tbody>", *(_row(row, "td", are_numbers) for row in rows)]
-    return "\n".join([*lines, "</tbody></table></div>"])
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell or "0")
-    except ValueError:
-        return False
-    return True
-
-
-def _row(cells: Sequence[str], tag: str, are_numbers: Sequence[bool]) -> str:
-    made = [
-        f"<{tag}{' class=number' if right else ''}>{html.escape(cell)}</{tag}>"
-        for cell, right in zip(cells, are_numbers, strict=True)
-    ]
-    return f"<tr>{''.join(made)}</tr>"
-
-
-def _paragraph(text: str) -> str:
-    return f"<p>{html.escape(text)}</p>"
 
 
 def headline(record: SearchRecord, summary: dict[str, Any] | None) -> str:
@@ -68,26 +41,22 @@ def headline(record: SearchRecord, summary: dict[str, Any] | None) -> str:
     return f"{state}: {record.ending.message}. {count}."
 
 
+def _objective_name(record: SearchRecord) -> str:
+    return f"{record.settings['measure']} ({record.settings['preset']})"
+
+
 def overview(records: dict[int, SearchRecord]) -> str:
     """Return the parameters that several searches have found, side by side."""
     names = list(dict.fromkeys(name for record in records.values() for name in record.names))
     rows = []
     for number, record in records.items():
-        values = _parameters(record)
-        found = [f"{values[name]:.5g}" if name in values else "" for name in names]
-        best = record.best
-        rows.append(
-            [
-                f"{number}",
-                f"{record.settings['measure']} ({record.settings['preset']})",
-                record.settings["method"],
-                *found,
-                f"{len(record.evaluations)}",
-                "" if best is None else f"{best.value:.5g}",
-            ]
-        )
+        parameters, best = _parameters(record), record.best
+        values = [f"{parameters[name]:.5g}" if name in parameters else "" for name in names]
+        value = "" if best is None else f"{best.value:.5g}"
+        searched = [f"{number}", _objective_name(record), record.settings["method"]]
+        rows.append([*searched, *values, f"{len(record.evaluations)}", value])
     header = ["search", "measure", "method", *names, "evaluations", "value"]
-    return table(header, rows)
+    return Table(rows, header).html()
 
 
 def sections_of(
@@ -131,49 +100,29 @@ def _parameters_section(
     record: SearchRecord, summary: dict[str, Any] | None, reason: str, add: AddFigure
 ) -> str:
     space, parameters = space_of(record), _parameters(record)
-    rows = []
-    for name, value in parameters.items():
-        if name not in space.bounds:
-            rows.append([name, f"{value:.6g}", "", "", "", "", "", "fixed, or follows from others"])
-            continue
-        low, high = space.bounds[name]
-        place = figures.place_between(space, name, value)
-        note = "at its lower bound" if place < 1e-3 else ""
-        note = "at its upper bound" if place > 1 - 1e-3 else note
-        error = ends = ["", ""]
-        if summary is not None:
-            error = [f"{summary['standard_errors'][name]:.3g}"]
-            ends = [f"{end:.5g}" for end in summary["intervals"][name]]
-            note = note or ("" if summary["determined"][name] else "not determined")
-        cells = [f"{value:.6g}", *error[:1], *ends, f"{low:.6g}", f"{high:.6g}", note]
-        rows.append([name, *cells])
-    percent = "interval" if summary is None else f"{100 * summary['level']:g} % interval"
-    header = ["parameter", "value", "std. error", f"{percent} from", "to", "lower bound", "upper"]
-    parts = [table([*header, ""], rows)]
+    parts = [parameter_table(space, parameters, spread=summary).html()]
     if summary is None:
-        parts.append(_paragraph(reason))
+        parts.append(paragraph(reason))
     else:
         noise = ", ".join(f"{sigma:.3g}" for sigma in summary["sigma"])
+        correlations = figures.correlations(space.names, summary["correlations"])
         parts += [
-            _paragraph(f"Intervals from noise of standard deviation {noise} in y, loop by loop."),
-            '<div class="figures">',
-            add(figures.intervals(space, parameters, summary), "Intervals between the bounds"),
-            add(
-                figures.correlations(space.names, summary["correlations"]),
-                "Correlations of the errors",
+            paragraph(f"Intervals from noise of standard deviation {noise} in y, loop by loop."),
+            _side_by_side(
+                add(figures.intervals(space, parameters, summary), "Intervals between the bounds"),
+                add(correlations, "Correlations of the errors"),
             ),
-            "</div>",
         ]
     if record.ending is not None:
-        measures = [
-            [name, f"{value:.6g}", "minimised" if name == record.settings["measure"] else ""]
-            for name, value in record.ending.measures.items()
-        ]
-        parts += [
-            "<h4>The optimum under every measure</h4>",
-            table(["measure", f"value (preset {record.settings['preset']})", ""], measures),
-        ]
+        values, settings = record.ending.measures, record.settings
+        measures = measure_table(values, settings["measure"], settings["preset"])
+        parts += ["<h4>The optimum under every measure</h4>", measures.html()]
     return "\n".join(parts)
+
+
+def _side_by_side(*places: str) -> str:
+    """Return the places of figures beside each other, as many as the page is wide."""
+    return "\n".join(['<div class="figures">', *places, "</div>"])
 
 
 def _loops(record: SearchRecord) -> list[tuple[str, list[str], Any, Any]]:
@@ -185,30 +134,29 @@ def _loops(record: SearchRecord) -> list[tuple[str, list[str], Any, Any]]:
 
 
 def _tests(record: SearchRecord, add: AddFigure, most: int) -> str:
-    parts, numbers = ['<div class="figures">'], []
+    drawn, numbers = [], []
     for title, axes, test, simulation in _loops(record):
         if test.size == 1:
-            found = "" if simulation is None else f"{simulation[0, 0]:.6g}"
-            numbers.append([title, f"{test[0, 0]:.6g}", found])
+            number = "" if simulation is None else f"{simulation[0, 0]:.6g}"
+            numbers.append([title, f"{test[0, 0]:.6g}", number])
             continue
         figure = figures.loop(test, simulation, axes, title, most)
-        parts.append(add(figure, f"{title}: test and simulation"))
-    parts.append("</div>")
+        drawn.append(add(figure, f"{title}: test and simulation"))
+    parts = [_side_by_side(*drawn)]
     if numbers:
-        parts.append(table(["number", "test", "simulation"], numbers))
+        parts.append(Table(numbers, ["number", "test", "simulation"]).html())
     if record.ending is not None:
+        titles = record.details["titles"]
         rows = [
-            [title, Deviation(*found).mean_text, Deviation(*found).largest_text]
-            for title, found in zip(
-                record.details["titles"], record.ending.deviations, strict=False
-            )
-            if found is not None
+            [title, *cells(Deviation(*deviation))]
+            for title, deviation in zip(titles, record.ending.deviations, strict=False)
+            if deviation is not None
         ]
         if rows:
-            header = ["loop", "mean deviation, in units of y", "largest"]
-            parts += [f"<h4>As {record.settings['measure']} sees it</h4>", table(header, rows)]
+            parts.append(f"<h4>As {record.settings['measure']} sees it</h4>")
+            parts.append(Table(rows, ["loop", "mean deviation, in units of y", "largest"]).html())
     if not record.curves:
-        parts.append(_paragraph("The simulated curves at the best point are not known."))
+        parts.append(paragraph("The simulated curves at the best point are not known."))
     return "\n".join(parts)
 
 
@@ -222,24 +170,15 @@ def _residuals(record: SearchRecord, add: AddFigure, most: int) -> str:
         drawn.append(add(figures.residuals(branches, names, title, most), f"{title}: residuals"))
         rows += [[title, *branch.row()] for branch in branches]
     if not rows:
-        return _paragraph("There is no simulated curve to take from a test.")
+        return paragraph("There is no simulated curve to take from a test.")
     header = ["loop", "branch", "x from", "to", "points", "mean", "rms", "largest"]
     note = "Test minus simulation, in units of y, where a warping path matches them."
-    return "\n".join(
-        [
-            _paragraph(note),
-            '<div class="figures">',
-            *drawn,
-            "</div>",
-            table(header, rows),
-        ]
-    )
+    return "\n".join([paragraph(note), _side_by_side(*drawn), Table(rows, header).html()])
 
 
 def _convergence(record: SearchRecord, add: AddFigure) -> str:
     if not record.evaluations:
-        return _paragraph("Nothing has been evaluated yet.")
-    objective = f"{record.settings['measure']} ({record.settings['preset']})"
+        return paragraph("Nothing has been evaluated yet.")
     seconds = sum(one.seconds for one in record.evaluations)
     best = record.best
     assert best is not None
@@ -247,26 +186,22 @@ def _convergence(record: SearchRecord, add: AddFigure) -> str:
         f"{len(record.evaluations)} parameter sets, which took the model {seconds:.3g} s. "
         f"Best value {best.value:.6g}, at evaluation {best.number}."
     )
-    figure = figures.convergence(record.evaluations, objective)
-    return f'{_paragraph(text)}<div class="figures wide">{add(figure, "Convergence")}</div>'
+    figure = figures.convergence(record.evaluations, _objective_name(record))
+    return f'{paragraph(text)}<div class="figures wide">{add(figure, "Convergence")}</div>'
 
 
 def _weakest(
     record: SearchRecord, summary: dict[str, Any] | None, reason: str, add: AddFigure, most: int
 ) -> str:
     if summary is None:
-        return _paragraph(reason)
+        return paragraph(reason)
     names, in_words = record.names, summary["in_words"]
-    parts = [_paragraph(f"{in_words[:1].upper()}{in_words[1:]}.")]
-    parts.append('<div class="figures">')
-    forth, back = moved_curves(summary)
-    for i, (title, axes, test, simulation) in enumerate(_loops(record)):
+    drawn = []
+    moved = zip(*moved_curves(summary), strict=True)
+    for (title, axes, test, simulation), both in zip(_loops(record), moved, strict=True):
         if test.size > 1 and simulation is not None:
-            figure = figures.weakest_direction(
-                test, simulation, (forth[i], back[i]), axes, title, most
-            )
-            parts.append(add(figure, f"{title}, moved along the weakest direction"))
-    parts.append("</div>")
+            figure = figures.weakest_direction(test, simulation, both, axes, title, most)
+            drawn.append(add(figure, f"{title}, moved along the weakest direction"))
     changes = [
         [name, f"{summary['weakest_direction'][name]:.4g}", f"{summary['unnoticed'][name]:.4g}"]
         for name in names
@@ -277,11 +212,13 @@ def _weakest(
         for title, row in zip(record.details["titles"], summary["sensitivities"], strict=True)
     ]
     singular = ", ".join(f"{100 * value:.3g}" for value in summary["singular_values"])
-    parts += [
-        table(header, changes),
+    parts = [
+        paragraph(f"{in_words[:1].upper()}{in_words[1:]}."),
+        _side_by_side(*drawn),
+        Table(changes, header).html(),
         "<h4>How far each loop moves as a parameter goes through its bounds, % of the loop</h4>",
-        table(["loop", *names], sensitivities),
-        _paragraph(f"The same for combinations of parameters, strongest to weakest: {singular} %."),
+        Table(sensitivities, ["loop", *names]).html(),
+        paragraph(f"The same for combinations of parameters, strongest to weakest: {singular} %."),
     ]
     return "\n".join(parts)
 
@@ -289,20 +226,15 @@ def _weakest(
 def _failures(record: SearchRecord) -> str:
     failed = [one for one in record.evaluations if one.failed]
     if not failed:
-        return _paragraph("No evaluation has failed.")
-    rows = [
-        [
-            f"{one.number}",
-            ", ".join(
-                f"{name} {value:.4g}" for name, value in zip(record.names, one.point, strict=True)
-            ),
-            one.message,
-        ]
-        for one in failed[:_MOST_FAILURES]
-    ]
-    made = table(["evaluation", "parameters", "why"], rows)
+        return paragraph("No evaluation has failed.")
+    rows = []
+    for one in failed[:_MOST_FAILURES]:
+        values = zip(record.names, one.point, strict=True)
+        parameters = ", ".join(f"{name} {value:.4g}" for name, value in values)
+        rows.append([f"{one.number}", parameters, one.message])
+    made = Table(rows, ["evaluation", "parameters", "why"]).html()
     more = len(failed) - len(rows)
-    return made + (_paragraph(f"And {more} more.") if more else "")
+    return made + (paragraph(f"And {more} more.") if more else "")
 
 
 def _settings(record: SearchRecord) -> str:
@@ -319,8 +251,8 @@ def _settings(record: SearchRecord) -> str:
     return "\n".join(
         [
             f"<pre>{html.escape(code_to_repeat(record))}</pre>",
-            table(["test", "points", "columns", "weight"], tests),
-            table(["", ""], rows),
+            Table(tests, ["test", "points", "columns", "weight"]).html(),
+            Table(rows, ["", ""]).html(),
         ]
     )
 

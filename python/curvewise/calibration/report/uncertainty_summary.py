@@ -7,6 +7,7 @@ which gives the same bits. A measure that is a function of the user's cannot be 
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -27,36 +28,24 @@ from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
 __all__ = ["moved_curves", "space_of", "summary_of", "summary_of_record"]
 
 
+# Attributes of an uncertainty that the page has from elsewhere, or does not have.
+_NOT_WRITTEN = ("parameters", "bias", "measure", "optimum")
+
+
 def summary_of(uncertainty: Uncertainty) -> dict[str, Any]:
     """Return what a page says of an uncertainty."""
+    names = [one.name for one in fields(uncertainty) if one.name not in _NOT_WRITTEN]
+    values = {name: getattr(uncertainty, name) for name in names}
     return {
-        "standard_errors": dict(uncertainty.standard_errors),
-        "intervals": {name: list(ends) for name, ends in uncertainty.intervals.items()},
-        "correlations": uncertainty.correlations.tolist(),
-        "sensitivities": uncertainty.sensitivities.tolist(),
-        "singular_values": uncertainty.singular_values.tolist(),
-        "weakest_direction": dict(uncertainty.weakest_direction),
+        **{k: v.tolist() if isinstance(v, np.ndarray) else v for k, v in values.items()},
         "in_words": uncertainty.in_words,
-        "unnoticed": dict(uncertainty.unnoticed),
-        "determined": {name: bool(good) for name, good in uncertainty.determined.items()},
-        "at_bounds": dict(uncertainty.at_bounds),
-        "sigma": uncertainty.sigma.tolist(),
-        "level": uncertainty.level,
-        "runs": uncertainty.runs,
-        "moved": [text_of(curves) for curves in _moved(uncertainty)],
+        "moved": [text_of(curves) for curves in uncertainty.moved],
     }
 
 
 def moved_curves(summary: dict[str, Any]) -> list[tuple[Array, ...]]:
     """Return the curves moved along the weakest direction, and the other way."""
     return [curves_of(text) for text in summary["moved"]]
-
-
-def _moved(uncertainty: Uncertainty) -> list[list[Array]]:
-    optimum = uncertainty.optimum
-    differential = optimum.problem.space.differential(optimum.unit)
-    step = np.linalg.solve(differential, np.array(list(uncertainty.weakest_direction.values())))
-    return [optimum.curves(optimum.unit + sign * step) for sign in (1.0, -1.0)]
 
 
 def summary_of_record(record: SearchRecord) -> tuple[dict[str, Any] | None, str]:

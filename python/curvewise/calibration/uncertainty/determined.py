@@ -44,8 +44,7 @@ def is_narrow(optimum: Optimum, i: int, interval: tuple[float, float]) -> bool:
 def _small(space: Space, i: int, change: float, value: float) -> bool:
     """Return whether a parameter that may be off by a change is still determined."""
     low, high = space.bounds[space.names[i]]
-    if space.is_log[i]:
-        return change <= _OF_VALUE * abs(value)
-    return change <= min(
-        _OF_RANGE * (high - low), max(_OF_VALUE * abs(value), _SMALL * (high - low))
-    )
+    most = _OF_VALUE * abs(value)
+    if not space.is_log[i]:
+        most = min(_OF_RANGE * (high - low), max(most, _SMALL * (high - low)))
+    return bool(change <= most)

@@ -1,4 +1,4 @@
-"""What a test is beside its fitted curve: residuals, or a deviation that is given, and draws of it.
+"""The noise of a test: its residuals from the fitted curve, or a given deviation; draws of it.
 
 Residuals that go on alike from point to point (a model that is wrong rather than noise) are drawn
 in blocks, so that they keep to that. Cost: that of a dynamic time warping path for every loop; a
@@ -21,17 +21,30 @@ from ...curves.inputs import Array
 from .fitted_points import fitted_points
 from .sensitivity import Optimum
 
-__all__ = ["Noise", "autocorrelation", "block_length", "drawn", "noise_of"]
+__all__ = ["Noise", "autocorrelation", "block_length", "draw_noise", "noise_of"]
 
 # Residuals with a smaller autocorrelation from point to point are drawn one by one.
 _INDEPENDENT = 0.2
 
 
 class Noise(NamedTuple):
-    """What a test is beside its fitted curve."""
+    """The fitted curves, and how the measured ones scatter about them.
+
+    Attributes
+    ----------
+    fitted : list of ndarray
+        For each test the simulated point that belongs to each measured one.
+    residuals : list of ndarray or None
+        Measured minus fitted y, enlarged for the parameters that were fitted; None where sigma is
+        given.
+    sigma : ndarray, shape (tests,)
+        The standard deviation of each test.
+    freedom : int
+        Points of all tests minus parameters.
+    """
 
     fitted: list[Array]
-    residuals: list[Array] | None  # None where sigma is given
+    residuals: list[Array] | None
     sigma: Array
     freedom: int
 
@@ -87,8 +100,8 @@ def block_length(residuals: Array) -> int:
     return max(1, min(round(length), len(residuals) // 4))
 
 
-def drawn(noise: Noise, loop: int, lengths: list[int], random: np.random.Generator) -> Array:
-    """Draw the noise of one loop."""
+def draw_noise(noise: Noise, loop: int, lengths: list[int], random: np.random.Generator) -> Array:
+    """Return noise of one loop, drawn anew."""
     count = len(noise.fitted[loop])
     if noise.residuals is None:
         return random.normal(0.0, noise.sigma[loop], count)

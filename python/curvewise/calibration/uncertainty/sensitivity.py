@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from ..problem.problem import Problem
 from ..surfaces.nearby_runs import NearbyRuns, Run, narrowest, runs_near
 from ..surfaces.surfaces import Responses, Surfaces
 
-__all__ = ["Optimum", "design_runs", "indifferent", "optimum_surfaces"]
+__all__ = ["Optimum", "Sensitivity", "design_runs", "optimum_surfaces", "sensitivity_of"]
 
 _NEAR = 0.1  # runs further away than this fraction of the bounds' range are not looked at
 _STEP = 0.02  # runs nearer than this count alike; the step of fresh runs
@@ -69,6 +70,25 @@ class Optimum:
         counts = [len(curve) * curve.shape[1] for curve in self.curves(self.unit)]
         parts = np.split(self.scaled_slopes(), np.cumsum(counts)[:-1])
         return np.array([np.linalg.norm(part, axis=0) for part in parts])
+
+
+class Sensitivity(NamedTuple):
+    """What the loops notice of the parameters.
+
+    Attributes
+    ----------
+    singular_values : ndarray, shape (k,)
+        Of the scaled slopes, the largest first.
+    directions : ndarray, shape (k, k)
+        Row i is the direction of value i, in the unit cube.
+    reach : ndarray, shape (k,)
+        By how much each parameter changes, in units of its bounds' range, along the direction in
+        which it can go furthest before the objective rises by 1 %; at most 1.
+    """
+
+    singular_values: Array
+    directions: Array
+    reach: Array
 
 
 def design_runs(problem: Problem, unit: Array, runs: Sequence[Run]) -> int:
@@ -124,19 +144,8 @@ def _differences(problem: Problem, unit: Array, responses: Responses, base: Arra
     return slopes
 
 
-def indifferent(optimum: Optimum) -> tuple[Array, Array, Array]:
-    """Return singular values, directions and how far each parameter may go unnoticed.
-
-    Returns
-    -------
-    singular_values : ndarray, shape (k,)
-        Of the scaled slopes, the largest first.
-    directions : ndarray, shape (k, k)
-        Row i is the direction of value i, in the unit cube.
-    reach : ndarray, shape (k,)
-        By how much each parameter changes, in units of its bounds' range, along the direction in
-        which it can go furthest before the objective rises by 1 %; at most 1.
-    """
+def sensitivity_of(optimum: Optimum) -> Sensitivity:
+    """Return what the loops notice of the parameters, and how far these may go unnoticed."""
     slopes = optimum.scaled_slopes()
     _, values, directions = np.linalg.svd(slopes, full_matrices=False)
     objective = optimum.problem.objective
@@ -151,7 +160,7 @@ def indifferent(optimum: Optimum) -> tuple[Array, Array, Array]:
     for direction in directions:
         furthest = max(_furthest(unnoticed, sign * direction) for sign in (1.0, -1.0))
         reach = np.maximum(reach, furthest * np.abs(direction))
-    return values, directions, np.minimum(reach, 1.0)
+    return Sensitivity(values, directions, np.minimum(reach, 1.0))
 
 
 def _furthest(unnoticed: Callable[[Array, float], bool], direction: Array) -> float:

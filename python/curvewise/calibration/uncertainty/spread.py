@@ -19,7 +19,7 @@ import numpy as np
 from ..._extras import required
 from ...curves.inputs import Array
 from ..surfaces.quasi_newton import quasi_newton
-from .noise import Noise, autocorrelation, block_length, drawn
+from .noise import Noise, autocorrelation, block_length, draw_noise
 from .sensitivity import Optimum
 
 __all__ = ["Spread", "bootstrapped_spread", "linear_covariance", "linear_spread"]
@@ -123,7 +123,7 @@ def bootstrapped_spread(
         tests = []
         for loop, fitted in enumerate(noise.fitted):
             test = fitted.copy()
-            test[:, ys[loop]] += drawn(noise, loop, lengths, random)
+            test[:, ys[loop]] += draw_noise(noise, loop, lengths, random)
             tests.append(test)
         units[i] = _reminimised(optimum, tests, steps)
     points = np.array([space.point(unit) for unit in units])

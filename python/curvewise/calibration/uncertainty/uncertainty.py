@@ -10,17 +10,20 @@ Sources: see those modules.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from ...curves.inputs import Array
-from ...showing.notebook import paragraph, picture, table
+from ...drawing.intervals import Intervals, intervals_and_moves
+from ...showing.result import Result, Table
+from ..problem.tables import parameter_table
 from .determined import determined_by, is_narrow
 from .noise import noise_of
-from .sensitivity import Optimum, indifferent
+from .sensitivity import Optimum, sensitivity_of
 from .spread import bootstrapped_spread, linear_spread
 
 if TYPE_CHECKING:
@@ -28,16 +31,16 @@ if TYPE_CHECKING:
 
 __all__ = ["Uncertainty", "uncertainty_of"]
 
+_Value = TypeVar("_Value")
+
 # A bias of less than this many standard errors does not matter (Efron & Tibshirani, section 10.3).
 _HARMLESS_BIAS = 0.25
 # Measures that go by arc length, which noise adds to.
 _OF_LENGTH = ("curve_length", "pcm")
-# As in an identification's summary.
-_AT_BOUND = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Uncertainty:
+class Uncertainty(Result):
     """How well the tests determine the parameters.
 
     Attributes
@@ -94,8 +97,13 @@ class Uncertainty:
     runs: int
     optimum: Optimum = field(repr=False)
 
-    def __str__(self) -> str:
-        return self.summary()
+    @cached_property
+    def moved(self) -> tuple[list[Array], list[Array]]:
+        """The curves moved along the weakest direction, and the other way."""
+        optimum = self.optimum
+        differential = optimum.problem.space.differential(optimum.unit)
+        step = np.linalg.solve(differential, np.array(list(self.weakest_direction.values())))
+        return optimum.curves(optimum.unit + step), optimum.curves(optimum.unit - step)
 
     @property
     def in_words(self) -> str:
@@ -111,41 +119,20 @@ class Uncertainty:
         listed = " and ".join([", ".join(moves[:-1]), moves[-1]] if len(moves) > 1 else moves)
         if not listed:
             return "no parameter changes by 1 % of itself along the weakest direction"
-        return f"{listed}: the loops move by {100.0 * self._weakest_move():.2g} % of their size"
+        extents = self.optimum.problem.objective.extents
+        pairs = zip(self.optimum.curves(self.optimum.unit), self.moved[0], extents, strict=True)
+        move = max(float(np.sqrt((((new - old) / size) ** 2).mean())) for old, new, size in pairs)
+        return f"{listed}: the loops move by {100.0 * move:.2g} % of their size"
 
-    def _weakest_move(self) -> float:
-        """Return the largest root mean square move of a loop along the weakest direction."""
-        unit = self.optimum.problem.space.differential(self.optimum.unit)
-        step = np.linalg.solve(unit, np.array(list(self.weakest_direction.values())))
-        curves = self.optimum.curves(self.optimum.unit + step)
-        moves = []
-        for old, new, extent in zip(
-            self.optimum.curves(self.optimum.unit),
-            curves,
-            self.optimum.problem.objective.extents,
-            strict=True,
-        ):
-            moves.append(np.sqrt((((new - old) / extent) ** 2).mean()))
-        return float(max(moves))
+    picture_shows = "Intervals, correlations, and the weakest direction"
 
-    def summary(self) -> str:
-        """Return a table of the parameters with their intervals, and what is not determined."""
-        width = max(9, *map(len, self.parameters))
-        percent = f"{100 * self.level:g} %"
-        lines = [
-            f"{'parameter':<{width}}  {'value':>11}  {'std. error':>11}  "
-            f"{percent + ' from':>11}  {'to':>11}"
-        ]
-        for name, error in self.standard_errors.items():
-            low, high = self.intervals[name]
-            note = f"  at its {self.at_bounds[name]} bound" if name in self.at_bounds else ""
-            note = note or ("" if self.determined[name] else "  not determined")
-            lines.append(
-                f"{name:<{width}}  {self.parameters[name]:>11.5g}  {error:>11.3g}  "
-                f"{low:>11.5g}  {high:>11.5g}{note}"
-            )
+    def parts(self) -> Sequence[Table | str]:
+        """Return the parameters with their intervals, and what is not determined."""
+        searched = {name: self.parameters[name] for name in self.standard_errors}
+        space = self.optimum.problem.space
+        table = parameter_table(space, searched, spread=vars(self), with_bounds=False)
         noise = ", ".join(f"{sigma:.3g}" for sigma in self.sigma)
-        lines += ["", f"measure {self.measure}, noise {noise}, {self.runs} runs of the model"]
+        lines = [f"measure {self.measure}, noise {noise}, {self.runs} runs of the model"]
         undetermined = [name for name, good in self.determined.items() if not good]
         lines.append(
             f"not determined: {', '.join(undetermined)}" if undetermined else "all are determined"
@@ -160,7 +147,7 @@ class Uncertainty:
                     f"{self.measure} takes noise for length: filter the test "
                     "(curvewise.curves.smooth), or take another measure"
                 )
-        return "\n".join(lines)
+        return [table, "\n".join(lines)]
 
     def _biased(self) -> str:
         """Say which parameters are biased by more than is harmless, and by how much."""
@@ -183,26 +170,21 @@ class Uncertainty:
         ImportError
             matplotlib is not installed: ``pip install "curvewise[plot]"``.
         """
-        from .picture import intervals_correlations_direction
-
-        return intervals_correlations_direction(self, names)
-
-    def _repr_html_(self) -> str:
-        percent = f"{100 * self.level:g} %"
-        rows = []
+        optimum = self.optimum
+        objective, space = optimum.problem.objective, optimum.problem.space
+        places, texts = [], []
         for name, error in self.standard_errors.items():
-            low, high = self.intervals[name]
-            note = "determined" if self.determined[name] else "not determined"
-            numbers = [f"{self.parameters[name]:.5g}", f"{error:.3g}", f"{low:.5g}", f"{high:.5g}"]
-            rows.append([name, *numbers, note])
-        header = ["parameter", "value", "std. error", f"{percent} from", "to", ""]
-        about = "Intervals, correlations, and the weakest direction"
-        return "\n".join(
-            [
-                table(rows, header),
-                paragraph(f"weakest direction: {self.in_words}"),
-                picture(self.plot, about),
-            ]
+            value = self.parameters[name]
+            ends = (*self.intervals[name], value)
+            places.append([space.place(name, end, self.parameters) for end in ends])
+            note = "" if self.determined[name] else ", not determined"
+            texts.append(f"{value:.4g} ± {error:.2g}{note}")
+        return intervals_and_moves(
+            Intervals(space.names, places, texts, list(self.determined.values()), self.level),
+            self.correlations,
+            zip(objective.experiments, optimum.curves(optimum.unit), *self.moved, strict=True),
+            objective.axes(names),
+            self.in_words,
         )
 
 
@@ -227,28 +209,28 @@ def uncertainty_of(
         spread = linear_spread(optimum, noise, level, differential)
     else:
         spread = bootstrapped_spread(optimum, noise, level, samples, seed)
-    values, directions, reach = indifferent(optimum)
-    parameters = dict(zip(space.names, space.point(optimum.unit), strict=True))
+    values, directions, reach = sensitivity_of(optimum)
+    point = space.point(optimum.unit)
+    parameters = space.dictionary(point)
     weakest = differential @ directions[-1]
-    shares = np.abs(weakest) / np.maximum(np.abs(list(parameters.values())), 1e-300)
+    shares = np.abs(weakest) / np.maximum(np.abs(point), 1e-300)
     weakest = weakest * (0.1 / shares.max()) * (np.sign(weakest[np.argmax(shares)]) or 1.0)
-    at_bounds = {
-        name: "lower" if place < 0.5 else "upper"
-        for name, place in zip(space.names, optimum.unit, strict=True)
-        if min(place, 1.0 - place) < _AT_BOUND
-    }
-    named = list(space.names)
-    intervals = dict(zip(named, spread.intervals, strict=True))
+    at_bounds = space.at_bounds(parameters)
+
+    def named(values: Iterable[_Value]) -> dict[str, _Value]:
+        return dict(zip(space.names, values, strict=True))
+
+    intervals = named(spread.intervals)
     return Uncertainty(
-        parameters=space.dictionary(space.point(optimum.unit)),
-        standard_errors=dict(zip(named, spread.errors.tolist(), strict=True)),
+        parameters=parameters,
+        standard_errors=named(spread.errors.tolist()),
         intervals=intervals,
-        bias=dict(zip(named, spread.bias.tolist(), strict=True)),
+        bias=named(spread.bias.tolist()),
         correlations=spread.correlations,
         sensitivities=optimum.loop_sensitivities(),
         singular_values=values,
-        weakest_direction=dict(zip(named, weakest.tolist(), strict=True)),
-        unnoticed=dict(zip(named, (np.abs(differential) @ reach).tolist(), strict=True)),
+        weakest_direction=named(weakest.tolist()),
+        unnoticed=named((np.abs(differential) @ reach).tolist()),
         determined={
             name: good and name not in at_bounds and is_narrow(optimum, i, intervals[name])
             for i, (name, good) in enumerate(determined_by(optimum, reach).items())
