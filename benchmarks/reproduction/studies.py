@@ -16,7 +16,7 @@ import logging
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -24,7 +24,14 @@ import numpy as np
 from problems import Array, Bounds
 from tqdm.auto import tqdm
 
-from curvewise.calibration import Criterion, cross_validate, identify
+from curvewise.calibration import (
+    SDRM,
+    Criterion,
+    DifferentialEvolution,
+    NelderMead,
+    cross_validate,
+    identify,
+)
 
 Model: TypeAlias = Callable[[Mapping[str, float]], Any]
 Effort: TypeAlias = Mapping[str, Mapping[str, Any]]
@@ -47,6 +54,15 @@ def evolution(popsize: int, generations: int, **options: Any) -> dict[str, Any]:
         "stall": None,
         **options,
     }
+
+
+def searching(name: str, options: Mapping[str, Any]) -> Any:
+    """Return the method of a stage; what is no option of its own is scipy's."""
+    method = {"de": DifferentialEvolution, "nelder-mead": NelderMead, "sdrm": SDRM}[name]
+    own = {option.name for option in fields(method)} & options.keys()
+    passed_on = {option: options[option] for option in options.keys() - own}
+    given = {"options": passed_on} if passed_on else {}
+    return method(**{option: options[option] for option in own}, **given)
 
 
 @dataclass(frozen=True)
@@ -211,8 +227,7 @@ def _found(task: Task) -> dict[str, Any]:
             task.model,
             task.experiments,
             task.bounds,
-            method=method,
-            method_options=options,
+            method=searching(method, options),
             start=start,
             callback=lambda progress, trace=trace: trace.append(float(f"{progress.value:.6g}")),
             **task.keywords(),
@@ -240,8 +255,7 @@ def _folds(task: Task) -> dict[str, Any]:
         task.model,
         task.experiments,
         task.bounds,
-        method=method,
-        method_options=options,
+        method=searching(method, options),
         **task.keywords(),
     )
     folds = [

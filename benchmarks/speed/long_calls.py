@@ -297,7 +297,7 @@ def model(parameters: dict[str, float]) -> np.ndarray:
 
 
 BOUNDS = {"a": (0.0, 1.0), "b": (0.0, 1.0)}
-SEARCH = {"progress": False, "method": "de", "max_evaluations": 150}
+SEARCH = {"progress": False, "method": "de", "max_runs": 150}
 EXPERIMENT = partial(model, {"a": 0.5})
 
 

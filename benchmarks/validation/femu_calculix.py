@@ -32,7 +32,13 @@ from matplotlib.figure import Figure
 from places import BUILD, LOOPS, RESULTS
 
 from curvewise import read_curve
-from curvewise.calibration import Criterion, Identification, SimulationStore, identify
+from curvewise.calibration import (
+    Criterion,
+    DifferentialEvolution,
+    Identification,
+    SimulationStore,
+    identify,
+)
 from curvewise.curves.named_curve import NamedCurve
 
 TESTS = ["dp780_tct_3pct.csv", "dp780_tct_6pct.csv"]
@@ -182,7 +188,7 @@ def fit(
         BOUNDS,
         measure=Criterion(measure, preset="paper"),
         method="sdrm",
-        max_evaluations=18 if quick else None,
+        max_runs=18 if quick else None,
         workers=workers,
         store=SimulationStore(stores / f"{measure}.db", version=version),
     )
@@ -230,9 +236,8 @@ def survive_failures(model: CubeModel, tests: Sequence[Array], workers: int) -> 
         tests,
         DIVERGING_BOUNDS,
         measure=Criterion(preset="paper"),
-        method="de",
-        method_options={"popsize": 2},
-        max_evaluations=36,
+        method=DifferentialEvolution(popsize=2),
+        max_runs=36,
         workers=workers,
         callback=start_killing,
     )

@@ -32,7 +32,7 @@ import numpy as np
 from material_points import THREE, THREE_BOUNDS, material_point, of_three, strain_path
 from places import BUILD, RESULTS
 
-from curvewise.calibration import Identification, identify
+from curvewise.calibration import Identification, TrustRegion, identify
 from curvewise.curves import smooth
 
 X = np.linspace(0.0, 1.0, 40)
@@ -104,8 +104,7 @@ def fitted(case: Case, seed: int) -> Identification:
         [test],
         bounds,
         measure=case.measure,
-        method="trust-region",
-        method_options={"initial_range": 0.1, "gain": 1e-5},
+        method=TrustRegion(initial_range=0.1, gain=1e-5),
         start=truth,
         progress=False,
         **dict(case.options),

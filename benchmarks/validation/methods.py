@@ -43,21 +43,19 @@ from places import BUILD, LOOPS, RESULTS
 from problems import HardeningModel, hardening_bounds, test_loops
 
 from curvewise import read_curve
-from curvewise.calibration import identify
+from curvewise.calibration import TrustRegion, identify
 
 RUNS = BUILD / "methods"
-ONE = {"starts": 1}
-FRESH = {"slopes": "fresh"}
-# What is searched by: the method of `identify`, its options, and its colour.
-METHODS: dict[str, tuple[str, dict, str]] = {
-    "sdrm": ("sdrm", {}, "#0072B2"),
-    "trust-region, 1 start": ("trust-region", ONE, "#56B4E9"),
-    "trust-region": ("trust-region", {}, "#D55E00"),
-    "gauss-newton, 1 start": ("trust-region", {**FRESH, **ONE}, "#009E73"),
-    "gauss-newton": ("trust-region", FRESH, "#1B4D3E"),
-    "nelder-mead": ("nelder-mead", {}, "#CC79A7"),
-    "de": ("de", {}, "#E69F00"),
-    "sdrm+de": ("sdrm+de", {}, "#000000"),
+# What is searched by: the method of `identify`, and its colour.
+METHODS = {
+    "sdrm": ("sdrm", "#0072B2"),
+    "trust-region, 1 start": (TrustRegion(starts=1), "#56B4E9"),
+    "trust-region": ("trust-region", "#D55E00"),
+    "gauss-newton, 1 start": (TrustRegion(starts=1, slopes="fresh"), "#009E73"),
+    "gauss-newton": (TrustRegion(slopes="fresh"), "#1B4D3E"),
+    "nelder-mead": ("nelder-mead", "#CC79A7"),
+    "de": ("de", "#E69F00"),
+    "sdrm+de": ("sdrm+de", "#000000"),
 }
 OLD, NEW = "sdrm+de", "trust-region"  # defaults of `identify`
 LIMIT = {"nelder-mead": 2000, "de": 4000, "sdrm+de": 4000}
@@ -122,11 +120,9 @@ def trace(task: tuple[str, str, int, Path]) -> dict:
     logging.getLogger("curvewise.calibration").setLevel(logging.ERROR)
     model, tests, bounds = problem(name, seed, runs)
     search = partial(identify, model, tests, bounds, progress=False, measure="area", seed=seed)
-    method, chosen, _ = METHODS[label]
+    method, _ = METHODS[label]
     keywords = {"store": runs / "calculix.db"} if name == "CalculiX" else {}
-    values = search(
-        method=method, method_options=chosen, max_evaluations=LIMIT.get(label), **keywords
-    ).history.value
+    values = search(method=method, max_runs=LIMIT.get(label), **keywords).history.value
     best = np.minimum.accumulate(values)
     improved = np.flatnonzero(np.diff(best, prepend=np.inf))
     return {"runs": len(best), "steps": [[int(i) + 1, float(best[i])] for i in improved]}
@@ -244,7 +240,7 @@ def draw(results: dict) -> Figure:
             runs = sorted(r for r in row["runs"] if r is not None)
             share = np.arange(len(runs) + 1) / len(row["runs"])
             x = [1, *runs, 5000]
-            ax.step(x, [*share, share[-1]], where="post", color=METHODS[method][2], label=method)
+            ax.step(x, [*share, share[-1]], where="post", color=METHODS[method][1], label=method)
         ax.set(xscale="log", ylim=(-0.02, 1.05), xlim=(4, 5000), title=TITLES[name])
         ax.set_xlabel("runs of the model")
     panels[0].set_ylabel("share of searches within 1 %")

@@ -20,11 +20,10 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from curvewise.calibration import Identification, SimulationStore, identify
+from curvewise.calibration import SDRM, Identification, SimulationStore, identify
 
 # Leaves a folder's files so many bytes.
 Full = Callable[[Path, int], AbstractContextManager[None]]
@@ -44,9 +43,8 @@ class Line:
 
 def search(model: Line, store: Path | None = None) -> Identification:
     experiment = Line()({"a": 2.0, "b": 1.0})
-    options = {"maxiter": 8}
-    keywords: dict[str, Any] = {"method": "sdrm", "method_options": options, "progress": False}
-    return identify(model, experiment, BOUNDS, store=store, **keywords)
+    method = SDRM(maxiter=8)
+    return identify(model, experiment, BOUNDS, method=method, store=store, progress=False)
 
 
 @contextmanager

@@ -26,7 +26,7 @@ from pathlib import Path
 SEARCH = """
 import signal, sys, time
 import numpy as np
-from curvewise.calibration import identify
+from curvewise.calibration import SDRM, identify
 
 X = np.linspace(0.0, 1.0, 25)
 store, workers = sys.argv[1:]
@@ -46,8 +46,7 @@ if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in the background
     found = identify(
         Line(), np.column_stack((X, 2.0 * X + 1.0)), {"a": (0.0, 10.0), "b": (-5.0, 5.0)},
-        store=store, workers=int(workers), progress=False,
-        method="sdrm", method_options={"maxiter": 8},
+        store=store, workers=int(workers), progress=False, method=SDRM(maxiter=8),
     )
     print(found.value.hex(), *(value.hex() for value in found.parameters.values()))
     print(found.evaluations)

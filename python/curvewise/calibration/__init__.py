@@ -8,12 +8,14 @@ hysteresis loops using inverse analysis", Int. J. Material Forming (2018). scipy
 needed: ``pip install "curvewise[calibration]"``.
 """
 
+from . import methods
 from .answers.identification import Identification
 from .answers.several_measures import SeveralMeasures
 from .cross_validation import CrossValidation, Fold, cross_validate
 from .identify import identify
 from .identify_each import identify_each
 from .line_plot import LinePlot, line_plot
+from .methods import *  # noqa: F403  # the classes that methods/__init__ lists
 from .models.command import CommandModel, SolverError
 from .objective.cases import Case
 from .objective.criterion import MEASURES, Criterion
@@ -26,6 +28,7 @@ from .rescoring import Rescored, rescore
 from .uncertainty.uncertainty import Uncertainty
 
 __all__ = [
+    *methods.__all__,
     "MEASURES",
     "Below",
     "Case",

@@ -13,6 +13,8 @@ from typing import Any
 
 from .answers.ended_search import identification_of
 from .answers.identification import Identification
+from .methods import method_of
+from .methods.method import Method
 from .methods.search import Plan, run_search
 from .models.pool import Model
 from .objective.cases import Case, Cases
@@ -33,16 +35,15 @@ def identify(
     bounds: Bounds | None = None,
     *,
     measure: Measure = "area",
-    method: str = "trust-region",
-    seed: int = 0,
+    method: str | Method = "auto",
+    store: StoreOrPath | None = None,
     workers: int = 1,
     executor: Executor | None = None,
+    seed: int = 0,
+    start: Mapping[str, float] | None = None,
+    max_runs: int | None = None,
     progress: bool = True,
     callback: Callable[[Progress], Any] | None = None,
-    store: StoreOrPath | None = None,
-    start: Mapping[str, float] | None = None,
-    max_evaluations: int | None = None,
-    method_options: Mapping[str, Any] | None = None,
     **options: Any,
 ) -> Identification:
     """Find the parameters with which a model's curves are most like the measured ones.
@@ -61,70 +62,47 @@ def identify(
     measure : str, callable or Criterion, default "area"
         What is minimised: see :class:`Criterion`, which has the preset, weights and what else
         there is to say.
-    method : {"sdrm+de", "trust-region", "de", "sdrm", "nelder-mead", "least_squares"}
-        "trust-region": linear surfaces of the curves, on which the measure is minimised within a
-        region around the best run: local, for expensive models; with the option slopes="fresh"
-        Gauss and Newton's method on these surfaces, for any measure. "de": differential evolution,
-        global. "sdrm": successive linear response surfaces with domain reduction, few evaluations
-        and robust to noise. "sdrm+de": the best point of "sdrm" joins the first population of
-        "de". "nelder-mead": local, from `start`. "least_squares": local, fast and exact where the
-        model is smooth, for the measures "curve_length" and "sum_of_squares"; of several loops it
-        minimises the weighted sum of squares.
+    method : str or method, default "auto"
+        "auto", for now the same as "trust-region" (:class:`TrustRegion`: local, from three starts,
+        for expensive models); "least-squares" (:class:`LeastSquares`), "sdrm" (:class:`SDRM`), "de"
+        (:class:`DifferentialEvolution`: global), "sdrm+de" (the second after the first),
+        "nelder-mead" (:class:`NelderMead`). An object of these classes has options of its own:
+        ``method=TrustRegion(starts=5)``.
+    store : path-like or SimulationStore, optional
+        A file with the curves of every run, by model and parameters. Runs that it holds are
+        looked up, whichever search made them; new ones are added at once, so that an interrupted
+        search goes on where it was. A Python function needs ``SimulationStore(path, version="1")``,
+        with another version whenever it changes; a :class:`CommandModel` does not.
+    workers : int, default 1
+        Processes in which the model runs at the same time; -1 for one per core. The model must
+        be picklable, and a script must have its ``if __name__ == "__main__":``.
+    executor : concurrent.futures.Executor, optional
+        Runs the model in the place of processes of this machine: ``MPIPoolExecutor()``, or
+        ``Client(...).get_executor()`` of dask. It is not shut down.
     seed : int, default 0
         Of all random numbers. The same seed gives the same result, bit for bit, with any number
         of workers and after any interruption (and the same versions of numpy and scipy).
-    workers : int, default 1
-        Processes in which the model runs at the same time; -1 for one per core. The model must
-        be picklable, and a script must have its ``if __name__ == "__main__":``. "nelder-mead"
-        asks for one simulation at a time.
-    executor : concurrent.futures.Executor, optional
-        Runs the model in the place of processes of this machine: ``MPIPoolExecutor()``, or
-        ``Client(...).get_executor()`` of dask. It is not shut down. After Ctrl-C nothing more is
-        given to it; what it is running goes on until it ends.
+    start : mapping of str to float, optional
+        Where the search starts: the middle of the bounds if not given.
+    max_runs : int, optional
+        End the search after so many parameter sets, those that are looked up included.
     progress : bool, default True
         Show a progress bar (tqdm).
     callback : callable, optional
-        Told a :class:`Progress` after every batch of evaluations; a true result ends the search.
-    store : path-like or SimulationStore, optional
-        A file with the curves of every run, by model and parameters. Runs that it holds are
-        looked up, for whichever measure, method, weights or fold they were made; new ones are
-        added at once, so that an interrupted search goes on where it was. Several searches may
-        use it at a time. A Python function needs ``SimulationStore(path, version="1")``, with
-        another version whenever it changes; a :class:`CommandModel` does not.
-    start : mapping of str to float, optional
-        Where the search starts: the middle of the bounds if not given; for "de" one member of
-        the first population.
-    max_evaluations : int, optional
-        End the search after so many parameter sets.
-    method_options : mapping, optional
-        Passed on. "de": those of `scipy.optimize.differential_evolution` (popsize, tol, atol,
-        maxiter, ...), and stall: (improvement, generations), with which the search ends once the
-        best value has improved by less than that fraction over so many generations, as (0.001,
-        100) in the paper. "sdrm": gamma_osc, gamma_pan, eta, initial_range, tol, maxiter.
-        "nelder-mead": size (of the simplex, 0.1), restarts (10), and scipy's options (xatol,
-        fatol, ...). "least_squares": diff_step (of the derivatives, as a fraction of the bounds'
-        range, 1e-6; 1e-4 to 1e-3 for a solver that prints seven digits) and those of
-        `scipy.optimize.least_squares`, e.g. loss and f_scale for a robust sum, of which the result
-        is then the minimum (residuals are in units of the experiment's height). "trust-region":
-        starts (3, where none is given), initial_range (0.5), diff_step (0.02), tol (1e-3), gain
-        (1e-3: the least that is worth going on for), maxiter, and slopes: "broyden", of the runs
-        that are made anyway, renewed by k runs for k parameters where they mislead, or "fresh",
-        renewed after every step; with k workers, which run these side by side, it may be faster.
-        "sdrm+de": a mapping for each, ``{"sdrm": {...}, "de": {...}}``.
+        Told a :class:`Progress` after every batch of runs; a true result ends the search.
     **options
         Options of the measure, where `measure` is no criterion.
 
     Returns
     -------
     Identification
-        The parameters, their value, the simulations, every evaluation; prints as a table, plots
-        itself.
+        The parameters, their value, the curves, every run; prints as a table, plots itself.
 
     Raises
     ------
     ValueError
-        Wrong bounds, options or experiments; simulations of another number or dimension than the
-        experiments; a model that cannot be pickled (workers > 1); a store for a model without
+        Wrong bounds, options or experiments; simulations that do not fit the experiments; a model
+        that cannot be pickled (workers > 1); a store for a model without
         identity or version, or with runs of other code of that version.
     RuntimeError
         No simulation of the first batch has succeeded: the message has the first reason.
@@ -135,13 +113,8 @@ def identify(
 
     Notes
     -----
-    Evaluations: "trust-region" takes 10 to 30 a start for 3 parameters, 45 to 95 for 7. "sdrm"
-    takes 5, 9 or 17 an iteration (for up to 3, 7 or 15 parameters), in 14 to some 30 iterations
-    with its default options (50 at most); "de" takes 15 k a generation for k parameters, in some
-    100 generations.
-    Memory: all evaluations. The search is over the unit cube, so that the units of parameters do
-    not matter. Sources: Storn & Price (1997) for "de", in the place of the paper's genetic
-    algorithm; Stander & Craig (2002) for "sdrm"; Nelder & Mead (1965). Failures are logged under
+    Cost: the runs of the model; how many they are stands with each method. The search is over the
+    unit cube, so that the units of parameters do not matter. Failures are logged under
     "curvewise.calibration", the first as a warning.
 
     Examples
@@ -158,15 +131,7 @@ def identify(
     >>> round(found.parameters["slope"], 4), round(found.parameters["intercept"], 4)
     (2.0, 1.0)
     """
-    plan = Plan(
-        method,
-        dict(method_options or {}),
-        seed,
-        start,
-        progress,
-        callback,
-        max_evaluations,
-    )
+    plan = Plan(method_of(method), seed, start, progress, callback, max_runs)
     if bounds is None:
         raise TypeError("identify needs bounds: a dict of name: (low, high)")
     space = Space(bounds)
@@ -182,7 +147,7 @@ def identify(
             raise ValueError(f"{', '.join(given)} given beside cases; give them to each Case")
         objective = cases.objective()
     for one in objective.measures:
-        plan.check(one)
+        plan.method.check(one)
     models, assemble = models_of(model if cases is None else cases)
     problem = Problem(models, assemble, objective, space, store, workers, executor)
     return identification_of(problem, plan, run_search(problem, plan))

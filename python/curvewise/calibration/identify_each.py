@@ -19,28 +19,25 @@ from typing import Any
 
 import numpy as np
 
-from ..curves.inputs import Array
 from .answers.ended_search import identification_of
 from .answers.identification import Identification
 from .answers.several_measures import SeveralMeasures
+from .methods import method_of
+from .methods.method import Method
 from .methods.search import Plan, run_search
 from .models.pool import Model
 from .objective.criterion import Measure
 from .objective.objective import objectives_of
 from .problem.problem import Problem, models_of
 from .problem.space import Bounds, Space
-from .records.evaluation import Evaluation
 from .records.store import SimulationStore, StoreOrPath
+from .surfaces.nearby_runs import Run
 
 __all__ = ["identify_each"]
 
-# The first region of a search that begins where others have ended, for methods that have one.
-_WARM_RANGE = 0.1
 # After the first round every measure goes on from the best of all runs, and on for less, until no
 # search has gained more than this fraction of its value.
 _WORTH_A_ROUND, _ROUNDS = 1e-3, 4
-# Of "trust-region": wider than where it began, to leave a valley of other measures.
-_CLOSER = {"initial_range": 0.3, "gain": 2e-5, "tol": 1e-4}
 
 
 def identify_each(
@@ -49,15 +46,14 @@ def identify_each(
     bounds: Bounds,
     *,
     measures: Sequence[Measure] | None = None,
-    method: str = "trust-region",
-    method_options: Mapping[str, Any] | None = None,
+    method: str | Method = "auto",
     seed: int = 0,
     workers: int = 1,
     executor: Any = None,
     progress: bool = True,
     store: StoreOrPath | None = None,
     start: Mapping[str, float] | None = None,
-    max_evaluations: int | None = None,
+    max_runs: int | None = None,
 ) -> SeveralMeasures:
     """Find the parameters by each of several measures, with runs shared among them.
 
@@ -68,13 +64,13 @@ def identify_each(
     measures : sequence of str, callable or Criterion, optional
         By default every measure that the curves' dimension allows. Each search begins where the
         ones before have been, so put the smoothest first.
-    method, method_options
-        As for :func:`identify`; the methods "trust-region" and "sdrm" gain most. The searches
-        after the first have `initial_range` 0.1 unless it is given.
+    method : str or method
+        As for :func:`identify`; :class:`TrustRegion` and :class:`SDRM` gain most. The searches
+        after the first have `initial_range` 0.1 unless it has been changed.
     store
         As for :func:`identify`. Without a store runs are shared all the same, through a temporary
         one, and forgotten.
-    max_evaluations : int, optional
+    max_runs : int, optional
         Of each measure.
     seed, workers, executor, progress, start
         As for :func:`identify`, for all measures.
@@ -115,37 +111,33 @@ def identify_each(
     """
     objectives = objectives_of(experiments, measures)
     space = Space(bounds)
-    options = dict(method_options or {})
-    plan = Plan(method, options, seed, start, progress, None, max_evaluations)
+    searching = method_of(method)
+    plan = Plan(searching, seed, start, progress, None, max_runs)
     for objective in objectives.values():
-        plan.check(objective.measures[0])
+        searching.check(objective.measures[0])
     found: dict[str, Identification] = {}
     with ExitStack() as stack:
         if store is None:
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="curvewise_"))
             store = SimulationStore(Path(folder, "runs.db"), version="of this call")
         models, assemble = models_of(model)
-        known: tuple[tuple[Array, Evaluation], ...] = ()
+        known: tuple[Run, ...] = ()
         for name, objective in objectives.items():
             problem = Problem(models, assemble, objective, space, store, workers, executor)
             if known:  # a start is given from here on: one search a measure
-                plan = replace(
-                    plan,
-                    start=_best_known(known, problem),
-                    method_options=_from_near(method, options),
-                )
+                begin = _best_known(known, problem)
+                plan = replace(plan, start=begin, method=searching.near_optimum())
             found[name] = identification_of(problem, plan, run_search(problem, plan, known))
-            known = found[name].kept
-        if method == "trust-region":
-            _go_on(found, plan, {**_CLOSER, **options}, known)
+            known = found[name].runs_with_curves
+        if (closer := searching.closer()) is not None:
+            _go_on(found, replace(plan, method=closer), known)
     return SeveralMeasures(found)
 
 
 def _go_on(
     found: dict[str, Identification],
     plan: Plan,
-    options: Mapping[str, Any],
-    known: tuple[tuple[Array, Evaluation], ...],
+    known: tuple[Run, ...],
 ) -> None:
     """Search again by each measure from what all have found, as long as one of them gains."""
     waiting = list(found)
@@ -153,37 +145,21 @@ def _go_on(
         gained = []
         for name in waiting:
             before = found[name]
-            left = (
-                None if plan.max_evaluations is None else plan.max_evaluations - len(before.history)
-            )
+            left = None if plan.max_runs is None else plan.max_runs - len(before.history)
             if left is not None and left < 1:
                 continue
-            again = replace(
-                plan,
-                start=_best_known(known, before.problem),
-                method_options=options,
-                max_evaluations=left,
-            )
+            again = replace(plan, start=_best_known(known, before.problem), max_runs=left)
             after = identification_of(
                 before.problem, again, run_search(before.problem, again, known)
             )
-            known = after.kept
+            known = after.runs_with_curves
             found[name] = before.followed_by(after)
             if before.value - after.value > _WORTH_A_ROUND * before.value:
                 gained.append(name)
         waiting = gained
 
 
-def _best_known(known: Sequence[tuple[Array, Evaluation]], problem: Problem) -> dict[str, float]:
+def _best_known(known: Sequence[Run], problem: Problem) -> dict[str, float]:
     """Return the parameters of the run that is best under an objective."""
     values = [problem.objective.predicted(run.simulations).value for _, run in known]
     return dict(zip(problem.space.names, known[int(np.argmin(values))][1].point, strict=True))
-
-
-def _from_near(method: str, options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the options of a search that begins near its end."""
-    if method in ("trust-region", "sdrm"):
-        return {"initial_range": _WARM_RANGE, **options}
-    if method == "sdrm+de":
-        return {**options, "sdrm": {"initial_range": _WARM_RANGE, **options.get("sdrm", {})}}
-    return dict(options)

@@ -6,7 +6,7 @@ the key that it is about. Cost: that of scaling the tests, and of reading the te
 
 from __future__ import annotations
 
-from ..calibration.methods.search import Plan
+from ..calibration.methods import method_of
 from .contents import Contents
 from .study_model import StudyModel
 from .toml_source import KeyPath, Source
@@ -41,28 +41,18 @@ def check_together(study: Contents, source: Source) -> None:
     except (OSError, ValueError) as error:
         source.problem(("model",) if "" in study.models else ("models",), str(error))
         return
-    settings = study.search.keywords
+    method = method_of(study.search.method or "auto")
     for measure in study.search.measures:
         key = "measures" if len(study.search.measures) > 1 else "measure"
         try:
             study.objective(models, measure)
         except (TypeError, ValueError) as error:
             _place_objective_error(study, source, key, str(error))
-        plan = Plan(
-            method=settings.get("method", "trust-region"),
-            method_options=settings.get("method_options", {}),
-            seed=0,
-            start=None,
-            progress=False,
-            callback=None,
-            max_evaluations=settings.get("max_evaluations"),
-        )
         try:
             # Of cases, identify knows no common measure that is a sum of squares.
-            plan.check("area" if study.has_cases else measure)
+            method.check("area" if study.has_cases else measure)
         except ValueError as error:
-            where = "method_options" if "option" in str(error) else "method"
-            source.problem(("search", where), f"does not go together: {error}")
+            source.problem(("search", "method"), f"does not go together: {error}")
 
 
 def _place_objective_error(study: Contents, source: Source, key: str, message: str) -> None:

@@ -9,14 +9,13 @@ from __future__ import annotations
 import math
 import shutil
 import time
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from ..calibration import SolverError
+from ..calibration.methods import method_of
 from ..calibration.models.identity import model_identity
 from ..calibration.models.pool import Outcome
 from ..calibration.problem.space import Space
@@ -26,7 +25,7 @@ from .contents import Contents
 from .measured_tests import MeasuredTest
 from .study_model import StudyModel
 
-__all__ = ["DryRun", "dry_run", "least_runs"]
+__all__ = ["DryRun", "dry_run"]
 
 # Test and simulation whose extents differ by more than this are probably in different units.
 _UNITS = 20.0
@@ -141,25 +140,6 @@ def duration(seconds: float) -> str:
     return f"{seconds / 3600:.1f} h"
 
 
-def least_runs(method: str, parameters: int, options: Mapping[str, Any], *, has_start: bool) -> int:
-    """Return how many runs a method takes at least: its first designs, and one step.
-
-    With other options than the defaults it is a guess all the same.
-    """
-    k = parameters
-    starts = 1 if has_start else int(options.get("starts", 3))
-    design = 1 << math.ceil(math.log2(k + 1))  # of two levels
-    least = {
-        "trust-region": starts * (2 * k + 2),
-        "sdrm": 14 * (design + 1),
-        "de": 2 * max(5, int(options.get("popsize", 15)) * k),
-        "nelder-mead": 2 * k + 10,
-        "least_squares": 2 * k + 3,
-    }
-    least["sdrm+de"] = least["sdrm"] + least["de"]
-    return least[method]
-
-
 def dry_run(study: Contents) -> DryRun:
     """Run every model of a study once; see `Study.check`."""
     space = Space(study.bounds)
@@ -189,15 +169,15 @@ def dry_run(study: Contents) -> DryRun:
             raise ValueError(f"the run has no value by {name}: {'; '.join(score.failures)}")
         values[name] = score.value
     search = study.search
-    method, options = search.method or "trust-region", search.method_options or {}
-    runs = least_runs(method, len(space.names), options, has_start=bool(start))
+    method = method_of(search.method or "auto")
+    runs = method.fewest_runs(len(space.names), has_start=bool(start))
     return DryRun(
         parameters,
         tuple(folders),
         tuple(read),
         values,
         seconds,
-        min(runs, search.max_evaluations or runs),
+        min(runs, search.max_runs or runs),
         max(1, search.workers or 1),
     )
 

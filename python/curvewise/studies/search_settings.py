@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ..calibration import MEASURES
-from ..calibration.methods.registry import METHODS
+from ..calibration.methods import METHODS, method_with
+from ..calibration.methods.method import Method
 from ..measures.registry import PRESETS
 from . import keys
 from .keys import Table, key, key_at
@@ -32,6 +33,16 @@ class Comparison:
     def given(self, *names: str) -> dict[str, Any]:
         """Return those of some settings that the file gives."""
         return {name: value for name in names if (value := getattr(self, name)) is not None}
+
+
+def _method(value: Any) -> Method:
+    """Read a method: its name, or a table of its name and options."""
+    if not isinstance(value, Mapping):
+        return METHODS[keys.choice(tuple(METHODS))(value)]
+    try:
+        return method_with(value)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"cannot be: {error}") from None
 
 
 def _measures(value: Any) -> tuple[str, ...]:
@@ -71,10 +82,9 @@ class SearchSettings(Comparison):
 
     measures: tuple[str, ...] = key(_measures, ())
     failure_value: float | None = key(keys.positive)
-    method: str | None = key(keys.choice(tuple(METHODS)))
-    method_options: Mapping[str, Any] | None = key(keys.mapping)
+    method: Method | None = key(_method)
     seed: int | None = key(keys.whole)
-    max_evaluations: int | None = key(keys.at_least(1))
+    max_runs: int | None = key(keys.at_least(1))
     workers: int | None = key(_workers)
     store: Path = key_at(_store, Path())
     version: str | None = key(keys.text)
@@ -89,7 +99,7 @@ class SearchSettings(Comparison):
     @property
     def keywords(self) -> dict[str, Any]:
         """What is given of how to search, as arguments of `identify`."""
-        return self.given("method", "method_options", "seed", "workers", "max_evaluations")
+        return self.given("method", "seed", "workers", "max_runs")
 
 
 def read_search(source: Source, path: KeyPath, values: Any) -> SearchSettings:

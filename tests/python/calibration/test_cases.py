@@ -140,7 +140,7 @@ def test_cases_count_in_units_of_their_noise():
     start = dict(TRUTH)
     for measure, expected in [("area", 1.0), ("dtw", 1.0), ("sum_of_squares", 40.0)]:
         cases = [Case("t", tension, moved, measure=measure, sigma=4.0, weight=3.0)]
-        found = identify(cases, bounds=BOUNDS, start=start, max_evaluations=1, **QUIET)
+        found = identify(cases, bounds=BOUNDS, start=start, max_runs=1, **QUIET)
         assert found.value == pytest.approx(3.0 * expected, rel=1e-2), measure
     numbers = [
         ({"sigma": 4.0}, 2.0),
@@ -149,7 +149,7 @@ def test_cases_count_in_units_of_their_noise():
     ]
     for keywords, expected in numbers:
         case = Case("s", tension, strength(tension(TRUTH)) + 8.0, response=strength, **keywords)
-        found = identify([case], bounds=BOUNDS, start=start, max_evaluations=1, **QUIET)
+        found = identify([case], bounds=BOUNDS, start=start, max_runs=1, **QUIET)
         assert found.value == pytest.approx(expected), keywords
 
 
@@ -294,7 +294,7 @@ def test_a_start_among_ordered_and_logarithmic_parameters():
     def model(parameters):
         return two_backstresses({**parameters, "gamma1": 100.0})
 
-    keywords = {"bounds": bounds, "max_evaluations": 1, **QUIET}
+    keywords = {"bounds": bounds, "max_runs": 1, **QUIET}
     found = identify(model, model({**start, "E": 2e5}), start=start, **keywords)
     assert found.parameters == pytest.approx({**start, "E": 2e5}, rel=1e-12)
     with pytest.raises(ValueError, match=r"start\['C2'\] is 30000.0; it must be below C1"):

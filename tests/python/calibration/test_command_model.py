@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from solver_scripts import SOLVER, python_model, read_curve
 
-from curvewise.calibration import CommandModel, SolverError, identify
+from curvewise.calibration import CommandModel, DifferentialEvolution, SolverError, identify
 
 
 def test_a_run_returns_the_curve_and_leaves_nothing_behind(tmp_path: Path) -> None:
@@ -130,8 +130,7 @@ def test_an_identification_goes_on_after_failures(tmp_path: Path) -> None:
         python_model(tmp_path, script),
         [(0.0, 0.0), (1.0, 5.0)],
         {"E": (0.0, 10.0)},
-        method="de",
-        method_options={"popsize": 10, "maxiter": 3},
+        method=DifferentialEvolution(popsize=10, maxiter=3),
         workers=2,
         progress=False,
     )

@@ -12,9 +12,9 @@ import pytest
 from test_identify import BOUNDS, EXPERIMENT, fragile_line, line
 from test_resuming import assert_same
 
-from curvewise.calibration import SimulationStore, identify
+from curvewise.calibration import SDRM, SimulationStore, identify
 
-KEYWORDS = {"method": "sdrm", "progress": False, "method_options": {"maxiter": 3}}
+KEYWORDS = {"method": SDRM(maxiter=3), "progress": False}
 
 
 def deadly(parameters):

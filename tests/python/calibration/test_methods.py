@@ -8,7 +8,15 @@ import numpy as np
 import pytest
 
 from curvewise import datasets
-from curvewise.calibration import Case, Criterion, identify
+from curvewise.calibration import (
+    SDRM,
+    Case,
+    Criterion,
+    DifferentialEvolution,
+    LeastSquares,
+    TrustRegion,
+    identify,
+)
 
 TRUE = {"E": 200e3, "yield": 300.0, "C": 80e3}
 BOUNDS = {"E": (150e3, 260e3), "yield": (150.0, 500.0), "C": (20e3, 200e3)}
@@ -61,7 +69,7 @@ def test_nelder_mead_recovers_known_parameters_from_nearby(measure):
     assert found.evaluations < 1000
 
 
-@pytest.mark.parametrize("method", ["sdrm+de", "sdrm", "nelder-mead", "least_squares"])
+@pytest.mark.parametrize("method", ["sdrm+de", "sdrm", "nelder-mead", "least-squares"])
 def test_sum_of_squares_recovers_known_parameters(method):
     found = quiet_identify(
         first_branch, first_branch(TRUE), BOUNDS, measure="sum_of_squares", method=method
@@ -76,7 +84,7 @@ def test_least_squares_recovers_known_parameters():
         loops,
         BOUNDS,
         measure=Criterion("curve_length", weights=[1.0, 2.0]),
-        method="least_squares",
+        method="least-squares",
     )
     assert found.converged
     assert largest_error(found) < 1e-5
@@ -88,7 +96,7 @@ def timed(parameters):
     return np.column_stack((model(parameters), np.arange(len(STRAIN), dtype=float)))
 
 
-@pytest.mark.parametrize("method", ["least_squares", "trust-region"])
+@pytest.mark.parametrize("method", ["least-squares", "trust-region"])
 def test_loops_that_are_functions_of_time(method):
     """The test has other times than the simulation; the errors are those of least squares."""
     time = np.linspace(0.5, len(STRAIN) - 1.5, 150)
@@ -110,7 +118,7 @@ def test_loops_that_are_functions_of_time(method):
         quiet_identify(timed, clean, BOUNDS, measure="sum_of_squares")
 
 
-@pytest.mark.parametrize("method", ["least_squares", "trust-region"])
+@pytest.mark.parametrize("method", ["least-squares", "trust-region"])
 def test_a_model_driven_by_the_tests_own_strains(method):
     """One option: least squares on stress, point by point, though the strain turns back."""
     noisy = model(TRUE)
@@ -142,18 +150,18 @@ def test_least_squares_of_a_solver_that_prints_seven_digits():
     def printed(parameters):
         return np.array([[float(f"{v:.6e}") for v in row] for row in first_branch(parameters)])
 
-    keywords = {"measure": "sum_of_squares", "method": "least_squares"}
+    keywords = {"measure": "sum_of_squares"}
     experiment = first_branch(TRUE)
     found = quiet_identify(
-        printed, experiment, BOUNDS, method_options={"diff_step": 3e-4}, **keywords
+        printed, experiment, BOUNDS, method=LeastSquares(diff_step=3e-4), **keywords
     )
     assert largest_error(found) < 1e-3
     lost = quiet_identify(
-        printed, experiment, BOUNDS, method_options={"diff_step": 1e-9}, **keywords
+        printed, experiment, BOUNDS, method=LeastSquares(diff_step=1e-9), **keywords
     )
     assert largest_error(lost) > 10 * largest_error(found)
     with pytest.raises(ValueError, match="diff_step is 0"):
-        quiet_identify(printed, experiment, BOUNDS, method_options={"diff_step": 0}, **keywords)
+        LeastSquares(diff_step=0)
 
 
 @pytest.mark.parametrize("measure", ["area", "dtw"])
@@ -166,7 +174,7 @@ def test_noise_moves_the_optimum_little(measure, method):
     assert found.converged
     assert largest_error(found) < 0.03
     at_truth = quiet_identify(
-        model, noisy, BOUNDS, measure=measure, method="nelder-mead", start=TRUE, max_evaluations=1
+        model, noisy, BOUNDS, measure=measure, method="nelder-mead", start=TRUE, max_runs=1
     )
     assert found.value <= at_truth.value * (1.0 if "de" in method else 1.05)
 
@@ -237,7 +245,7 @@ def test_the_default_starts_three_times():
         "trust-region",
         "3 of 3 starts within 1 % of the best",
     )
-    one = quiet_identify(model, experiment, BOUNDS, method_options={"starts": 1})
+    one = quiet_identify(model, experiment, BOUNDS, method=TrustRegion(starts=1))
     near = quiet_identify(model, experiment, BOUNDS, start=NEAR)
     for other in (one, near):
         assert other.evaluations < 0.5 * found.evaluations
@@ -248,8 +256,7 @@ def test_the_default_starts_three_times():
 @pytest.mark.parametrize("measure", ["area", "pcm"])
 def test_fresh_slopes_are_measured_before_every_step(measure):
     """Gauss and Newton's method: a step takes one run and k for the slopes where it led."""
-    options = {"slopes": "fresh", "starts": 1}
-    keywords = {"measure": measure, "method_options": options}
+    keywords = {"measure": measure, "method": TrustRegion(slopes="fresh", starts=1)}
     found = quiet_identify(model, model(TRUE), BOUNDS, **keywords)
     assert found.converged, found.message
     assert largest_error(found) < 1e-3
@@ -278,7 +285,7 @@ def test_fresh_slopes_are_measured_before_every_step(measure):
 )
 def test_options_of_trust_region_that_are_wrong(wrong, message):
     with pytest.raises(ValueError, match=message):
-        quiet_identify(model, model(TRUE), BOUNDS, method_options=wrong)
+        TrustRegion(**wrong)
 
 
 CYCLES = [
@@ -316,7 +323,7 @@ def test_one_start_does_not_halt_with_stale_slopes(slopes):
         tests,
         {name: (low, high) for name, (_, low, high) in SEVEN.items()},
         seed=9,
-        method_options={"starts": 1, "slopes": slopes},
+        method=TrustRegion(starts=1, slopes=slopes),
     )
     assert found.converged
     assert found.value < 1.01 * found.problem.objective(two_cycles(truth))
@@ -336,7 +343,7 @@ def test_a_valley_that_is_not_the_deepest_is_left():
         lambda p: np.column_stack((x, np.full(20, p["height"]))),
         np.column_stack((x, np.zeros(20))),
         {"height": (-0.5, 0.5)},
-        method_options={"initial_range": 1.0},
+        method=TrustRegion(initial_range=1.0),
         **keywords,
     )
     assert found.parameters["height"] == pytest.approx(0.3, abs=1e-3)
@@ -359,13 +366,14 @@ def test_an_optimum_at_a_bound_is_reported():
     assert line.endswith("at its lower bound")
 
 
-def test_method_options_reach_the_methods():
-    keywords = {"measure": "frechet", "method_options": {"popsize": 5, "maxiter": 3}}
-    found = quiet_identify(model, model(TRUE), BOUNDS, method="de", **keywords)
+def test_options_reach_the_methods():
+    short = DifferentialEvolution(popsize=5, maxiter=3)
+    found = quiet_identify(model, model(TRUE), BOUNDS, measure="frechet", method=short)
     assert found.evaluations <= 4 * 15
     assert not found.converged
-    staged = {"sdrm": {"maxiter": 2}, "de": {"maxiter": 1, "popsize": 4}}
-    found = quiet_identify(model, model(TRUE), BOUNDS, method="sdrm+de", method_options=staged)
+    staged = DifferentialEvolution(maxiter=1, popsize=4, after=SDRM(maxiter=2))
+    found = quiet_identify(model, model(TRUE), BOUNDS, method=staged)
+    assert found.method == "sdrm+de"
     assert found.evaluations <= 2 * 5 + 2 * 12
 
 
@@ -374,8 +382,8 @@ def test_stall_ends_de_where_it_hardly_improves():
     experiment = model(TRUE)
     experiment[:, 1] += np.random.default_rng(0).normal(0.0, 20.0, len(experiment))
     generations, members = 12, 5 * len(TRUE)
-    options = {"popsize": 5, "maxiter": 500, "tol": 0.0, "stall": (0.001, generations)}
-    found = quiet_identify(model, experiment, BOUNDS, method="de", method_options=options)
+    method = DifferentialEvolution(popsize=5, maxiter=500, tol=0.0, stall=(0.001, generations))
+    found = quiet_identify(model, experiment, BOUNDS, method=method)
     assert found.converged
     assert found.message == "improved by less than 0.001 over 12 generations"
     assert found.evaluations < 500 * members
@@ -386,18 +394,17 @@ def test_stall_ends_de_where_it_hardly_improves():
 
 
 def test_stall_of_the_second_stage():
-    options = {"sdrm": {"maxiter": 2}, "de": {"popsize": 5, "tol": 0.0, "stall": (0.5, 3)}}
-    found = quiet_identify(model, model(TRUE), BOUNDS, method="sdrm+de", method_options=options)
+    method = DifferentialEvolution(popsize=5, tol=0.0, stall=(0.5, 3), after=SDRM(maxiter=2))
+    found = quiet_identify(model, model(TRUE), BOUNDS, method=method)
     assert found.message == "improved by less than 0.5 over 3 generations"
 
 
 @pytest.mark.parametrize("stall", [0.001, (0.001,), (1.0, 100), (-0.1, 100), (0.001, 0)])
 def test_a_stall_that_is_none_is_refused(stall):
     with pytest.raises(ValueError, match=r"stall is .*give \(improvement, generations\)"):
-        quiet_identify(model, model(TRUE), BOUNDS, method="de", method_options={"stall": stall})
+        DifferentialEvolution(stall=stall)
 
 
 def test_stall_takes_the_place_of_a_callback():
-    options = {"stall": (0.001, 100), "callback": print}
     with pytest.raises(ValueError, match="either stall or callback"):
-        quiet_identify(model, model(TRUE), BOUNDS, method="de", method_options=options)
+        DifferentialEvolution(stall=(0.001, 100), options={"callback": print})

@@ -5,7 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from curvewise.calibration import Criterion, Objective, identify, identify_each
+from curvewise.calibration import (
+    Criterion,
+    DifferentialEvolution,
+    LeastSquares,
+    NelderMead,
+    Objective,
+    TrustRegion,
+    identify,
+    identify_each,
+)
+from curvewise.calibration.methods import method_with
 
 X = np.linspace(0.0, 1.0, 20)
 
@@ -15,7 +25,6 @@ def line(parameters):
 
 
 EXPERIMENT = line({"a": 2.0})
-SQUARES = {"method": "least_squares", "measure": "sum_of_squares"}
 
 
 @pytest.mark.parametrize(
@@ -27,31 +36,10 @@ SQUARES = {"method": "least_squares", "measure": "sum_of_squares"}
         ({"preset": "raw"}, TypeError, r"keyword; use measure=Criterion\('area', preset=...\)"),
         ({"presett": "raw"}, TypeError, "area has no option 'presett'; .*you mean 'preset'"),
         ({"measure": Criterion(), "spacing": "x"}, TypeError, "spacing given beside a Criterion"),
-        ({"max_evaluation": 5}, TypeError, "no option 'max_evaluation'.*'max_evaluations'"),
+        ({"max_run": 5}, TypeError, "no option 'max_run'.*'max_runs'"),
         ({"spaceing": "x"}, TypeError, "no option 'spaceing'; it has .*you mean 'spacing'"),
         ({"measure": "dtw", "windw": 3}, TypeError, "no option 'windw'.*you mean 'window'"),
         ({"measure": "sum_of_squares", "absissa": 0}, TypeError, "'absissa'.*you mean 'abscissa'"),
-        ({"method_options": {"diffstep": 1}}, ValueError, "no option diffstep.*'diff_step'"),
-        (
-            {"method": "de", "method_options": {"pop_size": 3}},
-            ValueError,
-            "'de' has no option pop_size; it has stall, .*you mean 'popsize'",
-        ),
-        (
-            {"method": "nelder-mead", "method_options": {"sise": 3}},
-            ValueError,
-            "'nelder-mead' has no option sise; it has size.*you mean 'size'",
-        ),
-        (
-            {**SQUARES, "method_options": {"los": "huber"}},
-            ValueError,
-            "'least_squares' has no option los; .*you mean 'loss'",
-        ),
-        (
-            {"method": "sdrm+de", "method_options": {"srdm": {}}},
-            ValueError,
-            "takes a dict for each of sdrm, de; did you mean 'sdrm'",
-        ),
     ],
 )
 def test_the_near_name_is_offered(keywords, error, message):
@@ -59,8 +47,34 @@ def test_the_near_name_is_offered(keywords, error, message):
         identify(line, EXPERIMENT, {"a": (0, 10)}, progress=False, **keywords)
 
 
+@pytest.mark.parametrize(
+    ("method", "options", "message"),
+    [
+        (TrustRegion, {"diffstep": 1}, "has no option diffstep; it has starts.*'diff_step'"),
+        (DifferentialEvolution, {"pop_size": 3}, "'de' has no option pop_size; .*'popsize'"),
+        (DifferentialEvolution, {"afetr": {"name": "sdrm"}}, "did you mean 'after'"),
+        (NelderMead, {"sise": 3}, r"'nelder-mead' has no option sise; it has size.*'size'"),
+        (LeastSquares, {"los": "huber"}, "'least-squares' has no option los; .*mean 'loss'"),
+    ],
+)
+def test_the_near_option_is_offered(method, options, message):
+    """Of a method as a table, in a study, and of what is passed on."""
+    with pytest.raises(ValueError, match=message):
+        method_with({"name": method.name, **options})
+    if method is not TrustRegion:
+        with pytest.raises(ValueError, match=message):
+            method(options=options)
+
+
+def test_own_options_do_not_stand_among_those_passed_on():
+    with pytest.raises(ValueError, match=r"it has popsize, .*you mean 'mutation'"):
+        DifferentialEvolution(options={"mutatin": 0.5})
+    with pytest.raises(ValueError, match="options has popsize; give it to DifferentialEvolution"):
+        DifferentialEvolution(options={"popsize": 3})
+
+
 def test_nothing_is_offered_where_nothing_is_near():
-    with pytest.raises(ValueError, match=r"choose from .*least_squares$"):
+    with pytest.raises(ValueError, match=r"choose from .*nelder-mead$"):
         identify(line, EXPERIMENT, {"a": (0, 10)}, method="magic")
     with pytest.raises(TypeError, match=r"it has spacing, crossing, squared$"):
         Objective(EXPERIMENT, "area", wibble=1)
@@ -88,8 +102,8 @@ def test_options_of_scipy_are_passed_on():
             outlier,
             {"a": (0, 10)},
             progress=False,
-            method_options={"loss": loss, "f_scale": 0.01},
-            **SQUARES,
+            measure="sum_of_squares",
+            method=LeastSquares(loss=loss, f_scale=0.01),
         ).parameters["a"]
         for loss in ("linear", "soft_l1")
     }
@@ -100,7 +114,6 @@ def test_options_of_scipy_are_passed_on():
         EXPERIMENT,
         {"a": (0, 10)},
         progress=False,
-        method="nelder-mead",
-        method_options={"xatol": 0.1, "restarts": 0, "fatol": 1.0},
+        method=NelderMead(restarts=0, options={"xatol": 0.1, "fatol": 1.0}),
     )
     assert coarse.evaluations < 12

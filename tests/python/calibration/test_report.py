@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from curvewise.calibration import (
+    SDRM,
     Case,
     Criterion,
     Log,
@@ -190,8 +191,7 @@ def test_a_result_is_not_lost_where_its_store_is(search, tmp_path):
 
 def test_several_searches_of_a_store_on_one_page(tmp_path, capsys):
     # A single design over all of the bounds leaves no runs near the optimum: no intervals.
-    keywords = {"method": "sdrm", "progress": False, "max_evaluations": 5}
-    keywords["method_options"] = {"initial_range": 1.0}
+    keywords = {"method": SDRM(initial_range=1.0), "progress": False, "max_runs": 5}
     store = str(tmp_path / "s.db")
     bounds = {"a": (0.5, 8.0), "b": (0.1, 10.0)}
     each = identify_each(

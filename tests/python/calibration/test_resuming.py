@@ -14,16 +14,12 @@ import time
 import numpy as np
 import pytest
 
-from curvewise.calibration import SimulationStore, identify
+from curvewise.calibration import SDRM, DifferentialEvolution, SimulationStore, identify
 from curvewise.commands import command_line as cli
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
-QUICK = {
-    "method": "sdrm+de",
-    "progress": False,
-    "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}},
-}
+QUICK = {"method": DifferentialEvolution(maxiter=3, after=SDRM(maxiter=3)), "progress": False}
 
 
 def line(parameters):
@@ -60,12 +56,12 @@ def runs_of(file):
 
 
 def keywords_of(method):
-    keywords = {"measure": "curve_length", "method": method, "progress": False}
-    return keywords | ({"method_options": QUICK["method_options"]} if method == "sdrm+de" else {})
+    chosen = QUICK["method"] if method == "sdrm+de" else method
+    return {"measure": "curve_length", "method": chosen, "progress": False}
 
 
 @pytest.mark.parametrize("workers", [1, 2])
-@pytest.mark.parametrize("method", ["sdrm+de", "trust-region", "least_squares", "nelder-mead"])
+@pytest.mark.parametrize("method", ["sdrm+de", "trust-region", "least-squares", "nelder-mead"])
 def test_a_finished_search_is_replayed_from_its_store(tmp_path, method, workers):
     store = SimulationStore(tmp_path / "s.db", version="1")
     keywords = {"store": store, **keywords_of(method)}
@@ -108,7 +104,7 @@ def test_a_search_is_written_as_a_table(tmp_path, capsys):
         store.to_csv(two, search=3)
 
 
-@pytest.mark.parametrize("method", ["sdrm+de", "least_squares"])
+@pytest.mark.parametrize("method", ["sdrm+de", "least-squares"])
 @pytest.mark.parametrize("kept", [0, 1, 12])
 def test_what_a_store_lacks_is_run_again(tmp_path, method, kept):
     store = SimulationStore(tmp_path / "s.db", version="1")
@@ -164,7 +160,7 @@ def test_another_search_has_a_number_of_its_own(tmp_path):
 SLOW_SCRIPT = """
     import signal, sys, time
     import numpy as np
-    from curvewise.calibration import identify
+    from curvewise.calibration import SDRM, DifferentialEvolution, identify
 
     X = np.linspace(0.0, 1.0, 25)
 
@@ -182,7 +178,7 @@ SLOW_SCRIPT = """
                 SlowLine(), np.column_stack((X, 2.0 * X + 1.0)),
                 {"a": (0.0, 10.0), "b": (-5.0, 5.0)},
                 workers=int(sys.argv[1]), store=sys.argv[2],
-                method="sdrm+de", method_options={"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}},
+                method=DifferentialEvolution(maxiter=3, after=SDRM(maxiter=3)),
             )
         except KeyboardInterrupt:
             sys.exit(42)

@@ -16,8 +16,10 @@ import pytest
 from test_resuming import assert_same
 
 from curvewise.calibration import (
+    SDRM,
     CommandModel,
     Criterion,
+    DifferentialEvolution,
     Objective,
     SimulationStore,
     cross_validate,
@@ -29,13 +31,9 @@ from curvewise.calibration.records.evaluation import Evaluation
 
 X = np.linspace(0.0, 1.0, 25)
 BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
-QUICK = {
-    "method": "sdrm+de",
-    "progress": False,
-    "method_options": {"sdrm": {"maxiter": 3}, "de": {"maxiter": 3}},
-}
-SDRM = {"progress": False, "method": "sdrm", "method_options": {"maxiter": 3}}
-LONG = {"progress": False, "method": "sdrm", "method_options": {"maxiter": 8}}
+QUICK = {"method": DifferentialEvolution(maxiter=3, after=SDRM(maxiter=3)), "progress": False}
+SHORT = {"progress": False, "method": SDRM(maxiter=3)}
+LONG = {"progress": False, "method": SDRM(maxiter=8)}
 
 
 def line(parameters):
@@ -77,13 +75,13 @@ def test_a_finished_search_runs_nothing_again(tmp_path):
 def test_runs_are_shared_by_measures_methods_and_weights(tmp_path):
     """The first region is the same for all: five runs of it are made once."""
     counted = Counted(line)
-    keywords = {**SDRM, "method_options": {"maxiter": 1}, "store": tmp_path / "s.db"}
+    keywords = {"progress": False, "method": SDRM(maxiter=1), "store": tmp_path / "s.db"}
     identify(counted, EXPERIMENT, BOUNDS, measure="area", **keywords)
     assert counted.runs == 5
     identify(counted, EXPERIMENT, BOUNDS, measure=Criterion("dtw", weights=[3.0]), **keywords)
     assert counted.runs == 5
-    keywords["method_options"] = {"sdrm": {"maxiter": 1}, "de": {"maxiter": 1, "popsize": 4}}
-    identify(counted, EXPERIMENT, BOUNDS, **keywords | {"method": "sdrm+de"})
+    keywords["method"] = DifferentialEvolution(maxiter=1, popsize=4, after=SDRM(maxiter=1))
+    identify(counted, EXPERIMENT, BOUNDS, **keywords)
     assert counted.runs > 5
     with SimulationStore(tmp_path / "s.db") as store:
         assert len(store) == counted.runs
@@ -97,7 +95,7 @@ def test_workers_fill_the_store_too(tmp_path):
 
 def test_rescore_runs_nothing_and_gives_the_objective(tmp_path):
     counted = Counted(fragile_line)
-    found = identify(counted, EXPERIMENT, BOUNDS, store=tmp_path / "s.db", **SDRM)
+    found = identify(counted, EXPERIMENT, BOUNDS, store=tmp_path / "s.db", **SHORT)
     runs = counted.runs
     again = rescore(
         tmp_path / "s.db", EXPERIMENT, Criterion("dtw", weights=[2.0], metric="cityblock")
@@ -119,7 +117,7 @@ def test_rescore_wants_to_know_which_model(tmp_path):
         rescore(file, EXPERIMENT)
     for version in ("1", "2"):
         store = SimulationStore(file, version=version)
-        identify(line, EXPERIMENT, BOUNDS, store=store, **SDRM)
+        identify(line, EXPERIMENT, BOUNDS, store=store, **SHORT)
     with pytest.raises(ValueError, match=r"runs of 2 models \(line, version 1; line, version 2\)"):
         rescore(file, EXPERIMENT)
     with pytest.raises(ValueError, match="has no runs of line, version 3; it has those of: line"):
@@ -148,7 +146,7 @@ def command_model(folder, slope="<<a>>", read=read_curve, **keywords):
 def test_an_edited_template_is_another_model(tmp_path):
     """And so are another command, environment and reading function."""
     file = tmp_path / "s.db"
-    keywords = {"method": "nelder-mead", "progress": False, "max_evaluations": 2, "store": file}
+    keywords = {"method": "nelder-mead", "progress": False, "max_runs": 2, "store": file}
     one = identify(command_model(tmp_path), EXPERIMENT, BOUNDS, **keywords)
     with SimulationStore(file) as store:
         assert len(store) == 2
@@ -186,11 +184,11 @@ def test_a_function_needs_a_version_and_keeps_to_it(tmp_path):
     file = tmp_path / "s.db"
     wanted = r"which state of line its runs are of; give store=SimulationStore\(path, version='1'\)"
     with pytest.raises(ValueError, match=wanted):
-        identify(line, EXPERIMENT, BOUNDS, store=file, **SDRM)
+        identify(line, EXPERIMENT, BOUNDS, store=file, **SHORT)
     for version in (2, ""):
         with pytest.raises(ValueError, match=f"version is {version!r}; give a text"):
             SimulationStore(file, version=version)
-    keywords = {**SDRM, "store": SimulationStore(file, version="1")}
+    keywords = {**SHORT, "store": SimulationStore(file, version="1")}
     source = "def model(p):\n    return np.column_stack((X, p['a'] * X + p['b']))\n"
     identify(with_source(source), EXPERIMENT, BOUNDS, **keywords)
     commented = source.replace("\n    r", "\n    '''A line.'''\n\n    # With a comment.\n    r")
@@ -198,7 +196,7 @@ def test_a_function_needs_a_version_and_keeps_to_it(tmp_path):
     for changed in (source.replace("* X", "* X * X"), source.replace("p['b']", "2 * p['b']")):
         with pytest.raises(ValueError, match="model, version 1, whose code or data were others"):
             identify(with_source(changed), EXPERIMENT, BOUNDS, **keywords)
-        other = {**SDRM, "store": SimulationStore(file, version=changed)}
+        other = {**SHORT, "store": SimulationStore(file, version=changed)}
         identify(with_source(changed), EXPERIMENT, BOUNDS, **other)
 
 
@@ -206,7 +204,7 @@ def test_the_data_of_a_model_count(tmp_path):
     def scaled(factor, parameters):
         return factor * line(parameters)
 
-    keywords = {**SDRM, "store": SimulationStore(tmp_path / "s.db", version="1")}
+    keywords = {**SHORT, "store": SimulationStore(tmp_path / "s.db", version="1")}
     for factor in (np.array([1.0, 1.0]), np.array([1.0, 1.0])):
         identify(functools.partial(scaled, factor), EXPERIMENT, BOUNDS, **keywords)
     with pytest.raises(ValueError, match=r"partial of .*scaled, version 1, whose code or data"):
@@ -234,7 +232,7 @@ def model(p):
 def other():
     return 1
 """
-    keywords = {**SDRM, "store": SimulationStore(tmp_path / "s.db", version="1")}
+    keywords = {**SHORT, "store": SimulationStore(tmp_path / "s.db", version="1")}
     identify(in_module(source), EXPERIMENT, BOUNDS, **keywords)
     for same in (source, source.replace("return 1", "return 2")):
         identify(in_module(same), EXPERIMENT, BOUNDS, **keywords)
@@ -257,9 +255,9 @@ def test_what_a_version_is_for(tmp_path, recwarn):
         return model
 
     one, two = (SimulationStore(tmp_path / "s.db", version=version) for version in "12")
-    first = identify(made({"factor": 1.0}), EXPERIMENT, BOUNDS, store=one, **SDRM)
-    stale = identify(made({"factor": 0.5}), EXPERIMENT, BOUNDS, store=one, **SDRM)
-    fresh = identify(made({"factor": 0.5}), EXPERIMENT, BOUNDS, store=two, **SDRM)
+    first = identify(made({"factor": 1.0}), EXPERIMENT, BOUNDS, store=one, **SHORT)
+    stale = identify(made({"factor": 0.5}), EXPERIMENT, BOUNDS, store=one, **SHORT)
+    fresh = identify(made({"factor": 0.5}), EXPERIMENT, BOUNDS, store=two, **SHORT)
     assert (stale.runs, stale.parameters) == (0, first.parameters)
     assert fresh.runs > 0
     assert fresh.parameters["a"] == pytest.approx(2.0 * first.parameters["a"], rel=1e-3)
@@ -275,17 +273,17 @@ def test_folds_of_a_cross_validation_share_runs(tmp_path):
 
     counted = Counted(loops)
     experiments = loops({"a": 2.0, "b": 1.0})
-    keywords = {**SDRM, "store": tmp_path / "s.db"}
+    keywords = {**SHORT, "store": tmp_path / "s.db"}
     shared = cross_validate(counted, experiments, BOUNDS, **keywords)
     asked = sum(fold.identification.evaluations for fold in shared.folds)
     assert counted.runs <= asked - 2 * 5  # the first region of every fold is the same
-    alone = cross_validate(loops, experiments, BOUNDS, **SDRM)
+    alone = cross_validate(loops, experiments, BOUNDS, **SHORT)
     assert str(shared) == str(alone)
 
 
 def test_failures_are_kept_until_they_are_forgotten(tmp_path):
     counted = Counted(fragile_line)
-    keywords = {**SDRM, "store": tmp_path / "s.db"}
+    keywords = {**SHORT, "store": tmp_path / "s.db"}
     found = identify(counted, EXPERIMENT, BOUNDS, **keywords)
     raised = [message for _, message in found.failures if "too steep" in message]
     assert raised
@@ -322,7 +320,7 @@ def test_a_store_is_made_when_it_is_used_and_opened_again(tmp_path):
     assert (again.path, again.version) == (store.path, "1")
     assert SimulationStore(store, version="2").version == "2"
     with store:  # a search has a connection of its own
-        identify(line, EXPERIMENT, BOUNDS, store=store, **SDRM)
+        identify(line, EXPERIMENT, BOUNDS, store=store, **SHORT)
         assert store.models() == ["line, version 1"]
 
 

@@ -142,7 +142,7 @@ def test_the_minimum_on_surfaces_of_thousands_of_points(measure):
         lambda: calls.append(1),
     )
     exact = []
-    minimum._exact._thinking = lambda: exact.append(1)
+    minimum._exact._show_activity = lambda: exact.append(1)
     box = (np.zeros(2), np.ones(2))
     best = minimum.lowest(surfaces, surfaces.centre, box)
     if measure != "sum_of_squares":  # which costs little, and asks for every point

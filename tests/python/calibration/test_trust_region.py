@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from curvewise.calibration.methods.trust_region import (
-    _descend,
-    _Rules,
-    _Search,
-    _simplex,
-    trust_region,
-)
+from curvewise.calibration.methods.trust_region import TrustRegion, _descend, _Search, _simplex
 from curvewise.calibration.problem.evaluations import Finish
 from curvewise.calibration.records.evaluation import Evaluation
 
 REACH = 0.8  # of the region, by every step
-RULES = _Rules(initial_range=0.2, diff_step=0.02, tol=1e-3, gain=1e-3, maxiter=50, slopes="broyden")
+RULES = TrustRegion(initial_range=0.2, maxiter=50)
 
 
 class Scripted:
@@ -52,7 +47,7 @@ class Scripted:
         return self.valleys >= 0
 
 
-def descended(search: Any, rules: _Rules = RULES) -> list[tuple[float, bool]]:
+def descended(search: Any, rules: TrustRegion = RULES) -> list[tuple[float, bool]]:
     """Return in which regions a search looked for minima, and whether with fresh slopes."""
     evaluations: Any = SimpleNamespace(negligible=0.0)
     finish = _descend(search, evaluations, rules)
@@ -85,19 +80,19 @@ def test_the_region_follows_how_well_gains_are_predicted(is_fresh, gain, factor,
 
 
 def test_fresh_slopes_before_every_step():
-    looked = descended(Scripted([1.0, 0.5, 0.05]), RULES._replace(slopes="fresh"))
+    looked = descended(Scripted([1.0, 0.5, 0.05]), replace(RULES, slopes="fresh"))
     assert looked == [(0.2, False), (0.32, True), (0.32, True), (0.128, True)]
 
 
 def test_the_region_is_never_more_than_the_bounds():
-    looked = descended(Scripted([1.0, 1.0]), RULES._replace(initial_range=0.6))
+    looked = descended(Scripted([1.0, 1.0]), replace(RULES, initial_range=0.6))
     assert [radius for radius, _ in looked[:3]] == [0.6, 0.96, 1.0]
 
 
 def test_a_region_below_tol_has_its_slopes_renewed():
     search: Any = Scripted([-1.0, -1.0, -1.0])
     evaluations: Any = SimpleNamespace(negligible=0.0)
-    finish = _descend(search, evaluations, RULES._replace(tol=0.1))
+    finish = _descend(search, evaluations, replace(RULES, tol=0.1))
     assert [radius for radius, _ in search.looked] == [0.2, 0.2, 0.08, 0.15, 0.06, 0.15]
     assert finish == (
         True,
@@ -120,17 +115,14 @@ def run_at(point: Any, wrong: float = 0.0) -> Evaluation:
 
 
 class Known:
-    """Evaluations, of which some are known around every point."""
+    """Evaluations, of which some are known around a point."""
 
-    def __init__(self, steps: Any, wrong: Sequence[float]) -> None:
-        self.steps, self.wrong = np.array(steps), wrong
+    def __init__(self, unit: Any, steps: Any, wrong: Sequence[float]) -> None:
+        points = unit + np.array(steps)
+        self.earlier_runs = [(p, run_at(p, error)) for p, error in zip(points, wrong, strict=True)]
         self.run = 0
 
-    def known_near(self, unit: Any) -> tuple[Any, list[Evaluation]]:
-        points = unit + self.steps
-        return points, [run_at(p, wrong) for p, wrong in zip(points, self.wrong, strict=True)]
-
-    def evaluated(self, points: Any, *, keep_simulations: bool) -> list[Evaluation]:
+    def evaluated(self, points: Any) -> list[Evaluation]:
         self.run += len(points)
         return [run_at(point) for point in points]
 
@@ -138,10 +130,11 @@ class Known:
 @pytest.mark.parametrize("wrong", [0.0, 0.5])
 def test_slopes_come_from_earlier_runs_the_nearest_first(wrong):
     """Two that are further away differ from the others; they count by 1 / (distance + 0.02)^2."""
-    steps = [(0.02, 0.0), (-0.02, 0.0), (0.0, 0.02), (0.0, -0.02), (0.1, 0.0), (-0.1, 0.0)]
-    known: Any = Known(steps, [0.0, 0.0, 0.0, 0.0, wrong, -wrong])
+    steps = [(0.02, 0.0), (-0.02, 0.0), (0.0, 0.02), (0.1, 0.0), (-0.1, 0.0)]
+    start = np.array([0.4, 0.3])
+    known: Any = Known(start, steps, [0.0, 0.0, 0.0, wrong, -wrong])
     search = _Search(known, np.random.default_rng(1), RULES, None)
-    search.begin(np.array([0.4, 0.3]), 0.5)
+    search.begin(start, 0.5)
     assert known.run == 1
     np.testing.assert_array_equal(search.centre, [0.4, 0.3])
     near, far = 1.0 / 0.04**2, 1.0 / 0.12**2
@@ -180,5 +173,5 @@ def test_how_many_starts_end_alike(values, alike, monkeypatch):
     )
     best = min(values)
     evaluations: Any = SimpleNamespace(dimensions=2, negligible=1e-6)
-    finish = trust_region(evaluations, None, 1)
+    finish = TrustRegion().minimise(evaluations, None, 1)
     assert finish.message == f"{alike} of 3 starts within 1 % of the best; ended at {best}"

@@ -29,9 +29,7 @@ CALLS: dict[str, Callable[[pd.DataFrame], object]] = {
     "Objective": lambda Q: Objective(TEST)(Q),
     "Objective, several": lambda Q: Objective([TEST, TEST])([TEST, Q]),
     "Objective.residuals": lambda Q: Objective(TEST, "curve_length").residuals(Q),
-    "identify": lambda Q: identify(
-        lambda _: Q, TEST, {"a": (0, 1)}, progress=False, max_evaluations=2
-    ),
+    "identify": lambda Q: identify(lambda _: Q, TEST, {"a": (0, 1)}, progress=False, max_runs=2),
 }
 
 

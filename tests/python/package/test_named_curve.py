@@ -147,7 +147,7 @@ def test_identifications_name_their_axes():
         return np.column_stack((x, parameters["a"] * x))
 
     test = NamedCurve(line({"a": 2.0}), NAMES)
-    keywords = {"bounds": {"a": (0, 10)}, "progress": False, "max_evaluations": 6}
+    keywords = {"bounds": {"a": (0, 10)}, "progress": False, "max_runs": 6}
     found = identify(line, test, measure="sum_of_squares", method="trust-region", **keywords)
     assert labels(found.plot().axes[0]) == NAMES
     assert labels(found.plot(names=["u", "F"]).axes[0]) == ("u", "F")

@@ -17,7 +17,7 @@ from curvewise.showing.result import Result, Table
 
 P, Q = curvewise.datasets.hysteresis_pair()
 X = np.linspace(0.0, 1.0, 12)
-KEYWORDS = {"bounds": {"a": (0, 10)}, "progress": False, "max_evaluations": 6}
+KEYWORDS = {"bounds": {"a": (0, 10)}, "progress": False, "max_runs": 6}
 
 
 def line(parameters):

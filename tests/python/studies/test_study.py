@@ -13,13 +13,15 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from curvewise.calibration import identify
+from curvewise.calibration import TrustRegion, identify
+from curvewise.calibration.methods import METHODS
 from curvewise.commands import main
 from curvewise.studies import Study, StudyError
 from curvewise.studies.curve_sources import Quantity
@@ -63,9 +65,20 @@ timeout = 60
 E = [1e5, 3e5]
 sy = {{ bounds = [200, 600], start = 300 }}
 [search]
-max_evaluations = 9
+max_runs = 9
 uncertainty = false
 """
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Patient(TrustRegion, name="patient", keeps_curves=True, needs_squares=False):
+    """Takes its time."""
+
+    def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
+        return 100 * self.starts + parameters
+
+
+PATIENT = Patient()
 
 
 def stress(p: dict[str, float]) -> Any:
@@ -105,7 +118,7 @@ def test_a_study_is_what_identify_finds(tmp_path: Path) -> None:
         np.column_stack((STRAIN, measured())),
         {"E": (1e5, 3e5), "sy": (200.0, 600.0)},
         start={"E": 2e5, "sy": 300.0},
-        max_evaluations=9,
+        max_runs=9,
         progress=False,
     )
     assert one.parameters == pytest.approx(expected.parameters, rel=1e-6)
@@ -156,6 +169,16 @@ def test_a_check_runs_once_and_says_what_it_read(
     found = Study.read(file).run(progress=False)
     (one,) = found.identifications.values()
     assert one.runs == one.evaluations - 1  # the check's run was the first of the search
+
+
+def test_a_check_asks_the_method_how_many_runs_it_takes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One that nobody has heard of before, by the name that it has in the file."""
+    monkeypatch.setitem(METHODS, "patient", PATIENT)
+    text = STUDY.replace("max_runs = 9", 'method = { name = "patient", starts = 7 }')
+    printed = str(Study.read(study_file(tmp_path, text)).check())
+    assert "the study takes at least 702 runs: " in printed
 
 
 def test_a_check_sees_other_units(tmp_path: Path) -> None:

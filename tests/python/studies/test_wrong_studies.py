@@ -129,15 +129,15 @@ WRONG = {
     ),
     "an option of another method": (
         'method = "trust-region"',
-        'method = "sdrm"\nmethod_options = { popsize = 20 }',
-        "study.toml, line 23: search.method_options does not go together: method 'sdrm' has no "
-        "option popsize; it has gamma_osc, gamma_pan, eta, initial_range, tol, maxiter",
+        'method = { name = "sdrm", popsize = 20 }',
+        "study.toml, line 22: search.method cannot be: method 'sdrm' has no option "
+        "popsize; it has gamma_osc, gamma_pan, eta, initial_range, tol, maxiter",
     ),
     "a method that needs squares": (
         'method = "trust-region"',
-        'method = "least_squares"',
+        'method = "least-squares"',
         "study.toml, line 22: search.method does not go together: measure 'area' is not a sum of "
-        "squares; method 'least_squares' needs measure='curve_length' or 'sum_of_squares'",
+        "squares; method 'least-squares' needs measure='curve_length' or 'sum_of_squares'",
     ),
     "a file that several solvers write": (
         'file = "out.csv"',

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 
 from ...curves.several_curves import points_of
-from ..methods.search import Ended, Plan
+from ..methods.search import EndedSearch, Plan
 from ..problem.problem import Problem
 from ..records.evaluation import as_records
 from .identification import Identification
@@ -15,7 +15,7 @@ __all__ = ["identification_of"]
 _log = logging.getLogger("curvewise.calibration")
 
 
-def identification_of(problem: Problem, plan: Plan, ended: Ended) -> Identification:
+def identification_of(problem: Problem, plan: Plan, ended: EndedSearch) -> Identification:
     """Return what a search has found."""
     evaluations, objective = ended.evaluations, problem.objective
     done, best = evaluations.done, evaluations.best
@@ -29,14 +29,14 @@ def identification_of(problem: Problem, plan: Plan, ended: Ended) -> Identificat
         failures=tuple((e.number, e.message) for e in done if e.failed),
         converged=ended.finish.converged,
         message=ended.finish.message,
-        method=plan.method,
+        method=str(plan.method),
         seed=plan.seed,
         bounds=problem.space.bounds,
         measure=objective.measure,
         preset=objective.preset,
         runs=ended.runs,
         problem=problem,
-        kept=evaluations.kept,
+        runs_with_curves=evaluations.runs_with_curves,
         part=objective.part,
         condition=objective.condition,
         recorder=ended.recorder,

@@ -68,7 +68,7 @@ class Identification(Result):
         As asked for.
     runs : int
         How many runs of the model were made for it; the others were looked up.
-    problem, kept, recorder
+    problem, runs_with_curves, recorder
         What was searched, the runs whose curves are known, and what writes the search down: for
         what comes after the search.
     condition : Condition or None
@@ -92,7 +92,7 @@ class Identification(Result):
     preset: str
     runs: int
     problem: Problem = field(repr=False)
-    kept: tuple[tuple[Array, Evaluation], ...] = field(repr=False)
+    runs_with_curves: tuple[tuple[Array, Evaluation], ...] = field(repr=False)
     part: Part
     condition: Condition | None = field(repr=False)
     recorder: Recorder = field(repr=False)
@@ -156,7 +156,7 @@ class Identification(Result):
     @property
     def uncertainty_runs(self) -> int:
         """How many runs of the model `uncertainty` will make: 0, or 2 for every parameter."""
-        return design_runs(self.problem, self._unit, self.kept)
+        return design_runs(self.problem, self._unit, self.runs_with_curves)
 
     @property
     def determined(self) -> dict[str, bool] | None:
@@ -344,7 +344,7 @@ class Identification(Result):
             converged=later.converged,
             message=later.message,
             runs=self.runs + later.runs,
-            kept=later.kept,
+            runs_with_curves=later.runs_with_curves,
         )
 
     @property
@@ -352,7 +352,7 @@ class Identification(Result):
         return self.problem.space.unit_of(self.parameters)
 
     def _optimum(self) -> Optimum:
-        return optimum_surfaces(self.problem, self._unit, self.simulations, self.kept)
+        return optimum_surfaces(self.problem, self._unit, self.simulations, self.runs_with_curves)
 
     def plot(self, *, names: Sequence[str] | None = None) -> Picture:
         """Return a matplotlib Figure of the loops and of the convergence.

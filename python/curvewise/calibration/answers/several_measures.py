@@ -127,7 +127,7 @@ class SeveralMeasures(Mapping[str, Identification], Result):
         ImportError, ValueError, OSError
             As :meth:`Identification.report`.
         """
-        write_report(path, [one.record() for one in self.values()])
+        write_report(path, [one.record() for one in self._identifications.values()])
 
     @property
     def _first(self) -> Identification:

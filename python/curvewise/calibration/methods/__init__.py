@@ -1,1 +1,59 @@
-"""The methods that search, and one search from its start to its end."""
+"""The methods that search, one file each, and one search from its start to its end.
+
+A method is known by the record that it fills in (`method.py`). A new one stands here in the list of
+public names and in that of the records, and nowhere else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from ..._names import did_you_mean
+from .differential_evolution import DifferentialEvolution
+from .domain_reduction import SDRM
+from .least_squares import LeastSquares
+from .method import Method, options_of, refuse_unknown
+from .simplex import NelderMead
+from .trust_region import TrustRegion
+
+# What a user needs; the rest of this file is for the package.
+__all__ = ["SDRM", "DifferentialEvolution", "LeastSquares", "NelderMead", "TrustRegion"]
+
+METHODS: dict[str, Method] = {
+    "auto": TrustRegion(),
+    **{
+        str(method): method
+        for method in (
+            TrustRegion(),
+            LeastSquares(),
+            SDRM(),
+            DifferentialEvolution(),
+            DifferentialEvolution(after=SDRM()),
+            NelderMead(),
+        )
+    },
+}
+
+
+def method_of(method: str | Method) -> Method:
+    """Return the method of a name; one that is no name as it is."""
+    if isinstance(method, Method):
+        return method
+    if not isinstance(method, str) or method not in METHODS:
+        raise ValueError(
+            f"unknown method {method!r}; choose from {', '.join(METHODS)}"
+            f"{did_you_mean([method], METHODS)}"
+        )
+    return METHODS[method]
+
+
+def method_with(options: Mapping[str, Any]) -> Method:
+    """Return the method of a text's table: {"name": "trust-region", "starts": 5}."""
+    given = dict(options)
+    method = method_of(given.pop("name", "auto"))
+    refuse_unknown(method.name, given, options_of(method))
+    if isinstance(given.get("after"), Mapping):
+        given["after"] = method_with(given["after"])
+    return replace(method, **given)

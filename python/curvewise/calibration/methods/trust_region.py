@@ -24,17 +24,20 @@ C. G. Broyden, "A class of methods for solving nonlinear simultaneous equations"
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, NamedTuple, get_args
+from dataclasses import dataclass
+from typing import Literal, get_args
 
 import numpy as np
 
 from ...curves.inputs import Array
 from ..problem.evaluations import Evaluations, Finish
 from ..records.evaluation import Evaluation
+from ..surfaces.nearby_runs import NearbyRuns, Run, narrowest, runs_near
 from ..surfaces.surface_minimum import SurfaceMinimum
-from ..surfaces.surfaces import Responses, Surfaces, regression
+from ..surfaces.surfaces import Responses, Surfaces
+from .method import Method, with_other_defaults
 
-__all__ = ["trust_region"]
+__all__ = ["TrustRegion"]
 
 # Of what was promised, a step that gains less than _POOR has failed; from _GOOD on the slopes are
 # as good as new.
@@ -47,114 +50,141 @@ _DRAWN = (0.1, 0.9)  # where starts are drawn, between the bounds
 # many of those that it finds.
 _ATTEMPTS = 3
 _AFTER_RENEWAL = 0.15  # fresh slopes deserve trust again
+# Earlier runs give the slopes at a point if none is further away than this, as a fraction of the
+# bounds' range, and if their spread in every direction is at least this fraction of their reach.
+_NEAR, _FLATTEST = 0.25, 0.03
 
 
 Slopes = Literal["broyden", "fresh"]
 
 
-class _Rules(NamedTuple):
-    """Options of a descent, as `trust_region` has them."""
+@dataclass(frozen=True, kw_only=True, repr=False)
+class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=False):
+    """The measure on linear surfaces of the curves, minimised within a region of trust.
 
-    initial_range: float
-    diff_step: float
-    tol: float
-    gain: float
-    maxiter: int
-    slopes: Slopes
-
-
-def trust_region(
-    evaluations: Evaluations,
-    start: Array | None,
-    seed: int,
-    *,
-    starts: int = 3,
-    initial_range: float = 0.5,
-    diff_step: float = 0.02,
-    tol: float = 1e-3,
-    gain: float = 1e-3,
-    maxiter: int = 200,
-    slopes: Slopes = "broyden",
-) -> Finish:
-    """Minimise on surfaces of the curves in a region of trust.
+    Local, for expensive models and any measure: 10 to 30 runs a start for 3 parameters, 45 to 95
+    for 7. It begins with k + 1 runs for k parameters, and takes one for every step.
 
     Parameters
     ----------
-    evaluations : Evaluations
-        The objective.
-    start : ndarray or None
-        Where to begin; the middle of the bounds if not given, and then elsewhere.
-    seed : int
-        Of the other starts, and of the search on the surfaces.
-    starts : int
-        How many searches to make where no start is given.
-    initial_range : float
+    starts : int, default 3
+        How many searches to make, one after the other, where no start is given: from the middle of
+        the bounds, and from places that are drawn.
+    initial_range : float, optional
         Half the size of the first region of trust, as a fraction of the bounds' range; the first
-        differences are over half of that.
-    diff_step : float
+        differences are over half of that. By default 0.5, and 0.1 where :func:`identify_each`
+        begins near the end of another search.
+    diff_step : float, default 0.02
         The largest difference over which slopes are renewed, as a fraction of the bounds' range.
-    tol : float
+    tol : float, default 1e-3
         The search ends where the region is smaller than this.
-    gain : float
+    gain : float, default 1e-3
         And where fresh slopes promise to gain no more than this fraction of the value.
-    maxiter : int
+    maxiter : int, default 200
         The most steps, of each start.
     slopes : {"broyden", "fresh"}
-        "broyden": of the runs that are made anyway, and measured only where these mislead.
-        "fresh": measured before every step, by k runs, which can be made at the same time.
+        "broyden": of the runs that are made anyway, and renewed by k runs where these mislead.
+        "fresh": measured before every step, by k runs, which k workers make at the same time: Gauss
+        and Newton's method, for any measure.
+
+    Raises
+    ------
+    ValueError
+        An option that cannot be.
+
+    Notes
+    -----
+    A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000).
+
+    Examples
+    --------
+    >>> from curvewise.calibration import TrustRegion
+    >>> TrustRegion(starts=5)
+    TrustRegion(starts=5)
     """
-    if slopes not in get_args(Slopes):
-        raise ValueError(f"slopes is {slopes!r}; choose from {', '.join(get_args(Slopes))}")
-    for name, fraction in (("initial_range", initial_range), ("diff_step", diff_step)):
-        if not 0.0 < fraction <= 1.0:
-            raise ValueError(f"{name} is {fraction}; give a fraction of the bounds, such as 0.02")
-    rules = _Rules(initial_range, diff_step, tol, gain, maxiter, slopes)
-    random = np.random.default_rng(seed)
-    places = _places(evaluations.dimensions, start, starts, random)
-    ends: list[tuple[float, Finish]] = []
-    failure: RuntimeError | None = None
-    responses: Responses | None = None
-    for place in places:
-        search = _Search(evaluations, random, rules, responses)
-        try:
-            search.begin(place, initial_range)
-        except RuntimeError as error:
-            failure = failure or error
-            continue
-        finish = _descend(search, evaluations, rules)
-        ends.append((search.value, finish))
-        responses = search.responses
-    if not ends:
-        assert failure is not None
-        raise failure
-    best, finish = min(ends, key=lambda end: end[0])
-    if len(places) == 1:
-        return finish
-    alike = sum(value <= 1.01 * best + _PERFECT * evaluations.negligible for value, _ in ends)
-    return Finish(
-        finish.converged,
-        f"{alike} of {len(places)} starts within 1 % of the best; {finish.message}",
-    )
+
+    starts: int = 3
+    initial_range: float | None = None
+    diff_step: float = 0.02
+    tol: float = 1e-3
+    gain: float = 1e-3
+    maxiter: int = 200
+    slopes: Slopes = "broyden"
+
+    def __post_init__(self) -> None:
+        if self.slopes not in get_args(Slopes):
+            raise ValueError(
+                f"slopes is {self.slopes!r}; choose from {', '.join(get_args(Slopes))}"
+            )
+        for name, value in (("initial_range", self.first_radius), ("diff_step", self.diff_step)):
+            if not 0.0 < value <= 1.0:
+                raise ValueError(f"{name} is {value}; give a fraction of the bounds, such as 0.02")
+        if self.starts < 1:
+            raise ValueError(f"starts is {self.starts}; give at least 1")
+
+    @property
+    def first_radius(self) -> float:
+        """Half the size of the first region."""
+        return 0.5 if self.initial_range is None else self.initial_range
+
+    def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
+        """Return the runs of the first simplex, of one step and of the slopes at the end."""
+        return (1 if has_start else self.starts) * (2 * parameters + 2)
+
+    def near_optimum(self) -> TrustRegion:
+        """Return the same with a small first region."""
+        return with_other_defaults(self, initial_range=0.1)
+
+    def closer(self) -> TrustRegion:
+        """Return the same for less, in a wider region, to leave a valley of other measures."""
+        return with_other_defaults(self, initial_range=0.3, gain=2e-5, tol=1e-4)
+
+    def minimise(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
+        """Minimise on surfaces of the curves, from every start."""
+        random = np.random.default_rng(seed)
+        places = _places(evaluations.dimensions, start, self.starts, random)
+        ends: list[tuple[float, Finish]] = []
+        failure: RuntimeError | None = None
+        responses: Responses | None = None
+        for place in places:
+            search = _Search(evaluations, random, self, responses)
+            try:
+                search.begin(place, self.first_radius)
+            except RuntimeError as error:
+                failure = failure or error
+                continue
+            finish = _descend(search, evaluations, self)
+            ends.append((search.value, finish))
+            responses = search.responses
+        if not ends:
+            assert failure is not None
+            raise failure
+        best, finish = min(ends, key=lambda end: end[0])
+        if len(places) == 1:
+            return finish
+        alike = sum(value <= 1.01 * best + _PERFECT * evaluations.negligible for value, _ in ends)
+        return Finish(
+            finish.converged,
+            f"{alike} of {len(places)} starts within 1 % of the best; {finish.message}",
+        )
 
 
 def _places(k: int, start: Array | None, count: int, random: np.random.Generator) -> list[Array]:
     """Return where to start: where it is said, or in the middle of the bounds and elsewhere."""
-    if count < 1:
-        raise ValueError(f"starts is {count}; give at least 1")
     if start is not None:
         return [np.asarray(start)]
     return [np.full(k, 0.5), *(random.uniform(*_DRAWN, k) for _ in range(count - 1))]
 
 
-def _descend(search: _Search, evaluations: Evaluations, rules: _Rules) -> Finish:
+def _descend(search: _Search, evaluations: Evaluations, rules: TrustRegion) -> Finish:
     """Go down from one start."""
-    radius = rules.initial_range
+    radius = rules.first_radius
     for _ in range(rules.maxiter):
         candidate, promised = search.lowest(radius)
         least = max(evaluations.negligible, rules.gain * search.value)
         if promised <= least or radius < rules.tol:
             if search.is_fresh:
-                if search.leaves_valley(rules.initial_range, least):
+                if search.leaves_valley(rules.first_radius, least):
                     continue
                 return Finish(True, _ending(radius, least, rules.tol))
             search.renew(radius)
@@ -187,7 +217,7 @@ class _Search:
         self,
         evaluations: Evaluations,
         random: np.random.Generator,
-        rules: _Rules,
+        rules: TrustRegion,
         responses: Responses | None,
     ) -> None:
         self._evaluations, self._random = evaluations, random
@@ -204,13 +234,13 @@ class _Search:
 
     def begin(self, start: Array, radius: float) -> None:
         """Run a simplex around the start, around the best of its runs if the start fails."""
-        known = self._evaluations.known_near(start)
-        if known is not None:
+        near = _earlier_runs_near(start, self._evaluations.earlier_runs)
+        if near is not None:
             (first,) = self._run(start[np.newaxis])
             if not first.failed:
                 self._take(start, first)
-                points, runs = known
-                self._surfaces.slopes = self._fitted(points, runs, start)
+                assert self.responses is not None
+                self._surfaces.slopes = near.slopes(self.responses, self._diff_step)
                 return
         for _ in range(5):
             points = _simplex(start, radius / 2.0, self._random)
@@ -267,7 +297,7 @@ class _Search:
                 self.responses,
                 self._random,
                 self._evaluations.negligible,
-                self._evaluations.thinking,
+                self._evaluations.show_activity,
                 self._gain,
             )
         return self._minimum
@@ -316,20 +346,26 @@ class _Search:
                 difference = self._vector(run) - self._surfaces.base
                 self._surfaces.slopes[:, i] = difference / (place[i] - self.centre[i])
 
-    def _fitted(self, points: Array, runs: Sequence[Evaluation], centre: Array) -> Array:
-        responses = np.array([self._vector(run) for run in runs])
-        distances = np.abs(points - centre).max(axis=1)
-        weights = 1.0 / (distances + self._diff_step) ** 2
-        return regression(points, responses, centre, weights)
-
     def _run(self, points: Array) -> list[Evaluation]:
-        return self._evaluations.evaluated(points, keep_simulations=True)
+        return self._evaluations.evaluated(points)
 
     def _vector(self, run: Evaluation) -> Array:
         assert run.simulations is not None
         if self.responses is None:
             self.responses = Responses(run.simulations)
         return self.responses.vector(run.simulations)
+
+
+def _earlier_runs_near(unit: Array, runs: Sequence[Run]) -> NearbyRuns | None:
+    """Return earlier runs around a point that determine the slopes there, if they do.
+
+    The 2 k + 1 nearest, if they are near and not all in a plane.
+    """
+    near = runs_near(unit, runs, within=_NEAR, most=2 * unit.size + 1)
+    if near is None:
+        return None
+    offsets = (near.points - near.points.mean(axis=0)) / near.distances.max()
+    return near if narrowest(offsets) >= _FLATTEST * np.sqrt(len(offsets)) else None
 
 
 def _simplex(centre: Array, step: float, random: np.random.Generator) -> Array:

@@ -25,6 +25,10 @@ from .terms import CurveTerm, FailedSimulationError, Label, Term
 
 __all__ = ["Objective", "Score", "objectives_of"]
 
+# A fraction of the value of simulations that are wrong by their loops' heights. The smallest value
+# of an objective is 0, for a perfect model, so no tolerance relative to it alone is ever met.
+_NEGLIGIBLE = 1e-7
+
 
 class Score(NamedTuple):
     """What an objective makes of one set of simulations.
@@ -268,6 +272,11 @@ class Objective:
         return np.concatenate(
             [math.sqrt(term.weight) * term.residuals_or_penalty(Q) for term, Q in pairs]
         )
+
+    @property
+    def negligible(self) -> float:
+        """Differences of the value below this do not count."""
+        return _NEGLIGIBLE * float(self.weights @ self.scales)
 
     def fitted(self, simulations: Any) -> list[Array] | None:
         """Return the experiments with the simulated y, where y is compared at a common x."""

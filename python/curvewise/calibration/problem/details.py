@@ -14,7 +14,7 @@ from .problem import Problem
 __all__ = ["details_of"]
 
 
-def details_of(problem: Problem, max_evaluations: int | None) -> dict[str, Any]:
+def details_of(problem: Problem, max_runs: int | None) -> dict[str, Any]:
     """Return what a report needs beside the settings of a search; JSON can hold it.
 
     Tests with the names of their columns and of the tests, the parameters searched for, what the
@@ -30,7 +30,7 @@ def details_of(problem: Problem, max_evaluations: int | None) -> dict[str, Any]:
         "y": list(objective.y_columns),
         "has_function": objective.has_function,
         "model": problem.identities() or [qualified_name(model) for model in problem.models],
-        "max_evaluations": max_evaluations,
+        "max_runs": max_runs,
         "versions": _versions(),
     }
 

@@ -21,18 +21,11 @@ from ..models.pool import Outcome
 from ..objective.objective import Objective
 from ..records.evaluation import Evaluation, Point
 from ..records.recorder import Recorder
+from ..surfaces.nearby_runs import Run
 from .simulator import Simulator
 from .space import Space
 
 __all__ = ["Evaluations", "Finish", "Progress", "SearchEndedError"]
-
-# A fraction of the value of simulations that are wrong by their loops' heights. The smallest value
-# of an objective is 0, for a perfect model, so no tolerance relative to it alone is ever met.
-_NEGLIGIBLE = 1e-7
-
-# Earlier runs give the slopes at a point if none is further away than this, and if their spread in
-# every direction is at least this fraction of their reach.
-_NEAR, _FLATTEST = 0.25, 0.03
 
 _PAUSE = 0.2  # seconds between two refreshes of the bar while nothing is run
 
@@ -81,8 +74,8 @@ class Evaluations:
         Told the progress after every batch; a true result ends the search.
     bar : object
         A tqdm progress bar.
-    known : sequence of (ndarray, Evaluation)
-        Runs of the same models by earlier searches, with their places in the unit cube.
+    earlier_runs : sequence of (ndarray, Evaluation)
+        Of the same models, by earlier searches, with their places in the unit cube.
     """
 
     def __init__(
@@ -95,9 +88,9 @@ class Evaluations:
         limit: int | None,
         callback: Callable[[Progress], Any] | None,
         bar: Any,
-        known: Sequence[tuple[Array, Evaluation]] = (),
+        earlier_runs: Sequence[Run] = (),
     ) -> None:
-        self._known = known
+        self.earlier_runs = earlier_runs
         self.objective = objective
         self._simulator, self._space, self._recorder = simulator, space, recorder
         self._limit, self._callback, self._bar = limit, callback, bar
@@ -105,7 +98,8 @@ class Evaluations:
         self._units: dict[Point, Array] = {}
         self._best: Point | None = None
         self._best_simulations: Any = None
-        self._thoughts, self._shown = 0, time.monotonic()
+        self._predictions, self._shown = 0, time.monotonic()
+        self._keeps_curves = False
         self._log_level = logging.WARNING  # of the first failure; all are kept anyway
 
     @property
@@ -116,7 +110,7 @@ class Evaluations:
     @property
     def negligible(self) -> float:
         """Differences of the objective below this do not count."""
-        return _NEGLIGIBLE * float(self.objective.weights @ self.objective.scales)
+        return self.objective.negligible
 
     @property
     def done(self) -> list[Evaluation]:
@@ -124,10 +118,10 @@ class Evaluations:
         return list(self._done.values())
 
     @property
-    def kept(self) -> tuple[tuple[Array, Evaluation], ...]:
+    def runs_with_curves(self) -> tuple[Run, ...]:
         """Every evaluation whose curves are known, earlier searches' too, with its place."""
         own = [(self._units[point], e) for point, e in self._done.items() if e.simulations]
-        return (*self._known, *own)
+        return (*self.earlier_runs, *own)
 
     @property
     def best(self) -> Evaluation:
@@ -146,36 +140,26 @@ class Evaluations:
         self._best = self._space.point(unit)
         self._best_simulations = self._done[self._best].simulations
 
-    def stage(self, name: str) -> None:
-        """Show the name of a stage of the search beside the progress."""
-        self._bar.set_description(name)
+    def begin_stage(self, name: str, *, keeps_curves: bool) -> None:
+        """Begin a stage of the search.
 
-    def thinking(self) -> None:
+        Parameters
+        ----------
+        name : str
+            Shown beside the progress.
+        keeps_curves : bool
+            Keep the curves of simulations that succeed, in the history file too.
+        """
+        self._bar.set_description(name)
+        self._keeps_curves = keeps_curves
+
+    def show_activity(self) -> None:
         """Show that a search is at work between runs, on what it predicts of them."""
-        self._thoughts += 1
+        self._predictions += 1
         now = time.monotonic()
         if self._best is not None and now - self._shown > _PAUSE:
             self._shown = now
-            self._bar.set_postfix(best=f"{self.best.value:.4g}", predicted=self._thoughts)
-
-    def known_near(self, unit: Array) -> tuple[Array, list[Evaluation]] | None:
-        """Return earlier runs around a point that determine the slopes there, if they do.
-
-        The 2 k + 1 nearest that succeeded, if they are within a quarter of the bounds' range and
-        not all in a plane.
-        """
-        k = self.dimensions
-        near = [(place, run) for place, run in self._known if run.simulations is not None]
-        near.sort(key=lambda item: float(np.abs(item[0] - unit).max()))
-        near = near[: 2 * k + 1]
-        if len(near) <= k + 1:
-            return None
-        places = np.array([place for place, _ in near])
-        reach = float(np.abs(places - unit).max())
-        spread = np.linalg.svd((places - places.mean(axis=0)) / reach, compute_uv=False)
-        if reach > _NEAR or spread[-1] < _FLATTEST * np.sqrt(len(near)):
-            return None
-        return places, [run for _, run in near]
+            self._bar.set_postfix(best=f"{self.best.value:.4g}", predicted=self._predictions)
 
     def values(self, units: Array) -> Array:
         """Return the objective at points of the unit cube, shape (count, dimensions)."""
@@ -192,16 +176,13 @@ class Evaluations:
             self._best_simulations = outcome.simulations
         return self._best_simulations
 
-    def evaluated(self, units: Array, *, keep_simulations: bool = False) -> list[Evaluation]:
+    def evaluated(self, units: Array) -> list[Evaluation]:
         """Return the evaluations of points; run those that are not known.
 
         Parameters
         ----------
         units : ndarray, shape (count, dimensions)
             Points of the unit cube.
-        keep_simulations : bool
-            Keep the curves of simulations that succeed. A method that wants them must ask for
-            them every time.
 
         Raises
         ------
@@ -217,7 +198,7 @@ class Evaluations:
             self._units.setdefault(point, np.array(unit))
         if batch:
             is_first = not self._done
-            self._run(batch, keep_simulations)
+            self._run(batch)
             if is_first and all(e.failed for e in self._done.values()):
                 raise RuntimeError(
                     f"no simulation succeeded, of {len(self._done)} that the search begins with; "
@@ -225,16 +206,16 @@ class Evaluations:
                 )
             self._report()
         if len(batch) < len(new):
-            raise SearchEndedError(f"max_evaluations = {self._limit} reached")
+            raise SearchEndedError(f"max_runs = {self._limit} reached")
         return [self._done[point] for point in points]
 
-    def _run(self, batch: list[Point], keep_simulations: bool) -> None:
+    def _run(self, batch: list[Point]) -> None:
         first = len(self._done) + 1
         finished: dict[Point, Evaluation] = {}
         simulations: dict[Point, Any] = {}
         for k, outcome in self._simulator.run([self._space.dictionary(p) for p in batch]):
             point = batch[k]
-            finished[point] = self._judged(first + k, point, outcome, keep_simulations)
+            finished[point] = self._judged(first + k, point, outcome)
             simulations[point] = outcome.simulations
             self._bar.update()
         for point in batch:
@@ -244,9 +225,7 @@ class Evaluations:
                 self._best = point
                 self._best_simulations = simulations.get(point)
 
-    def _judged(
-        self, number: int, point: Point, outcome: Outcome, keep_simulations: bool
-    ) -> Evaluation:
+    def _judged(self, number: int, point: Point, outcome: Outcome) -> Evaluation:
         simulations = outcome.simulations
         if outcome.message:  # in full, as the objective would give it for an exception
             simulations = None
@@ -256,7 +235,7 @@ class Evaluations:
             _log.log(self._log_level, "evaluation %d failed: %s", number, message)
             self._log_level = logging.DEBUG
         curves = None
-        if keep_simulations and not message:
+        if self._keeps_curves and not message:
             curves = tuple(as_points(curve, "Q").copy() for curve in curve_list(simulations))
         seconds = outcome.seconds
         return Evaluation(number, point, score.value, bool(message), seconds, message, curves)

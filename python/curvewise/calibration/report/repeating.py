@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from ..objective.criterion import criterion_as_code
@@ -11,8 +12,7 @@ __all__ = ["code_to_repeat"]
 
 _DEFAULTS: dict[str, Any] = {
     "start": None,
-    "method_options": {},
-    "max_evaluations": None,
+    "max_runs": None,
 }
 _OF_A_CASE: dict[str, Any] = {"weight": 1.0, "sigma": None}
 
@@ -24,8 +24,17 @@ def code_to_repeat(record: SearchRecord) -> str:
     that follow from others by a function stand as comments.
     """
     settings, details = record.settings, record.details
+    method = settings["method_call"]
+    names = [
+        "Below",
+        "Case",
+        "Criterion",
+        "Log",
+        *re.findall(r"\b[A-Z]\w+(?=\()", method),
+        "identify",
+    ]
     lines = [
-        "from curvewise.calibration import Below, Case, Criterion, Log, identify",
+        f"from curvewise.calibration import {', '.join(names)}",
         "",
         "found = identify(",
     ]
@@ -38,12 +47,13 @@ def code_to_repeat(record: SearchRecord) -> str:
     lines.append("    },")
     if settings["criterion"] is not None:
         lines.append(f"    measure={criterion_as_code(settings['criterion'])},")
-    keywords = {name: settings[name] for name in ("method", "seed")}
+    keywords: dict[str, Any] = {"seed": settings["seed"]}
     for name, default in _DEFAULTS.items():
         value = settings[name] if name in settings else details[name]
         if value != default:
             keywords[name] = value
     lines += [f"    {name}={value!r}," for name, value in keywords.items()]
+    lines.append(f"    method={method},")
     return "\n".join([*lines, ")"])
 
 

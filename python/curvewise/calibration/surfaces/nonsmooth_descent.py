@@ -20,12 +20,14 @@ import numpy as np
 import numpy.typing as npt
 
 from ...curves.inputs import Array
+from .bfgs import DECREASE, has_curvature, updated
 
 __all__ = ["nonsmooth_descent"]
 
 ValueAndGradient: TypeAlias = Callable[[Array], tuple[float, Array]]
 
-_DECREASE, _TURN = 1e-4, 0.9  # Wolfe's constants
+_TURN = 0.9  # by which the slope of a whole step is less; Wolfe's second constant
+_CURVATURE = 1e-12  # least cosine between a step and the change of the gradient
 _ENOUGH = 1e-5  # gains below ten times this fraction of the value are small
 _PATIENCE = 4  # so many small gains in a row end a round
 _TRIALS = 10  # of a line search
@@ -99,7 +101,10 @@ def _round(function: _Counted, place: _Place, length: float, negligible: float) 
         if trial is None:
             break
         step, change = trial.point - point, trial.gradient - gradient
-        inverse = _updated(inverse, scaled, step, change)
+        if has_curvature(step, change, _CURVATURE):
+            if inverse is None:  # the first is of the right size
+                scaled = np.eye(k) * (float(step @ change) / float(change @ change))
+            inverse = updated(scaled, step, change)
         gain = place.value - trial.value
         small = small + 1 if gain < max(negligible, 10.0 * _ENOUGH * abs(place.value)) else 0
         place = trial
@@ -121,7 +126,7 @@ def _searched(
         trial = function(np.clip(place.point + length * direction, 0.0, 1.0))
         # A curved path along the sides of the cube has no slope to look at.
         is_bent = bool(((trial.point <= 0.0) | (trial.point >= 1.0))[free].any())
-        if trial.value > place.value + _DECREASE * length * slope:
+        if trial.value > place.value + DECREASE * length * slope:
             high = length
         elif not is_bent and float(trial.gradient @ direction) < _TURN * slope:
             low = length
@@ -131,15 +136,3 @@ def _searched(
         if function.left <= 0:
             break
     return trial if low > 0.0 else None
-
-
-def _updated(inverse: Array | None, scaled: Array, step: Array, change: Array) -> Array | None:
-    """Return the inverse Hessian with what a step has shown; the first is of the right size."""
-    curvature = float(step @ change)
-    if curvature <= 1e-12 * float(np.linalg.norm(step) * np.linalg.norm(change)):
-        return inverse
-    if inverse is None:
-        scaled = np.eye(step.size) * (curvature / float(change @ change))
-    moved = np.eye(step.size) - np.outer(step, change) / curvature
-    updated: Array = moved @ scaled @ moved.T + np.outer(step, step) / curvature
-    return updated

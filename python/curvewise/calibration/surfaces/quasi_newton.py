@@ -2,8 +2,7 @@
 
 The method of Broyden, Fletcher, Goldfarb and Shanno with forward differences and backtracking,
 begun from an inverse Hessian of the right size, so that each of thousands of alike functions takes
-a few steps. J. Nocedal, S. J. Wright, "Numerical optimization", Springer
-(2006), chapter 6. Cost: k + 2 evaluations a step, or thereabouts.
+a few steps. Cost: k + 2 evaluations a step, or thereabouts.
 """
 
 from __future__ import annotations
@@ -13,11 +12,12 @@ from collections.abc import Callable
 import numpy as np
 
 from ...curves.inputs import Array
+from .bfgs import DECREASE, has_curvature, updated
 
 __all__ = ["quasi_newton"]
 
-_ARMIJO = 1e-4
-_HALVINGS = 8
+_HALVINGS = 8  # of a step
+_CURVATURE = 1e-10  # least cosine between a step and the change of the gradient
 
 
 def quasi_newton(
@@ -57,7 +57,9 @@ def quasi_newton(
             break
         trial, value = step
         after = _gradient(function, trial, value, axes)
-        B = _updated(B, trial - point, after - gradient)
+        moved, change = trial - point, after - gradient
+        if has_curvature(moved, change, _CURVATURE):
+            B = updated(B, moved, change)
         point, gradient = trial, after
     return point
 
@@ -79,7 +81,7 @@ def _step(
     for _ in range(_HALVINGS):
         trial = point + length * direction
         there = function(trial)
-        if there <= value + _ARMIJO * length * slope:
+        if there <= value + DECREASE * length * slope:
             return trial, there
         length *= 0.4
     return None
@@ -87,13 +89,3 @@ def _step(
 
 def _gradient(function: Callable[[Array], float], point: Array, value: float, axes: Array) -> Array:
     return np.array([(function(point + axis) - value) / axis.sum() for axis in axes])
-
-
-def _updated(B: Array, step: Array, change: Array) -> Array:
-    """Return the BFGS update of the inverse Hessian, none where the curvature is not positive."""
-    curvature = float(step @ change)
-    if curvature <= 1e-10 * float(np.linalg.norm(step) * np.linalg.norm(change)):
-        return B
-    moved = np.eye(step.size) - np.outer(step, change) / curvature
-    updated: Array = moved @ B @ moved.T + np.outer(step, step) / curvature
-    return updated

@@ -53,7 +53,7 @@ class SurfaceMinimum:
         For the simplex search.
     negligible : float
         Gains of the whole search below this do not count.
-    thinking : callable
+    show_activity : callable
         Called before every evaluation on predicted curves, to show that something moves.
     gain : float
         The smallest gain that counts, as a fraction of the value.
@@ -65,13 +65,13 @@ class SurfaceMinimum:
         responses: Responses,
         random: np.random.Generator,
         negligible: float,
-        thinking: Callable[[], None],
+        show_activity: Callable[[], None],
         gain: float = _LESS,
     ) -> None:
         self._random = random
         # Of squares the root counts, and a step on the surfaces costs little.
         self._negligible = _OF_NEGLIGIBLE * negligible
-        self._exact = _Predicted(objective, responses, None, thinking)
+        self._exact = _Predicted(objective, responses, None, show_activity)
         self._thinned: _Predicted | None = None
         if not objective.can_be_thinned:
             return
@@ -79,7 +79,7 @@ class SurfaceMinimum:
         rows = responses.thinned_rows(most)
         thinned = objective.thinned(most)
         if thinned is not None or rows is not None:
-            self._thinned = _Predicted(thinned or objective, responses, rows, thinking)
+            self._thinned = _Predicted(thinned or objective, responses, rows, show_activity)
 
     def lowest(
         self,
@@ -194,16 +194,16 @@ class _Predicted:
         objective: Objective,
         responses: Responses,
         rows: list[Rows] | None,
-        thinking: Callable[[], None],
+        show_activity: Callable[[], None],
     ) -> None:
-        self._objective, self._thinking = objective, thinking
+        self._objective, self._show_activity = objective, show_activity
         self._responses = responses if rows is None else responses.of_rows(rows)
         self._places = None if rows is None else responses.places_of_rows(rows)
         self.has_gradient = objective.has_gradient
 
     def value(self, vector: Array) -> float:
         """Return the objective of curves as one vector."""
-        self._thinking()
+        self._show_activity()
         return self._objective.predicted(self._responses.curves(vector)).value
 
     def on(self, surfaces: Surfaces, region: tuple[Array, Array]) -> Callable[[Array], float]:
@@ -218,7 +218,7 @@ class _Predicted:
         base, slopes = self._in_box(surfaces, region)
 
         def function(place: Array) -> tuple[float, Array]:
-            self._thinking()
+            self._show_activity()
             curves = self._responses.curves(base + slopes @ place)
             value, gradients = self._objective.value_and_gradient(curves)
             by_coordinate = np.concatenate([gradient.ravel() for gradient in gradients])

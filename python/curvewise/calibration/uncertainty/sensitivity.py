@@ -18,8 +18,8 @@ import numpy as np
 from ...curves.inputs import Array
 from ...curves.several_curves import points_of
 from ..problem.problem import Problem
-from ..records.evaluation import Evaluation
-from ..surfaces.surfaces import Responses, Surfaces, regression
+from ..surfaces.nearby_runs import NearbyRuns, Run, narrowest, runs_near
+from ..surfaces.surfaces import Responses, Surfaces
 
 __all__ = ["Optimum", "Sensitivity", "design_runs", "optimum_surfaces", "sensitivity_of"]
 
@@ -91,47 +91,35 @@ class Sensitivity(NamedTuple):
     reach: Array
 
 
-def design_runs(problem: Problem, unit: Array, kept: Sequence[tuple[Array, Evaluation]]) -> int:
+def design_runs(problem: Problem, unit: Array, runs: Sequence[Run]) -> int:
     """Return how many runs `optimum_surfaces` will make."""
-    return 0 if _nearby(unit, kept) is not None else 2 * len(problem.space.names)
+    return 0 if _nearby(unit, runs) is not None else 2 * len(problem.space.names)
 
 
 def optimum_surfaces(
     problem: Problem,
     unit: Array,
     simulations: Sequence[Array],
-    kept: Sequence[tuple[Array, Evaluation]],
+    runs: Sequence[Run],
 ) -> Optimum:
-    """Return the surfaces around an optimum, of kept runs or of fresh ones."""
+    """Return the surfaces around an optimum, of runs nearby or of fresh ones."""
     responses = Responses(simulations)
     base = responses.vector(simulations)
-    near = _nearby(unit, kept)
+    near = _nearby(unit, runs)
     if near is None:
         slopes = _differences(problem, unit, responses, base)
     else:
-        points, runs = near
-        vectors = np.array([responses.vector(run.simulations or ()) for run in runs])
-        slopes = regression(points, vectors, unit, 1.0 / (_distances(points, unit) + _STEP) ** 2)
+        slopes = near.slopes(responses, _STEP)
     return Optimum(problem, unit, responses, Surfaces(unit, base, slopes))
 
 
-def _distances(points: Array, unit: Array) -> Array:
-    distances: Array = np.abs(points - unit).max(axis=1)
-    return distances
-
-
-def _nearby(
-    unit: Array, kept: Sequence[tuple[Array, Evaluation]]
-) -> tuple[Array, list[Evaluation]] | None:
+def _nearby(unit: Array, runs: Sequence[Run]) -> NearbyRuns | None:
     """Return the runs near a place if they determine slopes there."""
-    near = [(place, run) for place, run in kept if np.abs(place - unit).max() <= _NEAR]
-    if len(near) < unit.size + 2:
+    near = runs_near(unit, runs, within=_NEAR)
+    if near is None:
         return None
-    points = np.array([place for place, _ in near])
-    directions = (points - unit) / (_distances(points, unit) + _STEP)[:, np.newaxis]
-    if np.linalg.svd(directions, compute_uv=False)[-1] < _LEAST:
-        return None
-    return points, [run for _, run in near]
+    directions = (near.points - unit) / (near.distances + _STEP)[:, np.newaxis]
+    return near if narrowest(directions) >= _LEAST else None
 
 
 def _differences(problem: Problem, unit: Array, responses: Responses, base: Array) -> Array:
@@ -162,8 +150,7 @@ def sensitivity_of(optimum: Optimum) -> Sensitivity:
     _, values, directions = np.linalg.svd(slopes, full_matrices=False)
     objective = optimum.problem.objective
     lowest = objective.predicted(optimum.curves(optimum.unit)).value
-    negligible = 1e-7 * float(objective.weights @ objective.scales)
-    least = lowest + max(_RISE * lowest, negligible)
+    least = lowest + max(_RISE * lowest, objective.negligible)
 
     def unnoticed(direction: Array, t: float) -> bool:
         curves = optimum.curves(optimum.unit + t * direction)

@@ -1,0 +1,181 @@
+"""Global search by scipy's differential evolution, a generation at a time.
+
+What is set differently from scipy's defaults follows from the objective. It has kinks (a sum of
+absolute values, a maximum) and jumps, so the result is not polished, since scipy's polish takes
+gradients. Its smallest value is 0 for a perfect model, so `atol`, on the spread of the population,
+ends the search where it would only go on halving a value that is 0 to all purposes. A population on
+one level of a landscape of steps has no spread, which ends the search too. Cost: `popsize` k runs a
+generation for k parameters, in some 100 generations.
+
+R. Storn, K. Price, "Differential evolution - a simple and efficient heuristic for global
+optimization over continuous spaces", J. Global Optimization 11 (1997) 341-359.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from ..._extras import required
+from ...curves.inputs import Array
+from ..problem.evaluations import Evaluations, Finish
+from .method import Method, check_passed_on, taken_by
+
+__all__ = ["DifferentialEvolution"]
+
+# What of scipy's function is not for users: the objective, and what is set here.
+_SET_HERE = ("func", "bounds", "args", "x0", "vectorized", "workers", "seed", "rng")
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares=False):
+    """Differential evolution: global, for models that cost milliseconds.
+
+    In the place of the paper's genetic algorithm; by scipy, whose result is not polished. It takes
+    `popsize` k runs a generation for k parameters, in some 100 generations.
+
+    Parameters
+    ----------
+    popsize : int, default 15
+        Members of the population for every parameter.
+    tol : float, default 0.01
+        The search ends where the values of the population spread by less than this fraction.
+    maxiter : int, default 1000
+        The most generations.
+    stall : (improvement, generations), optional
+        End the search once the best value has improved by less than that fraction over so many
+        generations, as (0.001, 100) in the paper's section 3.3.
+    after : Method, optional
+        A search that is made before, and whose best point joins the first population:
+        ``DifferentialEvolution(after=SDRM())`` is what "sdrm+de" stands for.
+    options : mapping, optional
+        Others of :func:`scipy.optimize.differential_evolution`: atol, mutation, recombination, ...
+
+    Raises
+    ------
+    ValueError
+        An option that cannot be, or that scipy does not have.
+
+    Notes
+    -----
+    R. Storn, K. Price, J. Global Optimization 11 (1997) 341-359.
+
+    Examples
+    --------
+    >>> from curvewise.calibration import DifferentialEvolution
+    >>> DifferentialEvolution(popsize=8, stall=(0.001, 100))
+    DifferentialEvolution(popsize=8, stall=(0.001, 100))
+    """
+
+    popsize: int = 15
+    tol: float = 0.01
+    maxiter: int = 1000
+    stall: tuple[float, int] | None = None
+    after: Method | None = None
+    options: Mapping[str, Any] = field(default_factory=dict, hash=False)
+
+    def __post_init__(self) -> None:
+        if self.stall is not None:
+            _check_stall(self.stall)
+            if "callback" in self.options:
+                raise ValueError(
+                    "give either stall or callback to 'de': stall is a callback itself"
+                )
+        if self.options:
+            known = taken_by(required("scipy.optimize").differential_evolution, _SET_HERE)
+            check_passed_on(self, self.options, known)
+
+    def __str__(self) -> str:
+        return self.name if self.after is None else f"{self.after}+{self.name}"
+
+    def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
+        """Return the runs of two generations, and of the search before."""
+        before = (
+            0 if self.after is None else self.after.fewest_runs(parameters, has_start=has_start)
+        )
+        return before + 2 * max(5, self.popsize * parameters)
+
+    def near_optimum(self) -> DifferentialEvolution:
+        """Return the same after a search that begins there."""
+        return self if self.after is None else replace(self, after=self.after.near_optimum())
+
+    def search(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
+        """Minimise, from the best point of the search before if there is one."""
+        if self.after is not None:
+            self.after.search(evaluations, start, seed)
+            start = evaluations.best_unit
+        return super().search(evaluations, start, seed)
+
+    def minimise(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
+        """Minimise by generations."""
+        function = required("scipy.optimize").differential_evolution
+        stalled = None if self.stall is None else _Stall(evaluations, *self.stall)
+        # scipy 1.15 renamed `seed`; a Generator means the same under both names.
+        seed_name = "rng" if "rng" in taken_by(function) else "seed"
+        settings = {
+            "x0": start,
+            "popsize": self.popsize,
+            "tol": self.tol,
+            "maxiter": self.maxiter,
+            "atol": evaluations.negligible,
+            "updating": "deferred",
+            "polish": False,
+            "callback": stalled,
+            **self.options,
+            "vectorized": True,
+            seed_name: np.random.default_rng(seed),
+        }
+        wrong: list[Exception] = []
+
+        def values(units: Array) -> Array:
+            try:
+                return evaluations.values(np.atleast_2d(units.T))
+            except (TypeError, ValueError) as error:
+                wrong.append(error)
+                raise
+
+        try:
+            result = function(values, [(0.0, 1.0)] * evaluations.dimensions, **settings)
+        except (RuntimeError, TypeError):
+            if wrong:  # with the model; scipy takes it for a mistake in calling scipy
+                raise wrong[0] from None
+            raise
+        if stalled is not None and stalled.ended:
+            return Finish(True, stalled.message)
+        return Finish(bool(result.success), str(result.message))
+
+
+def _check_stall(stall: tuple[float, int]) -> None:
+    if np.shape(stall) != (2,) or not (0.0 <= stall[0] < 1.0 and stall[1] >= 1):
+        raise ValueError(
+            f"stall is {stall!r}; give (improvement, generations), for example (0.001, 100)"
+        )
+
+
+class _Stall:
+    """Ends differential evolution where the best value hardly improves any more.
+
+    scipy calls it after every generation.
+    """
+
+    def __init__(self, evaluations: Evaluations, improvement: float, generations: int) -> None:
+        self._evaluations = evaluations
+        self._improvement, self._generations = float(improvement), int(generations)
+        self._best: list[float] = []
+        self.ended = False
+
+    def __call__(self, xk: Array, convergence: float) -> bool:
+        """Return whether the search ends after this generation."""
+        self._best.append(self._evaluations.best.value)
+        if len(self._best) > self._generations:
+            before = self._best[-1 - self._generations]
+            self.ended = before - self._best[-1] <= self._improvement * abs(before)
+        return self.ended
+
+    @property
+    def message(self) -> str:
+        """How the search ended."""
+        return f"improved by less than {self._improvement:.3g} over {self._generations} generations"

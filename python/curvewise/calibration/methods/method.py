@@ -1,0 +1,143 @@
+"""What a method of searching says of itself, whichever it is: the record that all of them fill in.
+
+A method is a frozen dataclass of its options, checked when it is made. `identify`, `identify_each`
+and the check of a study know methods by this record alone. Python refuses a class that leaves out
+one of the record's keywords, and an object of a class that leaves out one of its functions.
+"""
+
+from __future__ import annotations
+
+import inspect
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass, fields, replace
+from typing import Any, ClassVar, TypeVar
+
+import numpy as np
+
+from ..._names import did_you_mean
+from ...curves.inputs import Array
+from ..objective.criterion import LEAST_SQUARES, Measure
+from ..problem.evaluations import Evaluations, Finish
+
+__all__ = [
+    "Method",
+    "check_passed_on",
+    "options_of",
+    "refuse_unknown",
+    "taken_by",
+    "with_other_defaults",
+]
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Method(ABC):
+    """A way to search; each class is a frozen dataclass of options, which all have defaults.
+
+    Parameters
+    ----------
+    name : str
+        What the method is called in texts, such as "trust-region".
+    keeps_curves : bool
+        Whether it learns from the curves of its runs, which are kept then, and not only from their
+        values.
+    needs_squares : bool
+        Whether it takes only the measures that are sums of squares.
+    """
+
+    name: ClassVar[str]
+    keeps_curves: ClassVar[bool]
+    needs_squares: ClassVar[bool]
+
+    def __init_subclass__(cls, *, name: str, keeps_curves: bool, needs_squares: bool) -> None:
+        super().__init_subclass__()
+        cls.name, cls.keeps_curves, cls.needs_squares = name, keeps_curves, needs_squares
+
+    @abstractmethod
+    def minimise(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
+        """Minimise over the unit cube, from a start if one is given; return how it ended."""
+
+    @abstractmethod
+    def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
+        """Return how many runs the search takes at least: its first designs, and one step."""
+
+    @abstractmethod
+    def near_optimum(self) -> Method:
+        """Return the same method for a start near the optimum, where another measure has ended."""
+
+    def closer(self) -> Method | None:
+        """Return the same for smaller gains, to go on from its end; None where that is no use."""
+        return None
+
+    def search(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
+        """Minimise, with the progress under the method's name and its curves kept if it asks."""
+        evaluations.begin_stage(self.name, keeps_curves=self.keeps_curves)
+        return self.minimise(evaluations, start, seed)
+
+    def check(self, measure: Measure) -> None:
+        """Refuse a measure with which the method does not go."""
+        if self.needs_squares and measure not in LEAST_SQUARES:
+            raise ValueError(
+                f"measure {measure!r} is not a sum of squares; method {str(self)!r} needs "
+                f"measure={' or '.join(map(repr, LEAST_SQUARES))}"
+            )
+
+    def __str__(self) -> str:
+        return self.name
+
+    def __repr__(self) -> str:
+        """Return the call that makes it; functions by their names, the same in every process."""
+        given = [f"{name}={_code(getattr(self, name))}" for name in _changed(self)]
+        return f"{type(self).__name__}({', '.join(given)})"
+
+
+M = TypeVar("M", bound=Method)
+
+
+def with_other_defaults(method: M, **options: Any) -> M:
+    """Return the same method with other options, except for those that somebody has changed."""
+    changed = _changed(method)
+    return replace(method, **{n: v for n, v in options.items() if n not in changed})
+
+
+def options_of(method: Method) -> list[str]:
+    """Return the names of a method's options."""
+    return [field.name for field in fields(method)]
+
+
+def _changed(method: Method) -> list[str]:
+    """Return which options are not what they are by default."""
+    plain = type(method)()
+    return [name for name in options_of(method) if getattr(method, name) != getattr(plain, name)]
+
+
+def _code(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key!r}: {_code(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, np.ndarray):  # whose own text leaves out the middle
+        value = value.tolist()
+    return str(getattr(value, "__qualname__", None) or repr(value))
+
+
+def refuse_unknown(method: str, given: Iterable[str], known: Collection[str]) -> None:
+    """Refuse options that a method does not have, and say which was meant."""
+    if unknown := sorted(set(given) - set(known)):
+        raise ValueError(
+            f"method {method!r} has no option {', '.join(unknown)}; "
+            f"it has {', '.join(known)}{did_you_mean(unknown, known)}"
+        )
+
+
+def check_passed_on(method: Method, options: Mapping[str, Any], known: Iterable[str]) -> None:
+    """Refuse what the library that a method passes options on to does not have."""
+    own = [name for name in options_of(method) if name != "options"]
+    if misplaced := [name for name in own if name in options]:
+        raise ValueError(
+            f"options has {', '.join(misplaced)}; give it to {type(method).__name__} itself"
+        )
+    refuse_unknown(method.name, options, [*own, *known])
+
+
+def taken_by(function: Callable[..., Any], but: Collection[str] = ()) -> list[str]:
+    """Return the names of a function's parameters, except for some."""
+    return [name for name in inspect.signature(function).parameters if name not in but]

@@ -1,0 +1,88 @@
+"""Local search by Nelder and Mead's simplex, restarted: `surfaces.nelder_mead` on the model itself.
+
+Its tolerance on the value is what is negligible: the smallest value is 0 for a perfect model, so
+that one relative to the value alone would never be met. Cost: 250 to 500 runs for 3 parameters.
+
+J. A. Nelder, R. Mead, "A simplex method for function minimization", The Computer Journal 7 (1965)
+308-313.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ...curves.inputs import Array
+from ..problem.evaluations import Evaluations, Finish
+from ..surfaces.nelder_mead import nelder_mead
+from .method import Method, check_passed_on
+
+__all__ = ["NelderMead"]
+
+_OF_SCIPY = ("xatol", "fatol", "maxiter", "maxfev", "adaptive", "disp", "return_all")
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class NelderMead(Method, name="nelder-mead", keeps_curves=False, needs_squares=False):
+    """Nelder and Mead's simplex, restarted: local, from `start`, for few parameters.
+
+    It asks for one run at a time, whatever `workers` says.
+
+    Parameters
+    ----------
+    size : float, default 0.1
+        Length of the edges of a fresh simplex, as a fraction of the bounds' range.
+    restarts : int, default 10
+        The most fresh simplices after the first; two in a row that gain nothing end the search.
+    options : mapping, optional
+        Of scipy's Nelder-Mead: xatol, fatol, maxiter, maxfev, adaptive, disp, return_all.
+
+    Raises
+    ------
+    ValueError
+        An option that scipy does not have.
+
+    Notes
+    -----
+    J. A. Nelder, R. Mead, The Computer Journal 7 (1965) 308-313.
+
+    Examples
+    --------
+    >>> from curvewise.calibration import NelderMead
+    >>> NelderMead(restarts=2, options={"xatol": 1e-4})
+    NelderMead(restarts=2, options={'xatol': 0.0001})
+    """
+
+    size: float = 0.1
+    restarts: int = 10
+    options: Mapping[str, Any] = field(default_factory=dict, hash=False)
+
+    def __post_init__(self) -> None:
+        check_passed_on(self, self.options, _OF_SCIPY)
+
+    def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
+        """Return the runs of a simplex and of some steps."""
+        return 2 * parameters + 10
+
+    def near_optimum(self) -> NelderMead:
+        """Return the same: its simplex is small already."""
+        return self
+
+    def minimise(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
+        """Minimise from a start, the middle of the bounds if none is given."""
+        k = evaluations.dimensions
+        negligible = evaluations.negligible
+        _, converged, message = nelder_mead(
+            evaluations.value,
+            np.full(k, 0.5) if start is None else start,
+            (np.zeros(k), np.ones(k)),
+            np.random.default_rng(seed),
+            negligible=negligible,
+            size=self.size,
+            restarts=self.restarts,
+            **{"xatol": 1e-6, "fatol": negligible, **self.options},
+        )
+        return Finish(converged, message)
