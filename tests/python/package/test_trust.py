@@ -23,7 +23,7 @@ NETWORK = {
 UNPICKLERS = {"dill", "joblib", "marshal", "shelve"}
 # By whom pickle is used, and why that is no stranger: bytes that the same call has made, for the
 # processes that it starts.
-PICKLERS = {"calibration/model_pool.py"}
+PICKLERS = {"calibration/models/pool.py"}
 EXECUTORS = {"eval", "exec", "os.system", "os.popen", "subprocess.getoutput"}
 
 
