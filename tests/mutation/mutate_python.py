@@ -39,7 +39,7 @@ MEASURES = "tests/python/measures"
 CALIBRATION = "tests/python/calibration"
 # The tests of each module, the fastest first.
 TESTS: dict[str, tuple[str, ...]] = {
-    "reference/ground_distance.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_errors.py"),
+    "curves/ground_distance.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_errors.py"),
     "reference/dtw.py": (
         f"{MEASURES}/test_reference.py",
         f"{MEASURES}/test_errors.py",
@@ -54,42 +54,42 @@ TESTS: dict[str, tuple[str, ...]] = {
     "reference/refinement.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
     "reference/pcm.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
     "reference/curve_length.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
-    "reference/arc_length.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
+    "curves/arc_length.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
     "reference/matched_curves.py": (
         f"{MEASURES}/test_matched_area.py",
-        f"{MEASURES}/test_deviations.py",
+        "tests/python/comparing/test_deviations.py",
     ),
-    "reference/scaling.py": (
+    "curves/scaling.py": (
         f"{MEASURES}/test_reference.py",
         f"{MEASURES}/test_extreme_scales.py",
     ),
     "reference/nearest.py": (
-        "tests/python/nearest/test_index.py",
-        "tests/python/nearest/test_subsequence.py",
-        "tests/python/nearest/test_averages.py",
+        "tests/python/many/test_index.py",
+        "tests/python/many/test_subsequence.py",
+        "tests/python/many/test_averages.py",
     ),
     "reference/checks.py": (f"{MEASURES}/test_errors.py",),
-    "_curves.py": (
+    "curves/inputs.py": (
         f"{MEASURES}/test_errors.py",
         f"{MEASURES}/test_inputs.py",
         f"{MEASURES}/test_column_names.py",
         f"{MEASURES}/test_foreign_curves.py",
     ),
-    "pairwise.py": (
-        "tests/python/pairwise/test_pairwise_errors.py",
-        "tests/python/pairwise/test_pairwise.py",
+    "many/pairwise.py": (
+        "tests/python/many/test_pairwise_errors.py",
+        "tests/python/many/test_pairwise.py",
     ),
-    "calibration/parameters.py": (
+    "calibration/problem/space.py": (
         f"{CALIBRATION}/test_cases.py",
         f"{CALIBRATION}/test_identify.py",
     ),
-    "calibration/objective.py": (
+    "calibration/objective/objective.py": (
         f"{CALIBRATION}/test_objective.py",
         f"{CALIBRATION}/test_cases.py",
         f"{CALIBRATION}/test_identify.py",
         f"{CALIBRATION}/test_uncertainty.py",
     ),
-    "calibration/uncertainty.py": (
+    "calibration/uncertainty/uncertainty.py": (
         f"{CALIBRATION}/test_uncertainty.py",
         f"{CALIBRATION}/test_cases.py",
     ),
@@ -97,7 +97,7 @@ TESTS: dict[str, tuple[str, ...]] = {
         f"{CALIBRATION}/test_store.py",
         f"{CALIBRATION}/test_resuming.py",
     ),
-    "calibration/trust_region.py": (
+    "calibration/methods/trust_region.py": (
         f"{CALIBRATION}/test_trust_region.py",
         f"{CALIBRATION}/test_methods.py",
     ),
