@@ -1,15 +1,16 @@
 """What the options of the measures can be, and what they are where they are not given.
 
 The measures and the reference, which must not know of each other, both take choices and defaults
-from here, and so do the docstrings that list them. The compiled library has its own, which
-``_core.choices()``, ``_core.measures()`` and ``_core.presets()`` return; a test holds the two
-together.
+from here, and so do the docstrings that list them. Defaults are the compiled library's. Choices,
+which type checkers read, stand here once more, and a test holds them to ``_core.choices()``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final, Literal, SupportsFloat, SupportsIndex, TypeAlias
+from typing import Any, Final, Literal, SupportsFloat, SupportsIndex, TypeAlias
+
+from ._core import measures
 
 __all__ = [
     "Crossing",
@@ -41,24 +42,29 @@ Offsets: TypeAlias = SupportsIndex | Literal["continuous"]
 LengthScale: TypeAlias = Literal["mean", "mean_abs", "range"]
 
 
-class Default:
-    """The value of each option that is not given."""
+_DEFAULTS: dict[str, Any] = {
+    option: value for options in measures().values() for option, value in options.items()
+}
 
-    metric: Final[Metric] = "euclidean"
-    p: Final[Order] = None
-    step_pattern: Final[StepPattern] = "symmetric1"
-    window: Final[Window] = None
-    open_begin: Final[bool] = False
-    open_end: Final[bool] = False
-    normalize: Final[bool] = False
-    spacing: Final[Spacing] = "distance"
-    crossing: Final[Crossing] = "rearrange"
-    squared: Final[bool] = False
-    offsets: Final[Offsets] = 200
-    scale: Final[LengthScale] = "mean"
-    workers: Final[SupportsIndex] = 1
-    prune: Final[bool] = True
-    cutoff: Final[SupportsFloat | None] = None
+
+class Default:
+    """The value of each option that is not given: the compiled library's."""
+
+    metric: Final[Metric] = _DEFAULTS["metric"]
+    p: Final[Order] = _DEFAULTS["p"]
+    step_pattern: Final[StepPattern] = _DEFAULTS["step_pattern"]
+    window: Final[Window] = _DEFAULTS["window"]
+    open_begin: Final[bool] = _DEFAULTS["open_begin"]
+    open_end: Final[bool] = _DEFAULTS["open_end"]
+    normalize: Final[bool] = _DEFAULTS["normalize"]
+    spacing: Final[Spacing] = _DEFAULTS["spacing"]
+    crossing: Final[Crossing] = _DEFAULTS["crossing"]
+    squared: Final[bool] = _DEFAULTS["squared"]
+    offsets: Final[Offsets] = _DEFAULTS["offsets"]
+    scale: Final[LengthScale] = _DEFAULTS["scale"]
+    workers: Final[SupportsIndex] = _DEFAULTS["workers"]
+    prune: Final[bool] = _DEFAULTS["prune"]
+    cutoff: Final[SupportsFloat | None] = _DEFAULTS["cutoff"]
 
 
 def check_choice(option: str, value: object, choices: Sequence[str]) -> None:
