@@ -32,7 +32,10 @@ __all__ = [
 
 MEASURES = (*registry.MEASURES, "sum_of_squares")
 # Those that are made of differences whose squares are added up.
-LEAST_SQUARES = ("curve_length", "sum_of_squares")
+LEAST_SQUARES = (
+    *(name for name, info in registry.MEASURES.items() if info.residuals),
+    "sum_of_squares",
+)
 
 Part: TypeAlias = Literal["experiment", "simulation"]
 
