@@ -66,6 +66,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         _discard_output()
         return 141
     except OSError as error:
+        if error.errno is None:  # a sentence of our own, as of a store that cannot be used
+            return _fail(str(error))
         if error.filename is None:
             _discard_output()
             return _fail(f"the output cannot be written: {error.strerror}")

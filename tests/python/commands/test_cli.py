@@ -375,6 +375,15 @@ def test_what_ends_a_comparison(run, files, monkeypatch, error, status, message)
     assert run("compare", *files) == (status, "", message)
 
 
+def test_a_sentence_of_our_own_reaches_people_as_it_is(run, monkeypatch):
+    def fail(*_):
+        raise OSError("the store s.db cannot be used: database is locked")
+
+    monkeypatch.setattr("curvewise.calibration.report.records_of", fail)
+    expected = "curvewise: the store s.db cannot be used: database is locked\n"
+    assert run("report", "s.db") == (1, "", expected)
+
+
 def test_a_mistake_in_the_program_keeps_its_traceback(files, monkeypatch):
     monkeypatch.setattr("curvewise.commands.compare.compare", lambda *args, **kwargs: None)
     with pytest.raises(AttributeError):
