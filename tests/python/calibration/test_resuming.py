@@ -14,7 +14,13 @@ import time
 import numpy as np
 import pytest
 
-from curvewise.calibration import SDRM, DifferentialEvolution, SimulationStore, identify
+from curvewise.calibration import (
+    SDRM,
+    Criterion,
+    DifferentialEvolution,
+    SimulationStore,
+    identify,
+)
 from curvewise.commands import command_line as cli
 
 X = np.linspace(0.0, 1.0, 25)
@@ -141,8 +147,9 @@ def test_an_ending_for_which_there_was_no_room_is_written_later(tmp_path, monkey
 def test_another_search_has_a_number_of_its_own(tmp_path):
     store = SimulationStore(tmp_path / "s.db", version="1")
     identify(line, EXPERIMENT, BOUNDS, store=store, **QUICK)
-    others = [{"measure": "dtw"}, {"seed": 1}, {"crossing": "split"}, {"weights": [2.0]}]
-    others.append({"measure": "pcm", "part": "simulation"})
+    others = [{"measure": "dtw"}, {"seed": 1}, {"crossing": "split"}]
+    others += [{"measure": Criterion(weights=[2.0])}]
+    others += [{"measure": Criterion("pcm", part="simulation")}]
     for number, other in enumerate(others, 2):
         found = identify(line, EXPERIMENT, BOUNDS, store=store, **QUICK, **other)
         assert_same(found, identify(line, EXPERIMENT, BOUNDS, **QUICK, **other))
