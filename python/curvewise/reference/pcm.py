@@ -25,7 +25,7 @@ __all__ = ["pcm", "pcm_match"]
 
 
 _EQUAL_LENGTHS = 1e-12  # relative; within it P counts as the shorter curve
-_GRID = 200
+_GRID = int(Default.offsets)  # which offsets="continuous" is never above
 _OFFSET_TOLERANCE = 1e-12  # f is S-Lipschitz: this far from the minimum it is 1e-12 S above it
 _GOLDEN = (math.sqrt(5) - 1) / 2
 _DISTANCES_AT_ONCE = 2**18
