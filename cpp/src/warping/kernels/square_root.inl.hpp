@@ -6,7 +6,7 @@
 // within two ulps of sqrt(x) and h within 2^-51 of 1 / (2 sqrt(x)), relatively. Then
 // s + h (x - s s), with an exact residual, is the square root to about 2^-50 ulp before its one
 // rounding, so that it is rounded right unless sqrt(x) lies that close to the middle between two
-// doubles. Those x can be listed, and all come out right: tests/cpp/test_square_root.cpp.
+// doubles. Those x can be listed, and all come out right: tests/cpp/warping/test_square_root.cpp.
 //
 // (To step once and correct twice with the h of that step is one operation shorter. Its error is
 // 2^-28 ulp: one argument in some 10^9 comes out wrong, and a third of the listed ones.)

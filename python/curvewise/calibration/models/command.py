@@ -4,7 +4,7 @@ Every set of parameters has a scratch folder of its own. The templates are writt
 the command runs there under a time limit, in a process group of its own; and a function of the
 user's reads the curves. Nothing is shared between calls, so any number of them may run side by
 side, in threads or in processes. The cost of a call is the solver's, and that of the templates
-(deck_templates.py) and of the process (solver_process.py).
+(templates.py) and of the process (process.py).
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 They are made here and not by plotly's Python, which gives them random names. Curves are thinned to
 a number of points that keeps the page small, and numbers are rounded to seven digits, which no
-screen can show. The colours are those of every picture (plotting/palette.py).
+screen can show. The colours are those of every picture (drawing/palette.py).
 """
 
 from __future__ import annotations
