@@ -102,8 +102,8 @@ def identify(
     ------
     ValueError
         Wrong bounds, options or experiments; simulations that do not fit the experiments; a model
-        that cannot be pickled (workers > 1); a store for a model without
-        identity or version, or with runs of other code of that version.
+        that cannot be pickled (workers > 1); a store for a model without identity or version, or
+        with runs of other code of that version.
     RuntimeError
         No simulation of the first batch has succeeded: the message has the first reason.
     ImportError
