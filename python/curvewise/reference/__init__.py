@@ -35,11 +35,10 @@ if TYPE_CHECKING:  # the same names and signatures; a test compares them one by 
 __all__: list[str] = []
 
 # Of each module here the functions that are a measure's too.
-for _module in iter_modules(globals()["__path__"]):
-    for _name in import_module(f"{__name__}.{_module.name}").__all__:
-        if _name in _measures.__all__:
-            _function = getattr(import_module(f"{__name__}.{_module.name}"), _name)
-            inherit(_function, getattr(_measures, _name))
-            globals()[_name] = _function
-            __all__.append(_name)
+for _found in iter_modules(globals()["__path__"]):
+    _module = import_module(f"{__name__}.{_found.name}")
+    for _name in set(_module.__all__) & set(_measures.__all__):
+        globals()[_name] = getattr(_module, _name)
+        inherit(globals()[_name], getattr(_measures, _name))
+        __all__.append(_name)
 __all__.sort()
