@@ -58,16 +58,15 @@ def _cells(
         pandas = import_module("pandas")
         with pandas.ExcelFile(path) as book:
             titles = book.sheet_names
-            if isinstance(sheet, str) and sheet not in titles and sheet.isdecimal():
-                sheet = int(sheet)
-            by_number = isinstance(sheet, int) and 1 <= sheet <= len(titles)
-            if not by_number and sheet not in titles:
+            numbered = dict(enumerate(titles, 1))
+            number = int(sheet) if isinstance(sheet, str) and sheet.isdecimal() else sheet
+            title = sheet if sheet in titles else numbered.get(number)
+            if title is None:
                 listed = ", ".join(map(str, titles))
                 raise ValueError(
-                    f"{file} has no sheet {sheet!r}; its sheets are {listed}; "
+                    f"{file} has no sheet {number!r}; its sheets are {listed}; "
                     f"by number, give 1 to {len(titles)}"
                 )
-            title = titles[sheet - 1] if isinstance(sheet, int) else sheet
             frame = pandas.read_excel(book, sheet_name=title, header=None, na_filter=False)
     return title, frame.to_numpy(dtype=object).tolist()
 
