@@ -57,16 +57,18 @@ def _cells(
     with extra("curves", f"to read {file}, curvewise needs pandas and openpyxl"):
         pandas = import_module("pandas")
         with pandas.ExcelFile(path) as book:
-            titles = book.sheet_names
-            numbered = dict(enumerate(titles, 1))
-            number = int(sheet) if isinstance(sheet, str) and sheet.isdecimal() else sheet
-            title = sheet if sheet in titles else numbered.get(number)
-            if title is None:
+            titles: list[str] = book.sheet_names
+            known: dict[str | int, str] = {title: title for title in titles}
+            known |= enumerate(titles, 1)
+            if isinstance(sheet, str) and sheet not in known and sheet.isdecimal():
+                sheet = int(sheet)
+            if sheet not in known:
                 listed = ", ".join(map(str, titles))
                 raise ValueError(
-                    f"{file} has no sheet {number!r}; its sheets are {listed}; "
+                    f"{file} has no sheet {sheet!r}; its sheets are {listed}; "
                     f"by number, give 1 to {len(titles)}"
                 )
+            title = known[sheet]
             frame = pandas.read_excel(book, sheet_name=title, header=None, na_filter=False)
     return title, frame.to_numpy(dtype=object).tolist()
 
