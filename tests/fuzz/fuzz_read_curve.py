@@ -22,11 +22,13 @@ READERS = [
     "curvewise.files.csv_curves",
     "curvewise.files.column_choice",
     "curvewise.files.curve_files",
+    "curvewise.files.number_tables",
 ]
 with atheris.instrument_imports(include=READERS) if atheris else contextlib.nullcontext():
     from curvewise import read_curve
     from curvewise.files import csv_curves
     from curvewise.files.column_choice import TimeColumnWarning
+    from curvewise.files.number_tables import Reading
 
 SEEDS = Path(__file__).parent / "corpus" / "read_curve"
 WORDS = (b"1,5", b"-0.5e3", b"nan", b"inf", b";", b"\t", b",", b'"', b"\r\n", b"\n", b"#", b"//")
@@ -59,9 +61,9 @@ def _check(data: bytes, path: Path) -> None:
         return
     if curve.ndim != 2 or curve.dtype != np.float64 or not np.isfinite(curve).all():
         raise FoundError(f"{curve.shape} numbers of {curve.dtype}")
-    table = csv_curves._find_layout(str(path), csv_curves._read_lines(path))
-    chosen = csv_curves.choose_columns(table.file, table.names, table.width, columns)
-    slowly = csv_curves._parse_cell_by_cell(table, chosen)
+    layout = csv_curves._find_layout(str(path), csv_curves._read_lines(path), columns, Reading())
+    chosen = csv_curves.choose_columns(layout.file, layout.names, layout.width, columns)
+    slowly = csv_curves._parse_cell_by_cell(layout, chosen)
     if slowly.shape != curve.shape or slowly.tobytes() != curve.tobytes():
         raise FoundError(f"numpy's parser reads {curve.tolist()}, cell by cell {slowly.tolist()}")
 

@@ -12,6 +12,7 @@ import argparse
 import io
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -56,7 +57,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         try:
             arguments = _parser().parse_args(argv)
-            status: int = arguments.run(arguments)
+            with warnings.catch_warnings():
+                warnings.showwarning = _show_warning
+                status: int = arguments.run(arguments)
             return status
         finally:
             print(end="", flush=True)  # here, where an error of the output can be caught
@@ -81,6 +84,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _fail(message: str) -> int:
     print("curvewise:", " ".join(message.split()), file=sys.stderr)
     return 1
+
+
+def _show_warning(message: Warning | str, *_: Any) -> None:
+    """Write a warning without the line of Python that it is about."""
+    print("curvewise:", message, file=sys.stderr)
 
 
 def _discard_output() -> None:

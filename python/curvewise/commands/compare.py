@@ -9,7 +9,7 @@ import math
 import shlex
 import sys
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, get_args
 
@@ -18,6 +18,7 @@ from ..comparing.comparison import Comparison, compare
 from ..curves.inputs import Array
 from ..files.column_choice import TimeColumnWarning
 from ..files.curve_files import read_named_columns
+from ..files.number_tables import Reading
 from ..measures import curve_length_residuals, normalize
 from ..measures.registry import MEASURES, PRESETS
 from .shown import print_table, require_matplotlib, write_picture
@@ -86,6 +87,25 @@ def _add_columns(command: argparse.ArgumentParser) -> None:
         metavar="COLUMN",
         help="those of B, where they are others than those of A",
     )
+    command.add_argument(
+        "--decimal",
+        choices=[".", ","],
+        help="the decimal sign of numbers that are text; by default told from the numbers",
+    )
+    command.add_argument(
+        "--decimal-b", choices=[".", ","], help="that of B, where it is another than that of A"
+    )
+    command.add_argument(
+        "--until",
+        metavar="TEXT",
+        help="a curve ends before the first row of its file that contains TEXT below the first "
+        "numbers: statistics, or a second table",
+    )
+    command.add_argument(
+        "--skip-invalid",
+        action="store_true",
+        help="leave out rows that are not made of numbers, and say how many",
+    )
     for file in "AB":
         command.add_argument(
             f"--factors-{file.lower()}",
@@ -119,22 +139,25 @@ def _compare(arguments: argparse.Namespace) -> int:
     files = [arguments.A, arguments.B]
     columns = [arguments.columns, arguments.columns_b or arguments.columns]
     sheets = [arguments.sheet_a, arguments.sheet_b]
+    decimals = [arguments.decimal, arguments.decimal_b or arguments.decimal]
+    readings = [
+        Reading(sheet, decimal, arguments.until, arguments.skip_invalid)
+        for sheet, decimal in zip(sheets, decimals, strict=True)
+    ]
     factors = [arguments.factors_a, arguments.factors_b]
-    curves, names = zip(*map(_read, files, columns, sheets, factors), strict=True)
+    with _warnings_printed():
+        curves, names = zip(*map(_read, files, columns, readings, factors), strict=True)
     options: dict[str, dict[str, Any]] = {}
     for measure, option in (("area", "spacing"), ("area", "crossing"), ("dtw", "window")):
         if (value := getattr(arguments, option)) is not None:
             options.setdefault(measure, {})[option] = value
     try:
-        with warnings.catch_warnings(record=True) as said:
-            warnings.simplefilter("always", UserWarning)
+        with _warnings_printed():
             comparison = compare(
                 *curves, preset=arguments.preset, measures=arguments.measures, options=options
             )
     except ValueError as error:
         raise ValueError(f"{error} (P is {files[0]}, Q is {files[1]})") from error
-    for words in dict.fromkeys(str(warning.message) for warning in said):
-        print("curvewise:", words, file=sys.stderr)
     if arguments.output:
         numbers = _residuals(comparison) if arguments.residuals else comparison.values.values()
         # With all digits: an optimiser takes differences of them.
@@ -152,14 +175,24 @@ def _compare(arguments: argparse.Namespace) -> int:
     return 0
 
 
+@contextlib.contextmanager
+def _warnings_printed() -> Iterator[None]:
+    """Print what is warned of, once each, where no error says more."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", UserWarning)
+        yield
+    for words in dict.fromkeys(str(warning.message) for warning in said):
+        print("curvewise:", words, file=sys.stderr)
+
+
 def _read(
-    file: str, columns: list[str] | None, sheet: str | None, factors: list[float] | None
+    file: str, columns: list[str] | None, reading: Reading, factors: list[float] | None
 ) -> tuple[Array, list[str]]:
     """Read the columns of a file; refuse to guess them where the first of several is time."""
     with warnings.catch_warnings():
         warnings.simplefilter("error", TimeColumnWarning)
         try:
-            return read_named_columns(file, columns, sheet=sheet, factors=factors)
+            return read_named_columns(file, columns, reading, factors=factors)
         except TimeColumnWarning as guessed:
             wanted = shlex.join(guessed.wanted)
             raise ValueError(f"{guessed.found}; name those wanted: --columns {wanted}") from None

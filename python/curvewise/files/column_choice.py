@@ -12,7 +12,7 @@ from typing import Any
 
 from ..curves.foreign_curves import warn
 
-__all__ = ["TimeColumnWarning", "choose_columns", "column_name", "is_time"]
+__all__ = ["TimeColumnWarning", "choose_columns", "choose_names", "column_name", "is_time"]
 
 # "time", "Time [s]", "t (s)", "time_s", "Step Time", "Zeit/s"; not "T" (temperature), "timeout".
 _TIME = re.compile(
@@ -82,6 +82,17 @@ def choose_columns(
     if len(columns) == 0:
         raise ValueError("columns is empty; name at least one column")
     return [_find_column(file, names, width, column) for column in columns]
+
+
+def choose_names(header: Sequence[Sequence[Any]], columns: Sequence[str | int] | None) -> list[str]:
+    """Return the row of a header that has the columns' names.
+
+    It is one that has all names that are asked for, if there is any, and the one with the most
+    cells: the first of several.
+    """
+    rows = [[str(cell).strip() for cell in row] for row in header]
+    asked = {column.strip() for column in columns or () if isinstance(column, str)}
+    return max(rows, key=lambda row: (asked.issubset(row), sum(map(bool, row))), default=[])
 
 
 def column_name(names: list[str], column: int) -> str:

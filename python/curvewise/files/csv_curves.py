@@ -2,8 +2,9 @@
 
 A file is decoded, cut into lines, and its layout (separator, header, number of columns) is taken
 from its first lines; numpy's C parser then reads the numbers. Where that refuses, cells are quoted,
-or a number is not finite, the lines are read one by one in Python. That is slower, knows the line
-and column to report, and decides: numpy's parser is a short cut, not a second definition.
+a sign may group thousands, or a number is not finite, the lines are read one by one in Python
+(number_tables.py). That is slower, knows the line and column to report, and decides: numpy's parser
+is a short cut, not a second definition.
 Time and memory are linear in the size of the file, about 2 s for 10^6 points (quoted: 5 s).
 """
 
@@ -11,17 +12,24 @@ from __future__ import annotations
 
 import codecs
 import csv
-import math
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
-from .column_choice import choose_columns, column_name
+from .column_choice import choose_columns, choose_names, column_name
+from .number_tables import (
+    NumberTable,
+    Reading,
+    count_cells,
+    find_header,
+    is_number,
+    refuse_no_numbers,
+)
 
 __all__ = ["read_csv_columns"]
 
@@ -34,7 +42,7 @@ _LAYOUT_LINES = 200
 
 
 def read_csv_columns(
-    path: str | os.PathLike[str], columns: Sequence[str | int] | None = None
+    path: str | os.PathLike[str], columns: Sequence[str | int] | None, reading: Reading
 ) -> tuple[npt.NDArray[np.float64], list[str]]:
     r"""Read the columns of a text file, and say which they are.
 
@@ -42,6 +50,8 @@ def read_csv_columns(
     ----------
     path, columns
         As for :func:`curvewise.read_curve`.
+    reading : Reading
+        Its other keywords.
 
     Returns
     -------
@@ -60,13 +70,14 @@ def read_csv_columns(
     >>> import tempfile
     >>> from pathlib import Path
     >>> from curvewise.files.csv_curves import read_csv_columns
+    >>> from curvewise.files.number_tables import Reading
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = Path(folder, "loop.csv")
     ...     _ = path.write_text("time,strain,stress\n0,0,0\n1,0.001,199.5\n")
-    ...     read_csv_columns(path, columns=["strain", 3])[1]
+    ...     read_csv_columns(path, ["strain", 3], Reading())[1]
     ['strain', 'stress']
     """
-    table = _find_layout(os.fspath(path), _read_lines(path))
+    table = _find_layout(os.fspath(path), _read_lines(path), columns, reading)
     chosen = choose_columns(table.file, table.names, table.width, columns)
     values = _parse_fast(table, chosen)
     if values is None or not np.isfinite(values).all():
@@ -75,12 +86,12 @@ def read_csv_columns(
 
 
 @dataclass(frozen=True)
-class _Table:
+class _Layout:
     """A file's lines and how to read them."""
 
     file: str
     lines: list[str]
-    """All lines of the file in order, without their ends; "" for those to ignore."""
+    """The lines of the file in order, without their ends; "" for those to ignore."""
     first: int
     """Index of the first line of numbers."""
     separator: str | None
@@ -89,21 +100,21 @@ class _Table:
     width: int
     """Number of columns."""
     most: int
-    """Cells that a line may have: those of the header or of the first line of numbers. One more,
-    further down, may come of a decimal comma."""
+    """Cells that a line may have: those of the header, or else of the first line of numbers."""
+    reading: Reading
 
-    def place(self, line: int, column: int) -> str:
-        """Name a cell, given by indices, as a user counts."""
-        name = self.names[column] if column < len(self.names) else ""
-        return f"{self.file}, line {line + 1}, column {column + 1}{f' ({name})' if name else ''}"
+    def rows(self) -> Iterator[tuple[int, list[str]]]:
+        """Yield the lines of numbers as cells, with their numbers from 1."""
+        for line in range(self.first, len(self.lines)):
+            if self.lines[line]:
+                yield line + 1, _cells(self.lines[line], self.separator)
 
 
 def _read_lines(path: str | os.PathLike[str]) -> list[str]:
     text = _decode(Path(path).read_bytes())
     if "\0" in text:
         raise ValueError(f"{os.fspath(path)} is not a text file; save the curve as CSV")
-    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    return ["" if _IGNORED.match(line) else line for line in lines]
+    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
 
 
 def _decode(data: bytes) -> str:
@@ -115,41 +126,59 @@ def _decode(data: bytes) -> str:
         return data.decode("latin-1")
 
 
-def _find_layout(file: str, lines: list[str]) -> _Table:
+def _find_layout(
+    file: str, text: list[str], columns: Sequence[str | int] | None, reading: Reading
+) -> _Layout:
     """Choose the separator, and tell header from numbers, by the first lines of a file."""
-    sample = [i for i, line in enumerate(lines) if line][:_LAYOUT_LINES]
-    there_are = [sign for sign in (";", "\t", ",") if any(sign in lines[i] for i in sample)]
-    scores: dict[str | None, float] = {sign: _score(lines, sample, sign) for sign in there_are}
-    if scores.get("\t", 0.0) == 0.0:
-        scores[_BLANKS] = _score(lines, sample, _BLANKS)
-    separator = max(scores, key=scores.__getitem__)  # the first among equal scores
-    if scores[separator] == 0.0:
-        raise ValueError(f"{file} holds no numbers; a curve is one point per line")
+    lines = ["" if _IGNORED.match(line) else line for line in text]
+    filled = [i for i, line in enumerate(lines) if line]
+    count, separator, score = _LAYOUT_LINES, _BLANKS, 0.0
+    while score == 0.0:  # of a long header, more lines are looked at
+        if count >= 2 * max(len(filled), _LAYOUT_LINES):
+            refuse_no_numbers(file, "line", enumerate(text, 1))
+        sample = filled[:count]
+        separator, score = _choose_separator([lines[i] for i in sample], reading.decimal)
+        count *= 2
 
     rows = [_cells(lines[i], separator) for i in sample]
-    headers = 0
-    while any(rows[headers]) and _numeric_fraction(rows[headers], separator) == 0.0:
-        headers += 1
-    names = max(rows[:headers], key=lambda row: sum(map(bool, row)), default=[])
-    width = max(len(row) for row in rows[headers:])
+    first, begin = find_header(rows, [sum(map(is_number, row)) for row in rows])
+    if (until := reading.until) is not None:
+        below = range(sample[first] + 1, len(text))
+        lines = lines[: next((i for i in below if until in text[i]), None)]
+        rows = [row for i, row in zip(sample, rows, strict=True) if i < len(lines)]
+    names = choose_names(rows[begin:first], columns)
+    width = max(len(row) for row in rows[first:])
     if separator is _BLANKS and len(names) != width:
         names = []  # "true strain  true stress": nobody can say which word belongs where
-    most = max(len(rows[headers]), len(names))
+    is_title = sum(map(bool, names)) < 2
+    most = max(len(names), len(rows[first]) if is_title else 0)
     width = max(width, len(names))
     if width == 1:
-        separator = ","  # no blank, tab or semicolon is expected, and none is then accepted
-    return _Table(file, lines, sample[headers], separator, names, width, most)
+        # No blank, tab or semicolon is expected, and none is then accepted.
+        separator = ";" if reading.decimal == "," else ","
+    return _Layout(file, lines, sample[first], separator, names, width, most, reading)
 
 
-def _score(lines: list[str], sample: list[int], separator: str | None) -> float:
+def _choose_separator(lines: list[str], decimal: str | None) -> tuple[str | None, float]:
+    """Return what turns lines into numbers best, the first among equals, and how many it does."""
+    there_are = [sign for sign in (";", "\t", ",") if any(sign in line for line in lines)]
+    if decimal == "," and not any('"' in line for line in lines) and "," in there_are:
+        there_are.remove(",")
+    scores: dict[str | None, float] = {sign: _score(lines, sign, decimal) for sign in there_are}
+    if scores.get("\t", 0.0) == 0.0:
+        scores[_BLANKS] = _score(lines, _BLANKS, decimal)
+    separator = max(scores, key=scores.__getitem__)
+    return separator, scores[separator]
+
+
+def _score(lines: list[str], separator: str | None, decimal: str | None) -> float:
     """Return how many of the lines are numbers, if they are separated so."""
-    rows = [_cells(lines[i], separator) for i in sample]
-    # What is not separated at all has no decimal comma: "1,5" is two cells, and "1," one of two.
-    return sum(_numeric_fraction(row, separator if len(row) > 1 else ",") for row in rows)
-
-
-def _numeric_fraction(cells: list[str], separator: str | None) -> float:
-    return sum(_to_number(cell, separator) is not None for cell in cells) / len(cells)
+    score = 0.0
+    for cells in (_cells(line, separator) for line in lines):
+        # What is not separated at all has no decimal comma: "1,5" is two cells.
+        if separator == "," or decimal == "," or len(cells) > 1 or "," not in cells[0]:
+            score += sum(map(is_number, cells)) / len(cells)
+    return score
 
 
 def _cells(line: str, separator: str | None) -> list[str]:
@@ -164,40 +193,31 @@ def _cells(line: str, separator: str | None) -> list[str]:
     return [cell.strip() for cell in row]
 
 
-def _count_cells(line: str, separator: str | None) -> int:
-    """Return how many cells a line has, without empty ones at its end."""
-    cells = _cells(line, separator)
-    while cells and not cells[-1]:
-        cells.pop()
-    return len(cells)
-
-
-def _to_number(cell: str, separator: str | None) -> float | None:
-    """Return the cell as a number, nan and inf included, or None if it is not one."""
-    if "_" in cell:  # float("1_000") is 1000.0: Python's syntax, not a measurement
-        return None
-    try:
-        return float(cell if separator == "," else cell.replace(",", "."))
-    except ValueError:
-        return None
-
-
-def _parse_fast(table: _Table, chosen: list[int]) -> npt.NDArray[np.float64] | None:
+def _parse_fast(table: _Layout, chosen: list[int]) -> npt.NDArray[np.float64] | None:
     """Return the numbers by numpy's parser, or None where it takes a closer look."""
     lines = table.lines[table.first :]
     if any('"' in line for line in lines):
         return None
-    if table.separator != "," and any("," in line for line in lines):
-        if any("." in line for line in lines):
-            return None  # both decimal signs, or a date or text beside the numbers
+    has_commas = table.separator != "," and any("," in line for line in lines)
+    if has_commas or table.reading.decimal == ",":
+        if table.reading.decimal == "." or any("." in line for line in lines):
+            return None  # both signs, of which one groups thousands, or is that of a date or a text
         lines = [line.replace(",", ".") for line in lines]
     # Without usecols numpy insists that all lines have as many cells as the first.
     values = _loaded(lines, table.separator, None)
-    if values is not None:
+    if values is not None and values.shape[1] <= table.most:
         return values[:, chosen] if values.shape[1] == table.width else None
-    if table.width == 1 or any(_count_cells(line, table.separator) > table.most for line in lines):
+    if any(count_cells(cells) > table.most for _, cells in table.rows()):
         return None
     return _loaded(lines, table.separator, chosen)
+
+
+def _parse_cell_by_cell(table: _Layout, chosen: list[int]) -> npt.NDArray[np.float64]:
+    """Return the numbers, or say which cell is wrong and why."""
+    comma_separates = table.separator == ","
+    return NumberTable(
+        table.file, "line", table.names, table.rows, table.reading, comma_separates, table.most
+    ).read(chosen)
 
 
 def _loaded(
@@ -214,55 +234,3 @@ def _loaded(
         )
     except ValueError:
         return None
-
-
-def _parse_cell_by_cell(table: _Table, chosen: list[int]) -> npt.NDArray[np.float64]:
-    """Return the numbers, or say which cell is wrong and why."""
-    points: list[list[float]] = []
-    decimal_signs: dict[str, int] = {}  # sign -> index of the first line with it
-    for line in range(table.first, len(table.lines)):
-        if not table.lines[line]:
-            continue
-        cells = _cells(table.lines[line], table.separator)
-        if table.width == 1 and len(cells) > 1:
-            raise ValueError(
-                f"{table.file}, line {line + 1} has {len(cells)} columns; the first lines have 1"
-            )
-        points.append([_finite_number(table, line, column, cells) for column in chosen])
-        count = _count_cells(table.lines[line], table.separator)
-        if count > table.most:
-            raise ValueError(
-                f"{table.file}, line {line + 1} has {count} cells, and {table.most} are expected "
-                "by the lines above; is a comma in it a decimal sign?"
-            )
-        if table.separator != ",":
-            _check_decimal_sign(table, line, [cells[column] for column in chosen], decimal_signs)
-    return np.array(points)
-
-
-def _finite_number(table: _Table, line: int, column: int, cells: list[str]) -> float:
-    if column >= len(cells) or not cells[column]:
-        raise ValueError(f"{table.place(line, column)}: the cell is missing")
-    cell = cells[column]
-    shown = repr(cell if len(cell) <= 40 else cell[:37] + "...")
-    number = _to_number(cell, table.separator)
-    if number is None:
-        raise ValueError(f"{table.place(line, column)}: {shown} is not a number")
-    if not math.isfinite(number):
-        raise ValueError(f"{table.place(line, column)}: {shown} is {number}; curves must be finite")
-    return number
-
-
-def _check_decimal_sign(
-    table: _Table, line: int, cells: list[str], first_lines: dict[str, int]
-) -> None:
-    """Refuse a second decimal sign: "1,234" beside "0.5" may be 1234 or 1.234."""
-    for cell in cells:
-        for sign in ",.":
-            if sign in cell:
-                first_lines.setdefault(sign, line)
-    if len(first_lines) == 2:
-        raise ValueError(
-            f"{table.file}: line {first_lines[','] + 1} has a number with a comma and "
-            f"line {first_lines['.'] + 1} one with a point; use one decimal sign"
-        )

@@ -9,12 +9,14 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
 from ..curves.inputs import Array
 from ..curves.named_curve import NamedCurve
 from .csv_curves import read_csv_columns
+from .number_tables import Reading
 
 __all__ = ["read_curve", "read_named_columns"]
 
@@ -27,6 +29,9 @@ def read_curve(
     *,
     sheet: str | int | None = None,
     factors: Sequence[float] | None = None,
+    decimal: Literal[".", ","] | None = None,
+    until: str | None = None,
+    skip_invalid: bool = False,
 ) -> Array:
     r"""Read a curve from a file: text, a sheet of Excel, or variables of MATLAB.
 
@@ -38,13 +43,17 @@ def read_curve(
         Cells may be quoted. A file with numbers between tabs is never read as separated by
         blanks, so that an empty cell stays one.
     Decimal sign
-        A point; or a comma where the separator is a semicolon, a tab or blanks ("1,5;2,5").
-        Never both in one file: "1.234,5" is refused, and so is a comma that groups thousands
-        if any of the numbers read has a decimal point. ("1,5" on its own is two columns.)
+        A point; or a comma where the separator is a semicolon, a tab or blanks ("1,5;2,5"), or
+        where cells are quoted. ("1,5" on its own is two columns.) The first number read that is
+        one with one of the signs alone decides; with decimal commas "1.000" and "1.000,5" have
+        points between thousands. What stays open, as "1,234" beside "0.5", is refused: give
+        `decimal`. Exponents may be Fortran's, "1.5D-03".
     Header
-        All lines before the first one that holds a number; the column names are the one of them
-        with the most cells, the first among equals. Names that blanks separate count only if
-        there are as many as columns.
+        All lines before the first one that holds a number, and before them lines that begin with
+        a text and hold one number, such as "Width;12,5", if a line of names follows. The column
+        names are the one line with the most cells, the first among equals; or that has all names
+        in `columns`. Names that blanks separate count only if there are as many as columns.
+        Lines with more cells than there are names are refused.
     Ignored
         Empty lines (separators alone too), lines that begin with #, % or //, and columns that
         are not asked for.
@@ -69,6 +78,16 @@ def read_curve(
     factors : sequence of float, one per column, optional
         What the columns are multiplied by, to change units: ``[0.01, 1e-6]`` for per cent and Pa
         where the other curve has fractions and MPa.
+    decimal : {".", ","}, optional
+        The decimal sign of numbers that are text, if they leave it open; the other one may then
+        stand between thousands. By default told from the numbers.
+    until : str, optional
+        The curve ends before the first row that contains this text, below the first row of
+        numbers: where statistics or a second table follow. By default, and where no row contains
+        it, with the file. Without effect on a .mat file.
+    skip_invalid : bool, optional
+        Leave out rows in which a cell is missing, not a number, nan or inf, and warn how many.
+        By default such a row is an error.
 
     Returns
     -------
@@ -80,7 +99,8 @@ def read_curve(
     ------
     ValueError
         A cell is missing, not a number, nan or inf (with file, line and column); there is no
-        such column or sheet (lists those there are); no line holds a number; not a text file;
+        such column or sheet (lists those there are); no line holds a number, or none is left; two
+        decimal signs; a line with more cells than names; a damaged file, or one of another kind;
         factors that are not finite, that are 0, or not one per column; a sheet of a file that is
         no workbook; MATLAB variables of different lengths, or a .mat file of version 7.3.
     ImportError
@@ -92,11 +112,14 @@ def read_curve(
     -----
     TimeColumnWarning
         `columns` is not given, the first column is time by its name, and there are three or more.
+    UserWarning
+        `skip_invalid` has left out rows.
 
     Notes
     -----
     O(size) time and memory: about 2 s for 10^6 points of text (quoted: 5 s), more of a workbook.
-    .xls needs xlrd and .ods odfpy, beside pandas.
+    .xls needs xlrd and .ods odfpy, beside pandas. A .mat file is read in a process of its own,
+    which takes 0.5 s, since scipy's reader can crash on a damaged one.
 
     Examples
     --------
@@ -112,22 +135,25 @@ def read_curve(
     array([[0.000e+00, 0.000e+00],
            [1.000e-03, 1.995e+02]])
     """
-    return read_named_columns(path, columns, sheet=sheet, factors=factors)[0]
+    reading = Reading(sheet, decimal, until, skip_invalid)
+    return read_named_columns(path, columns, reading, factors=factors)[0]
 
 
 def read_named_columns(
     path: str | os.PathLike[str],
-    columns: Sequence[str | int] | None = None,
+    columns: Sequence[str | int] | None,
+    reading: Reading,
     *,
-    sheet: str | int | None = None,
     factors: Sequence[float] | None = None,
 ) -> tuple[Array, list[str]]:
     r"""Read a curve as :func:`read_curve` does, and say which columns it was read from.
 
     Parameters
     ----------
-    path, columns, sheet, factors
+    path, columns, factors
         As for :func:`read_curve`.
+    reading : Reading
+        Its other keywords.
 
     Returns
     -------
@@ -146,27 +172,28 @@ def read_named_columns(
     >>> import tempfile
     >>> from pathlib import Path
     >>> from curvewise.files.curve_files import read_named_columns
+    >>> from curvewise.files.number_tables import Reading
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = Path(folder, "loop.csv")
     ...     _ = path.write_text("time,strain,stress\n0,0,0\n1,0.001,199.5\n")
-    ...     read_named_columns(path, columns=["strain", 3])[1]
+    ...     read_named_columns(path, ["strain", 3], Reading())[1]
     ['strain', 'stress']
     """
     kind = Path(path).suffix.lower()
     if kind in _WORKBOOKS:
         from .excel_curves import read_sheet_columns
 
-        values, names = read_sheet_columns(path, columns, 1 if sheet is None else sheet)
-    elif sheet is not None:
+        values, names = read_sheet_columns(path, columns, reading)
+    elif reading.sheet is not None:
         raise ValueError(
-            f"sheet is {sheet!r}, and {os.fspath(path)} is no workbook; leave sheet out"
+            f"sheet is {reading.sheet!r}, and {os.fspath(path)} is no workbook; leave sheet out"
         )
     elif kind == ".mat":
         from .mat_curves import read_mat_columns
 
-        values, names = read_mat_columns(path, columns)
+        values, names = read_mat_columns(path, columns, reading)
     else:
-        values, names = read_csv_columns(path, columns)
+        values, names = read_csv_columns(path, columns, reading)
     # What pictures call the columns.
     titles = [f"column {name}" if name.isdecimal() else name for name in names]
     if factors is None:

@@ -1,77 +1,96 @@
 """Curves from a sheet of a workbook, through pandas.
 
-pandas reads the cells as they are; what is header and what is a number is decided here, by the
-rules for text files: numbers begin at the first row that holds one, and the names are the row above
-with the most cells. Time and memory are linear in the number of cells.
+pandas reads the cells as they are; what is header and what is a number is decided by the rules for
+text files (number_tables.py): texts that are numbers count, too. Time and memory are linear in the
+number of cells.
 """
 
 from __future__ import annotations
 
-import math
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
-import numpy as np
-
 from .._extras import extra
 from ..curves.inputs import Array
-from .column_choice import choose_columns, column_name
+from .column_choice import choose_columns, choose_names, column_name
+from .number_tables import NumberTable, Reading, find_header, is_number, refuse_no_numbers
 
 __all__ = ["read_sheet_columns"]
 
 
 def read_sheet_columns(
-    path: str | os.PathLike[str], columns: Sequence[str | int] | None, sheet: str | int
+    path: str | os.PathLike[str], columns: Sequence[str | int] | None, reading: Reading
 ) -> tuple[Array, list[str]]:
-    """Read columns of a sheet, which is given by its name or its number from 1, and their names."""
+    """Read columns of a sheet, and their names."""
     file = os.fspath(path)
-    title, rows = _cells(path, file, sheet)
-    first = next((i for i, row in enumerate(rows) if any(map(_is_number, row))), None)
-    if first is None:
-        raise ValueError(f"{file}, sheet {title!r} holds no numbers; a curve is one point per row")
-    header = max(rows[:first], key=lambda row: sum(map(bool, row)), default=[])
-    names = [str(cell).strip() for cell in header]
-    width = max(j + 1 for row in rows for j, cell in enumerate(row) if cell != "")
-    chosen = choose_columns(f"{file}, sheet {title!r}", names, width, columns)
-    points = []
-    for i, row in enumerate(rows[first:], first):
-        if all(row[j] == "" for j in chosen):
-            continue
-        for j in chosen:
-            if not _is_number(row[j]) or not math.isfinite(row[j]):
-                wrong = "the cell is missing" if row[j] == "" else f"{row[j]!r} is not a number"
-                name = column_name(names, j)
-                raise ValueError(
-                    f"{file}, sheet {title!r}, row {i + 1}, column {j + 1} ({name}): {wrong}"
-                )
-        points.append([float(row[j]) for j in chosen])
-    return np.array(points), [column_name(names, j) for j in chosen]
+    title, rows = _cells(path, file, 1 if reading.sheet is None else reading.sheet)
+    place = f"{file}, sheet {title!r}"
+    # Texts that are numbers are no header only where nothing else is a number.
+    numbers = [sum(is_number(cell) for cell in row if not isinstance(cell, str)) for row in rows]
+    if not any(numbers):
+        numbers = [sum(map(is_number, row)) for row in rows]
+    if not any(numbers):
+        cells = ((i, cell) for i, row in enumerate(rows, 1) for cell in row)
+        refuse_no_numbers(place, "row", cells)
+    first, begin = find_header(rows, numbers)
+    end = len(rows)
+    if (until := reading.until) is not None:
+        texts = (any(until in str(cell) for cell in row) for row in rows[first + 1 :])
+        end = next((i for i, found in enumerate(texts, first + 1) if found), end)
+    names = choose_names(rows[begin:first], columns)
+    width = max(j + 1 for row in rows[:end] for j, cell in enumerate(row) if cell != "")
+    chosen = choose_columns(place, names, width, columns)
+    numbered = list(enumerate(rows[:end], 1))[first:]
+    kept = [(i, row) for i, row in numbered if any(row[j] != "" for j in chosen)]
+    values = NumberTable(place, "row", names, lambda: kept, reading).read(chosen)
+    return values, [column_name(names, j) for j in chosen]
 
 
 def _cells(
     path: str | os.PathLike[str], file: str, sheet: str | int
 ) -> tuple[str, list[list[Any]]]:
     """Return a sheet's title, and its cells as they are, "" where they are empty."""
-    with extra("curves", f"to read {file}, curvewise needs pandas and openpyxl"):
+    others = ", for .xls also xlrd, for .ods odfpy"
+    with extra("curves", f"to read {file}, curvewise needs pandas and openpyxl", others):
         pandas = import_module("pandas")
-        with pandas.ExcelFile(path) as book:
-            titles: list[str] = book.sheet_names
-            known: dict[str | int, str] = {title: title for title in titles}
-            known |= enumerate(titles, 1)
-            if isinstance(sheet, str) and sheet not in known and sheet.isdecimal():
-                sheet = int(sheet)
-            if sheet not in known:
-                listed = ", ".join(map(str, titles))
-                raise ValueError(
-                    f"{file} has no sheet {sheet!r}; its sheets are {listed}; "
-                    f"by number, give 1 to {len(titles)}"
-                )
-            title = known[sheet]
-            frame = pandas.read_excel(book, sheet_name=title, header=None, na_filter=False)
-    return title, frame.to_numpy(dtype=object).tolist()
+        with _damage_named(file):
+            book = pandas.ExcelFile(path)
+        with book:
+            title = _find_sheet(file, book.sheet_names, sheet)
+            with _damage_named(file):
+                frame = pandas.read_excel(book, sheet_name=title, header=None, na_filter=False)
+    rows = frame.to_numpy(dtype=object).tolist()
+    return title, [[c.strip() if isinstance(c, str) else c for c in row] for row in rows]
 
 
-def _is_number(cell: Any) -> bool:
-    return isinstance(cell, (int, float, np.number)) and not isinstance(cell, bool)
+@contextmanager
+def _damage_named(file: str) -> Iterator[None]:
+    """Say of a workbook that pandas' readers stumble over, in whatever way, that it is damaged."""
+    try:
+        yield
+    except (ImportError, MemoryError):
+        raise
+    except Exception as error:
+        if isinstance(error, OSError) and error.filename is not None:  # there is no such file
+            raise
+        said = next(iter(str(error).splitlines()), "")
+        raise ValueError(
+            f"{file} is damaged, or no workbook ({type(error).__name__}: {said}); open it in a "
+            "spreadsheet program and save it again, or save the curve as CSV"
+        ) from error
+
+
+def _find_sheet(file: str, titles: list[str], sheet: str | int) -> str:
+    known: dict[str | int, str] = {title: title for title in titles}
+    known |= enumerate(titles, 1)
+    if isinstance(sheet, str) and sheet not in known and sheet.isdecimal():
+        sheet = int(sheet)
+    if sheet not in known:
+        raise ValueError(
+            f"{file} has no sheet {sheet!r}; its sheets are {', '.join(titles)}; "
+            f"by number, give 1 to {len(titles)}"
+        )
+    return known[sheet]

@@ -11,7 +11,7 @@ import json
 import os
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,8 @@ import numpy as np
 from .. import solvers
 from ..curves.inputs import Array
 from ..files.column_choice import TimeColumnWarning
-from ..files.curve_files import read_curve, read_named_columns
+from ..files.curve_files import read_named_columns
+from ..files.number_tables import Reading
 from ..solvers import SolverOutput
 from . import keys
 from .formulas import Formula
@@ -83,8 +84,8 @@ class CurveSource:
         Of the names: x and y, or one whose value is a number; empty for the columns as they are.
     first_point : tuple of float
         A point that is put before the others; empty for none.
-    sheet : str or int, optional
-        Of a workbook.
+    reading : Reading
+        The sheet of a workbook, and what else is said of how a file is read.
     """
 
     file: str
@@ -94,7 +95,7 @@ class CurveSource:
     factors: tuple[float, ...] = ()
     formulas: tuple[Formula, ...] = ()
     first_point: tuple[float, ...] = ()
-    sheet: str | int | None = None
+    reading: Reading = field(default_factory=Reading)
 
     @property
     def is_number(self) -> bool:
@@ -107,7 +108,7 @@ class CurveSource:
             return tuple(formula.text for formula in self.formulas)
         if self.format != "columns":
             return self.names
-        found = read_named_columns(folder / self.file, self.columns or None, sheet=self.sheet)[1]
+        found = read_named_columns(folder / self.file, self.columns or None, self.reading)[1]
         return tuple(name if not name.isdecimal() else f"column {name}" for name in found)
 
     def read(self, folder: Path) -> Array:
@@ -140,7 +141,7 @@ class CurveSource:
             with warnings.catch_warnings():
                 warnings.simplefilter("error", TimeColumnWarning)
                 try:
-                    return read_curve(path, self.columns or None, sheet=self.sheet)
+                    return read_named_columns(path, self.columns or None, self.reading)[0]
                 except TimeColumnWarning as guessed:
                     wanted = json.dumps(guessed.wanted, ensure_ascii=False)
                     message = f"{guessed.found}; name those wanted: columns = {wanted}"

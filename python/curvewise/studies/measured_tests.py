@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..curves.inputs import Array
+from ..files.number_tables import Reading
 from . import keys
 from .curve_sources import FORMATS, CurveSource, Quantity, format_of
 from .formulas import Formula, undefined_names
@@ -50,6 +51,9 @@ class Columns:
     y: Formula | None = key(_formula)
     factors: tuple[float, ...] = key(keys.numbers, ())
     sheet: str | int | None = key(_name_or_number("its name"))
+    decimal: str | None = key(keys.choice((".", ",")))
+    until: str | None = key(keys.text)
+    skip_invalid: bool = key(keys.flag, False)
     value: Formula | None = None
     first_point: tuple[float, ...] = ()
 
@@ -203,7 +207,8 @@ def _source(table: Table, said: Columns, file: str, format: str) -> CurveSource:
     first = said.first_point
     if first and len(first) != (len(formulas) or width):
         table.problem("first_point", f"is {list(first)}; give a number for each coordinate")
-    return CurveSource(file, format, names, columns, said.factors, formulas, first, said.sheet)
+    reading = Reading(said.sheet, said.decimal, said.until, said.skip_invalid)
+    return CurveSource(file, format, names, columns, said.factors, formulas, first, reading)
 
 
 def _formulas(table: Table, said: Columns, names: tuple[str, ...]) -> tuple[Formula, ...]:

@@ -156,10 +156,10 @@ def test_a_latin_1_header_names_its_column(read):
         ("e,stress\n0,0\n1,abc\n", "loop.csv, line 3, column 2 (stress): 'abc' is not a number"),
         ("0,0\n1,abc\n", "loop.csv, line 2, column 2: 'abc' is not a number"),
         ("# c\n\ne,s\r\n0,0\r1,abc", "loop.csv, line 5, column 2 (s): 'abc' is not a number"),
-        ("e;s\n0;0\n1;1.234,5\n", "loop.csv, line 3, column 2 (s): '1.234,5' is not a number"),
+        ("e;s\n0;0\n1;1.23,5\n", "loop.csv, line 3, column 2 (s): '1.23,5' is not a number"),
         ("0,0\n1_0,1", "loop.csv, line 2, column 1: '1_0' is not a number"),
         ("0,0\n0x1F,1", "loop.csv, line 2, column 1: '0x1F' is not a number"),
-        ('0,0\n"1,5",1', "loop.csv, line 2, column 1: '1,5' is not a number"),
+        ('0,0\n"1,5a",1', "loop.csv, line 2, column 1: '1,5a' is not a number"),
         ('0,0\n1,"2', "loop.csv, line 2, column 2: '\"2' is not a number"),
         ("0,0\n#N/A,1", "loop.csv, line 2, column 1: '#N/A' is not a number"),
         ("0,0\n#DIV/0!,1", "loop.csv, line 2, column 1: '#DIV/0!' is not a number"),
@@ -177,7 +177,7 @@ def test_a_latin_1_header_names_its_column(read):
         ("0,0\n1,1e999", "loop.csv, line 2, column 2: '1e999' is inf; curves must be finite"),
         ("nan,0", "loop.csv, line 1, column 1: 'nan' is nan; curves must be finite"),
         ("1\n" * 300 + "5 6", "loop.csv, line 301, column 1: '5 6' is not a number"),
-        ("1\n" * 300 + "5,6", "loop.csv, line 301 has 2 columns; the first lines have 1"),
+        ("1\n" * 300 + "5,6", "loop.csv, line 301 has 2 cells, and 1 is expected"),
         (
             "0;0\n0,5;1\n0.6;2",
             "loop.csv: line 2 has a number with a comma and line 3 one with a point; "
@@ -195,7 +195,10 @@ def test_a_latin_1_header_names_its_column(read):
         ("1,2,a\n" * 300 + "2,5,3,a", "loop.csv, line 301 has 4 cells, and 3 are expected"),
         ("1 2\n1 2 3", "loop.csv, line 2 has 3 cells, and 2 are expected by the lines above"),
         ("", "loop.csv holds no numbers; a curve is one point per line"),
-        ("# 1,2\n", "loop.csv holds no numbers; a curve is one point per line"),
+        (
+            "# 1,2\n",
+            "loop.csv: no line is made of numbers; the first with a digit is line 1, '# 1,",
+        ),
         ("strain,stress\n", "loop.csv holds no numbers; a curve is one point per line"),
         (b"PK\x03\x04\0\0\x08", "loop.csv is not a text file; save the curve as CSV"),
     ],
