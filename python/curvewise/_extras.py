@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
+from textwrap import shorten
 from typing import Any
 
-__all__ = ["extra", "required"]
+__all__ = ["extra", "foreign_reader", "required"]
 
 
 @contextmanager
@@ -20,6 +21,22 @@ def extra(name: str, needed: str, advice: str = "") -> Iterator[None]:
         yield
     except ImportError as error:
         raise ImportError(f'{needed}: pip install "curvewise[{name}]"{advice}') from error
+
+
+@contextmanager
+def foreign_reader(file: str, kind: str, advice: str) -> Iterator[None]:
+    """Say that a file is damaged where another package's reader fails on it, in whatever way."""
+    try:
+        yield
+    except (ImportError, MemoryError):
+        raise
+    except Exception as error:
+        if isinstance(error, OSError) and error.filename is not None:  # it cannot be opened
+            raise
+        said = shorten(str(error), 90, placeholder=" ...")
+        raise ValueError(
+            f"{file} is damaged, or no {kind} ({type(error).__name__}: {said}); {advice}"
+        ) from error
 
 
 def required(module: str) -> Any:

@@ -86,7 +86,7 @@ def _fail(message: str) -> int:
     return 1
 
 
-def _show_warning(message: Warning | str, *_: Any) -> None:
+def _show_warning(message: Warning | str, *_: Any, **__: Any) -> None:
     """Write a warning without the line of Python that it is about."""
     print("curvewise:", message, file=sys.stderr)
 

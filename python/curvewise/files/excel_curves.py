@@ -8,12 +8,11 @@ number of cells.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from importlib import import_module
 from typing import Any
 
-from .._extras import extra
+from .._extras import extra, foreign_reader
 from ..curves.inputs import Array
 from .column_choice import choose_columns, choose_names, column_name
 from .number_tables import NumberTable, Reading, find_header, is_number, refuse_no_numbers
@@ -53,34 +52,18 @@ def _cells(
     path: str | os.PathLike[str], file: str, sheet: str | int
 ) -> tuple[str, list[list[Any]]]:
     """Return a sheet's title, and its cells as they are, "" where they are empty."""
+    advice = "open it in a spreadsheet program and save it again, or save the curve as CSV"
     others = ", for .xls also xlrd, for .ods odfpy"
     with extra("curves", f"to read {file}, curvewise needs pandas and openpyxl", others):
         pandas = import_module("pandas")
-        with _damage_named(file):
+        with foreign_reader(file, "workbook", advice):
             book = pandas.ExcelFile(path)
         with book:
             title = _find_sheet(file, book.sheet_names, sheet)
-            with _damage_named(file):
+            with foreign_reader(file, "workbook", advice):
                 frame = pandas.read_excel(book, sheet_name=title, header=None, na_filter=False)
     rows = frame.to_numpy(dtype=object).tolist()
     return title, [[c.strip() if isinstance(c, str) else c for c in row] for row in rows]
-
-
-@contextmanager
-def _damage_named(file: str) -> Iterator[None]:
-    """Say of a workbook that pandas' readers stumble over, in whatever way, that it is damaged."""
-    try:
-        yield
-    except (ImportError, MemoryError):
-        raise
-    except Exception as error:
-        if isinstance(error, OSError) and error.filename is not None:  # there is no such file
-            raise
-        said = next(iter(str(error).splitlines()), "")
-        raise ValueError(
-            f"{file} is damaged, or no workbook ({type(error).__name__}: {said}); open it in a "
-            "spreadsheet program and save it again, or save the curve as CSV"
-        ) from error
 
 
 def _find_sheet(file: str, titles: list[str], sheet: str | int) -> str:

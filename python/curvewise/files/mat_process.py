@@ -14,6 +14,7 @@ import json
 import sys
 import warnings
 from collections.abc import Iterator, Mapping
+from textwrap import shorten
 from typing import Any
 
 import numpy as np
@@ -32,7 +33,7 @@ def main(file: str) -> None:
     except NotImplementedError:
         problem = f"is a .mat file of version 7.3; {_SAVE}"
     except Exception as error:  # whatever scipy's reader comes upon
-        said = next(iter(str(error).splitlines()), "")
+        said = shorten(str(error), 90, placeholder=" ...")
         problem = f"is not a .mat file that scipy reads ({type(error).__name__}: {said}); {_SAVE}"
     lengths = {name: len(column) for name, column in found.items()}
     sys.stdout.buffer.write(json.dumps([problem, lengths]).encode() + b"\n")

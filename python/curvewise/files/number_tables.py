@@ -158,7 +158,8 @@ class NumberTable:
         lines = {sign: self._first_with(sign, chosen) for sign in _SIGNS}
         raise ValueError(
             f"{self.file}: {self.row} {lines[',']} has a number with a comma and "
-            f"{self.row} {lines['.']} one with a point; use one decimal sign"
+            f"{self.row} {lines['.']} one with a point; use one decimal sign, or say "
+            "which it is (decimal)"
         )
 
     def _first_with(self, sign: str, chosen: Sequence[int]) -> int:
@@ -176,10 +177,9 @@ def say_left_out(file: str, row: str, wrong: Sequence[int], count: int) -> None:
     if len(wrong) == count:
         raise ValueError(f"{file}: none of {count} {row}s is made of finite numbers")
     if wrong:
-        were = f"{row} is" if len(wrong) == 1 else f"{row}s are"
         warn(
-            f"{file}: {len(wrong)} of {count} {were} left out, since they are not made of finite "
-            f"numbers; the first is {row} {wrong[0]}"
+            f"{file}: {len(wrong)} of {count} {row}s left out, not made of finite numbers; the "
+            f"first is {row} {wrong[0]}"
         )
 
 

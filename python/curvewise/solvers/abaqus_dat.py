@@ -13,7 +13,7 @@ from __future__ import annotations
 import os
 import re
 
-from .solver_output import Row, SolverOutput, as_number, lines_of
+from .solver_output import Row, SolverOutput, as_number, as_whole, lines_of
 
 __all__ = ["read_abaqus_dat"]
 
@@ -105,6 +105,6 @@ class _Rows:
         count = len(self._columns)
         if len(words) < self._labels + count:
             raise ValueError(f"{place}: {len(words)} words for {self._labels + count} columns")
-        label = [int(as_number(word, place)) for word in words[: self._labels]]
+        label = [as_whole(word, place) for word in words[: self._labels]]
         values = [as_number(word, place) for word in words[-count:]]
         self._rows.setdefault(Row(*label[:2]), values)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import re
 
-from .solver_output import Row, SolverOutput, as_number, lines_of
+from .solver_output import Row, SolverOutput, as_number, as_whole, lines_of
 
 __all__ = ["read_calculix_dat"]
 
@@ -66,9 +66,9 @@ def read_calculix_dat(path: str | os.PathLike[str]) -> SolverOutput:
             time = as_number(title[4], place)
             rows = output.add(title[1], title[3], components, time)
         elif rows is not None and len(words) == labels + count:
-            values = [as_number(word, place) for word in words]
-            label = [int(value) for value in values[:labels]]
-            rows.setdefault(Row(*(label or [0])), values[labels:])
+            label = [as_whole(word, place) for word in words[:labels]]
+            values = [as_number(word, place) for word in words[labels:]]
+            rows.setdefault(Row(*(label or [0])), values)
         else:
             rows = None
     return output

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 
-from .solver_output import Row, SolverOutput, as_number, lines_of
+from .solver_output import Row, SolverOutput, as_number, as_whole, lines_of
 
 __all__ = ["read_calculix_frd"]
 
@@ -74,14 +74,14 @@ def read_calculix_frd(path: str | os.PathLike[str]) -> SolverOutput:
         elif code == "-4":
             variable, components, rows = line[5:13].strip(), [], None
         elif code == "-5":
-            if line[13:].split()[-1] != "1ALL":  # the amount of a vector, which is not written
+            if not line.rstrip().endswith("1ALL"):  # the amount of a vector, which is not written
                 components.append(line[5:13].strip())
         elif code == "-3":
             variable, rows = "", None
         elif code == "-1" and variable:
             if rows is None:
                 rows = output.add(variable, "", components, time)
-            last = Row(int(line[3:13]))
+            last = Row(as_whole(line[3:13], place))
             rows[last] = _fields(line, place)
         elif code == "-2" and rows is not None:
             rows[last] += _fields(line, place)

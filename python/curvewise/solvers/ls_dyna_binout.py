@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .._extras import extra
+from .._extras import extra, foreign_reader
 from .solver_output import Row, SolverOutput
 
 __all__ = ["read_ls_dyna_binout"]
@@ -63,13 +63,16 @@ def read_ls_dyna_binout(
     name = os.fspath(path)
     if not glob.glob(name):
         raise FileNotFoundError(f"there is no binout {name!r}")
-    binout = Binout(name)
-    there_are = _branches(binout)
+    advice = "was the run cut short? LS-DYNA's l2a may still convert it"
+    with foreign_reader(name, "binout", advice):
+        binout = Binout(name)
+        there_are = _branches(binout)
     output = SolverOutput(name)
     for branch in there_are if branches is None else branches:
         if branch not in there_are:
             raise ValueError(f"{name} has no branch {branch!r}; there is {', '.join(there_are)}")
-        _add(output, binout, branch)
+        with foreign_reader(name, "binout", advice):
+            _add(output, binout, branch)
     return output
 
 

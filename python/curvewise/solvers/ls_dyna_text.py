@@ -13,7 +13,7 @@ from __future__ import annotations
 import os
 import re
 
-from .solver_output import Row, SolverOutput, as_number, lines_of
+from .solver_output import Row, SolverOutput, as_number, as_whole, lines_of
 
 __all__ = ["read_ls_dyna_elout", "read_ls_dyna_nodout"]
 
@@ -77,12 +77,12 @@ def read_ls_dyna_nodout(path: str | os.PathLike[str]) -> SolverOutput:
             time, rows = as_number(found[1], place), None
         elif line.split()[:2] == ["nodal", "point"]:
             columns = line.split()[2:]
-            variable = "rotations" if columns[0].startswith("x-rot") else "translations"
+            variable = "rotations" if "x-rot" in columns else "translations"
             rows, count = output.add(variable, "", columns, time), len(columns)
         elif rows is not None and (row := _NODE.match(line)):
             values = [as_number(text, place) for text in _NUMBER.findall(row[2])]
             if len(values) == count:  # a run that was killed ends in the middle of a line
-                rows[Row(int(row[1]))] = values
+                rows[Row(as_whole(row[1], place))] = values
         else:
             rows = None
     return output
@@ -141,12 +141,12 @@ def read_ls_dyna_elout(path: str | os.PathLike[str]) -> SolverOutput:
         elif "eps-xx" in folded:
             variable = "strain"
         elif found := _ELEMENT.match(line):
-            element, surface = int(found[1]), 0
+            element, surface = as_whole(found[1], place), 0
         elif values := [as_number(text, place) for text in _NUMBER.findall(line)]:
             surface += 1
             components = _components(variable, len(values))
             point = _POINT.match(line) if "ipt" not in folded else None
-            row = Row(element, int(point[1]) if point else surface)
+            row = Row(element, as_whole(point[1], place) if point else surface)
             if components and element:
                 output.add(variable, "", components, time)[row] = values
     return output

@@ -20,7 +20,7 @@ import numpy as np
 from .._names import did_you_mean
 from ..curves.inputs import Array
 
-__all__ = ["Row", "SolverOutput", "as_number", "lines_of"]
+__all__ = ["Row", "SolverOutput", "as_number", "as_whole", "lines_of"]
 
 _COMBINED: dict[str, Callable[[list[float]], float]] = {
     "sum": math.fsum,
@@ -170,11 +170,16 @@ class SolverOutput:
         column = [name.lower() for name in table.components].index(component.lower())
         values = np.empty(len(table.times))
         for i, (time, rows) in enumerate(zip(table.times, table.rows, strict=True)):
-            chosen = [
-                values_of[column]
-                for row, values_of in rows.items()
-                if number in (None, row.number) and point in (None, row.point)
+            found = [
+                row for row in rows if number in (None, row.number) and point in (None, row.point)
             ]
+            for row in found:
+                if len(rows[row]) <= column:
+                    raise ValueError(
+                        f"{self.file}, {table} at time {time:g}: the row of {row.number} has "
+                        f"{len(rows[row])} values; was the run cut short?"
+                    )
+            chosen = [rows[row][column] for row in found]
             if len(chosen) != 1 and (combine is None or not chosen):
                 raise ValueError(self._unclear(table, time, rows, number, point))
             values[i] = chosen[0] if combine is None else _COMBINED[combine](chosen)
@@ -211,6 +216,8 @@ class SolverOutput:
     ) -> str:
         """Say why there is not exactly one row at a time."""
         place = f"{self.file}, {table} at time {time:g}"
+        if not rows:
+            return f"{place}: there are no rows; was the run cut short?"
         numbers = sorted({row.number for row in rows})
         if number is not None and number not in numbers:
             return f"{place}: there is no {number}; there is {_listed(numbers)}"
@@ -251,10 +258,21 @@ def as_number(text: str, place: str) -> float:
         return float(text)
     except ValueError:
         pass
+    text = text.strip()
     try:
-        return float(_WITHOUT_E.sub(r"E\1", text.strip()))
+        return float(_WITHOUT_E.sub(r"E\1", text).replace("D", "E"))
     except ValueError:
-        raise ValueError(f"{place}: {text.strip()!r} is no number") from None
+        fault = f"{text[:40]!r} is no number" if text else "a number is missing"
+        raise ValueError(f"{place}: {fault}; was the run cut short?") from None
+
+
+def as_whole(text: str, place: str) -> int:
+    """Return the number of a node or an element, as :func:`as_number` does."""
+    number = as_number(text, place)
+    if not number.is_integer():
+        fault = f"{text.strip()[:40]!r} is no whole number"
+        raise ValueError(f"{place}: {fault}; was the run cut short?")
+    return int(number)
 
 
 def lines_of(path: str | os.PathLike[str]) -> Iterator[tuple[str, str]]:

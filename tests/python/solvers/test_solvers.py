@@ -289,6 +289,73 @@ def test_ls_dyna_elout(tmp_path: Path) -> None:
     assert output.history("time", variable="stress").tolist() == [0.001, 0.002]
 
 
+FRD = "  100CL  101 5.00000E-01           1                     0    1           1\n -4  DISP\n"
+DAT = " displacements (vx,vy) for set A and time  {}\n\n {}\n"
+
+
+@pytest.mark.parametrize(
+    ("read", "text", "message"),
+    [
+        (read_calculix_dat, DAT.format("1.0", "inf 1. 2."), "line 3: 'inf' is no whole number"),
+        (read_calculix_dat, DAT.format("1.0", "1.5 1. 2."), "line 3: '1.5' is no whole number"),
+        (read_calculix_dat, DAT.format("x", "7 1. 2."), "line 1: 'x' is no number; was the run cu"),
+        (read_calculix_frd, FRD + " -1  x\n", "line 3: 'x' is no number; was the run cut short?"),
+        (read_calculix_frd, FRD + " -1\n", "line 3: a number is missing; was the run cut short?"),
+        (read_calculix_frd, FRD[:12] + "\n", "line 1: a number is missing; was the run cut short?"),
+        (
+            read_abaqus_dat,
+            ABAQUS.replace(" 3    -1", 400 * "9" + " -1"),
+            "line 33: '9{40}' is no w",
+        ),
+        (read_abaqus_dat, ABAQUS.replace("-75.1", ""), "line 33: 2 words for 3 columns"),
+        (
+            read_ls_dyna_nodout,
+            NODOUT.replace(" 71  0", 400 * "9" + "  0"),
+            "line 13: '9{40}' is no w",
+        ),
+        (
+            read_ls_dyna_elout,
+            ELOUT.replace("12-", 400 * "9" + "-"),
+            "line 7: '9{40}' is no whole n",
+        ),
+    ],
+)
+def test_every_reader_says_where_a_number_is_wrong(tmp_path: Path, read, text, message) -> None:
+    (tmp_path / "deck").write_text(text)
+    with pytest.raises(ValueError, match=f"^{re.escape(str(tmp_path))}/deck, {message}"):
+        read(tmp_path / "deck")
+
+
+@pytest.mark.parametrize(
+    ("read", "text", "component", "message"),
+    [
+        (
+            read_calculix_frd,
+            FRD + " -5  D1\n -5\n -1         7 1.00000E+00\n",
+            "D2",
+            "no component",
+        ),
+        (
+            read_calculix_frd,
+            FRD + " -5  D1\n -5  D2\n -1         7 1.00000E+00\n",
+            "D2",
+            "the row of 7 has 1 values; was the run cut short",
+        ),
+        (
+            read_calculix_dat,
+            DAT.format("1.0", ""),
+            "vx",
+            "there are no rows; was the run cut short",
+        ),
+        (read_ls_dyna_nodout, NODOUT[: NODOUT.index("x-disp")], "x-disp", "no component 'x-disp'"),
+    ],
+)
+def test_what_was_cut_short_is_said(tmp_path: Path, read, text, component, message) -> None:
+    (tmp_path / "deck").write_text(text)
+    with pytest.raises(ValueError, match=message):
+        read(tmp_path / "deck").history(component)
+
+
 def test_ls_dyna_binout(tmp_path: Path) -> None:
     """Written by the writer that lasso-python has beside its reader."""
     pytest.importorskip("lasso", reason="lasso-python is not installed: curvewise[ls-dyna]")
