@@ -33,7 +33,8 @@ def foreign_reader(file: str, kind: str, advice: str) -> Iterator[None]:
     except Exception as error:
         if isinstance(error, OSError) and error.filename is not None:  # it cannot be opened
             raise
-        said = shorten(str(error), 90, placeholder=" ...")
+        # Without the advice of pandas, which is for who calls it.
+        said = shorten(str(error).partition(", you must")[0], 90, placeholder=" ...")
         raise ValueError(
             f"{file} is damaged, or no {kind} ({type(error).__name__}: {said}); {advice}"
         ) from error

@@ -327,7 +327,7 @@ def tried(kind: str, data: bytes, folder: Path) -> tuple[Outcome, str]:
         path.parent.mkdir(exist_ok=True)
         (folder / "study.toml").write_bytes(data if kind == "toml" else study(kind, path))
         path.write_bytes((folder / "good.csv").read_bytes() if kind == "toml" else data)
-        named = "study.toml" if kind == "toml" else path.name
+        named = "study" if kind == "toml" else path.name  # or the folder of the run
         outcome = called(["identify", "study.toml", "--check"], folder)
     else:
         named = f"damaged.{kind}"
@@ -367,7 +367,8 @@ def main() -> int:
                 found[verdict] += 1
                 if verdict not in ("read", "refused"):
                     wrong += 1
-                    print(f"    {kind} {i}, {how}: {verdict}, {outcome.status}: {outcome.said}")
+                    said = " | ".join(map(str.strip, outcome.said.splitlines()[-3:]))
+                    print(f"    {kind} {i}, {how}: {verdict}, status {outcome.status}: {said}")
                 elif outcome.said:
                     sentences.append(f"{kind:<6} {how:<7} {outcome.said.strip()}")
             counts = ", ".join(f"{count} {verdict}" for verdict, count in sorted(found.items()))

@@ -20,6 +20,8 @@ _TIME = re.compile(
     r"(?:[ _]*[\[(/,].*|[ _](?i:s|sec|seconds?|ms|min|minutes?|h|hours?))?"
 )
 
+_DIGITS = 18  # of a number of a column; Python refuses to read numbers of thousands
+
 
 class TimeColumnWarning(UserWarning):
     """The first two columns of a file are taken, the first is time, and there are more.
@@ -106,7 +108,7 @@ def _find_column(file: str, names: list[str], width: int, column: str | int) -> 
         if names.count(name) > 1:
             raise ValueError(f"{file} has several columns {name!r}; give its number, from 1")
         return names.index(name)
-    if isinstance(column, str) and not column.isdecimal():
+    if isinstance(column, str) and (not column.isdecimal() or len(column) > _DIGITS):
         listed = ", ".join(filter(None, names))
         there_are = f"its columns are {listed}" if listed else "it has no header"
         raise ValueError(

@@ -111,7 +111,11 @@ class _Layout:
 
 
 def _read_lines(path: str | os.PathLike[str]) -> list[str]:
-    text = _decode(Path(path).read_bytes())
+    try:
+        text = _decode(Path(path).read_bytes())
+    except OSError as error:  # one of reading does not name the file, as one of opening does
+        error.filename = error.filename or os.fspath(path)
+        raise
     if "\0" in text:
         raise ValueError(f"{os.fspath(path)} is not a text file; save the curve as CSV")
     return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")

@@ -104,7 +104,10 @@ class _Rows:
         self.has_rows = True
         count = len(self._columns)
         if len(words) < self._labels + count:
-            raise ValueError(f"{place}: {len(words)} words for {self._labels + count} columns")
+            raise ValueError(
+                f"{place}: {len(words)} words for {self._labels + count} columns; was the run cut "
+                "short?"
+            )
         label = [as_whole(word, place) for word in words[: self._labels]]
         values = [as_number(word, place) for word in words[-count:]]
         self._rows.setdefault(Row(*label[:2]), values)

@@ -15,6 +15,7 @@ from .solver_output import Row, SolverOutput, as_number, as_whole, lines_of
 __all__ = ["read_calculix_frd"]
 
 _WIDTH = 12
+_FORMAT = 70  # where a line 100C says how the values are written
 _BINARY = ("2", "3")
 
 
@@ -66,7 +67,7 @@ def read_calculix_frd(path: str | os.PathLike[str]) -> SolverOutput:
     for place, line in lines_of(path):
         code = line[:5].strip()
         if code.startswith("100"):
-            if line.split()[-1] in _BINARY:
+            if line[_FORMAT:].strip() in _BINARY:
                 raise ValueError(
                     f"{place}: the results are binary; write *NODE FILE and *EL FILE without BINARY"
                 )

@@ -137,6 +137,11 @@ class CurveSource:
     def _columns(self, folder: Path) -> Array:
         """Return what is read, a column each."""
         path = folder / self.file
+        if folder.name and not glob.glob(os.fspath(path)):
+            there_are = sorted(item.name for item in folder.iterdir()) if folder.is_dir() else []
+            raise FileNotFoundError(
+                f"the run has written no {self.file}; it has written {', '.join(there_are)}"
+            )
         if self.format == "columns":
             with warnings.catch_warnings():
                 warnings.simplefilter("error", TimeColumnWarning)
@@ -148,11 +153,6 @@ class CurveSource:
                     raise ValueError(message) from None
         reader = FORMATS[self.format]
         assert reader is not None
-        if not glob.glob(os.fspath(path)):
-            there_are = sorted(item.name for item in folder.iterdir()) if folder.is_dir() else []
-            raise FileNotFoundError(
-                f"the run has written no {self.file}; it has written {', '.join(there_are)}"
-            )
         output = reader(path)
         histories = [quantity.of(output) for quantity in self.columns]
         lengths = {name: len(h) for name, h in zip(self.names, histories, strict=True)}

@@ -107,7 +107,7 @@ class Source:
     def problem(self, path: KeyPath, message: str) -> None:
         """Note that something is wrong with a key."""
         line = self.line(path)
-        text = f"{dotted(path)} {message}".replace("\n", "\\n").replace("\r", "\\r")
+        text = f"{dotted(path)} {message}".lstrip().replace("\n", "\\n").replace("\r", "\\r")
         self._found.append((line, f"{self.path}, line {line}: {text}"))
 
     def _refuse_long_numbers(self, path: KeyPath, value: Any) -> None:

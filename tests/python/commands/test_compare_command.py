@@ -188,6 +188,11 @@ def test_curves_that_cannot_be_compared_are_named_by_their_files(run, files):
     assert_failed(run("compare", *files), "Q has shape (1, 2); ", "(P is A.csv, Q is B.csv)")
 
 
+@pytest.mark.skipif(not os.path.exists("/proc/self/mem"), reason="a file that cannot be read")
+def test_a_file_that_ends_in_an_error_while_it_is_read_is_named(run, files):
+    assert_failed(run("compare", "/proc/self/mem", *files[1:]), "/proc/self/mem: Input/output err")
+
+
 @pytest.mark.parametrize("name", ["no_such_folder/out.png", "."])
 def test_a_picture_that_cannot_be_written(run, files, name):
     assert_failed(run("compare", *files, "--plot", name), name)

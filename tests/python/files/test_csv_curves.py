@@ -223,6 +223,11 @@ def test_the_place_of_a_bad_cell_is_named(read, content, expected):
             "loop.csv has no column 'strain'; it has no header; by number, give 1 to 2",
         ),
         ("0,0\n", [3], "loop.csv has no column 3; columns are numbered 1 to 2"),
+        (
+            "e,s\n0,0\n",
+            [5000 * "9"],
+            f"loop.csv has no column '{5000 * '9'}'; its columns are e, s; by number, give 1 to 2",
+        ),
         ("0,0\n", ["0"], "loop.csv has no column 0; columns are numbered 1 to 2"),
         ("0,0\n", [-1], "loop.csv has no column -1; columns are numbered 1 to 2"),
         ("e,e\n0,0\n", ["e"], "loop.csv has several columns 'e'; give its number, from 1"),

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import io
+import re
 import sys
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +14,7 @@ import pytest
 import scipy.io
 
 from curvewise import read_curve
+from curvewise.files import mat_curves
 from curvewise.files.column_choice import TimeColumnWarning
 
 POINTS = [[0.0, 0.0], [0.001, 199.5], [-0.0005, -1e-05]]
@@ -56,6 +60,59 @@ def test_the_default_is_the_first_two_columns(book: Path) -> None:
 def test_errors_of_a_workbook_name_the_place(book: Path, columns, sheet, message) -> None:
     with pytest.raises(ValueError, match=message):
         read_curve(book, columns, sheet=sheet)
+
+
+def _cut(data: bytes) -> bytes:
+    return data[: len(data) // 2]
+
+
+def _without_types(data: bytes) -> bytes:
+    """Take a part out of a workbook, whose check sums stay right."""
+    packed = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(packed, "w") as new:
+        for part in old.namelist():
+            if part != "[Content_Types].xml":
+                new.writestr(part, old.read(part))
+    return packed.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("damaged", "why"),
+    [
+        (_cut, "BadZipFile: File is not a zip file"),
+        (_without_types, "KeyError: .*Content_Types"),
+        (lambda data: data.replace(b"xl/", b"yl/"), "KeyError: 'zip'"),
+        (lambda data: b"", "ValueError: Excel file format cannot be determined"),
+        (lambda data: b"strain,stress\n0,1\n", "ValueError: Excel file format cannot be determ"),
+    ],
+)
+def test_a_damaged_workbook_is_one_sentence(book: Path, damaged, why: str) -> None:
+    book.write_bytes(damaged(book.read_bytes()))
+    message = rf"^{re.escape(str(book))} is damaged, or no workbook \({why}[^\n]*\); open it in a "
+    with pytest.raises(ValueError, match=message):
+        read_curve(book)
+
+
+@pytest.mark.parametrize("keep", [0, 100, 200, 250, 300])
+def test_a_damaged_mat_file_is_one_sentence(tmp_path: Path, keep: int) -> None:
+    file = tmp_path / "test.mat"
+    scipy.io.savemat(file, {"x": np.arange(9.0), "y": np.arange(9.0)})
+    file.write_bytes(file.read_bytes()[:keep])
+    message = rf"^{re.escape(str(file))} is not a \.mat file that scipy reads \(\w+: [^\n]*\); save"
+    with pytest.raises(ValueError, match=message):
+        read_curve(file)
+
+
+def test_a_mat_file_that_crashes_its_reader_does_not_end_this_process(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    script = tmp_path / "crash.py"
+    script.write_text("import os, signal\nos.kill(os.getpid(), signal.SIGSEGV)\n")
+    monkeypatch.setattr(mat_curves, "_SCRIPT", str(script))
+    file = tmp_path / "test.mat"
+    file.touch()
+    with pytest.raises(ValueError, match=r"damaged: scipy's reader ended with status -11 on it; s"):
+        read_curve(file)
 
 
 def test_variables_matrices_and_structures_of_matlab(tmp_path: Path) -> None:
