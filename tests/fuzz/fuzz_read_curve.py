@@ -33,7 +33,18 @@ with atheris.instrument_imports(include=READERS) if atheris else contextlib.null
 SEEDS = Path(__file__).parent / "corpus" / "read_curve"
 WORDS = (b"1,5", b"-0.5e3", b"nan", b"inf", b";", b"\t", b",", b'"', b"\r\n", b"\n", b"#", b"//")
 WORDS += (b"\xff\xfe", b"\xef\xbb\xbf", b"strain [%]", b"#N/A", b"1_000", b"0x10", b"1e400")
-WORDS += ("\u0661\u0662".encode(), "\u2028".encode(), b"\x0c", b"\x1c", b"\xa0", b"+1.", b".5d0")
+WORDS += (
+    "\u0661\u0662".encode(),
+    "\u2028".encode(),
+    b"\x0c",
+    b"\x1c",
+    b"\xa0",
+    b"+1.",
+    b".5d0",
+    b"1.000",
+    b"1.000,5",
+    b'"1,234"',
+)
 COLUMNS = (None, [1], [2, 1], ["strain", "stress"], [1, 2, 3])
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
@@ -126,18 +126,15 @@ class NumberTable:
         if self.reading.decimal is not None:
             return self.reading.decimal, True
         doubtful: dict[str, tuple[int, int, str]] = {}
-        for is_chosen in (True, False):  # other columns are asked where those chosen leave doubt
-            for number, cells in self.rows():
-                for column in chosen if is_chosen else range(len(cells)):
-                    cell = cells[column] if column < len(cells) else ""
-                    if isinstance(cell, str) and ("," in cell or "." in cell):
-                        signs = [sign for sign in _SIGNS if _to_number(cell, sign) is not None]
-                        if len(signs) == 1:
-                            return signs[0], signs[0] == ","
-                        if signs and is_chosen:
-                            doubtful.setdefault("," if "," in cell else ".", (number, column, cell))
-            if not doubtful:
-                return ".", False
+        for number, column, cell, signs in self._texts(chosen):
+            if len(signs) == 1:
+                return signs[0], signs[0] == ","
+            doubtful.setdefault("," if "," in cell else ".", (number, column, cell))
+        if doubtful.keys() == {"."}:  # 1 or 1000: what do the columns say that are not read?
+            found = next((signs for *_, signs in self._texts(None) if len(signs) == 1), ["."])
+            return found[0], found[0] == ","
+        if not doubtful:
+            return ".", False
         if self.comma_separates and "," in doubtful:
             number, column, cell = doubtful[","]
             raise ValueError(
@@ -145,6 +142,16 @@ class NumberTable:
                 f"{cell.replace(',', '')}; say which is the decimal sign (decimal)"
             )
         return next(iter(doubtful)), False
+
+    def _texts(self, columns: Sequence[int] | None) -> Iterator[tuple[int, int, str, list[str]]]:
+        """Yield row, column, text, and possible decimal signs, of numbers with a decimal sign."""
+        for number, cells in self.rows():
+            for column in range(len(cells)) if columns is None else columns:
+                cell = cells[column] if column < len(cells) else ""
+                if isinstance(cell, str) and ("," in cell or "." in cell):
+                    signs = [sign for sign in _SIGNS if _to_number(cell, sign) is not None]
+                    if signs:
+                        yield number, column, cell, signs
 
     def _check_decimal(
         self, cell: Any, value: float | None, decimal: str, groups: bool, chosen: Sequence[int]
@@ -155,20 +162,17 @@ class NumberTable:
             return
         if not isinstance(cell, str) or other not in cell or _to_number(cell, other) is None:
             return
-        lines = {sign: self._first_with(sign, chosen) for sign in _SIGNS}
+        lines = {}
+        for sign in _SIGNS:
+            lines[sign] = next(
+                (line for line, _, text, _ in self._texts(chosen) if sign in text), 0
+            )
+        if not all(lines.values()):  # "1.000.000" and "0.5": points mean two things
+            raise ValueError(f"{self.file}: {cell!r} has another decimal sign than a number above")
         raise ValueError(
             f"{self.file}: {self.row} {lines[',']} has a number with a comma and "
-            f"{self.row} {lines['.']} one with a point; use one decimal sign, or say "
-            "which it is (decimal)"
-        )
-
-    def _first_with(self, sign: str, chosen: Sequence[int]) -> int:
-        """Return the first row that has a sign in a number."""
-        return next(
-            number
-            for number, cells in self.rows()
-            for column in chosen
-            if column < len(cells) and sign in str(cells[column]) and is_number(cells[column])
+            f"{self.row} {lines['.']} one with a point; use one decimal sign, or say which it is "
+            "(decimal)"
         )
 
 
@@ -242,7 +246,7 @@ def find_header(rows: Sequence[Sequence[Any]], numbers: Sequence[int]) -> tuple[
 
     Numbers begin at the first row that has any, except where a header stands below "Width", 12.5:
     rows that begin with a text and have one number, with a row of names between them and the first
-    row of several numbers, describe the test.
+    row of several numbers, which begins with one, describe the test.
 
     Parameters
     ----------
@@ -254,14 +258,17 @@ def find_header(rows: Sequence[Sequence[Any]], numbers: Sequence[int]) -> tuple[
     first = next(i for i, count in enumerate(numbers) if count)
     several = next((i for i, count in enumerate(numbers) if count > 1), first)
     described = [i for i in range(first, several) if numbers[i]]
-    names = [i for i in range(first, several) if not numbers[i] and sum(map(_filled, rows[i])) > 1]
-    if names and names[-1] > described[-1] and not any(is_number(rows[i][0]) for i in described):
+    filled = [sum(cell != "" for cell in row) for row in rows[:several]]
+    names = [i for i in range(first, several) if not numbers[i] and filled[i] > 1]
+    begins = next((cell for cell in rows[several] if cell != ""), "")
+    if (
+        names
+        and names[-1] > described[-1]
+        and is_number(begins)
+        and not any(is_number(rows[i][0]) for i in described)
+    ):
         return several, described[-1] + 1
     return first, 0
-
-
-def _filled(cell: Any) -> bool:
-    return bool(cell != "")
 
 
 def refuse_no_numbers(file: str, row: str, rows: Iterable[tuple[int, Any]]) -> NoReturn:
