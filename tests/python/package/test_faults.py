@@ -17,7 +17,7 @@ RUNS = {
     "memory": ["memory.py", "--limits", "2", "--points", "10000"],
     "disks": ["disks.py", "--times", "1"],
     "endings": ["endings.py", "--times", "1", "--only", "exit"],
-    "damaged files": ["damaged_files.py", "--times", "45", "--only", *FILES],
+    "damaged files": ["damaged_files.py", "--times", "27", "--only", *FILES],
 }
 
 
