@@ -15,8 +15,7 @@ import numpy.typing as npt
 from ..curves.inputs import Array
 from ..curves.named_curve import axis_names
 from .figures import label_axes, legend_above, new_figure
-from .links import draw_matching, draw_path, draw_placement
-from .palette import ACCENT_COLOUR
+from .links import draw_matching, draw_path, draw_placement, draw_walk
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -66,7 +65,7 @@ def _linked(
     if dim in (1, 2):
         draw(ax, columns, links, axis_names(dim, None, *(curves or ())))
     else:
-        ax.plot(*links.T[::-1], color=ACCENT_COLOUR, linewidth=1.3, label="path")
+        draw_walk(ax, links)
         label_axes(ax, *labels)
     legend_above(figure, ax)
     return figure
