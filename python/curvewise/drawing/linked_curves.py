@@ -6,7 +6,7 @@ O(n + m).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -18,8 +18,6 @@ from .figures import label_axes, legend_above, new_figure
 from .links import draw_matching, draw_path, draw_placement, draw_walk
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
     from .picture import Picture
 
 __all__ = ["alignment_figure", "matching_figure", "placement_figure"]
@@ -34,11 +32,7 @@ def alignment_figure(curves: Curves, path: npt.NDArray[np.int64]) -> Picture:
 
 def matching_figure(curves: Curves, walks: Array) -> Picture:
     """Draw curves and the leashes between two walks along them, or the walks alone."""
-
-    def draw(ax: Axes, curves: tuple[Array, Array], walks: Array, names: Sequence[str]) -> None:
-        draw_matching(ax, curves, curves, walks, names)
-
-    return _linked(curves, walks, draw, ("vertex of Q", "vertex of P"))
+    return _linked(curves, walks, draw_matching, ("vertex of Q", "vertex of P"))
 
 
 def placement_figure(

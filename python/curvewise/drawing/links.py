@@ -43,13 +43,13 @@ def draw_path(
 
 def draw_matching(
     ax: Axes,
-    measured: tuple[Array, Array],
     drawn: tuple[Array, Array],
     walks: Array,
     axes: Sequence[str],
+    measured: tuple[Array, Array] | None = None,
 ) -> CurveArtists:
-    """Draw a matching of the curves that were measured on the curves to be drawn."""
-    columns = [curve.reshape(len(curve), -1) for curve in measured]
+    """Draw a matching on curves; that of others, if it was these that were `measured`."""
+    columns = [curve.reshape(len(curve), -1) for curve in measured or drawn]
     ends = [points_at(curve, walks[:, k]) for k, curve in enumerate(columns)]
     longest = walks[np.argmax(np.linalg.norm(ends[0] - ends[1], axis=1))]
     lines = draw_curves(ax, *drawn, axes, apart=True)

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
-from .._options import Default, Metric, Order, WarpingName
+from .._options import Default, WarpingName
 from ..curves.ground_distance import check_metric, ground_distances
-from ..curves.inputs import Array, CurveLike
+from ..curves.inputs import CurveLike
 from ..drawing.figures import CurveArtists
 from ..drawing.links import draw_pair, draw_path
 from .measured import measured_and_drawn, warping_of
@@ -87,21 +86,12 @@ def plot_alignment(
     artists = draw_path(ax, drawn, path, axes, every=every)
     if measure == "dtw":
         return artists
-    farthest = path[_farthest_pair(*measured, path, **options)]
+    # The first place on the path where the ground distance is largest.
+    metric = check_metric(options.get("metric", Default.metric), options.get("p", Default.p))
+    points = [curve[path[:, k]].reshape(len(path), -1) for k, curve in enumerate(measured)]
+    farthest = path[np.argmax(ground_distances(points[0], points[1], *metric))]
     ends = [
         np.asarray(line.get_xydata())[i]
         for line, i in zip((artists.P, artists.Q), farthest, strict=True)
     ]
     return artists._replace(accent=draw_pair(ax, ends, "Fréchet distance"))
-
-
-def _farthest_pair(
-    P: Array,
-    Q: Array,
-    path: npt.NDArray[np.int64],
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-) -> int:
-    """Return the first place on the path where the ground distance is largest."""
-    p_points, q_points = (c[path[:, k]].reshape(len(path), -1) for k, c in enumerate((P, Q)))
-    return int(np.argmax(ground_distances(p_points, q_points, *check_metric(metric, p))))

@@ -75,7 +75,7 @@ def plot_matching(
     refused = "plot_matching draws 1 or 2 coordinates, plot_free_space any number"
     measured, drawn, axes = measured_and_drawn(P, Q, normalized, names, refused)
     walks = frechet_continuous_path(*measured).parameters
-    return draw_matching(ax, measured, drawn, walks, axes)
+    return draw_matching(ax, drawn, walks, axes, measured)
 
 
 def plot_free_space(

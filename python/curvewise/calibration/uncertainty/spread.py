@@ -80,7 +80,7 @@ def linear_covariance(optimum: Optimum, noise: Noise) -> Array:
     """
     k = optimum.unit.size
     information, scatter = np.zeros((k, k)), np.zeros((k, k))
-    columns = [optimum.responses.curves(column) for column in optimum.surfaces.slopes.T]
+    columns = optimum.slopes
     for i, sigma in enumerate(noise.sigma):
         y = optimum.problem.objective.y_columns[i]
         count = len(noise.fitted[i])
@@ -197,7 +197,7 @@ def _reminimised(optimum: Optimum, tests: list[Array], steps: Array) -> Array:
 
 def _natural_steps(optimum: Optimum, sigma: Array) -> Array:
     """Return steps, as columns, that the loops notice alike: about one standard error each."""
-    slopes = optimum.scaled_slopes()
+    slopes = np.concatenate(optimum.scaled_slopes())
     _, values, directions = np.linalg.svd(slopes, full_matrices=False)
     objective = optimum.problem.objective
     columns = zip(objective.extents, objective.y_columns, strict=True)
