@@ -138,7 +138,6 @@ def test_the_minimum_on_surfaces_of_thousands_of_points(measure):
         Objective(test, measure),
         responses,
         np.random.default_rng(0),
-        1e-9,
         lambda: calls.append(1),
     )
     exact = []
@@ -167,7 +166,6 @@ def test_where_thinned_curves_mislead_all_points_decide():
         Objective(test, Criterion(misled, preset="raw")),
         responses,
         np.random.default_rng(0),
-        1e-9,
         int,
     )
     best = minimum.lowest(surfaces, surfaces.centre, (np.zeros(2), np.ones(2)))

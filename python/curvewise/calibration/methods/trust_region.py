@@ -296,7 +296,6 @@ class _Search:
                 self._evaluations.objective,
                 self.responses,
                 self._random,
-                self._evaluations.negligible,
                 self._evaluations.show_activity,
                 self._gain,
             )
