@@ -134,11 +134,7 @@ def identify_each(
     return SeveralMeasures(found)
 
 
-def _go_on(
-    found: dict[str, Identification],
-    plan: Plan,
-    known: tuple[Run, ...],
-) -> None:
+def _go_on(found: dict[str, Identification], plan: Plan, known: tuple[Run, ...]) -> None:
     """Search again by each measure from what all have found, as long as one of them gains."""
     waiting = list(found)
     for _ in range(_ROUNDS):
