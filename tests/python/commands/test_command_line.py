@@ -6,6 +6,7 @@ import json
 import os
 import re
 import sys
+import warnings
 
 import pytest
 from command_runs import USAGE, assert_failed, python
@@ -88,6 +89,17 @@ def test_a_sentence_of_our_own_reaches_people_as_it_is(run, monkeypatch):
     monkeypatch.setattr("curvewise.calibration.report.records_of", fail)
     expected = "curvewise: the store s.db cannot be used: database is locked\n"
     assert run("report", "s.db") == (1, "", expected)
+
+
+def test_a_warning_is_said_without_its_line_of_python(run, monkeypatch):
+    def warned():
+        warnings.warn("test.csv: 3 lines left out", stacklevel=1)
+        return {}
+
+    monkeypatch.setattr("curvewise.commands.info.build_info", warned)
+    with warnings.catch_warnings():
+        warnings.simplefilter("always")
+        assert run("info") == (0, "", "curvewise: test.csv: 3 lines left out\n")
 
 
 def test_a_mistake_in_the_program_keeps_its_traceback(files, monkeypatch):

@@ -192,6 +192,11 @@ def test_a_check_sees_other_units(tmp_path: Path) -> None:
     [
         ('f = "force"', 'f = "Force"', "out.csv has no column 'Force'; its columns are time, st"),
         ('file = "out.csv"', 'file = "out.frd"', "the run has written no out.frd; it has written "),
+        (
+            'file = "out.csv"',
+            'file = "gone.csv"',
+            "the run has written no gone.csv; it has written",
+        ),
         ('"-S", "deck.py"', '"-S", "none.py"', "can't open file"),
         ("timeout = 60", 'timeout = 60\nsuccess = "N o r m a l"', "command.log does not hold 'N o"),
     ],
