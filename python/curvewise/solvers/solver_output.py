@@ -200,9 +200,10 @@ class SolverOutput:
                 raise ValueError(f"{self.file} has no {what} {wanted!r}{_instead(wanted, known)}")
             found = kept
         if len(found) > 1 and component.lower() != "time":
+            of_one = len({(table.variable, table.set_name) for table in found}) == 1
+            advice = "is the file damaged?" if of_one else "say which variable, or which set"
             raise ValueError(
-                f"{self.file} has {component!r} in several tables: {_listed(found)}; "
-                "say which variable, or which set"
+                f"{self.file} has {component!r} in several tables: {_listed(found)}; {advice}"
             )
         return found[0]
 

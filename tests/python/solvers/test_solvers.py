@@ -348,6 +348,7 @@ def test_every_reader_says_where_a_number_is_wrong(tmp_path: Path, read, text, m
             "there are no rows; was the run cut short",
         ),
         (read_ls_dyna_nodout, NODOUT[: NODOUT.index("x-disp")], "x-disp", "no component 'x-disp'"),
+        (read_ls_dyna_nodout, NODOUT.replace("z-vel", "z?vel", 1), "x-disp", "is the file damaged"),
     ],
 )
 def test_what_was_cut_short_is_said(tmp_path: Path, read, text, component, message) -> None:
