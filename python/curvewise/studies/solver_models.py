@@ -155,7 +155,7 @@ def _check_templates(given: Table, model: SolverModel, parameters: tuple[str, ..
             given.problem(
                 "templates",
                 f"{placeholder.place}: nothing is called {placeholder.name}; there is "
-                f"{', '.join(known)}{hint}",
+                f"{', '.join(known) or 'no parameter'}{hint}",
             )
     used = {placeholder.name for placeholder in placeholders}
     uses = used.union(*(value.uses for value in model.made))
