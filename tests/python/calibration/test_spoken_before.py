@@ -57,7 +57,7 @@ def test_noise_is_spoken_of_once_before_the_first_run(measure, said):
     assert said[1:] == ["run"] * 6
     category, message, file = said[0]
     assert (category, file) == (calibration.NoisyTestWarning, __file__)
-    noise = "the test has noise of about 3.8 in y, 0.33 % of its extent, and "
+    noise = "the test has noise of about 3.8 in y (0.33 % of its extent), and "
     assert message == f"{noise}{EFFECTS[measure]}{REMEDY}"
 
 
@@ -75,7 +75,7 @@ def test_noise_in_the_words_of_the_tests(said):
     identify(lambda p: [model(p)] * 3, loops, BOUNDS, measure="pcm", **ONE_RUN)
     cases = [Case("cycle", model, NOISY, measure="frechet"), Case("area", model, NOISY)]
     identify(cases, bounds=BOUNDS, **ONE_RUN)
-    beginnings = [message.partition(", 0.")[0] for _, message, _ in said]
+    beginnings = [message.partition(" (0.")[0] for _, message, _ in said]
     assert beginnings == [
         "Loop 1 has noise of about 3.8 in stress",
         "2 tests have noise, Loop 2 of about 7.6 in y",
@@ -138,8 +138,8 @@ def test_bounds_over_more_than_a_decade(bounds, wide, said):
     else:
         assert said[1][:2] == (
             calibration.WideBoundsWarning,
-            f"the bounds of {wide} go over more than a decade: give Log(low, high), a logarithmic "
-            "scale, on which small values are searched like large ones",
+            f"the bounds of {wide} go over more than a decade: a logarithmic scale searches small "
+            "values like large ones, Log(low, high), in a study scale = 'log'",
         )
 
 

@@ -226,7 +226,7 @@ def test_progress_moves_between_runs(monkeypatch):
     """On a test of thousands of points, without a run in between."""
     bar = MagicMock()
     bar.return_value.__enter__.return_value = bar
-    monkeypatch.setattr("tqdm.auto.tqdm", bar)
+    monkeypatch.setattr("tqdm.tqdm", bar)
     monkeypatch.setattr("curvewise.calibration.problem.evaluations._PAUSE", 0.0)
     x = np.linspace(0.0, 1.0, 1000)
 

@@ -72,8 +72,8 @@ def warn_of_noise(objectives: Collection[Objective]) -> None:
     which = f"{count} tests have noise, {worst.title}" if count > 1 else f"{worst.title} has noise"
     warn(
         NoisyTestWarning(
-            f"{which} of about {worst.sigma:.2g} in {worst.axis}, {100.0 * worst.share:.2g} % of "
-            f"its extent, and {advice_against_noise(one.measure for one in noisy)}"
+            f"{which} of about {worst.sigma:.2g} in {worst.axis} ({100.0 * worst.share:.2g} % of "
+            f"its extent), and {advice_against_noise(one.measure for one in noisy)}"
         )
     )
 

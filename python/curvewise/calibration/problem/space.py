@@ -198,8 +198,9 @@ class Space:
         if wide:
             warn(
                 WideBoundsWarning(
-                    f"the bounds of {', '.join(wide)} go over more than a decade: give Log(low, "
-                    "high), a logarithmic scale, on which small values are searched like large ones"
+                    f"the bounds of {', '.join(wide)} go over more than a decade: a logarithmic "
+                    "scale searches small values like large ones, Log(low, high), in a study "
+                    "scale = 'log'"
                 )
             )
 
