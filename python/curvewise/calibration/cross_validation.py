@@ -128,6 +128,11 @@ def cross_validate(
     RuntimeError, ImportError, KeyboardInterrupt
         As for :func:`identify`.
 
+    Warns
+    -----
+    NoisyTestWarning, WideBoundsWarning
+        As for :func:`identify`, once for all searches.
+
     Notes
     -----
     Time: for k loops that of k identifications, and k runs of the model; with ``store=`` a run that

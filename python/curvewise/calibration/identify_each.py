@@ -86,6 +86,11 @@ def identify_each(
     ValueError, RuntimeError, ImportError, KeyboardInterrupt
         As for :func:`identify`; a measure that is given twice.
 
+    Warns
+    -----
+    NoisyTestWarning, WideBoundsWarning
+        As for :func:`identify`, once for all searches.
+
     Notes
     -----
     Runs: for the four measures of `benchmarks/validation/shared_runs.py`, 7 parameters, 393, where
