@@ -68,6 +68,16 @@ def test_noise_that_does_no_harm_is_not_spoken_of(measure):
     identify(model, test, BOUNDS, measure=measure, **ONE_RUN)
 
 
+def test_a_measure_of_ones_own_is_not_spoken_of():
+    class Own:
+        __hash__ = None
+
+        def __call__(self, P, Q):
+            return float(np.abs(P - Q).max())
+
+    identify(model, NOISY, BOUNDS, measure=Own(), **ONE_RUN)
+
+
 def test_noise_in_the_words_of_the_tests(said):
     stress = NamedCurve(NOISY, ("strain", "stress"))
     loops = [model(TRUE), stress, with_noise(model(TRUE), 8.0, seed=1)]
@@ -91,7 +101,7 @@ def test_several_searches_speak_once(said):
     )
     noise, wide = calibration.NoisyTestWarning, calibration.WideBoundsWarning
     assert [category for category, *_ in said] == [noise, wide, noise, wide]
-    together = " and ".join(EFFECTS[one] for one in ("pcm", "frechet", "curve_length"))
+    together = " and ".join(EFFECTS.values())
     assert said[0][1].endswith(f", and {together}{REMEDY}")
     assert said[2][1].startswith("2 tests have noise")
 

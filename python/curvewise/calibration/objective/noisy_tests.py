@@ -55,7 +55,8 @@ class NoisyTestWarning(UserWarning):
 
 def advice_against_noise(measures: Iterable[object]) -> str:
     """Return what noise does to these measures, and what to do; nothing where it averages out."""
-    effects = [_EFFECTS[one] for one in dict.fromkeys(measures) if one in _EFFECTS]
+    given = list(measures)  # names, and functions that may have no hash
+    effects = [effect for measure, effect in _EFFECTS.items() if measure in given]
     if not effects:
         return ""
     remedy = "filter the test (curvewise.curves.smooth), or take another measure"
@@ -81,7 +82,7 @@ def warn_of_noise(objectives: Collection[Objective]) -> None:
 class _NoisyTest(NamedTuple):
     title: str
     axis: str
-    measure: object
+    measure: str
     sigma: float
     share: float  # of the extent
 
@@ -92,7 +93,8 @@ def _noisy_tests(objective: Objective) -> Iterator[_NoisyTest]:
     if objective.criterion is not None and len(titles) == 1:
         titles = ["the test"]
     for i, (P, y) in enumerate(zip(objective.experiments, objective.y_columns, strict=True)):
-        if (measure := objective.measures[i]) not in _EFFECTS:
+        measure = objective.measures[i]
+        if not isinstance(measure, str) or measure not in _EFFECTS:
             continue
         sigma = estimated_noise(P, y)
         share = sigma / (float(np.ptp(P[:, y])) or 1.0)
@@ -104,8 +106,9 @@ def estimated_noise(curve: Array, y: int) -> float:
     """Return the standard deviation of the noise in a column of a curve; 0 for a few points."""
     if len(curve) < _FEWEST:
         return 0.0
-    others = [curve[:, j] for j in range(curve.shape[1]) if j != y]
-    return min(_scatter(t, curve[:, y]) for t in (np.arange(float(len(curve))), *others))
+    places = [np.arange(float(len(curve))), *np.delete(curve, y, axis=1).T]
+    with np.errstate(all="ignore"):  # nan is no noise: neighbours that are all but one point
+        return min(_scatter(t, curve[:, y]) for t in places)
 
 
 def _scatter(t: Array, y: Array) -> float:
