@@ -27,6 +27,7 @@ from .methods.method import Method
 from .methods.search import Plan
 from .models.pool import Model
 from .objective.criterion import Measure
+from .objective.noisy_tests import warn_of_noise
 from .objective.objective import objectives_of
 from .problem.problem import Problem, models_of
 from .problem.space import Bounds, Space
@@ -85,6 +86,11 @@ def identify_each(
     ValueError, RuntimeError, ImportError, KeyboardInterrupt
         As for :func:`identify`; a measure that is given twice.
 
+    Warns
+    -----
+    NoisyTestWarning, WideBoundsWarning
+        As for :func:`identify`, once for all searches.
+
     Notes
     -----
     Runs: for the four measures of `benchmarks/validation/shared_runs.py`, 7 parameters, 393, where
@@ -115,6 +121,8 @@ def identify_each(
     plan = Plan(searching, seed, start, progress, None, max_runs)
     for objective in objectives.values():
         searching.check(objective.measures[0])
+    warn_of_noise(objectives.values())
+    space.warn_of_wide_bounds()
     found: dict[str, Identification] = {}
     with ExitStack() as stack:
         if store is None:

@@ -140,7 +140,7 @@ def _values(
     with ModelPool(model, workers) as pool:
         outcomes = pool.run(line)
         if progress:
-            outcomes = required("tqdm.auto").tqdm(outcomes, total=len(line), unit="run")
+            outcomes = required("tqdm").tqdm(outcomes, total=len(line), unit="run")
         for i, outcome in outcomes:
             for name, objective in objectives.items():
                 score = objective.score(outcome.simulations)

@@ -209,11 +209,6 @@ def test_start_is_evaluated_first(method):
     assert (found.history.a[0], found.history.b[0]) == pytest.approx((3.0, 1.5))
 
 
-def test_progress_bar_shows_the_best_value(capsys):
-    identify(line, EXPERIMENT, BOUNDS, max_runs=5)
-    assert "best=" in capsys.readouterr().err
-
-
 def test_pictures_have_a_panel_for_every_loop():
     found = identify(moved, moved({"a": 2, "b": 1}), BOUNDS, **QUICK)
     titles = [ax.get_title() for ax in found.plot().axes]

@@ -189,6 +189,7 @@ def test_a_result_is_not_lost_where_its_store_is(search, tmp_path):
         found.report(tmp_path / "x.html")
 
 
+@pytest.mark.filterwarnings("ignore::curvewise.calibration.NoisyTestWarning")
 def test_several_searches_of_a_store_on_one_page(tmp_path, capsys):
     # A single design over all of the bounds leaves no runs near the optimum: no intervals.
     keywords = {"method": SDRM(initial_range=1.0), "progress": False, "max_runs": 5}

@@ -10,7 +10,7 @@ import pytest
 from scipy import stats
 
 from curvewise import datasets
-from curvewise.calibration import SimulationStore, identify, identify_each
+from curvewise.calibration import NoisyTestWarning, SimulationStore, identify, identify_each
 
 X = np.linspace(0.0, 1.0, 40)
 BOUNDS = {"a": (-10.0, 10.0), "b": (-20.0, 20.0), "c": (-20.0, 20.0)}
@@ -217,7 +217,8 @@ def test_a_bias_is_measured_and_said():
     truth = {"E": 200e3, "yield": 300.0, "C": 80e3}
     keywords = {"start": truth, **QUIET}
     test = with_noise(hardening(truth), 5.0, seed=2)
-    biased = identify(hardening, test, THREE, measure="curve_length", **keywords)
+    with pytest.warns(NoisyTestWarning, match="curve_length takes noise for length"):
+        biased = identify(hardening, test, THREE, measure="curve_length", **keywords)
     uncertainty = biased.uncertainty(samples=60, sigma=5.0)
     assert uncertainty.bias["yield"] > 0.25 * uncertainty.standard_errors["yield"]
     assert "in the mean; intervals allow for it in part only" in str(uncertainty)
@@ -247,6 +248,7 @@ def test_pictures_and_errors():
 # Several measures.
 
 
+@pytest.mark.filterwarnings("ignore::curvewise.calibration.NoisyTestWarning")
 def test_several_measures_share_their_runs():
     runs = []
 

@@ -211,6 +211,16 @@ def test_a_check_says_why_a_run_has_no_curve(
     assert message in capsys.readouterr().err
 
 
+def test_what_a_search_warns_of_is_said_before_it_in_a_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = STUDY.replace("max_runs = 9", "max_runs = 1").replace("[200, 600]", "[20, 600]")
+    assert main(["identify", str(study_file(tmp_path, text))]) == 0
+    said, evaluated = capsys.readouterr().err.splitlines()
+    assert said.startswith("curvewise: the bounds of sy (20 to 600) go over more than a decade: ")
+    assert "1 evaluated, best " in evaluated
+
+
 def test_several_measures_share_runs(tmp_path: Path) -> None:
     text = STUDY.replace("[search]", '[search]\nmeasures = ["area", "sum_of_squares"]')
     found = Study.read(study_file(tmp_path, text)).run(progress=False)

@@ -96,7 +96,7 @@ class Evaluations:
         self._units: dict[Point, Array] = {}
         self._best: Point | None = None
         self._best_simulations: Any = None
-        self._predictions, self._shown = 0, time.monotonic()
+        self._shown, self._slowest = -np.inf, 0.0
         self._keeps_curves = False
         self._log_level = logging.WARNING  # of the first failure; all are kept anyway
 
@@ -153,11 +153,20 @@ class Evaluations:
 
     def show_activity(self) -> None:
         """Show that a search is at work between runs, on what it predicts of them."""
-        self._predictions += 1
-        now = time.monotonic()
-        if self._best is not None and now - self._shown > _PAUSE:
-            self._shown = now
-            self._bar.set_postfix(best=f"{self.best.value:.4g}", predicted=self._predictions)
+        if time.monotonic() - self._shown > _PAUSE:
+            self.show("choosing the next run")
+
+    def show(self, doing: str = "", *, refresh: bool = True) -> None:
+        """Say beside the progress what the best value is, and what the search is waiting for."""
+        stored = self._simulator.looked_up
+        parts = [
+            f"{stored} of them from the store" if stored else "",
+            "" if self._best is None else f"best value {self.best.value:.4g}",
+            doing,
+        ]
+        self._bar.set_postfix_str(", ".join(filter(None, parts)), refresh=refresh)
+        if refresh:
+            self._shown = time.monotonic()
 
     def values(self, units: Array) -> Array:
         """Return the objective at points of the unit cube, shape (count, dimensions)."""
@@ -211,10 +220,14 @@ class Evaluations:
         first = len(self._done) + 1
         finished: dict[Point, Evaluation] = {}
         simulations: dict[Point, Any] = {}
+        since = time.monotonic() - self._shown
+        self._show_waiting(len(batch), refresh=max(since, self._slowest) > _PAUSE)
         for k, outcome in self._simulator.run([self._space.dictionary(p) for p in batch]):
             point = batch[k]
             finished[point] = self._judged(first + k, point, outcome)
             simulations[point] = outcome.simulations
+            self._slowest = max(self._slowest, outcome.seconds)
+            self._show_waiting(len(batch) - len(finished), refresh=False)
             self._bar.update()
         for point in batch:
             self._done[point] = finished[point]
@@ -222,6 +235,11 @@ class Evaluations:
             if self._best is None or finished[point].value < self.best.value:
                 self._best = point
                 self._best_simulations = simulations.get(point)
+
+    def _show_waiting(self, runs: int, *, refresh: bool) -> None:
+        self.show(
+            f"waiting for {runs} run{'s' if runs > 1 else ''}" if runs else "", refresh=refresh
+        )
 
     def _judged(self, number: int, point: Point, outcome: Outcome) -> Evaluation:
         # Its message in full, as the objective would give it for an exception.
@@ -240,7 +258,7 @@ class Evaluations:
 
     def _report(self) -> None:
         best = self.best
-        self._bar.set_postfix(best=f"{best.value:.4g}", refresh=False)
+        self.show(refresh=False)
         if self._callback is None:
             return
         parameters = self._space.dictionary(best.point)

@@ -52,8 +52,9 @@ class Simulator:
     ----------
     store
         As given.
-    runs : int
-        How many runs of models this simulator has made.
+    runs, looked_up : int
+        How many runs of models this simulator has made, and how many sets of parameters it has
+        looked up.
     """
 
     def __init__(
@@ -70,7 +71,7 @@ class Simulator:
             self._identities = [model_identity(model, store.version) for model in models]
             for identity in self._identities:
                 store.register(identity)
-        self.runs = 0
+        self.runs = self.looked_up = 0
 
     def run(self, parameters: Sequence[dict[str, float]]) -> Iterator[tuple[int, Outcome]]:
         """Yield index and outcome of every dict, those that are stored first."""
@@ -78,6 +79,7 @@ class Simulator:
         missing = []
         for i, outcomes in enumerate(found):
             if len(outcomes) == self._count:
+                self.looked_up += 1
                 yield i, self._assembled(outcomes)
             missing += [(i, j) for j in range(self._count) if j not in outcomes]
         calls = [{"model": j, "parameters": parameters[i]} for i, j in missing]

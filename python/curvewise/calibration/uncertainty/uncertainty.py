@@ -20,6 +20,7 @@ import numpy as np
 from ...curves.inputs import Array
 from ...drawing.intervals import Intervals, intervals_and_moves
 from ...showing.result import Result, Table
+from ..objective.noisy_tests import advice_against_noise
 from ..problem.tables import parameter_table
 from .determined import determined_by, is_narrow
 from .noise import noise_of
@@ -35,8 +36,6 @@ _Value = TypeVar("_Value")
 
 # A bias of less than this many standard errors does not matter (Efron & Tibshirani, section 10.3).
 _HARMLESS_BIAS = 0.25
-# Measures that go by arc length, which noise adds to.
-_OF_LENGTH = ("curve_length", "pcm")
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,11 +142,8 @@ class Uncertainty(Result):
             lines.append(
                 f"noise like this moves {moved} in the mean; intervals allow for it in part only"
             )
-            if self.measure in _OF_LENGTH:
-                lines.append(
-                    f"{self.measure} takes noise for length: filter the test "
-                    "(curvewise.curves.smooth), or take another measure"
-                )
+            if advice := advice_against_noise(self.optimum.problem.objective.measures):
+                lines.append(advice)
         return [table, "\n".join(lines)]
 
     def _biased(self) -> str:
