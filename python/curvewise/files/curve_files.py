@@ -155,7 +155,7 @@ def read_named_columns(
     values, names = _read(path, columns, sheet)
     titles = _titles(names)
     if factors is None:
-        return NamedCurve(values, titles), names
+        return NamedCurve(values, titles, Path(path).name), names
     given = np.asarray(factors, dtype=np.float64)
     if given.shape != values.shape[1:]:
         raise ValueError(
@@ -168,7 +168,7 @@ def read_named_columns(
         name if factor == 1.0 else f"{name} × {factor:.10g}"
         for name, factor in zip(titles, given.tolist(), strict=True)
     ]
-    return NamedCurve(values * given, changed), names
+    return NamedCurve(values * given, changed, Path(path).name), names
 
 
 def _titles(names: list[str]) -> list[str]:

@@ -10,7 +10,9 @@ import pytest
 from scipy import stats
 
 from curvewise import datasets
-from curvewise.calibration import SimulationStore, identify, identify_each
+from curvewise.calibration import Log, SimulationStore, identify, identify_each
+from curvewise.calibration.problem.space import Space
+from curvewise.calibration.uncertainty.determined import determined
 
 X = np.linspace(0.0, 1.0, 40)
 BOUNDS = {"a": (-10.0, 10.0), "b": (-20.0, 20.0), "c": (-20.0, 20.0)}
@@ -185,6 +187,31 @@ def test_a_parameter_at_its_bound_is_not_determined():
     assert uncertainty.at_bounds == {"a": "lower"}
     assert not uncertainty.determined["a"]
     assert "at its lower bound" in str(uncertainty)
+
+
+@pytest.mark.parametrize(
+    ("bounds", "value", "change", "expected"),
+    [
+        ((0.0, 100.0), 58.5, 10.5, True),  # 58.5 ± 5, were the tests ten times as many
+        ((0.0, 1000.0), 58.5, 25.0, False),
+        ((55.0, 65.0), 58.5, 4.0, False),  # the bounds had said as much
+        ((-1.0, 1.0), 0.001, 0.03, True),  # next to nothing, and known to be
+        (Log(1e-3, 1e3), 1.0, 0.2, True),
+        (Log(1e-3, 1e3), 1.0, 0.4, False),
+        ((0.0, 58.5), 58.5, 1.0, False),  # at its bound
+    ],
+)
+def test_what_is_determined(bounds, value, change, expected):
+    assert determined(Space({"Q": bounds}), {"Q": value}, [change]) == {"Q": expected}
+
+
+def test_errors_are_said_in_per_cent():
+    uncertainty = identify(parabola, TEST, BOUNDS, measure="sum_of_squares", **QUIET).uncertainty()
+    rows = str(uncertainty).splitlines()
+    assert rows[0].split()[:5] == ["parameter", "value", "std.", "error", "%"]
+    for row, (name, error) in zip(rows[1:], uncertainty.standard_errors.items(), strict=False):
+        per_cent = 100 * error / abs(uncertainty.parameters[name])
+        assert row.split()[3] == f"{per_cent:.2g}"
 
 
 def test_draws_that_end_at_a_bound_make_up_no_limit():

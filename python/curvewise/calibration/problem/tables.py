@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 from ...showing.result import Table
 from .space import Space
 
-__all__ = ["measure_table", "parameter_table"]
+__all__ = ["measure_table", "parameter_table", "per_cent"]
 
 _NARROWEST = 12  # characters of a column of numbers
 
@@ -35,7 +36,7 @@ def parameter_table(
     """
     header = ["parameter", "value"]
     if spread is not None:
-        header += ["std. error", f"{100 * spread['level']:g} % from", "to"]
+        header += ["std. error", "%", f"{100 * spread['level']:g} % from", "to"]
     if with_bounds:
         header += ["from", "to"] if spread is None else ["lower bound", "upper bound"]
     at_bounds = space.at_bounds(parameters) if parameters else {}
@@ -46,13 +47,22 @@ def parameter_table(
         if name in space.bounds:
             note = f"at its {at_bounds[name]} bound" if name in at_bounds else ""
             if spread is not None:
-                low, high = spread["intervals"][name]
-                cells += [f"{spread['standard_errors'][name]:.3g}", f"{low:.5g}", f"{high:.5g}"]
+                error, interval = spread["standard_errors"][name], spread["intervals"][name]
+                cells += [f"{error:.3g}", per_cent(error, value)]
+                cells += [f"{end:.5g}" for end in interval]
                 note = note or ("" if spread["determined"][name] else "not determined")
             if with_bounds:
                 cells += [f"{bound:.6g}" for bound in space.bounds[name]]
         rows.append([*cells, *[""] * (len(header) - len(cells)), note])
     return Table(rows, [*header, ""], _NARROWEST)
+
+
+def per_cent(error: float, value: float) -> str:
+    """Return an error in per cent of a value, to two digits; nothing where the value is 0."""
+    share = 100.0 * error / abs(value) if value else math.inf
+    if not math.isfinite(share):
+        return ""
+    return f"{share:.2g}" if share < 99.5 else f"{share:.0f}"
 
 
 def measure_table(values: Mapping[str, float], minimised: str, preset: str) -> Table:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...curves.inputs import Array
-from ...drawing.figures import evenly, xy_labels, xy_of
+from ...drawing.figures import evenly, log_ticks, xy_labels, xy_of
 from ...drawing.palette import (
     ACCENT_COLOUR,
     FILL_COLOUR,
@@ -25,6 +25,7 @@ from ...drawing.palette import (
     series_colours,
 )
 from ..problem.space import Space
+from ..problem.tables import per_cent
 from ..records.evaluation import Evaluation
 
 __all__ = [
@@ -108,8 +109,10 @@ def convergence(evaluations: Sequence[Evaluation], objective: str) -> Figure:
         said = "evaluation %{x} failed<extra></extra>"
         traces.append(marks | {"yaxis": "y2", "hovertemplate": said})
         layout["yaxis2"] = {"overlaying": "y", "range": [0, 1], "visible": False}
-    if (value[good] > 0).any() and (best[good] > 0).all():
-        layout["yaxis"] = {"type": "log"}
+    drawn = value[good]
+    if drawn.size and best[-1] > 0 and (ticks := log_ticks(best[-1], drawn.max())):
+        texts = [f"{tick:g}" for tick in ticks]
+        layout["yaxis"] = {"type": "log", "tickvals": ticks, "ticktext": texts}
     return _figure(traces, "evaluation", objective, **layout)
 
 
@@ -129,7 +132,9 @@ def intervals(space: Space, parameters: dict[str, float], summary: dict[str, Any
             value, (low, high) = parameters[name], summary["intervals"][name]
             places = (space.place(name, x, parameters) for x in (low, high, value))
             ends.append([min(max(place, 0.0), 1.0) for place in places])
-            texts.append(html.escape(f"{name} = {value:.5g}, {low:.5g} to {high:.5g}"))
+            share = per_cent(summary["standard_errors"][name], value)
+            error = f" ± {share} %" if share else ""
+            texts.append(html.escape(f"{name} = {value:.5g}{error}, {low:.5g} to {high:.5g}"))
         bars = _bars(chosen, [(low, high) for low, high, _ in ends], label, colour, 3)
         at = [place for *_, place in ends]
         dots = _trace(at, chosen, label, colour, "markers", size=10, legendgroup=label)
@@ -138,10 +143,10 @@ def intervals(space: Space, parameters: dict[str, float], summary: dict[str, Any
     return _figure(
         traces,
         "place between the bounds",
-        "",
+        title=f"{100 * summary['level']:g} % intervals",
         xaxis={"range": [-0.03, 1.03]},
         yaxis={**_DOWNWARDS, "categoryorder": "array", "categoryarray": names},
-        height=130 + 34 * len(names),
+        height=155 + 34 * len(names),
     )
 
 
@@ -170,9 +175,10 @@ def correlations(names: Sequence[str], table: Sequence[Sequence[float]]) -> Figu
     }
     return _figure(
         [trace],
+        title="Correlations of the errors",
         xaxis={"type": "category", "showgrid": False},
         yaxis={**_DOWNWARDS, "showgrid": False},
-        height=160 + 42 * len(names),
+        height=185 + 42 * len(names),
     )
 
 

@@ -19,9 +19,11 @@ from pathlib import Path
 
 from ..._extras import extra
 from ..records.search_record import SearchRecord
+from .branches import loops_of
 from .figures import Figure
-from .sections import AddFigure, headline, most_points, objective_name, overview, sections_of
-from .uncertainty_summary import summary_of_record
+from .sections import AddFigure, most_points, objective_name, overview, sections_of
+from .uncertainty_summary import Summary, summary_of_record
+from .verdict import footnote, verdict
 
 __all__ = ["page", "write_report"]
 
@@ -63,39 +65,39 @@ def page(records: Sequence[SearchRecord]) -> str:
         )
 
     most = most_points(records, _POINTS)
-    several = len(records) > 1
-    numbered = dict(enumerate(records, 1))
+    searches = [(record, summary_of_record(record)) for record in records]
     title = f"Identification of {', '.join(records[0].names)}"
     body = [f"<h1>{html.escape(title)}</h1>"]
-    if several:
-        body.append(overview(numbered))
-    for number, record in numbered.items():
-        body.append(_search(record, f"s{number}", _heading(record, number, several), add, most))
-    data = json.dumps(figures, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+    if len(searches) > 1:
+        body.append(overview(searches))
+    for number, (record, summary) in enumerate(searches, 1):
+        heading = f"{objective_name(record)}, {record.settings['method']}"
+        if len(searches) > 1:
+            heading = f"Search {number}: {heading}"
+        body.append(_search(record, summary, f"s{number}", heading, add, most))
+    data = json.dumps(figures, separators=(",", ":"), allow_nan=False)
     return _PAGE.format(
         title=html.escape(title),
         style=_asset("report.css"),
         body="\n".join(body),
-        figures=data,
+        figures=data.replace("<", "\\u003c"),  # a name cannot end the script, or begin another
         plotly=script,
         draw=_asset("report.js"),
     )
 
 
-def _heading(record: SearchRecord, number: int, several: bool) -> str:
-    text = f"{objective_name(record)}, {record.settings['method']}"
-    return f"Search {number}: {text}" if several else text
-
-
-def _search(record: SearchRecord, prefix: str, heading: str, add: AddFigure, most: int) -> str:
-    summary, reason = summary_of_record(record)
-    sections = list(enumerate(sections_of(record, summary, reason, add, most)))
+def _search(
+    record: SearchRecord, summary: Summary, prefix: str, heading: str, add: AddFigure, most: int
+) -> str:
+    loops = loops_of(record)
+    sections = list(enumerate(sections_of(record, loops, *summary, add, most)))
     links = [f'<a href="#{prefix}-{i}">{title}</a>' for i, (title, _) in sections]
     parts = [
         f'<section id="{prefix}"><h2>{html.escape(heading)}</h2>',
-        f'<p class="state">{html.escape(headline(record, summary))}</p>',
+        verdict(record, loops, *summary),
         f"<nav>{' · '.join(links)}</nav>",
         *(f'<h3 id="{prefix}-{i}">{title}</h3>\n{content}' for i, (title, content) in sections),
+        footnote(record),
         "</section>",
     ]
     return "\n".join(parts)

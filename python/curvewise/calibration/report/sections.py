@@ -10,15 +10,17 @@ import numpy as np
 
 from ...comparing.deviations import Deviation, cells
 from ...showing.result import Table, paragraph
-from ..problem.tables import measure_table, parameter_table
+from ..problem.tables import measure_table, parameter_table, per_cent
 from ..records.search_record import SearchRecord, curves_of
+from ..uncertainty.determined import THE_RULE
 from . import figures
-from .branches import branches_of
+from .branches import Loop
 from .figures import Figure
 from .repeating import code_to_repeat
-from .uncertainty_summary import space_of
+from .uncertainty_summary import Summary, space_of
+from .verdict import asked_for
 
-__all__ = ["AddFigure", "headline", "most_points", "objective_name", "overview", "sections_of"]
+__all__ = ["AddFigure", "most_points", "objective_name", "overview", "sections_of"]
 
 AddFigure = Callable[[Figure, str], str]
 """Takes a figure and what it shows in words, and returns the HTML of its place."""
@@ -26,33 +28,19 @@ AddFigure = Callable[[Figure, str], str]
 _MOST_FAILURES = 100  # in the table; the others are counted
 
 
-def headline(record: SearchRecord, summary: dict[str, Any] | None) -> str:
-    """Return the state of a search as a sentence; what is undetermined has not converged."""
-    failed = sum(one.failed for one in record.evaluations)
-    count = f"{len(record.evaluations)} evaluations" + (f", {failed} failed" if failed else "")
-    if record.ending is None:
-        return f"The search has not ended: it was interrupted, or goes on. So far {count}."
-    determined = {} if summary is None else summary["determined"]
-    loose = [name for name, good in determined.items() if not good]
-    if record.ending.converged and loose:
-        names = ", ".join(loose)
-        return f"Undetermined: {names}. The search ended: {record.ending.message}. {count}."
-    state = "Converged" if record.ending.converged else "Not converged"
-    return f"{state}: {record.ending.message}. {count}."
-
-
 def objective_name(record: SearchRecord) -> str:
     """Return what is minimised, with its preset."""
     return f"{record.settings['measure']} ({record.settings['preset']})"
 
 
-def overview(records: dict[int, SearchRecord]) -> str:
+def overview(searches: Sequence[tuple[SearchRecord, Summary]]) -> str:
     """Return the parameters that several searches have found, side by side."""
-    names = list(dict.fromkeys(name for record in records.values() for name in record.names))
+    names = list(dict.fromkeys(name for record, _ in searches for name in record.names))
     rows = []
-    for number, record in records.items():
+    for number, (record, (summary, _)) in enumerate(searches, 1):
         parameters, best = _parameters(record), record.best
-        values = [f"{parameters[name]:.5g}" if name in parameters else "" for name in names]
+        errors = {} if summary is None else summary["standard_errors"]
+        values = [_with_error(name, parameters, errors) for name in names]
         value = "" if best is None else f"{best.value:.5g}"
         searched = [f"{number}", objective_name(record), record.settings["method"]]
         rows.append([*searched, *values, f"{len(record.evaluations)}", value])
@@ -60,8 +48,17 @@ def overview(records: dict[int, SearchRecord]) -> str:
     return Table(rows, header).html()
 
 
+def _with_error(name: str, parameters: dict[str, float], errors: dict[str, float]) -> str:
+    """Return a value with its error in per cent, as far as they are known."""
+    if name not in parameters:
+        return ""
+    share = per_cent(errors[name], parameters[name]) if name in errors else ""
+    return f"{parameters[name]:.5g}{f' ± {share} %' if share else ''}"
+
+
 def sections_of(
     record: SearchRecord,
+    loops: Sequence[Loop],
     summary: dict[str, Any] | None,
     reason: str,
     add: AddFigure,
@@ -72,6 +69,8 @@ def sections_of(
     Parameters
     ----------
     record : SearchRecord
+    loops : sequence of Loop
+        Its tests, with their simulations.
     summary, reason
         What `summary_of_record` gives.
     add : callable
@@ -81,12 +80,12 @@ def sections_of(
     """
     return [
         ("Parameters", _parameters_section(record, summary, reason, add)),
-        ("Tests and simulations", _tests(record, add, most)),
-        ("Residuals by branch", _residuals(record, add, most)),
+        ("Tests and simulations", _tests(record, loops, add, most)),
+        ("Residuals by branch", _residuals(loops, add, most)),
         ("Convergence", _convergence(record, add)),
-        ("Weakest directions", _weakest(record, summary, reason, add, most)),
+        ("Weakest directions", _weakest(record, loops, summary, reason, add, most)),
         ("Failures", _failures(record)),
-        ("Settings and versions", _settings(record)),
+        ("Settings and versions", _settings(record, loops)),
     ]
 
 
@@ -110,6 +109,8 @@ def _parameters_section(
         intervals = figures.intervals(space, parameters, summary)
         correlations = figures.correlations(space.names, summary["correlations"])
         left = add(intervals, "Intervals between the bounds")
+        if not all(summary["determined"].values()):
+            note += paragraph(f"{THE_RULE}.")
         parts += [note, _side_by_side(left, add(correlations, "Correlations of the errors"))]
     if record.ending is not None:
         values, settings = record.ending.measures, record.settings
@@ -123,30 +124,23 @@ def _side_by_side(*places: str) -> str:
     return "\n".join(['<div class="figures">', *places, "</div>"])
 
 
-def _loops(record: SearchRecord) -> list[tuple[str, list[str], Any, Any]]:
-    """Return title, names of the axes, test, and simulation or None, of every loop with points."""
-    tests = record.experiments
-    simulated: list[Any] = [*record.curves, *[None] * (len(tests) - len(record.curves))]
-    details = record.details
-    return list(zip(details["titles"], details["axes"], tests, simulated, strict=True))
-
-
-def _tests(record: SearchRecord, add: AddFigure, most: int) -> str:
+def _tests(record: SearchRecord, loops: Sequence[Loop], add: AddFigure, most: int) -> str:
     drawn, numbers = [], []
-    for title, axes, test, simulation in _loops(record):
-        if test.size == 1:
-            number = "" if simulation is None else f"{simulation[0, 0]:.6g}"
-            numbers.append([title, f"{test[0, 0]:.6g}", number])
+    for loop in loops:
+        if loop.test.size == 1:
+            number = f"{loop.simulation[0, 0]:.6g}" if loop.has_number else ""
+            numbers.append([loop.title, f"{loop.test[0, 0]:.6g}", number])
             continue
-        figure = figures.loop(test, simulation, axes, title, most)
-        drawn.append(add(figure, f"{title}: test and simulation"))
-    parts = [_side_by_side(*drawn)]
+        figure = figures.loop(loop.test, loop.simulation, loop.axes, loop.title, most)
+        drawn.append(add(figure, f"{loop.title}: test and simulation"))
+    asked = asked_for(loops)
+    parts = [paragraph(asked) if asked else "", _side_by_side(*drawn)]
     if numbers:
         parts.append(Table(numbers, ["number", "test", "simulation"]).html())
     deviations = [] if record.ending is None else record.ending.deviations
     rows = [
         [title, *cells(Deviation(*deviation))]
-        for title, deviation in zip(record.details["titles"], deviations, strict=False)
+        for title, deviation in zip((loop.title for loop in loops), deviations, strict=False)
         if deviation is not None
     ]
     if rows:
@@ -157,15 +151,14 @@ def _tests(record: SearchRecord, add: AddFigure, most: int) -> str:
     return "\n".join(parts)
 
 
-def _residuals(record: SearchRecord, add: AddFigure, most: int) -> str:
+def _residuals(loops: Sequence[Loop], add: AddFigure, most: int) -> str:
     drawn, rows = [], []
-    for (title, axes, test, simulation), y in zip(_loops(record), record.details["y"], strict=True):
-        if simulation is None or len(test) < 2:
-            continue
-        branches = branches_of(test, simulation, y)
-        names = axes if len(axes) == 1 else [axes[0], axes[y]]
-        drawn.append(add(figures.residuals(branches, names, title, most), f"{title}: residuals"))
-        rows += [[title, *branch.row()] for branch in branches]
+    for loop in loops:
+        if loop.branches:
+            names = loop.axes if len(loop.axes) == 1 else [loop.axes[0], loop.y_name]
+            figure = figures.residuals(loop.branches, names, loop.title, most)
+            drawn.append(add(figure, f"{loop.title}: residuals"))
+            rows += [[loop.title, *branch.row()] for branch in loop.branches]
     if not rows:
         return paragraph("There is no simulated curve to take from a test.")
     header = ["loop", "branch", "x from", "to", "points", "mean", "rms", "largest"]
@@ -188,25 +181,31 @@ def _convergence(record: SearchRecord, add: AddFigure) -> str:
 
 
 def _weakest(
-    record: SearchRecord, summary: dict[str, Any] | None, reason: str, add: AddFigure, most: int
+    record: SearchRecord,
+    loops: Sequence[Loop],
+    summary: dict[str, Any] | None,
+    reason: str,
+    add: AddFigure,
+    most: int,
 ) -> str:
     if summary is None:
         return paragraph(reason)
     names, in_words = record.names, summary["in_words"]
     drawn = []
     moved = zip(*map(curves_of, summary["moved"]), strict=True)
-    for (title, axes, test, simulation), both in zip(_loops(record), moved, strict=True):
-        if test.size > 1 and simulation is not None:
-            figure = figures.weakest_direction(test, simulation, both, axes, title, most)
-            drawn.append(add(figure, f"{title}, moved along the weakest direction"))
+    for loop, both in zip(loops, moved, strict=True):
+        if loop.test.size > 1 and loop.simulation is not None:
+            drawn_of = (loop.test, loop.simulation, both, loop.axes, loop.title, most)
+            figure = figures.weakest_direction(*drawn_of)
+            drawn.append(add(figure, f"{loop.title}, moved along the weakest direction"))
     changes = [
         [name, f"{summary['weakest_direction'][name]:.4g}", f"{summary['unnoticed'][name]:.4g}"]
         for name in names
     ]
     header = ["parameter", "change along the weakest direction", "change that raises the value 1 %"]
     sensitivities = [
-        [title, *(f"{100 * value:.3g}" for value in row)]
-        for title, row in zip(record.details["titles"], summary["sensitivities"], strict=True)
+        [loop.title, *(f"{100 * value:.3g}" for value in row)]
+        for loop, row in zip(loops, summary["sensitivities"], strict=True)
     ]
     singular = ", ".join(f"{100 * value:.3g}" for value in summary["singular_values"])
     parts = [
@@ -234,12 +233,11 @@ def _failures(record: SearchRecord) -> str:
     return made + (paragraph(f"And {more} more.") if more else "")
 
 
-def _settings(record: SearchRecord) -> str:
+def _settings(record: SearchRecord, loops: Sequence[Loop]) -> str:
     details, settings = record.details, record.settings
-    loops = zip(_loops(record), settings["weights"], strict=True)
     tests = [
-        [title, f"{len(curve)}", ", ".join(axes), f"{weight:.4g}"]
-        for (title, axes, curve, _), weight in loops
+        [loop.title, f"{len(loop.test)}", ", ".join(loop.axes), f"{weight:.4g}"]
+        for loop, weight in zip(loops, settings["weights"], strict=True)
     ]
     rows = [["model", "; ".join(details["model"])], *details["versions"].items()]
     rows.append(["SHA-256 of the tests", settings["experiments"]])

@@ -20,8 +20,8 @@ import numpy as np
 from ...curves.inputs import Array
 from ...drawing.intervals import Intervals, intervals_and_moves
 from ...showing.result import Result, Table
-from ..problem.tables import parameter_table
-from .determined import determined_by, is_narrow
+from ..problem.tables import parameter_table, per_cent
+from .determined import determined
 from .noise import noise_of
 from .sensitivity import Optimum, sensitivity_of
 from .spread import bootstrapped_spread, linear_spread
@@ -67,9 +67,9 @@ class Uncertainty(Result):
     unnoticed : dict of str to float
         By how much each parameter may change, others with it, before the objective rises by 1 %.
     determined : dict of str to bool
-        Whether half the interval, twice the error by linear theory and `unnoticed` are all within
-        10 % of the bounds' range and 20 % of the value (or 2 % of the range), and the parameter is
-        not at a bound.
+        Whether half the interval and `unnoticed` are within 25 % of the value (or 2 % of the
+        bounds' range, if that is more) and 25 % of the bounds' range, and the parameter is not at a
+        bound.
     at_bounds : dict of str to str
         "lower" or "upper", for the parameters that are at a bound.
     sigma : ndarray, shape (loops,)
@@ -178,8 +178,9 @@ class Uncertainty(Result):
             value = self.parameters[name]
             ends = (*self.intervals[name], value)
             places.append([space.place(name, end, self.parameters) for end in ends])
+            share = per_cent(error, value)
             note = "" if self.determined[name] else ", not determined"
-            texts.append(f"{value:.4g} ± {error:.2g}{note}")
+            texts.append(f"{value:.4g} ± {error:.2g}{f' ({share} %)' if share else ''}{note}")
         return intervals_and_moves(
             Intervals(space.names, places, texts, list(self.determined.values()), self.level),
             self.correlations,
@@ -216,27 +217,24 @@ def uncertainty_of(
     weakest = differential @ directions[-1]
     shares = np.abs(weakest) / np.maximum(np.abs(point), 1e-300)
     weakest = weakest * (0.1 / shares.max()) * (np.sign(weakest[np.argmax(shares)]) or 1.0)
-    at_bounds = space.at_bounds(parameters)
 
     def named(values: Iterable[_Value]) -> dict[str, _Value]:
         return dict(zip(space.names, values, strict=True))
 
-    intervals = named(spread.intervals)
+    unnoticed = np.abs(differential) @ reach
+    halves = np.ptp(spread.intervals, axis=1) / 2.0
     return Uncertainty(
         parameters=parameters,
         standard_errors=named(spread.errors.tolist()),
-        intervals=intervals,
+        intervals=named(spread.intervals),
         bias=named(spread.bias.tolist()),
         correlations=spread.correlations,
         sensitivities=optimum.loop_sensitivities(),
         singular_values=values,
         weakest_direction=named(weakest.tolist()),
-        unnoticed=named((np.abs(differential) @ reach).tolist()),
-        determined={
-            name: good and name not in at_bounds and is_narrow(optimum, i, intervals[name])
-            for i, (name, good) in enumerate(determined_by(optimum, reach).items())
-        },
-        at_bounds=at_bounds,
+        unnoticed=named(unnoticed.tolist()),
+        determined=determined(space, parameters, np.maximum(halves, unnoticed).tolist()),
+        at_bounds=space.at_bounds(parameters),
         sigma=noise.sigma,
         level=level,
         measure=objective.measure,

@@ -1,0 +1,141 @@
+"""What a page begins with: in plain words what the tests determine and how far the model is off.
+
+Written for those who read no further. Distances are differences in y, in the unit that stands in
+the name of the test's column. What the search said of itself at its end is a footnote.
+"""
+
+from __future__ import annotations
+
+import html
+import re
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ...showing.result import paragraph
+from ..problem.tables import per_cent
+from ..records.search_record import SearchRecord
+from .branches import Loop
+
+__all__ = ["asked_for", "footnote", "verdict"]
+
+# "stress [MPa]", "stress (MPa)", "stress, MPa", "stress / MPa", "stress in MPa".
+_UNIT = re.compile(r"[\[(]([^\[\]()]+)[\])]\s*$|(?:,|\s/|\sin)\s+(\S+)$")
+
+
+def verdict(
+    record: SearchRecord, loops: Sequence[Loop], summary: dict[str, Any] | None, reason: str
+) -> str:
+    """Return the verdict as HTML.
+
+    Parameters
+    ----------
+    record : SearchRecord
+    loops : sequence of Loop
+        Its tests, with their simulations.
+    summary, reason
+        What `summary_of_record` gives.
+    """
+    sentences = [_ended(record), *_determined(record, len(loops), summary, reason)]
+    made = [paragraph(" ".join(filter(None, sentences)))]
+    known = [loop for loop in loops if loop.branches or loop.has_number]
+    if len(known) == 1:
+        made.append(paragraph(f"At the optimum the model {_distance(known[0])}."))
+    elif known:
+        items = [f"<li>{html.escape(f'{one.title}: it {_distance(one)}')}</li>" for one in known]
+        made.append("\n".join([paragraph("At the optimum of the model:"), "<ul>", *items, "</ul>"]))
+    return "\n".join(['<div class="verdict">', *made, paragraph(_runs(record)), "</div>"])
+
+
+def footnote(record: SearchRecord) -> str:
+    """Return the last words of the method, as HTML."""
+    if record.ending is None:
+        return ""
+    words = html.escape(record.ending.message)
+    return f'<p class="footnote">The last words of {record.settings["method"]}: {words}.</p>'
+
+
+def asked_for(loops: Sequence[Loop]) -> str:
+    """Say which names and units of axes are not known, and how to give them; else nothing."""
+    curves = [loop for loop in loops if loop.test.size > 1]
+    nameless = [loop.title for loop in curves if not loop.is_named]
+    names = dict.fromkeys(name for loop in curves if loop.is_named for name in loop.axes)
+    unitless = [f'"{name}"' for name in names if not _UNIT.search(name) and "×" not in name]
+    asked = []
+    if nameless:
+        asked.append(
+            f"the names of the columns of {_listed(nameless)} are not known: read the test with "
+            "curvewise.read_curve, or give it as curvewise.curves.named_curve.NamedCurve(test, "
+            '["strain [-]", "stress [MPa]"])'
+        )
+    if unitless:
+        asked.append(
+            f"the units of {_listed(unitless)} are not known: write them into the names of the "
+            'columns, as in "stress [MPa]", and [-] for none'
+        )
+    return f"For the axes of the figures, {'; '.join(asked)}." if asked else ""
+
+
+def _ended(record: SearchRecord) -> str:
+    if record.ending is None:
+        return "The search has not ended: it was interrupted, or goes on."
+    if not record.ending.converged:
+        return "The search has not converged: these are the best parameters that it has met."
+    return ""
+
+
+def _determined(
+    record: SearchRecord, count: int, summary: dict[str, Any] | None, reason: str
+) -> list[str]:
+    """Say which parameters the tests determine, which not, and which are at a bound."""
+    if record.ending is None:
+        return []
+    tests, it, verb = ("test", "it", "determines") if count == 1 else ("tests", "they", "determine")
+    if summary is None:
+        return [f"What the {tests} {verb} is not known. {reason}"]
+    values, errors = record.ending.parameters, summary["standard_errors"]
+    said = {
+        name: f"{name} = {values[name]:.4g} ± {per_cent(errors[name], values[name]) or 0} %"
+        for name in record.names
+    }
+    bounded = summary["at_bounds"]
+    good = [said[name] for name, is_good in summary["determined"].items() if is_good]
+    loose = [
+        f"{name} (anything from {low:.4g} to {high:.4g})"
+        for name, (low, high) in summary["intervals"].items()
+        if not summary["determined"][name] and name not in bounded
+    ]
+    sentences = []
+    if good:
+        sentences.append(f"The {tests} {verb} {_listed(good)} (±: one standard error).")
+    if loose:
+        who = it.capitalize() if good else f"The {tests}"
+        sentences.append(f"{who} do{'es' if count == 1 else ''} not determine {_listed(loose)}.")
+    for name, side in bounded.items():
+        sentences.append(f"{name} is at its {side} bound, {values[name]:.4g}: it may lie beyond.")
+    return sentences
+
+
+def _distance(loop: Loop) -> str:
+    """Say how far a simulation is from its test."""
+    if loop.has_number:
+        return f"gives {loop.simulation[0, 0]:.4g}, where {loop.test[0, 0]:.4g} was measured"
+    size = np.abs(loop.residual)
+    name = loop.y_name
+    unit = _UNIT.search(name)
+    after = f" {unit[1] or unit[2]}" if unit else f" in units of {name}"
+    share = per_cent(float(size.mean()), float(np.ptp(loop.test[:, loop.y])))
+    of_height = f" ({share} % of the test's height)" if share else ""
+    most = f"{size.max():.3g}{after} at most"
+    return f"is off by {size.mean():.3g}{after} in the mean{of_height}, and by {most}"
+
+
+def _runs(record: SearchRecord) -> str:
+    failed = sum(one.failed for one in record.evaluations)
+    count = len(record.evaluations)
+    return f"{count} evaluations, of which {failed} failed." if failed else f"{count} evaluations."
+
+
+def _listed(parts: Sequence[str]) -> str:
+    return " and ".join(filter(None, [", ".join(parts[:-1]), parts[-1]]))
