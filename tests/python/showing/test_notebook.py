@@ -125,6 +125,7 @@ class Notebook:
         self.display_formatter = self.displayhook = self.events = self
         self.active_types, self.exec_result = formats, "a cell is running"
         module = types.ModuleType("IPython")
+        module.version_info = (9, 0)  # which matplotlib asks for
         module.get_ipython = lambda: self
         module.display = types.ModuleType("IPython.display")
         module.display.display = self.shown.append

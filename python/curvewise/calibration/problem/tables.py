@@ -9,7 +9,7 @@ from typing import Any
 from ...showing.result import Table
 from .space import Space
 
-__all__ = ["measure_table", "parameter_table", "per_cent"]
+__all__ = ["digits", "measure_table", "parameter_table", "per_cent"]
 
 _NARROWEST = 12  # characters of a column of numbers
 
@@ -48,8 +48,8 @@ def parameter_table(
             note = f"at its {at_bounds[name]} bound" if name in at_bounds else ""
             if spread is not None:
                 error, interval = spread["standard_errors"][name], spread["intervals"][name]
-                cells += [f"{error:.3g}", per_cent(error, value)]
-                cells += [f"{end:.5g}" for end in interval]
+                cells += [digits(error, 3), per_cent(error, value)]
+                cells += [digits(end, 5) for end in interval]
                 note = note or ("" if spread["determined"][name] else "not determined")
             if with_bounds:
                 cells += [f"{bound:.6g}" for bound in space.bounds[name]]
@@ -57,9 +57,14 @@ def parameter_table(
     return Table(rows, [*header, ""], _NARROWEST)
 
 
+def digits(value: float, count: int) -> str:
+    """Return a number to so many digits, as 176340 where it is read more easily than 1.7634e+05."""
+    return f"{float(f'{value:.{count}g}'):.10g}"
+
+
 def per_cent(error: float, value: float) -> str:
     """Return an error in per cent of a value, to two digits; nothing where the value is 0."""
-    share = 100.0 * error / abs(value) if value else math.inf
+    share = 100.0 * abs(error / value) if value else math.inf
     if not math.isfinite(share):
         return ""
     return f"{share:.2g}" if share < 99.5 else f"{share:.0f}"

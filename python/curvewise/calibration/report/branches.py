@@ -7,6 +7,7 @@ a tenth of its range. Cost: a warping path.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -76,7 +77,10 @@ def loops_of(record: SearchRecord) -> list[Loop]:
     """Return the tests of a search with their simulations at the optimum."""
     details, tests = record.details, record.experiments
     simulated = [*record.curves, *[None] * (len(tests) - len(record.curves))]
-    named = [bool(names) for names in details["named"]]
+    # What a file without a header has, "column 2", is no name.
+    named = [
+        any(not re.fullmatch(r"column \d+", name) for name in names) for names in details["named"]
+    ]
     columns = (details["titles"], details["axes"], named, tests, simulated, details["y"])
     return [Loop(*one) for one in zip(*columns, strict=True)]
 

@@ -80,7 +80,7 @@ def weakest_direction(
     traces = [
         _line(experiment, "test", FILL_COLOUR, most, mode="markers"),
         _line(simulation, "optimum", ACCENT_COLOUR, most, width=1.5),
-        _line(moved[0], "weakest direction", P_COLOUR, most, width=1.5, dash="dash"),
+        _line(moved[0], "one way", P_COLOUR, most, width=1.5, dash="dash"),
         _line(moved[1], "and back", Q_COLOUR, most, width=1.5, dash="dash"),
     ]
     return _figure(traces, *xy_labels(axes), title)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...comparing.deviations import Deviation, cells
 from ...showing.result import Table, paragraph
-from ..problem.tables import measure_table, parameter_table, per_cent
+from ..problem.tables import digits, measure_table, parameter_table, per_cent
 from ..records.search_record import SearchRecord, curves_of
 from ..uncertainty.determined import THE_RULE
 from . import figures
@@ -199,7 +199,7 @@ def _weakest(
             figure = figures.weakest_direction(*drawn_of)
             drawn.append(add(figure, f"{loop.title}, moved along the weakest direction"))
     changes = [
-        [name, f"{summary['weakest_direction'][name]:.4g}", f"{summary['unnoticed'][name]:.4g}"]
+        [name, *(digits(summary[which][name], 4) for which in ("weakest_direction", "unnoticed"))]
         for name in names
     ]
     header = ["parameter", "change along the weakest direction", "change that raises the value 1 %"]

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ...showing.result import paragraph
-from ..problem.tables import per_cent
+from ..problem.tables import digits, per_cent
 from ..records.search_record import SearchRecord
 from .branches import Loop
 
@@ -41,10 +41,10 @@ def verdict(
     made = [paragraph(" ".join(filter(None, sentences)))]
     known = [loop for loop in loops if loop.branches or loop.has_number]
     if len(known) == 1:
-        made.append(paragraph(f"At the optimum the model {_distance(known[0])}."))
+        made.append(paragraph(f"At the optimum the model is off by {_distance(known[0])}."))
     elif known:
-        items = [f"<li>{html.escape(f'{one.title}: it {_distance(one)}')}</li>" for one in known]
-        made.append("\n".join([paragraph("At the optimum of the model:"), "<ul>", *items, "</ul>"]))
+        items = [f"<li>{html.escape(f'{one.title}: {_distance(one)}')}</li>" for one in known]
+        made += [paragraph("At the optimum the model is off by"), "<ul>", *items, "</ul>"]
     return "\n".join(['<div class="verdict">', *made, paragraph(_runs(record)), "</div>"])
 
 
@@ -96,13 +96,13 @@ def _determined(
         return [f"What the {tests} {verb} is not known. {reason}"]
     values, errors = record.ending.parameters, summary["standard_errors"]
     said = {
-        name: f"{name} = {values[name]:.4g} ± {per_cent(errors[name], values[name]) or 0} %"
+        name: f"{name} = {digits(values[name], 4)} ± {per_cent(errors[name], values[name]) or 0} %"
         for name in record.names
     }
     bounded = summary["at_bounds"]
     good = [said[name] for name, is_good in summary["determined"].items() if is_good]
     loose = [
-        f"{name} (anything from {low:.4g} to {high:.4g})"
+        f"{name} (anything from {digits(low, 3)} to {digits(high, 3)})"
         for name, (low, high) in summary["intervals"].items()
         if not summary["determined"][name] and name not in bounded
     ]
@@ -113,22 +113,26 @@ def _determined(
         who = it.capitalize() if good else f"The {tests}"
         sentences.append(f"{who} do{'es' if count == 1 else ''} not determine {_listed(loose)}.")
     for name, side in bounded.items():
-        sentences.append(f"{name} is at its {side} bound, {values[name]:.4g}: it may lie beyond.")
+        value = digits(values[name], 4)
+        sentences.append(f"{name} is at its {side} bound, {value}: it may lie beyond.")
     return sentences
 
 
 def _distance(loop: Loop) -> str:
     """Say how far a simulation is from its test."""
+    unit = _UNIT.search(loop.y_name)
+    after = f" {unit[1] or unit[2]}" if unit else ""
     if loop.has_number:
-        return f"gives {loop.simulation[0, 0]:.4g}, where {loop.test[0, 0]:.4g} was measured"
+        made, measured = float(loop.simulation[0, 0]), float(loop.test[0, 0])
+        share = per_cent(made - measured, measured) or "0"
+        return (
+            f"{digits(made - measured, 3)}{after} ({share} %), for {digits(measured, 4)} measured"
+        )
     size = np.abs(loop.residual)
-    name = loop.y_name
-    unit = _UNIT.search(name)
-    after = f" {unit[1] or unit[2]}" if unit else f" in units of {name}"
+    mean, most = (digits(float(number), 3) + after for number in (size.mean(), size.max()))
     share = per_cent(float(size.mean()), float(np.ptp(loop.test[:, loop.y])))
     of_height = f" ({share} % of the test's height)" if share else ""
-    most = f"{size.max():.3g}{after} at most"
-    return f"is off by {size.mean():.3g}{after} in the mean{of_height}, and by {most}"
+    return f"{mean} in the mean{of_height} and {most} at most{'' if unit else ', in units of y'}"
 
 
 def _runs(record: SearchRecord) -> str:
