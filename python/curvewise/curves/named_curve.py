@@ -17,7 +17,16 @@ import numpy as np
 
 from .inputs import Array, column_names, copy_of
 
-__all__ = ["Labels", "NamedCurve", "axis_names", "copied", "known_names", "labels_of", "renamed"]
+__all__ = [
+    "Labels",
+    "NamedCurve",
+    "axis_names",
+    "copied",
+    "known_file",
+    "known_names",
+    "labels_of",
+    "renamed",
+]
 
 _LONGEST = 32  # characters of a file's name that a picture shows
 
@@ -132,7 +141,7 @@ def renamed(curve: Any, array: Array) -> Array:
     """Return an array whose columns are those of a curve, with the names that the curve has."""
     names = () if type(curve) is np.ndarray else known_names(curve)
     fits = array.ndim == 2 and len(names) == array.shape[1]
-    return NamedCurve(array, names, getattr(curve, "file", "")) if fits else array
+    return NamedCurve(array, names, known_file(curve)) if fits else array
 
 
 def known_names(*curves: Any) -> tuple[str, ...]:
@@ -144,9 +153,14 @@ def known_names(*curves: Any) -> tuple[str, ...]:
     return ()
 
 
+def known_file(curve: Any) -> str:
+    """Return the name of the file that a curve was read from; empty if that is not known."""
+    return curve.file if isinstance(curve, NamedCurve) else ""  # a frame may have such a column
+
+
 def labels_of(dim: int, names: Sequence[str] | None, P: Any, Q: Any) -> Labels:
     """Return what stands in a picture of P and Q: see `axis_names`, and for curves their files."""
-    files = [str(getattr(curve, "file", ""))[-_LONGEST:] for curve in (P, Q)]
+    files = [known_file(curve)[-_LONGEST:] for curve in (P, Q)]
     p, q = (file or letter for file, letter in zip(files, "PQ", strict=True))
     curves = (f"{p} (P)", f"{q} (Q)") if p == q else (p, q)
     return Labels(axis_names(dim, names, P, Q), curves)

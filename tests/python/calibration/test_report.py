@@ -156,6 +156,10 @@ def test_a_verdict_of_several_tests(search):
     assert said.count("Loop 0: 0.") == said.count("Loop 1: 0.") == 1
     assert "The tests determine a" in said
     assert re.search(r"\d+ evaluations, of which \d+ failed", said)
+    record = search[0].record()
+    share = 100 * record.ending.uncertainty["standard_errors"]["a"] / record.ending.parameters["a"]
+    both = page([record, record])
+    assert both.count(f"{record.ending.parameters['a']:.5g} ± {share:.2g} %</td>") == 2
 
 
 def test_a_page_asks_for_names_and_units_that_are_missing(search):
@@ -229,7 +233,7 @@ def test_cases_are_written_down_too(tmp_path):
     before = page(list(records_of(tmp_path / "s.db").values()))
     found.report(tmp_path / "found.html")
     assert (tmp_path / "found.html").read_text() == before
-    assert "a number" in before
+    assert re.search(r"a number: -?0\.\d+ \(.* %\), for 1.1 measured", said_by(before))
 
 
 def test_an_interrupted_search_has_a_page(tmp_path):

@@ -14,6 +14,7 @@ import sys
 import time
 
 import numpy as np
+import pandas as pd
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -446,6 +447,8 @@ def test_pictures_name_the_files(tmp_path):
     assert [text.get_text() for text in twice[:2]] == ["test.csv (P)", "test.csv (Q)"]
     table = plotting.plot_table(test, simulated, Figure().subplots())[0].axes
     assert table.get_xlabel() == "index in simulation.csv"
+    frame = pd.DataFrame(P, columns=["file", "stress"])  # whose column is no file
+    assert plotting.plot_alignment(frame, Q, Figure().subplots()).P.get_label() == "P"
 
 
 @pytest.mark.parametrize("format", ["png", "svg", "pdf"])

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...curves.inputs import Array
+from ...curves.named_curve import known_file
 from ...curves.several_curves import as_points, curve_list
 from ...curves.thinning import thinned_rows
 from ...measures.registry import Condition, default_measures
@@ -125,7 +126,7 @@ class Objective:
             raise ValueError(
                 f"weights has shape ({len(weights)},); give one for each of {count} loops"
             )
-        files = [getattr(curve, "file", "") for curve in curves]
+        files = [known_file(curve) for curve in curves]
         titles = [f if f and files.count(f) == 1 else f"Loop {i}" for i, f in enumerate(files)]
         labels = [Label(titles[0], "P", "")]
         if count > 1:
