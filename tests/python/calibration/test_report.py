@@ -28,6 +28,7 @@ from curvewise.calibration.report import figures, page, records_of
 from curvewise.calibration.report.branches import branches_of
 from curvewise.calibration.report.repeating import code_to_repeat
 from curvewise.calibration.report.sections import most_points
+from curvewise.calibration.report.shown_search import Loop
 from curvewise.commands import command_line as cli
 from curvewise.curves.named_curve import NamedCurve
 from curvewise.drawing.figures import log_ticks
@@ -359,7 +360,7 @@ def test_many_and_long_curves_are_thinned(search):
     assert most_points([record], 120_000) == 3000
     assert most_points([record] * 40, 120_000) == 120_000 // (7 * 2 * 40)
     long = np.column_stack([np.arange(100_000.0), np.zeros(100_000)])
-    trace = figures.loop(long, None, ["x", "y"], "", 3000)["data"][0]
+    trace = figures.loop(Loop("", ["x", "y"], True, long, None, 1), 3000)["data"][0]
     assert len(trace["x"]) == 3000
     assert (trace["x"][0], trace["x"][-1]) == (0.0, 99_999.0)
 

@@ -1,4 +1,4 @@
-"""How far a simulation is from its test, all in all and branch by branch.
+"""How far a simulation is from its test, branch by branch.
 
 A residual is the measured y minus the simulated y at the place that a warping path gives, as for
 the noise of an uncertainty (fitted_points.py). Branches end where the test turns back by more than
@@ -7,82 +7,16 @@ a tenth of its range. Cost: a warping path.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from ...curves import turning_points
 from ...curves.inputs import Array
-from ..records.search_record import SearchRecord
 from ..uncertainty.fitted_points import fitted_points
 
-__all__ = ["Branch", "Loop", "branches_of", "loops_of"]
-
-
-@dataclass(frozen=True)
-class Loop:
-    """A test with its simulation.
-
-    Attributes
-    ----------
-    title : str
-        What the test is called.
-    axes : sequence of str
-        What its columns are called; `is_named` says whether anybody has named them.
-    test : ndarray, shape (n, d)
-        Of a number (1, 1).
-    simulation : ndarray, or None where it is not known
-        At the optimum.
-    y : int
-        The column whose differences are residuals.
-    """
-
-    title: str
-    axes: Sequence[str]
-    is_named: bool
-    test: Array = field(repr=False)
-    simulation: Any = field(repr=False)
-    y: int
-
-    @property
-    def has_number(self) -> bool:
-        """Whether it is a number with its simulated value, and no curve."""
-        return self.test.size == 1 and self.simulation is not None
-
-    @property
-    def y_name(self) -> str:
-        """What y is called."""
-        return self.axes[self.y]
-
-    @cached_property
-    def branches(self) -> list[Branch]:
-        """The branches with their residuals; none without a simulated curve."""
-        if self.simulation is None or len(self.test) < 2:
-            return []
-        return branches_of(self.test, self.simulation, self.y)
-
-    @property
-    def residual(self) -> Array:
-        """The residual of every point of the test."""
-        # Branches share the points at which the test turns.
-        return np.concatenate([one.residual[i > 0 :] for i, one in enumerate(self.branches)])
-
-
-def loops_of(record: SearchRecord) -> list[Loop]:
-    """Return the tests of a search with their simulations at the optimum."""
-    details, tests = record.details, record.experiments
-    simulated = [*record.curves, *[None] * (len(tests) - len(record.curves))]
-    # What a file without a header has, "column 2", is no name.
-    named = [
-        any(not re.fullmatch(r"column \d+", name) for name in names) for names in details["named"]
-    ]
-    columns = (details["titles"], details["axes"], named, tests, simulated, details["y"])
-    return [Loop(*one) for one in zip(*columns, strict=True)]
+__all__ = ["Branch", "branches_of"]
 
 
 class Branch(NamedTuple):

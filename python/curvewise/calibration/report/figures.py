@@ -27,6 +27,7 @@ from ...drawing.palette import (
 from ..problem.space import Space
 from ..problem.tables import per_cent
 from ..records.evaluation import Evaluation
+from .shown_search import Loop
 
 __all__ = [
     "Figure",
@@ -45,45 +46,36 @@ _MOST_DOTS = 5000  # of the evaluations in a convergence
 _DOWNWARDS = {"type": "category", "autorange": "reversed"}  # an axis of names, as in a table
 
 
-def loop(
-    experiment: Array, simulation: Array | None, axes: Sequence[str], title: str, most: int
-) -> Figure:
+def loop(shown: Loop, most: int) -> Figure:
     """Return a test and its simulation at the optimum."""
-    traces = [_line(experiment, "test", P_COLOUR, most, mode="lines+markers", width=0.7)]
-    if simulation is not None:
-        traces.append(_line(simulation, "simulation", Q_COLOUR, most, width=2.0))
-    return _figure(traces, *xy_labels(axes), title)
+    traces = [_line(shown.test, "test", P_COLOUR, most, mode="lines+markers", width=0.7)]
+    if shown.simulation is not None:
+        traces.append(_line(shown.simulation, "simulation", Q_COLOUR, most, width=2.0))
+    return _figure(traces, *xy_labels(shown.axes), shown.title)
 
 
-def residuals(
-    branches: Sequence[tuple[str, Array, Array]], axes: Sequence[str], title: str, most: int
-) -> Figure:
+def residuals(shown: Loop, most: int) -> Figure:
     """Return the differences of test and simulation against x, a colour for each branch."""
-    x, y = xy_labels(axes)
+    branches = shown.branches
+    x, _ = xy_labels(shown.axes)
     each = max(10, most // len(branches))
     traces = [
         _line(np.column_stack(both), name, colour, each, mode="lines+markers", width=0.8)
         for (name, *both), colour in zip(branches, series_colours(len(branches)), strict=True)
     ]
-    return _figure(traces, x, f"test − simulation: {y}", title, yaxis={"zeroline": True})
+    y = f"test − simulation: {shown.y_name}"
+    return _figure(traces, x, y, shown.title, yaxis={"zeroline": True})
 
 
-def weakest_direction(
-    experiment: Array,
-    simulation: Array,
-    moved: Sequence[Array],
-    axes: Sequence[str],
-    title: str,
-    most: int,
-) -> Figure:
+def weakest_direction(shown: Loop, moved: Sequence[Array], most: int) -> Figure:
     """Return a loop, and the same moved both ways along the weakest direction."""
     traces = [
-        _line(experiment, "test", FILL_COLOUR, most, mode="markers"),
-        _line(simulation, "optimum", ACCENT_COLOUR, most, width=1.5),
+        _line(shown.test, "test", FILL_COLOUR, most, mode="markers"),
+        _line(shown.simulation, "optimum", ACCENT_COLOUR, most, width=1.5),
         _line(moved[0], "one way", P_COLOUR, most, width=1.5, dash="dash"),
         _line(moved[1], "and back", Q_COLOUR, most, width=1.5, dash="dash"),
     ]
-    return _figure(traces, *xy_labels(axes), title)
+    return _figure(traces, *xy_labels(shown.axes), shown.title)
 
 
 def convergence(evaluations: Sequence[Evaluation], objective: str) -> Figure:

@@ -19,10 +19,9 @@ from pathlib import Path
 
 from ..._extras import extra
 from ..records.search_record import SearchRecord
-from .branches import loops_of
 from .figures import Figure
-from .sections import AddFigure, most_points, objective_name, overview, sections_of
-from .uncertainty_summary import Summary, summary_of_record
+from .sections import most_points, overview, sections_of
+from .shown_search import ShownSearch
 from .verdict import footnote, verdict
 
 __all__ = ["page", "write_report"]
@@ -65,16 +64,17 @@ def page(records: Sequence[SearchRecord]) -> str:
         )
 
     most = most_points(records, _POINTS)
-    searches = [(record, summary_of_record(record)) for record in records]
+    searches = list(map(ShownSearch, records))
     title = f"Identification of {', '.join(records[0].names)}"
     body = [f"<h1>{html.escape(title)}</h1>"]
     if len(searches) > 1:
         body.append(overview(searches))
-    for number, (record, summary) in enumerate(searches, 1):
-        heading = f"{objective_name(record)}, {record.settings['method']}"
+    for number, search in enumerate(searches, 1):
+        heading = f"{search.objective}, {search.record.settings['method']}"
         if len(searches) > 1:
             heading = f"Search {number}: {heading}"
-        body.append(_search(record, summary, f"s{number}", heading, add, most))
+        sections = sections_of(search, add, most)
+        body.append(_section(search, f"s{number}", heading, list(enumerate(sections))))
     data = json.dumps(figures, separators=(",", ":"), allow_nan=False)
     return _PAGE.format(
         title=html.escape(title),
@@ -86,18 +86,17 @@ def page(records: Sequence[SearchRecord]) -> str:
     )
 
 
-def _search(
-    record: SearchRecord, summary: Summary, prefix: str, heading: str, add: AddFigure, most: int
+def _section(
+    search: ShownSearch, prefix: str, heading: str, sections: list[tuple[int, tuple[str, str]]]
 ) -> str:
-    loops = loops_of(record)
-    sections = list(enumerate(sections_of(record, loops, *summary, add, most)))
+    """Return a search with its sections, which are numbered."""
     links = [f'<a href="#{prefix}-{i}">{title}</a>' for i, (title, _) in sections]
     parts = [
         f'<section id="{prefix}"><h2>{html.escape(heading)}</h2>',
-        verdict(record, loops, *summary),
+        verdict(search),
         f"<nav>{' · '.join(links)}</nav>",
         *(f'<h3 id="{prefix}-{i}">{title}</h3>\n{content}' for i, (title, content) in sections),
-        footnote(record),
+        footnote(search),
         "</section>",
     ]
     return "\n".join(parts)

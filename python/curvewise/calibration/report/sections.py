@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -14,13 +13,13 @@ from ..problem.tables import digits, measure_table, parameter_table, per_cent
 from ..records.search_record import SearchRecord, curves_of
 from ..uncertainty.determined import THE_RULE
 from . import figures
-from .branches import Loop
 from .figures import Figure
 from .repeating import code_to_repeat
-from .uncertainty_summary import Summary, space_of
+from .shown_search import ShownSearch
+from .uncertainty_summary import space_of
 from .verdict import asked_for
 
-__all__ = ["AddFigure", "most_points", "objective_name", "overview", "sections_of"]
+__all__ = ["AddFigure", "most_points", "overview", "sections_of"]
 
 AddFigure = Callable[[Figure, str], str]
 """Takes a figure and what it shows in words, and returns the HTML of its place."""
@@ -28,21 +27,16 @@ AddFigure = Callable[[Figure, str], str]
 _MOST_FAILURES = 100  # in the table; the others are counted
 
 
-def objective_name(record: SearchRecord) -> str:
-    """Return what is minimised, with its preset."""
-    return f"{record.settings['measure']} ({record.settings['preset']})"
-
-
-def overview(searches: Sequence[tuple[SearchRecord, Summary]]) -> str:
+def overview(searches: Sequence[ShownSearch]) -> str:
     """Return the parameters that several searches have found, side by side."""
-    names = list(dict.fromkeys(name for record, _ in searches for name in record.names))
+    names = list(dict.fromkeys(name for search in searches for name in search.record.names))
     rows = []
-    for number, (record, (summary, _)) in enumerate(searches, 1):
-        parameters, best = _parameters(record), record.best
-        errors = {} if summary is None else summary["standard_errors"]
-        values = [_with_error(name, parameters, errors) for name in names]
+    for number, search in enumerate(searches, 1):
+        record, best = search.record, search.record.best
+        errors = {} if search.summary is None else search.summary["standard_errors"]
+        values = [_with_error(name, search.parameters, errors) for name in names]
         value = "" if best is None else f"{best.value:.5g}"
-        searched = [f"{number}", objective_name(record), record.settings["method"]]
+        searched = [f"{number}", search.objective, record.settings["method"]]
         rows.append([*searched, *values, f"{len(record.evaluations)}", value])
     header = ["search", "measure", "method", *names, "evaluations", "value"]
     return Table(rows, header).html()
@@ -56,53 +50,34 @@ def _with_error(name: str, parameters: dict[str, float], errors: dict[str, float
     return f"{parameters[name]:.5g}{f' ± {share} %' if share else ''}"
 
 
-def sections_of(
-    record: SearchRecord,
-    loops: Sequence[Loop],
-    summary: dict[str, Any] | None,
-    reason: str,
-    add: AddFigure,
-    most: int,
-) -> list[tuple[str, str]]:
+def sections_of(search: ShownSearch, add: AddFigure, most: int) -> list[tuple[str, str]]:
     """Return the title and the HTML of every section.
 
     Parameters
     ----------
-    record : SearchRecord
-    loops : sequence of Loop
-        Its tests, with their simulations.
-    summary, reason
-        What `summary_of_record` gives.
+    search : ShownSearch
     add : callable
         Adds a figure to the page.
     most : int
         How many points are drawn of a curve.
     """
     return [
-        ("Parameters", _parameters_section(record, summary, reason, add)),
-        ("Tests and simulations", _tests(record, loops, add, most)),
-        ("Residuals by branch", _residuals(loops, add, most)),
-        ("Convergence", _convergence(record, add)),
-        ("Weakest directions", _weakest(record, loops, summary, reason, add, most)),
-        ("Failures", _failures(record)),
-        ("Settings and versions", _settings(record, loops)),
+        ("Parameters", _parameters(search, add)),
+        ("Tests and simulations", _tests(search, add, most)),
+        ("Residuals by branch", _residuals(search, add, most)),
+        ("Convergence", _convergence(search, add)),
+        ("Weakest directions", _weakest(search, add, most)),
+        ("Failures", _failures(search)),
+        ("Settings and versions", _settings(search)),
     ]
 
 
-def _parameters(record: SearchRecord) -> dict[str, float]:
-    if record.ending is not None:
-        return record.ending.parameters
-    best = record.best
-    return {} if best is None else dict(zip(record.names, best.point, strict=True))
-
-
-def _parameters_section(
-    record: SearchRecord, summary: dict[str, Any] | None, reason: str, add: AddFigure
-) -> str:
-    space, parameters = space_of(record), _parameters(record)
+def _parameters(search: ShownSearch, add: AddFigure) -> str:
+    record, parameters, summary = search.record, search.parameters, search.summary
+    space = space_of(record)
     parts = [parameter_table(space, parameters, spread=summary).html()]
     if summary is None:
-        parts.append(paragraph(reason))
+        parts.append(paragraph(search.reason))
     else:
         noise = ", ".join(f"{sigma:.3g}" for sigma in summary["sigma"])
         note = paragraph(f"Intervals from noise of standard deviation {noise} in y, loop by loop.")
@@ -124,23 +99,23 @@ def _side_by_side(*places: str) -> str:
     return "\n".join(['<div class="figures">', *places, "</div>"])
 
 
-def _tests(record: SearchRecord, loops: Sequence[Loop], add: AddFigure, most: int) -> str:
+def _tests(search: ShownSearch, add: AddFigure, most: int) -> str:
+    record, loops = search.record, search.loops
     drawn, numbers = [], []
     for loop in loops:
         if loop.test.size == 1:
             number = f"{loop.simulation[0, 0]:.6g}" if loop.has_number else ""
             numbers.append([loop.title, f"{loop.test[0, 0]:.6g}", number])
             continue
-        figure = figures.loop(loop.test, loop.simulation, loop.axes, loop.title, most)
-        drawn.append(add(figure, f"{loop.title}: test and simulation"))
+        drawn.append(add(figures.loop(loop, most), f"{loop.title}: test and simulation"))
     asked = asked_for(loops)
     parts = [paragraph(asked) if asked else "", _side_by_side(*drawn)]
     if numbers:
         parts.append(Table(numbers, ["number", "test", "simulation"]).html())
     deviations = [] if record.ending is None else record.ending.deviations
     rows = [
-        [title, *cells(Deviation(*deviation))]
-        for title, deviation in zip((loop.title for loop in loops), deviations, strict=False)
+        [loop.title, *cells(Deviation(*deviation))]
+        for loop, deviation in zip(loops, deviations, strict=False)
         if deviation is not None
     ]
     if rows:
@@ -151,13 +126,11 @@ def _tests(record: SearchRecord, loops: Sequence[Loop], add: AddFigure, most: in
     return "\n".join(parts)
 
 
-def _residuals(loops: Sequence[Loop], add: AddFigure, most: int) -> str:
+def _residuals(search: ShownSearch, add: AddFigure, most: int) -> str:
     drawn, rows = [], []
-    for loop in loops:
+    for loop in search.loops:
         if loop.branches:
-            names = loop.axes if len(loop.axes) == 1 else [loop.axes[0], loop.y_name]
-            figure = figures.residuals(loop.branches, names, loop.title, most)
-            drawn.append(add(figure, f"{loop.title}: residuals"))
+            drawn.append(add(figures.residuals(loop, most), f"{loop.title}: residuals"))
             rows += [[loop.title, *branch.row()] for branch in loop.branches]
     if not rows:
         return paragraph("There is no simulated curve to take from a test.")
@@ -166,7 +139,8 @@ def _residuals(loops: Sequence[Loop], add: AddFigure, most: int) -> str:
     return "\n".join([paragraph(note), _side_by_side(*drawn), Table(rows, header).html()])
 
 
-def _convergence(record: SearchRecord, add: AddFigure) -> str:
+def _convergence(search: ShownSearch, add: AddFigure) -> str:
+    record = search.record
     if not record.evaluations:
         return paragraph("Nothing has been evaluated yet.")
     seconds = sum(one.seconds for one in record.evaluations)
@@ -176,27 +150,20 @@ def _convergence(record: SearchRecord, add: AddFigure) -> str:
         f"{len(record.evaluations)} parameter sets, which took the model {seconds:.3g} s. "
         f"Best value {best.value:.6g}, at evaluation {best.number}."
     )
-    figure = figures.convergence(record.evaluations, objective_name(record))
+    figure = figures.convergence(record.evaluations, search.objective)
     return f'{paragraph(text)}<div class="figures wide">{add(figure, "Convergence")}</div>'
 
 
-def _weakest(
-    record: SearchRecord,
-    loops: Sequence[Loop],
-    summary: dict[str, Any] | None,
-    reason: str,
-    add: AddFigure,
-    most: int,
-) -> str:
+def _weakest(search: ShownSearch, add: AddFigure, most: int) -> str:
+    loops, summary, names = search.loops, search.summary, search.record.names
     if summary is None:
-        return paragraph(reason)
-    names, in_words = record.names, summary["in_words"]
+        return paragraph(search.reason)
+    in_words = summary["in_words"]
     drawn = []
     moved = zip(*map(curves_of, summary["moved"]), strict=True)
     for loop, both in zip(loops, moved, strict=True):
         if loop.test.size > 1 and loop.simulation is not None:
-            drawn_of = (loop.test, loop.simulation, both, loop.axes, loop.title, most)
-            figure = figures.weakest_direction(*drawn_of)
+            figure = figures.weakest_direction(loop, both, most)
             drawn.append(add(figure, f"{loop.title}, moved along the weakest direction"))
     changes = [
         [name, *(digits(summary[which][name], 4) for which in ("weakest_direction", "unnoticed"))]
@@ -219,7 +186,8 @@ def _weakest(
     return "\n".join(parts)
 
 
-def _failures(record: SearchRecord) -> str:
+def _failures(search: ShownSearch) -> str:
+    record = search.record
     failed = [one for one in record.evaluations if one.failed]
     if not failed:
         return paragraph("No evaluation has failed.")
@@ -233,16 +201,16 @@ def _failures(record: SearchRecord) -> str:
     return made + (paragraph(f"And {more} more.") if more else "")
 
 
-def _settings(record: SearchRecord, loops: Sequence[Loop]) -> str:
-    details, settings = record.details, record.settings
+def _settings(search: ShownSearch) -> str:
+    details, settings = search.record.details, search.record.settings
     tests = [
         [loop.title, f"{len(loop.test)}", ", ".join(loop.axes), f"{weight:.4g}"]
-        for loop, weight in zip(loops, settings["weights"], strict=True)
+        for loop, weight in zip(search.loops, settings["weights"], strict=True)
     ]
     rows = [["model", "; ".join(details["model"])], *details["versions"].items()]
     rows.append(["SHA-256 of the tests", settings["experiments"]])
     listed = Table(tests, ["test", "points", "columns", "weight"])
-    code = html.escape(code_to_repeat(record))
+    code = html.escape(code_to_repeat(search.record))
     return "\n".join([f"<pre>{code}</pre>", listed.html(), Table(rows, ["", ""]).html()])
 
 

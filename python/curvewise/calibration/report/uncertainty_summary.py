@@ -8,7 +8,7 @@ which gives the same bits. A measure that is a function of the user's cannot be 
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -24,11 +24,8 @@ from ..surfaces.surfaces import Responses, Surfaces
 from ..uncertainty.sensitivity import Optimum
 from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
 
-__all__ = ["Summary", "space_of", "summary_of", "summary_of_record"]
+__all__ = ["space_of", "summary_of", "summary_of_record"]
 
-
-Summary: TypeAlias = tuple[dict[str, Any] | None, str]
-"""What a page says of an uncertainty, or None and why it is not known."""
 
 # Attributes of an uncertainty that the page has from elsewhere, or does not have.
 _NOT_WRITTEN = ("parameters", "bias", "measure", "optimum")
@@ -45,7 +42,7 @@ def summary_of(uncertainty: Uncertainty) -> dict[str, Any]:
     }
 
 
-def summary_of_record(record: SearchRecord) -> Summary:
+def summary_of_record(record: SearchRecord) -> tuple[dict[str, Any] | None, str]:
     """Return what a page says of the uncertainty of a search, or None and why it is not known."""
     ending = record.ending
     if ending is None:

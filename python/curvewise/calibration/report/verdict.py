@@ -9,14 +9,12 @@ from __future__ import annotations
 import html
 import re
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from ...showing.result import paragraph
 from ..problem.tables import digits, per_cent
-from ..records.search_record import SearchRecord
-from .branches import Loop
+from .shown_search import Loop, ShownSearch
 
 __all__ = ["asked_for", "footnote", "verdict"]
 
@@ -24,32 +22,21 @@ __all__ = ["asked_for", "footnote", "verdict"]
 _UNIT = re.compile(r"[\[(]([^\[\]()]+)[\])]\s*$|(?:,|\s/|\sin)\s+(\S+)$")
 
 
-def verdict(
-    record: SearchRecord, loops: Sequence[Loop], summary: dict[str, Any] | None, reason: str
-) -> str:
-    """Return the verdict as HTML.
-
-    Parameters
-    ----------
-    record : SearchRecord
-    loops : sequence of Loop
-        Its tests, with their simulations.
-    summary, reason
-        What `summary_of_record` gives.
-    """
-    sentences = [_ended(record), *_determined(record, len(loops), summary, reason)]
-    made = [paragraph(" ".join(filter(None, sentences)))]
-    known = [loop for loop in loops if loop.branches or loop.has_number]
+def verdict(search: ShownSearch) -> str:
+    """Return the verdict as HTML."""
+    made = [paragraph(" ".join([*_ended(search), *_determined(search)]))]
+    known = [loop for loop in search.loops if loop.branches or loop.has_number]
     if len(known) == 1:
         made.append(paragraph(f"At the optimum the model is off by {_distance(known[0])}."))
     elif known:
         items = [f"<li>{html.escape(f'{one.title}: {_distance(one)}')}</li>" for one in known]
         made += [paragraph("At the optimum the model is off by"), "<ul>", *items, "</ul>"]
-    return "\n".join(['<div class="verdict">', *made, paragraph(_runs(record)), "</div>"])
+    return "\n".join(['<div class="verdict">', *made, paragraph(_runs(search)), "</div>"])
 
 
-def footnote(record: SearchRecord) -> str:
+def footnote(search: ShownSearch) -> str:
     """Return the last words of the method, as HTML."""
+    record = search.record
     if record.ending is None:
         return ""
     words = html.escape(record.ending.message)
@@ -77,27 +64,26 @@ def asked_for(loops: Sequence[Loop]) -> str:
     return f"For the axes of the figures, {'; '.join(asked)}." if asked else ""
 
 
-def _ended(record: SearchRecord) -> str:
-    if record.ending is None:
-        return "The search has not ended: it was interrupted, or goes on."
-    if not record.ending.converged:
-        return "The search has not converged: these are the best parameters that it has met."
-    return ""
+def _ended(search: ShownSearch) -> list[str]:
+    ending = search.record.ending
+    if ending is None:
+        return ["The search has not ended: it was interrupted, or goes on."]
+    if not ending.converged:
+        return ["The search has not converged: these are the best parameters that it has met."]
+    return []
 
 
-def _determined(
-    record: SearchRecord, count: int, summary: dict[str, Any] | None, reason: str
-) -> list[str]:
+def _determined(search: ShownSearch) -> list[str]:
     """Say which parameters the tests determine, which not, and which are at a bound."""
-    if record.ending is None:
+    if search.record.ending is None:
         return []
-    tests, it, verb = ("test", "it", "determines") if count == 1 else ("tests", "they", "determine")
+    is_one, summary, values = len(search.loops) == 1, search.summary, search.parameters
+    tests, it, verb = ("test", "it", "determines") if is_one else ("tests", "they", "determine")
     if summary is None:
-        return [f"What the {tests} {verb} is not known. {reason}"]
-    values, errors = record.ending.parameters, summary["standard_errors"]
+        return [f"What the {tests} {verb} is not known. {search.reason}"]
     said = {
-        name: f"{name} = {digits(values[name], 4)} ± {per_cent(errors[name], values[name]) or 0} %"
-        for name in record.names
+        name: f"{name} = {digits(values[name], 4)} ± {per_cent(error, values[name]) or 0} %"
+        for name, error in summary["standard_errors"].items()
     }
     bounded = summary["at_bounds"]
     good = [said[name] for name, is_good in summary["determined"].items() if is_good]
@@ -111,7 +97,7 @@ def _determined(
         sentences.append(f"The {tests} {verb} {_listed(good)} (±: one standard error).")
     if loose:
         who = it.capitalize() if good else f"The {tests}"
-        sentences.append(f"{who} do{'es' if count == 1 else ''} not determine {_listed(loose)}.")
+        sentences.append(f"{who} do{'es' if is_one else ''} not determine {_listed(loose)}.")
     for name, side in bounded.items():
         value = digits(values[name], 4)
         sentences.append(f"{name} is at its {side} bound, {value}: it may lie beyond.")
@@ -135,9 +121,9 @@ def _distance(loop: Loop) -> str:
     return f"{mean} in the mean{of_height} and {most} at most{'' if unit else ', in units of y'}"
 
 
-def _runs(record: SearchRecord) -> str:
-    failed = sum(one.failed for one in record.evaluations)
-    count = len(record.evaluations)
+def _runs(search: ShownSearch) -> str:
+    evaluations = search.record.evaluations
+    failed, count = sum(one.failed for one in evaluations), len(evaluations)
     return f"{count} evaluations, of which {failed} failed." if failed else f"{count} evaluations."
 
 
