@@ -115,8 +115,8 @@ def cdist(
     Notes
     -----
     Time: the sum of the pairs'. Memory: the result and a packed copy of the curves (two without
-    XB). Ctrl-C ends a call on the main thread, and all its threads, within 0.2 s; docs/reliability.md
-    has the exceptions.
+    XB). Ctrl-C ends a call on the main thread, and all its threads, within 0.2 s; the exceptions
+    stand in docs/reliability.md.
 
     Examples
     --------

@@ -26,6 +26,8 @@ BUILT = {DOCS / "_build", DOCS / "gallery", DOCS / "api" / "generated"}
 PAGES = [page for page in sorted(DOCS.rglob("*.md")) if BUILT.isdisjoint({page, *page.parents})]
 # Pages show how to use these, and nobody has all of them.
 OPTIONAL = ("geopandas", "polars", "shapely", "xarray")
+# Examples of the gallery that take seconds: they run where the site is built.
+SLOW = {"plot_identification", "plot_million_points", "plot_two_tests"}
 PYTHON = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 # What the Python before it prints, where a page shows it.
 PRINTED = re.compile(r"\n\n```text\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -87,6 +89,18 @@ def test_the_code_of_a_page_runs(
             assert capsys.readouterr().out == block[2]
     if missing:
         pytest.skip(f"all but the blocks with {', '.join(missing)}, which are not installed")
+
+
+@pytest.mark.parametrize(
+    "example",
+    [file for file in sorted((ROOT / "examples").glob("*/plot_*.py")) if file.stem not in SLOW],
+    ids=lambda file: file.stem,
+)
+def test_an_example_of_the_gallery_runs(example: Path) -> None:
+    plt = pytest.importorskip("matplotlib.pyplot")
+    plt.switch_backend("Agg")
+    exec(compile(example.read_text(encoding="utf-8"), example, "exec"), {"__name__": "__main__"})
+    plt.close("all")
 
 
 def test_nothing_is_installed_by_name_that_is_not_there() -> None:
