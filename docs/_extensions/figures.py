@@ -69,9 +69,11 @@ def darkened(figure: Figure) -> Figure:
     """Return a copy with its greys turned round, black for white, and its colours a bit lighter."""
     figure = pickle.loads(pickle.dumps(figure))
     figure.draw_without_rendering()  # ticks are made when they are drawn
+    on_images = {id(line) for ax in figure.axes if ax.images for line in ax.lines}
     for artist in {id(artist): artist for artist in figure.findobj(Artist)}.values():
-        if isinstance(artist, ScalarMappable) and artist.get_array() is not None:
-            continue  # its colours are numbers
+        is_image = isinstance(artist, ScalarMappable) and artist.get_array() is not None
+        if is_image or id(artist) in on_images:
+            continue  # its colours are numbers, or it lies on what stays as it is
         for name in _COLOURS:
             get, put = (getattr(artist, f"{verb}_{name}", None) for verb in ("get", "set"))
             if get is None or put is None:
@@ -98,6 +100,8 @@ def first_panel(figure: Figure) -> Figure:
         if legend is not None:
             legend.remove()
     first.set_title("")
+    if len(first.get_ylabel()) > 20:
+        first.set_ylabel("")
     first.set_subplotspec(GridSpec(1, 1, figure=figure)[0])
     for axis in (first.xaxis, first.yaxis):
         if isinstance(axis.get_major_locator(), MaxNLocator):
