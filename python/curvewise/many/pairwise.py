@@ -115,8 +115,8 @@ def cdist(
     Notes
     -----
     Time: the sum of the pairs'. Memory: the result and a packed copy of the curves (two without
-    XB). Ctrl-C ends a call on the main thread, and all its threads, within 0.2 s; Python delivers
-    KeyboardInterrupt on no other thread.
+    XB). Ctrl-C ends a call on the main thread, and all its threads, within 0.2 s; the exceptions
+    stand in docs/reliability.md.
 
     Examples
     --------
@@ -162,8 +162,8 @@ def pdist(
     X : array_like, shape (k, n, d), or a sequence of curves
         As for :func:`cdist`.
     measure : {symmetric} or callable
-        A symmetric one: dtw without open ends, area without spacing="arc_length". A callable is
-        taken to be symmetric.
+        A symmetric one: dtw without open ends, area without spacing="arc_length" or "matched". A
+        callable is taken to be symmetric.
     out : ndarray of float64, shape (k (k-1) / 2,), C-contiguous, optional
         Where to write the result.
     workers, cutoff, progress, **options

@@ -206,7 +206,7 @@ class SimulationStore:
         Parameters
         ----------
         settings, details : str
-            Those of a :class:`SearchRecord`, as JSON.
+            Those of a `SearchRecord`, as JSON.
         """
         key = hashlib.sha256(settings.encode()).hexdigest()
         with transaction(self._database):
