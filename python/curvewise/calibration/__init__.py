@@ -22,6 +22,7 @@ from .objective.criterion import MEASURES, Criterion
 from .objective.objective import Objective, Score
 from .problem.evaluations import Progress
 from .problem.space import Below, Log, Tied
+from .records.database import StoreError
 from .records.store import SimulationStore
 from .records.stored_run import StoredRun
 from .rescoring import Rescored, rescore
@@ -46,6 +47,7 @@ __all__ = [
     "SeveralMeasures",
     "SimulationStore",
     "SolverError",
+    "StoreError",
     "StoredRun",
     "Tied",
     "Uncertainty",
