@@ -7,7 +7,7 @@ which type checkers read, stand here once more, and a test holds them to ``_core
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection
 from typing import Any, Final, Literal, SupportsFloat, SupportsIndex, TypeAlias
 
 from ._core import measures
@@ -67,7 +67,7 @@ class Default:
     cutoff: Final[SupportsFloat | None] = _DEFAULTS["cutoff"]
 
 
-def check_choice(option: str, value: object, choices: Sequence[str]) -> None:
+def check_choice(option: str, value: object, choices: Collection[str]) -> None:
     """Refuse a `value` that is not one of the strings in `choices`."""
     if not (isinstance(value, str) and value in choices):
         raise ValueError(f"unknown {option} {value!r}; choose from {', '.join(choices)}")

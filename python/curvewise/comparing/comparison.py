@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._docstrings import filled
-from .._options import Preset
+from .._options import Preset, check_choice
 from ..curves.foreign_curves import warn
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.named_curve import copied, known_names
@@ -176,8 +176,7 @@ def compare(
     """
     columns = known_names(P, Q)
     P, Q = map(copied, (P, Q), as_curves(P, Q))
-    if not isinstance(preset, str) or preset not in PRESETS:
-        raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
+    check_choice("preset", preset, PRESETS)
     if measures is None:
         measures = default_measures(P)
         _warn_of_time(P, Q, columns, measures)
@@ -185,12 +184,14 @@ def compare(
         raise ValueError(f"measures is {measures!r}; give a list of names, e.g. ['area', 'dtw']")
     given = {} if options is None else options
     for name in (*names, *given):
-        if not isinstance(name, str) or name not in MEASURES:
-            raise ValueError(f"unknown measure {name!r}; choose from {', '.join(MEASURES)}")
+        check_choice("measure", name, MEASURES)
     for name in given:
         if name not in names:
             raise ValueError(f"options are given for {name!r}, which is not among the measures")
-    conditions = {name: _changed(PRESETS[preset][name], given.get(name, {})) for name in names}
+    conditions = {}
+    for name in names:
+        scaled, of_preset = PRESETS[preset][name]
+        conditions[name] = Condition(scaled, {**of_preset, **given.get(name, {})})
     values = {name: _value(MEASURES[name], conditions[name], P, Q) for name in names}
     return Comparison(P, Q, preset, values, conditions)
 
@@ -210,10 +211,6 @@ def _warn_of_time(P: Array, Q: Array, names: Sequence[Any], measures: Sequence[s
             f"column {column} counts as a coordinate, and looks like time; leave it out of P and Q,"
             f" or say measures={list(measures)} if it shall count"
         )
-
-
-def _changed(condition: Condition, options: Mapping[str, Any]) -> Condition:
-    return condition._replace(options={**condition.options, **options})
 
 
 def _value(info: MeasureInfo, condition: Condition, P: Array, Q: Array) -> float:

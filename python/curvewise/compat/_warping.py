@@ -19,6 +19,7 @@ import numpy.typing as npt
 
 from .._options import Metric
 from ..curves.inputs import Array, CurveLike, as_curve
+from ..curves.several_curves import as_points
 from ..measures import dtw_table, frechet
 from ._arrays import RealArray
 
@@ -197,8 +198,7 @@ def _curves(exp_data: CurveLike, num_data: CurveLike) -> tuple[Array, Array]:
     """Return both curves in two dimensions: where one is (n,), d is 1."""
     curves = []
     for values, name in ((exp_data, "exp_data"), (num_data, "num_data")):
-        curve = as_curve(values, name)
-        curve = curve[:, np.newaxis] if curve.ndim == 1 else curve
+        curve = as_points(values, name)
         if curve.size == 0:
             raise ValueError(
                 f"{name} has shape {curve.shape}; a curve needs at least 1 point and 1 coordinate"

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import operator
 import sys
+from functools import partial
 from importlib import import_module
 from itertools import pairwise
-from typing import Any, Literal, SupportsFloat, SupportsIndex, overload
+from typing import Any, Literal, SupportsFloat, SupportsIndex, get_args, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -18,7 +19,7 @@ import numpy.typing as npt
 from .._core import Index as CompiledIndex
 from .._docstrings import filled
 from .._extras import extra
-from .._options import Default
+from .._options import Default, check_choice
 from .._progress import Report, reporting
 from ..curves.inputs import Array, as_curve_list
 from ..measures.registry import MeasureName
@@ -93,7 +94,7 @@ class Index:
         return f"Index(<{len(self)} curves>, {self._measure!r}{options})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _index_of, (self._index.curves(), self._measure, self._options)
+        return partial(Index, **self._options), (self._index.curves(), self._measure)
 
     def add(self, curves: Curves) -> None:
         """Add curves behind those there are.
@@ -303,7 +304,7 @@ class Index:
         >>> index.kneighbors_graph(n_neighbors=1, mode="distance").toarray().tolist()
         [[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0]]
         """
-        _check_mode(mode)
+        check_choice("mode", mode, get_args(GraphMode))
         distances, indices = self.kneighbors(X, n_neighbors, workers=workers, progress=progress)
         begins = np.arange(len(indices) + 1) * indices.shape[1]
         return self._graph(mode, distances.ravel(), indices.ravel(), begins)
@@ -341,7 +342,7 @@ class Index:
         -----
         As for :meth:`kneighbors`.
         """
-        _check_mode(mode)
+        check_choice("mode", mode, get_args(GraphMode))
         return self._graph(mode, *self._within(X, radius, True, True, workers, progress))
 
     def _within(
@@ -370,21 +371,12 @@ class Index:
         return csr_matrix((values, indices, begins), shape=(len(begins) - 1, len(self)))
 
 
-def _index_of(curves: list[Array], measure: MeasureName, options: dict[str, Any]) -> Index:
-    return Index(curves, measure, **options)
-
-
 def _whole_number(name: str, value: SupportsIndex) -> int:
     try:
         # Beyond 64 bits it is as good as the largest number there is.
         return max(-sys.maxsize, min(operator.index(value), sys.maxsize))
     except TypeError:
         raise ValueError(f"{name} is {value!r}; give a whole number >= 1") from None
-
-
-def _check_mode(mode: str) -> None:
-    if mode not in ("connectivity", "distance"):
-        raise ValueError(f"unknown mode {mode!r}; choose from connectivity, distance")
 
 
 def _divided(values: npt.NDArray[Any], begins: Places) -> npt.NDArray[np.object_]:

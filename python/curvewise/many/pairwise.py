@@ -18,7 +18,7 @@ from .._core import cdist as compiled_cdist
 from .._core import is_symmetric
 from .._core import pdist as compiled_pdist
 from .._docstrings import filled, listed
-from .._options import Default, Metric
+from .._options import Default, Metric, check_choice
 from .._progress import Report, reporting
 from ..curves.foreign_curves import is_curve_of_another_package
 from ..curves.inputs import (
@@ -320,15 +320,14 @@ def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
             f"{measure!r} is a ground distance, between points; the measure is of curves, one of "
             f"{', '.join(names)}: use measure='dtw', metric={measure!r} for example"
         )
-    if not isinstance(measure, str) or measure not in names:
-        raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(names)}")
+    check_choice("measure", measure, names)
     metric = options.get("metric")
     if isinstance(metric, str) and metric in names:
         raise ValueError(
             f"{metric!r} is a measure, of curves; the metric is the ground distance between their "
             f"points, one of {', '.join(metrics)}: use measure={metric!r}"
         )
-    return measure
+    return str(measure)
 
 
 def _checked_out(out: Array | None, shape: tuple[int, ...], name: str) -> Array:
