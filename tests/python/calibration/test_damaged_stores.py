@@ -10,7 +10,7 @@ import pytest
 from test_resuming import BOUNDS, EXPERIMENT, line
 
 from curvewise.calibration import SDRM, SimulationStore, StoreError, identify, rescore
-from curvewise.calibration.records.database import TABLES, Database, checksum
+from curvewise.calibration.records.database import Database, checksum
 from curvewise.calibration.records.rescue import rescue
 from curvewise.commands import main
 
@@ -157,4 +157,3 @@ def test_checksums_are_those_of_what_sqlite_gives_back(tmp_path):
     assert list(database.rows("evaluations")) == [(1, 2, "[]", np.inf, 1, 0.0, "")]
     database.close()
     assert checksum(rows[0]) != checksum(rows[1]) != checksum(("äb", "c", 0.1, "x", "", b""))
-    assert list(TABLES) == ["models", "runs", "searches", "evaluations"]
