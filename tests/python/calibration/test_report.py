@@ -331,11 +331,11 @@ def test_a_function_as_a_measure_is_not_written_down(tmp_path):
     assert "95 % from" in page([record])
 
 
-def test_stores_from_before_reports_open_and_say_what_to_do(tmp_path, capsys):
-    store = SimulationStore(tmp_path / "old.db", version="1")
+def test_runs_without_a_search_say_what_to_do(tmp_path, capsys):
+    store = SimulationStore(tmp_path / "runs.db", version="1")
     identify(line, experiments()[0], BOUNDS, store=store, **QUICK)
     with sqlite3.connect(store.path) as database:
-        database.executescript("DROP TABLE searches; DROP TABLE evaluations;")
+        database.executescript("DELETE FROM searches; DELETE FROM evaluations;")
     database.close()
     assert cli.main(["report", str(store.path)]) == 1
     assert "runs are looked up, and none is made again" in capsys.readouterr().err
