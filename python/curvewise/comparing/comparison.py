@@ -10,10 +10,10 @@ import numpy as np
 
 from .._docstrings import filled
 from .._options import Preset, check_choice
+from ..curves.column_roles import is_time
 from ..curves.foreign_curves import warn
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.named_curve import copied, known_names
-from ..files.column_choice import is_time
 from ..measures import normalize
 from ..measures.registry import MEASURES, PRESETS, Condition, MeasureInfo, default_measures
 from ..showing.result import Result, Table
