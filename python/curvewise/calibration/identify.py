@@ -15,7 +15,7 @@ from .answers.ended_search import identification_of
 from .answers.identification import Identification
 from .methods import method_of
 from .methods.method import Method
-from .methods.search import Plan, run_search
+from .methods.search import Plan
 from .models.pool import Model
 from .objective.cases import Case, Cases
 from .objective.criterion import Measure, criterion_of
@@ -150,7 +150,7 @@ def identify(
         plan.method.check(one)
     models, assemble = models_of(model if cases is None else cases)
     problem = Problem(models, assemble, objective, space, store, workers, executor)
-    return identification_of(problem, plan, run_search(problem, plan))
+    return identification_of(problem, plan)
 
 
 def _cases_of(model: Any) -> Cases | None:

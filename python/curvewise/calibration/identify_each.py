@@ -24,7 +24,7 @@ from .answers.identification import Identification
 from .answers.several_measures import SeveralMeasures
 from .methods import method_of
 from .methods.method import Method
-from .methods.search import Plan, run_search
+from .methods.search import Plan
 from .models.pool import Model
 from .objective.criterion import Measure
 from .objective.objective import objectives_of
@@ -127,18 +127,14 @@ def identify_each(
             if known:  # a start is given from here on: one search a measure
                 begin = _best_known(known, problem)
                 plan = replace(plan, start=begin, method=searching.near_optimum())
-            found[name] = identification_of(problem, plan, run_search(problem, plan, known))
+            found[name] = identification_of(problem, plan, known)
             known = found[name].runs_with_curves
         if (closer := searching.closer()) is not None:
             _go_on(found, replace(plan, method=closer), known)
     return SeveralMeasures(found)
 
 
-def _go_on(
-    found: dict[str, Identification],
-    plan: Plan,
-    known: tuple[Run, ...],
-) -> None:
+def _go_on(found: dict[str, Identification], plan: Plan, known: tuple[Run, ...]) -> None:
     """Search again by each measure from what all have found, as long as one of them gains."""
     waiting = list(found)
     for _ in range(_ROUNDS):
@@ -149,9 +145,7 @@ def _go_on(
             if left is not None and left < 1:
                 continue
             again = replace(plan, start=_best_known(known, before.problem), max_runs=left)
-            after = identification_of(
-                before.problem, again, run_search(before.problem, again, known)
-            )
+            after = identification_of(before.problem, again, known)
             known = after.runs_with_curves
             found[name] = before.followed_by(after)
             if before.value - after.value > _WORTH_A_ROUND * before.value:

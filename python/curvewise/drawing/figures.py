@@ -16,6 +16,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from .._extras import extra
 from ..curves.inputs import Array
@@ -40,6 +41,8 @@ __all__ = [
     "matplotlib_required",
     "new_figure",
     "panels",
+    "xy_labels",
+    "xy_of",
 ]
 
 MAX_LINKS = 80  # more lines than this merge into a grey mass
@@ -86,18 +89,26 @@ def draw_curves(
     `names` are those of the coordinates, as `curves.named_curve.axis_names` gives them.
     """
     q_label = "Q"
-    if P.shape[1] == 1:
-        x_label, y_label = "index", names[0]
-        if apart:
-            Q, q_label = _below(P, Q)
-            y_label = f"{y_label} ({q_label})"
-        P, Q = (np.column_stack([np.arange(len(series)), series]) for series in (P, Q))
-    else:
-        x_label, y_label = names[:2]
+    x_label, y_label = xy_labels(names)
+    if apart and P.shape[1] == 1:
+        Q, q_label = _below(P, Q)
+        y_label = f"{y_label} ({q_label})"
     label_axes(ax, x_label, y_label)
-    (p_line,) = ax.plot(*P.T, color=P_COLOUR, linewidth=1.3, label="P")
-    (q_line,) = ax.plot(*Q.T, color=Q_COLOUR, linewidth=1.3, label=q_label)
+    (p_line,) = ax.plot(*xy_of(P), color=P_COLOUR, linewidth=1.3, label="P")
+    (q_line,) = ax.plot(*xy_of(Q), color=Q_COLOUR, linewidth=1.3, label=q_label)
     return p_line, q_line
+
+
+def xy_labels(names: Sequence[str]) -> tuple[str, str]:
+    """Return the labels of the axes on which `xy_of` is drawn."""
+    return ("index", names[0]) if len(names) == 1 else (names[0], names[1])
+
+
+def xy_of(curve: Array) -> tuple[Array, Array]:
+    """Return x and y to draw of a curve: its first two coordinates, or index and value."""
+    if curve.shape[1] == 1:
+        return np.arange(len(curve), dtype=np.float64), curve[:, 0]
+    return curve[:, 0], curve[:, 1]
 
 
 def _below(P: Array, Q: Array) -> tuple[Array, str]:
@@ -131,11 +142,9 @@ def draw_links(ax: Axes, links: Array, label: str) -> LineCollection:
     return collection
 
 
-def evenly(links: Array) -> Array:
-    """Return at most `MAX_LINKS` of the links, the first and the last among them."""
-    shown = np.linspace(0, len(links) - 1, min(len(links), MAX_LINKS))
-    chosen: Array = links[shown.round().astype(np.intp)]
-    return chosen
+def evenly(count: int, most: int = MAX_LINKS) -> npt.NDArray[np.intp]:
+    """Return at most so many of the indices below `count`, the first and the last among them."""
+    return np.linspace(0, count - 1, min(count, most)).round().astype(np.intp)
 
 
 def panels(figure: Figure, dim: int, count: int) -> tuple[Axes, list[Axes]]:

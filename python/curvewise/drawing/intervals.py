@@ -7,8 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..curves.inputs import Array
-from .figures import label_axes, new_figure
-from .loops import xy_labels, xy_of
+from .figures import label_axes, new_figure, xy_labels, xy_of
 from .palette import (
     ACCENT_COLOUR,
     CORRELATION_MAP,

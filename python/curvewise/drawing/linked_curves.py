@@ -6,7 +6,7 @@ O(n + m).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -15,12 +15,9 @@ import numpy.typing as npt
 from ..curves.inputs import Array
 from ..curves.named_curve import axis_names
 from .figures import label_axes, legend_above, new_figure
-from .links import draw_matching, draw_path, draw_placement
-from .palette import ACCENT_COLOUR
+from .links import draw_matching, draw_path, draw_placement, draw_walk
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
     from .picture import Picture
 
 __all__ = ["alignment_figure", "matching_figure", "placement_figure"]
@@ -35,11 +32,7 @@ def alignment_figure(curves: Curves, path: npt.NDArray[np.int64]) -> Picture:
 
 def matching_figure(curves: Curves, walks: Array) -> Picture:
     """Draw curves and the leashes between two walks along them, or the walks alone."""
-
-    def draw(ax: Axes, curves: tuple[Array, Array], walks: Array, names: Sequence[str]) -> None:
-        draw_matching(ax, curves, curves, walks, names)
-
-    return _linked(curves, walks, draw, ("vertex of Q", "vertex of P"))
+    return _linked(curves, walks, draw_matching, ("vertex of Q", "vertex of P"))
 
 
 def placement_figure(
@@ -66,7 +59,7 @@ def _linked(
     if dim in (1, 2):
         draw(ax, columns, links, axis_names(dim, None, *(curves or ())))
     else:
-        ax.plot(*links.T[::-1], color=ACCENT_COLOUR, linewidth=1.3, label="path")
+        draw_walk(ax, links)
         label_axes(ax, *labels)
     legend_above(figure, ax)
     return figure

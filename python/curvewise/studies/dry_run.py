@@ -16,7 +16,6 @@ import numpy as np
 
 from ..calibration import SolverError
 from ..calibration.methods import method_of
-from ..calibration.models.identity import model_identity
 from ..calibration.models.pool import Outcome
 from ..calibration.problem.space import Space
 from ..comparing.units import other_units
@@ -144,34 +143,26 @@ def dry_run(study: Contents) -> DryRun:
     shutil.rmtree(place, ignore_errors=True)  # of an earlier check
     models = study.study_models(kept_in=place)
     began = time.perf_counter()
-    folders, simulations = [], {}
-    for name, model in models.items():
-        folder, curves = _run(model, parameters, study, place)
-        folders.append(folder)
-        simulations[name] = list(curves)
+    made = {name: _run(model, parameters, study, place) for name, model in models.items()}
     seconds = time.perf_counter() - began
-    read = []
-    for test in study.tests:
-        read.append(Read(test, simulations[test.model].pop(0)))
-    objectives = {name: study.objective(models, name) for name in study.search.measures}
+    curves = {name: iter(simulated) for name, (_, simulated) in made.items()}
+    read = tuple(Read(test, next(curves[test.model])) for test in study.tests)
     values = {}
-    simulated = [one.simulation for one in read]
-    for name, objective in objectives.items():
-        score = objective.predicted(simulated)
+    for name in study.search.measures:
+        score = study.objective(models, name).predicted([one.simulation for one in read])
         if score.failures:
             raise ValueError(f"the run has no value by {name}: {'; '.join(score.failures)}")
         values[name] = score.value
-    search = study.search
-    method = method_of(search.method or "auto")
+    method = method_of(study.search.method or "auto")
     runs = method.fewest_runs(len(space.names), has_start=bool(start))
     return DryRun(
         parameters,
-        tuple(folders),
-        tuple(read),
+        tuple(folder for folder, _ in made.values()),
+        read,
         values,
         seconds,
-        min(runs, search.max_runs or runs),
-        max(1, search.workers or 1),
+        min(runs, study.search.max_runs or runs),
+        max(1, study.search.workers or 1),
     )
 
 
@@ -187,8 +178,8 @@ def _run(
         raise SolverError(f"{error}{_end_of_log(str(error))}") from None
     seconds = time.perf_counter() - began
     (folder, *_) = set(place.iterdir()) - before
+    identity = study.identity(model)
     with study.store as store:
-        identity = model_identity(model, store.version)
         store.register(identity)
         store.save(identity.text, parameters, Outcome(result, "", seconds))
     return folder, points_of(result)

@@ -12,7 +12,6 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -82,7 +81,8 @@ def write_results(study: Contents, found: StudyResult) -> None:
         ending = f"_{_file_name(measure)}" if len(found.identifications) > 1 else ""
         for test, curve in zip(study.tests, identification.simulations, strict=False):
             if not test.is_number:
-                _write_curve(folder / f"simulation_{_file_name(test.name)}{ending}.csv", curve)
+                path = folder / f"simulation_{_file_name(test.name)}{ending}.csv"
+                np.savetxt(path, curve, delimiter=",", fmt="%.10g")
     drawn = found.several or next(iter(found.identifications.values()))
     figure = drawn.plot()
     for ax, test in zip(figure.axes, study.tests, strict=False):  # the loops come first
@@ -131,10 +131,6 @@ def _one(found: Identification, uncertainty: Uncertainty | None) -> dict[str, An
         contents["level"] = uncertainty.level
         contents["weakest_direction"] = uncertainty.in_words
     return contents
-
-
-def _write_curve(path: Path, curve: Any) -> None:
-    np.savetxt(path, curve, delimiter=",", fmt="%.10g")
 
 
 def _file_name(name: str) -> str:

@@ -62,8 +62,7 @@ def run_search(problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()) -
         with tqdm(total=plan.max_runs, unit="run", disable=not plan.progress) as bar:
             evaluations = Evaluations(
                 simulator,
-                problem.objective,
-                problem.space,
+                problem,
                 recorder,
                 limit=plan.max_runs,
                 callback=plan.callback,

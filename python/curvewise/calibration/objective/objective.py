@@ -312,17 +312,14 @@ class Objective:
         criterion = self.criterion
         assert criterion is not None, "by_measure asks it of terms with the same"
         try:
-            other = Objective(
-                list(self.experiments),
-                Criterion(
-                    measure,
-                    preset=criterion.preset,
-                    part=criterion.part if measure == "pcm" else "experiment",
-                    min_coverage=criterion.min_coverage,
-                    weights=criterion.weights,
-                ),
+            other = Criterion(
+                measure,
+                preset=criterion.preset,
+                part=criterion.part if measure == "pcm" else "experiment",
+                min_coverage=criterion.min_coverage,
+                weights=criterion.weights,
             )
-            score = other.predicted(simulations)
+            score = Objective(list(self.experiments), other).predicted(simulations)
         except ValueError:  # e.g. curve_length, raw, of a loop centred on zero
             return math.nan
         return math.nan if score.failures else score.value

@@ -18,12 +18,11 @@ import numpy as np
 from ...curves.inputs import Array
 from ...curves.several_curves import as_points, curve_list
 from ..models.pool import Outcome
-from ..objective.objective import Objective
 from ..records.evaluation import Evaluation, Point
 from ..records.recorder import Recorder
 from ..surfaces.nearby_runs import Run
+from .problem import Problem
 from .simulator import Simulator
-from .space import Space
 
 __all__ = ["Evaluations", "Finish", "Progress", "SearchEndedError"]
 
@@ -66,8 +65,8 @@ class Evaluations:
 
     Parameters
     ----------
-    simulator, objective, space, recorder
-        What runs the model, scores it, names the parameters, and takes the search down.
+    simulator, problem, recorder
+        What runs the models, what scores them and names the parameters, and takes the search down.
     limit : int or None
         How many parameter sets to evaluate at most.
     callback : callable or None
@@ -81,8 +80,7 @@ class Evaluations:
     def __init__(
         self,
         simulator: Simulator,
-        objective: Objective,
-        space: Space,
+        problem: Problem,
         recorder: Recorder,
         *,
         limit: int | None,
@@ -91,8 +89,8 @@ class Evaluations:
         earlier_runs: Sequence[Run] = (),
     ) -> None:
         self.earlier_runs = earlier_runs
-        self.objective = objective
-        self._simulator, self._space, self._recorder = simulator, space, recorder
+        self.objective, self._space = problem.objective, problem.space
+        self._simulator, self._recorder = simulator, recorder
         self._limit, self._callback, self._bar = limit, callback, bar
         self._done: dict[Point, Evaluation] = {}
         self._units: dict[Point, Array] = {}
@@ -226,9 +224,8 @@ class Evaluations:
                 self._best_simulations = simulations.get(point)
 
     def _judged(self, number: int, point: Point, outcome: Outcome) -> Evaluation:
-        simulations = outcome.simulations
-        if outcome.message:  # in full, as the objective would give it for an exception
-            simulations = None
+        # Its message in full, as the objective would give it for an exception.
+        simulations = None if outcome.message else outcome.simulations
         score = self.objective.score(simulations)
         message = outcome.message or "; ".join(score.failures)
         if message:
@@ -237,8 +234,9 @@ class Evaluations:
         curves = None
         if self._keeps_curves and not message:
             curves = tuple(as_points(curve, "Q").copy() for curve in curve_list(simulations))
-        seconds = outcome.seconds
-        return Evaluation(number, point, score.value, bool(message), seconds, message, curves)
+        return Evaluation(
+            number, point, score.value, bool(message), outcome.seconds, message, curves
+        )
 
     def _report(self) -> None:
         best = self.best

@@ -294,12 +294,11 @@ def _pair(name: str, given: Any) -> tuple[float, float]:
             f"bounds[{name!r}] is {given!r}; give (low, high), or a number that it stays"
         )
     low, high = pair
-    if not (math.isfinite(low) and math.isfinite(high) and low <= high):
+    may_stay = low == high and not isinstance(given, (Log, Below))
+    if not (math.isfinite(low) and math.isfinite(high) and (low < high or may_stay)):
         raise ValueError(f"bounds[{name!r}] is {given!r}; they must be finite, low < high")
     if not math.isfinite(high - low):
         raise ValueError(f"bounds[{name!r}] is {given!r}; the range overflows")
-    if isinstance(given, (Log, Below)) and low == high:
-        raise ValueError(f"bounds[{name!r}] is {given!r}; they must be finite, low < high")
     if isinstance(given, Log) and low <= 0:
         raise ValueError(f"bounds[{name!r}] is {given!r}; a logarithm needs low above 0")
     return float(low), float(high)

@@ -33,13 +33,12 @@ from ..models.pool import Outcome
 from .database import make_tables, opened, transaction
 from .evaluation import Evaluation
 from .search_record import Ending, SearchRecord
-from .stored_run import StoredRun, decoded, encoded, key_of
+from .stored_run import StoredRun, decoded, encoded, key_of, parameters_of
 
 __all__ = ["SimulationStore", "StoreOrPath"]
 
-_PAUSE = (
-    0.2  # seconds between transactions: models that take a millisecond should not wait for them
-)
+# Seconds between transactions: models that take a millisecond should not wait for them.
+_PAUSE = 0.2
 
 
 class SimulationStore:
@@ -149,7 +148,7 @@ class SimulationStore:
             (identity,),
         )
         for parameters, *rest in rows:
-            yield StoredRun.of_row(parameters, decoded(*rest))
+            yield StoredRun(parameters_of(parameters), *decoded(*rest))
 
     def forget_failures(self) -> int:
         """Delete the runs that failed, say for want of a licence; return how many there were."""

@@ -20,7 +20,7 @@ from pathlib import Path
 from ..._extras import extra
 from ..records.search_record import SearchRecord
 from .figures import Figure
-from .sections import AddFigure, headline, most_points, overview, sections_of
+from .sections import AddFigure, headline, most_points, objective_name, overview, sections_of
 from .uncertainty_summary import summary_of_record
 
 __all__ = ["page", "write_report"]
@@ -83,27 +83,22 @@ def page(records: Sequence[SearchRecord]) -> str:
 
 
 def _heading(record: SearchRecord, number: int, several: bool) -> str:
-    settings = record.settings
-    text = f"{settings['measure']} ({settings['preset']}), {settings['method']}"
+    text = f"{objective_name(record)}, {record.settings['method']}"
     return f"Search {number}: {text}" if several else text
 
 
 def _search(record: SearchRecord, prefix: str, heading: str, add: AddFigure, most: int) -> str:
     summary, reason = summary_of_record(record)
-    sections = sections_of(record, summary, reason, add, most)
+    sections = list(enumerate(sections_of(record, summary, reason, add, most)))
+    links = [f'<a href="#{prefix}-{i}">{title}</a>' for i, (title, _) in sections]
     parts = [
         f'<section id="{prefix}"><h2>{html.escape(heading)}</h2>',
         f'<p class="state">{html.escape(headline(record, summary))}</p>',
+        f"<nav>{' · '.join(links)}</nav>",
+        *(f'<h3 id="{prefix}-{i}">{title}</h3>\n{content}' for i, (title, content) in sections),
+        "</section>",
     ]
-    anchors = [f"{prefix}-{i}" for i in range(len(sections))]
-    links = [
-        f'<a href="#{anchor}">{title}</a>'
-        for anchor, (title, _) in zip(anchors, sections, strict=True)
-    ]
-    parts.append(f"<nav>{' · '.join(links)}</nav>")
-    for anchor, (title, content) in zip(anchors, sections, strict=True):
-        parts.append(f'<h3 id="{anchor}">{title}</h3>\n{content}')
-    return "\n".join([*parts, "</section>"])
+    return "\n".join(parts)
 
 
 def _asset(name: str) -> str:

@@ -11,14 +11,14 @@ import numpy as np
 from ...comparing.deviations import Deviation, cells
 from ...showing.result import Table, paragraph
 from ..problem.tables import measure_table, parameter_table
-from ..records.search_record import SearchRecord
+from ..records.search_record import SearchRecord, curves_of
 from . import figures
 from .branches import branches_of
 from .figures import Figure
 from .repeating import code_to_repeat
-from .uncertainty_summary import moved_curves, space_of
+from .uncertainty_summary import space_of
 
-__all__ = ["AddFigure", "headline", "most_points", "overview", "sections_of"]
+__all__ = ["AddFigure", "headline", "most_points", "objective_name", "overview", "sections_of"]
 
 AddFigure = Callable[[Figure, str], str]
 """Takes a figure and what it shows in words, and returns the HTML of its place."""
@@ -41,7 +41,8 @@ def headline(record: SearchRecord, summary: dict[str, Any] | None) -> str:
     return f"{state}: {record.ending.message}. {count}."
 
 
-def _objective_name(record: SearchRecord) -> str:
+def objective_name(record: SearchRecord) -> str:
+    """Return what is minimised, with its preset."""
     return f"{record.settings['measure']} ({record.settings['preset']})"
 
 
@@ -53,7 +54,7 @@ def overview(records: dict[int, SearchRecord]) -> str:
         parameters, best = _parameters(record), record.best
         values = [f"{parameters[name]:.5g}" if name in parameters else "" for name in names]
         value = "" if best is None else f"{best.value:.5g}"
-        searched = [f"{number}", _objective_name(record), record.settings["method"]]
+        searched = [f"{number}", objective_name(record), record.settings["method"]]
         rows.append([*searched, *values, f"{len(record.evaluations)}", value])
     header = ["search", "measure", "method", *names, "evaluations", "value"]
     return Table(rows, header).html()
@@ -105,14 +106,11 @@ def _parameters_section(
         parts.append(paragraph(reason))
     else:
         noise = ", ".join(f"{sigma:.3g}" for sigma in summary["sigma"])
+        note = paragraph(f"Intervals from noise of standard deviation {noise} in y, loop by loop.")
+        intervals = figures.intervals(space, parameters, summary)
         correlations = figures.correlations(space.names, summary["correlations"])
-        parts += [
-            paragraph(f"Intervals from noise of standard deviation {noise} in y, loop by loop."),
-            _side_by_side(
-                add(figures.intervals(space, parameters, summary), "Intervals between the bounds"),
-                add(correlations, "Correlations of the errors"),
-            ),
-        ]
+        left = add(intervals, "Intervals between the bounds")
+        parts += [note, _side_by_side(left, add(correlations, "Correlations of the errors"))]
     if record.ending is not None:
         values, settings = record.ending.measures, record.settings
         measures = measure_table(values, settings["measure"], settings["preset"])
@@ -145,16 +143,15 @@ def _tests(record: SearchRecord, add: AddFigure, most: int) -> str:
     parts = [_side_by_side(*drawn)]
     if numbers:
         parts.append(Table(numbers, ["number", "test", "simulation"]).html())
-    if record.ending is not None:
-        titles = record.details["titles"]
-        rows = [
-            [title, *cells(Deviation(*deviation))]
-            for title, deviation in zip(titles, record.ending.deviations, strict=False)
-            if deviation is not None
-        ]
-        if rows:
-            parts.append(f"<h4>As {record.settings['measure']} sees it</h4>")
-            parts.append(Table(rows, ["loop", "mean deviation, in units of y", "largest"]).html())
+    deviations = [] if record.ending is None else record.ending.deviations
+    rows = [
+        [title, *cells(Deviation(*deviation))]
+        for title, deviation in zip(record.details["titles"], deviations, strict=False)
+        if deviation is not None
+    ]
+    if rows:
+        parts.append(f"<h4>As {record.settings['measure']} sees it</h4>")
+        parts.append(Table(rows, ["loop", "mean deviation, in units of y", "largest"]).html())
     if not record.curves:
         parts.append(paragraph("The simulated curves at the best point are not known."))
     return "\n".join(parts)
@@ -163,7 +160,7 @@ def _tests(record: SearchRecord, add: AddFigure, most: int) -> str:
 def _residuals(record: SearchRecord, add: AddFigure, most: int) -> str:
     drawn, rows = [], []
     for (title, axes, test, simulation), y in zip(_loops(record), record.details["y"], strict=True):
-        if simulation is None or test.size == 1 or len(test) < 2:
+        if simulation is None or len(test) < 2:
             continue
         branches = branches_of(test, simulation, y)
         names = axes if len(axes) == 1 else [axes[0], axes[y]]
@@ -186,7 +183,7 @@ def _convergence(record: SearchRecord, add: AddFigure) -> str:
         f"{len(record.evaluations)} parameter sets, which took the model {seconds:.3g} s. "
         f"Best value {best.value:.6g}, at evaluation {best.number}."
     )
-    figure = figures.convergence(record.evaluations, _objective_name(record))
+    figure = figures.convergence(record.evaluations, objective_name(record))
     return f'{paragraph(text)}<div class="figures wide">{add(figure, "Convergence")}</div>'
 
 
@@ -197,7 +194,7 @@ def _weakest(
         return paragraph(reason)
     names, in_words = record.names, summary["in_words"]
     drawn = []
-    moved = zip(*moved_curves(summary), strict=True)
+    moved = zip(*map(curves_of, summary["moved"]), strict=True)
     for (title, axes, test, simulation), both in zip(_loops(record), moved, strict=True):
         if test.size > 1 and simulation is not None:
             figure = figures.weakest_direction(test, simulation, both, axes, title, most)
@@ -239,22 +236,16 @@ def _failures(record: SearchRecord) -> str:
 
 def _settings(record: SearchRecord) -> str:
     details, settings = record.details, record.settings
+    loops = zip(_loops(record), settings["weights"], strict=True)
     tests = [
-        [title, f"{curve.shape[0]}", ", ".join(axes), f"{weight:.4g}"]
-        for title, curve, axes, weight in zip(
-            details["titles"], record.experiments, details["axes"], settings["weights"], strict=True
-        )
+        [title, f"{len(curve)}", ", ".join(axes), f"{weight:.4g}"]
+        for (title, axes, curve, _), weight in loops
     ]
-    rows = [["model", "; ".join(details["model"])]]
-    rows += [[name, text] for name, text in details["versions"].items()]
+    rows = [["model", "; ".join(details["model"])], *details["versions"].items()]
     rows.append(["SHA-256 of the tests", settings["experiments"]])
-    return "\n".join(
-        [
-            f"<pre>{html.escape(code_to_repeat(record))}</pre>",
-            Table(tests, ["test", "points", "columns", "weight"]).html(),
-            Table(rows, ["", ""]).html(),
-        ]
-    )
+    listed = Table(tests, ["test", "points", "columns", "weight"])
+    code = html.escape(code_to_repeat(record))
+    return "\n".join([f"<pre>{code}</pre>", listed.html(), Table(rows, ["", ""]).html()])
 
 
 def most_points(records: Sequence[SearchRecord], budget: int) -> int:

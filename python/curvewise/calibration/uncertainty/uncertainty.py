@@ -108,14 +108,15 @@ class Uncertainty(Result):
     @property
     def in_words(self) -> str:
         """The weakest direction as a sentence."""
-        changes = sorted(self.weakest_direction.items(), key=lambda item: -abs(item[1]))
-        parts = []
-        for name, change in changes:
-            share = 100.0 * change / abs(self.parameters[name]) if self.parameters[name] else 0.0
-            if abs(share) >= 1.0:
-                parts.append((abs(share), f"{'raise' if share > 0 else 'lower'} {name} by "))
-        parts.sort(key=lambda part: -part[0])
-        moves = [f"{text}{share:.2g} %" for share, text in parts]
+        shares = {
+            name: 100.0 * change / abs(self.parameters[name]) if self.parameters[name] else 0.0
+            for name, change in self.weakest_direction.items()
+        }
+        moves = [
+            f"{'raise' if share > 0 else 'lower'} {name} by {abs(share):.2g} %"
+            for name, share in sorted(shares.items(), key=lambda item: -abs(item[1]))
+            if abs(share) >= 1.0
+        ]
         listed = " and ".join([", ".join(moves[:-1]), moves[-1]] if len(moves) > 1 else moves)
         if not listed:
             return "no parameter changes by 1 % of itself along the weakest direction"
