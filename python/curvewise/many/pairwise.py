@@ -7,6 +7,7 @@ library; a callable given in the place of a measure's name is called pair by pai
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import combinations, product
 from typing import Any, SupportsFloat, SupportsIndex, TypeAlias, get_args, overload
@@ -18,7 +19,7 @@ from .._core import cdist as compiled_cdist
 from .._core import is_symmetric
 from .._core import pdist as compiled_pdist
 from .._docstrings import filled, listed
-from .._options import Default, Metric, check_choice
+from .._options import Default, Metric, check_choice, real_number
 from .._progress import Report, reporting
 from ..curves.foreign_curves import is_curve_of_another_package
 from ..curves.inputs import (
@@ -350,12 +351,8 @@ def _apart(curves: list[Array], out: Array) -> list[Array]:
 
 
 def _checked_cutoff(cutoff: SupportsFloat | None) -> float:
-    if cutoff is None:
-        return float("inf")
-    limit = float(cutoff)
-    if not limit >= 0:
-        raise ValueError(f"cutoff is {cutoff!r}; give a number >= 0, or None")
-    return limit
+    limit = math.inf if cutoff is None else cutoff
+    return real_number("cutoff", limit, 0.0, "give a number >= 0, or None")
 
 
 def _fill(
