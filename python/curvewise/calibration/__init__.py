@@ -23,6 +23,7 @@ from .objective.noisy_tests import NoisyTestWarning
 from .objective.objective import Objective, Score
 from .problem.evaluations import Progress
 from .problem.space import Below, Log, Tied, WideBoundsWarning
+from .records.database import StoreError
 from .records.store import SimulationStore
 from .records.stored_run import StoredRun
 from .rescoring import Rescored, rescore
@@ -48,6 +49,7 @@ __all__ = [
     "SeveralMeasures",
     "SimulationStore",
     "SolverError",
+    "StoreError",
     "StoredRun",
     "Tied",
     "Uncertainty",

@@ -88,7 +88,7 @@ def _fail(message: str) -> int:
 
 def _show_warning(message: Warning | str, *_: Any, **__: Any) -> None:
     """Write a warning without the line of Python that it is about."""
-    print("curvewise:", message, file=sys.stderr)
+    print("curvewise:", message, file=sys.stderr, flush=True)
 
 
 def _discard_output() -> None:

@@ -11,7 +11,7 @@ import math
 import sys
 import time
 import warnings
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ..calibration import Progress
@@ -72,7 +72,6 @@ def _run(study: Study) -> int:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("always", UserWarning)
-            warnings.showwarning = _say
             found = study.run(
                 progress=is_terminal,
                 callback=None if is_terminal or len(study.search.measures) > 1 else _Reported(),
@@ -86,18 +85,6 @@ def _run(study: Study) -> int:
         return 130
     print(f"\n{found}\n\nresults: {study.results}")
     return 0
-
-
-def _say(
-    message: Warning | str,
-    category: type[Warning],
-    filename: str,
-    lineno: int,
-    file: TextIO | None = None,
-    line: str | None = None,
-) -> None:
-    """Show a warning in the place of `warnings.showwarning`."""
-    print("curvewise:", message, file=sys.stderr, flush=True)
 
 
 def _runs(count: int) -> str:

@@ -10,14 +10,15 @@ import numpy as np
 
 from .._docstrings import filled
 from .._options import Preset, check_choice
+from ..curves.column_roles import is_time
 from ..curves.foreign_curves import warn
-from ..curves.inputs import Array, CurveLike, as_curves
-from ..curves.named_curve import copied, known_names
-from ..files.column_choice import is_time
+from ..curves.inputs import Array, CurveLike, as_curves, in_columns
+from ..curves.named_curve import axis_names, copied, known_names
 from ..measures import normalize
 from ..measures.registry import MEASURES, PRESETS, Condition, MeasureInfo, default_measures
 from ..showing.result import Result, Table
 from .deviations import Deviations, cells, deviation
+from .units import other_units
 
 if TYPE_CHECKING:
     from ..drawing.picture import Picture
@@ -55,7 +56,16 @@ class Comparison(Result):
     def __str__(self) -> str:
         width = max(map(len, self.values))
         lines = [f"{name:<{width}}  {value:.6g}" for name, value in self.values.items()]
-        return "\n".join(lines)
+        return "\n".join([*lines, *self.notes])
+
+    @property
+    def notes(self) -> list[str]:
+        """What looks wrong: coordinates in which one curve is more than 20 times the other.
+
+        Per cent against a fraction, for example. `str` and a notebook show it below the values.
+        """
+        P, Q = map(in_columns, (self.P, self.Q))
+        return other_units(P, Q, axis_names(P.shape[1], None, self.P, self.Q), "P", "Q")
 
     @property
     def deviations(self) -> Deviations:
@@ -107,7 +117,7 @@ class Comparison(Result):
             for name, value in self.values.items()
         ]
         header = ["measure", "value", "mean deviation, in units of y", "largest"]
-        return [Table(rows, header), f"preset {self.preset}"]
+        return [Table(rows, header), f"preset {self.preset}", *self.notes]
 
 
 @filled(
@@ -129,9 +139,10 @@ def compare(
     Parameters
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
-        The curves; P is the reference. Every column is a coordinate: of three or more of which one
-        is time by its name, or alone increases from point to point in both curves, a warning says
-        so, unless `measures` is given.
+        The curves; P is the reference. Every column of an array is a coordinate: of three or more
+        of which one is time by its name, or alone increases from point to point in both curves, a
+        warning says so, unless `measures` is given. A table of three columns or more is refused
+        where they are not all coordinates by their names (docs/inputs.md).
     preset : {"scaled", "paper", "raw"}
         "scaled": everything on curves scaled by P's box, area with spacing="matched",
         curve_length with scale="mean_abs".
@@ -147,7 +158,8 @@ def compare(
     Returns
     -------
     Comparison
-        The values by name; prints as a table, plots itself.
+        The values by name; prints as a table, plots itself. Its `notes` say where the curves are
+        probably in different units.
 
     Raises
     ------

@@ -9,8 +9,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from .inputs import Array, CurveLike
-from .several_curves import as_points
+from .inputs import Array, CurveLike, as_numbers, in_columns
 
 __all__ = ["Turns", "branch_slices", "check_column", "check_finite", "checked_curve"]
 
@@ -20,7 +19,7 @@ Turns = Sequence[int] | npt.NDArray[np.int64]
 
 def checked_curve(curve: CurveLike, least: int) -> Array:
     """Return a curve as an array of shape (n, d), finite, with at least so many points."""
-    array = as_points(curve, "curve")
+    array = in_columns(as_numbers(curve, "curve"))  # a column of time is resampled with the rest
     if array.shape[0] < least or array.shape[1] == 0:
         raise ValueError(f"curve has shape {array.shape}; at least {least} points are needed")
     check_finite(array, "curve")

@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from .._options import real_number
 from .arc_length import points_at
 from .checks import Turns, branch_slices, check_column, checked_curve
 from .inputs import Array, CurveLike
@@ -192,6 +193,7 @@ def _places(points: Array, by: Along, branch: slice, name: str) -> Array:
 
 def _first_place(x: Array, value: float, begin: float, name: str) -> float:
     """Return where x first has a value, as an index and a fraction, from `begin` on."""
+    real_number(name, value, -np.inf, "give a number")
     k = int(begin)
     tail = x[k:].copy()
     tail[0] += (begin - k) * (x[min(k + 1, len(x) - 1)] - x[k])

@@ -23,9 +23,10 @@ import numpy.typing as npt
 
 from .._core import check_batch, is_symmetric
 from .._extras import extra
+from .._options import whole_number
 from ..curves.inputs import Array, as_curve_list, copy_of
 from ..many import pairwise
-from ..many.nearest import Index, _whole_number
+from ..many.nearest import Index, checked_count
 from ..many.pairwise import Curves, Measure
 from ..measures.registry import MeasureName
 from .cancelled import watch
@@ -169,11 +170,7 @@ def kneighbors(
     _refuse_local_only(options)
     name = pairwise._check_names(measure, options)
     check_batch(queries, targets, name, options)
-    count = _whole_number("n_neighbors", n_neighbors)
-    if not 1 <= count <= len(targets):
-        raise ValueError(
-            f"n_neighbors is {count}; give a whole number from 1 to {len(targets)}, the curves"
-        )
+    count = checked_count(n_neighbors, len(targets), "the curves")
     size = _block_size(block, queries, targets)
     token = tokenize(queries, targets, name, options, size, count)
     build = partial(_index_of, measure=measure, options=options)
@@ -301,13 +298,7 @@ def _block_size(
         count = len(rows) + len(columns)
         points = sum(map(len, rows)) + sum(map(len, columns))
         return max(1, _BLOCK_POINTS * count // max(points, 1))
-    try:
-        size = operator.index(block)
-    except TypeError:
-        size = 0
-    if size < 1 or isinstance(block, bool):
-        raise ValueError(f"block is {block!r}; give a whole number >= 1, or None")
-    return size
+    return whole_number("block", block, 1, "give a whole number >= 1, or None")
 
 
 def _refuse_local_only(options: dict[str, Any]) -> None:

@@ -20,6 +20,7 @@ import numpy.typing as npt
 
 from .._extras import extra
 from ..curves.inputs import Array
+from ..curves.named_curve import Labels
 from .palette import BETWEEN_COLOUR, P_COLOUR, Q_COLOUR
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ __all__ = [
     "evenly",
     "label_axes",
     "legend_above",
+    "log_ticks",
     "matplotlib_required",
     "new_figure",
     "panels",
@@ -46,6 +48,7 @@ __all__ = [
 ]
 
 MAX_LINKS = 80  # more lines than this merge into a grey mass
+_MOST_TICKS = 6
 
 
 class CurveArtists(NamedTuple):
@@ -82,19 +85,16 @@ def new_figure(**options: Any) -> Picture:
 
 
 def draw_curves(
-    ax: Axes, P: Array, Q: Array, names: Sequence[str], *, apart: bool = False
+    ax: Axes, P: Array, Q: Array, labels: Labels, *, apart: bool = False
 ) -> tuple[Line2D, Line2D]:
-    """Draw curves in the plane, or series (d = 1) against the index: `apart`, with Q below P.
-
-    `names` are those of the coordinates, as `curves.named_curve.axis_names` gives them.
-    """
-    q_label = "Q"
-    x_label, y_label = xy_labels(names)
+    """Draw curves in the plane, or series (d = 1) against the index: `apart`, with Q below P."""
+    p_label, q_label = labels.curves
+    x_label, y_label = xy_labels(labels.axes)
     if apart and P.shape[1] == 1:
-        Q, q_label = _below(P, Q)
+        Q, q_label = _below(P, Q, q_label)
         y_label = f"{y_label} ({q_label})"
     label_axes(ax, x_label, y_label)
-    (p_line,) = ax.plot(*xy_of(P), color=P_COLOUR, linewidth=1.3, label="P")
+    (p_line,) = ax.plot(*xy_of(P), color=P_COLOUR, linewidth=1.3, label=p_label)
     (q_line,) = ax.plot(*xy_of(Q), color=Q_COLOUR, linewidth=1.3, label=q_label)
     return p_line, q_line
 
@@ -111,12 +111,12 @@ def xy_of(curve: Array) -> tuple[Array, Array]:
     return curve[:, 0], curve[:, 1]
 
 
-def _below(P: Array, Q: Array) -> tuple[Array, str]:
+def _below(P: Array, Q: Array, label: str) -> tuple[Array, str]:
     """Return series Q moved below series P, with room between, and a label that says so."""
     span = max(float(np.ptp(P)), float(np.ptp(Q))) or 1.0
     digits = 1 - int(np.floor(np.log10(span)))  # a round number reads well
     shift = round(float(P.min() - Q.max()) - 0.3 * span, digits)
-    return Q + shift, f"Q {'+' if shift > 0 else '−'} {abs(shift):.10g}"
+    return Q + shift, f"{label} {'+' if shift > 0 else '−'} {abs(shift):.10g}"
 
 
 def label_axes(ax: Axes, x: str, y: str) -> None:
@@ -145,6 +145,22 @@ def draw_links(ax: Axes, links: Array, label: str) -> LineCollection:
 def evenly(count: int, most: int = MAX_LINKS) -> npt.NDArray[np.intp]:
     """Return at most so many of the indices below `count`, the first and the last among them."""
     return np.linspace(0, count - 1, min(count, most)).round().astype(np.intp)
+
+
+def log_ticks(low: float, high: float) -> list[float]:
+    """Return ticks of a logarithmic axis that are far enough apart to be read, at most 6.
+
+    1, 2 and 5 times the powers of ten; over two decades or more the powers, every k-th of them.
+    None where the axis covers less than a decade: a linear one is read more easily there.
+    """
+    if high < 10.0 * low:
+        return []
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    if high < 100.0 * low:
+        ticks = [digit * 10.0**power for power in powers for digit in (1.0, 2.0, 5.0)]
+    else:
+        ticks = [10.0**power for power in powers[:: -(-len(powers) // _MOST_TICKS)]]
+    return [tick for tick in ticks if low <= tick <= high]
 
 
 def panels(figure: Figure, dim: int, count: int) -> tuple[Axes, list[Axes]]:

@@ -105,7 +105,7 @@ def _draw_intervals(intervals: Intervals, ax: Axes) -> None:
     ax.set_yticks(rows, intervals.names)
     ax.invert_yaxis()
     percent = f"{100 * intervals.level:g} %"
-    ax.set(xlim=(-0.05, 2.1), xlabel="place between the bounds", title=f"{percent} intervals")
+    ax.set(xlim=(-0.05, 2.5), xlabel="place between the bounds", title=f"{percent} intervals")
     ax.set_xticks([0.0, 0.5, 1.0])
 
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..curves.inputs import Array
-from .figures import draw_curves, label_axes, legend_above, new_figure, xy_labels, xy_of
+from ..curves.named_curve import Labels
+from .figures import draw_curves, label_axes, legend_above, log_ticks, new_figure, xy_labels, xy_of
 from .palette import (
     ACCENT_COLOUR,
     BETWEEN_COLOUR,
@@ -67,7 +68,7 @@ def loops_and_convergence(
     """
     figure, panels, last = _panels(titles, (4.2, 3.4))
     for ax, P, Q, axes in zip(panels, experiments, simulations, names, strict=True):
-        measured, simulated = draw_curves(ax, P, Q, axes)
+        measured, simulated = draw_curves(ax, P, Q, Labels(tuple(axes)))
         measured.set(label="experiment", marker=".", markersize=3, linewidth=0.6)
         simulated.set_label("simulation")
     legend_above(figure, panels[0])
@@ -125,7 +126,8 @@ def _panels(titles: Sequence[str], size: tuple[float, float]) -> tuple[Picture, 
     panels = figure.subplots(rows, columns, squeeze=False).ravel().tolist()
     for ax in panels[count:]:
         ax.remove()
-    if count > 2:
+    # A lone loop that nobody has named needs no title.
+    if count > 2 or not titles[0].startswith("Loop "):
         for ax, title in zip(panels, titles, strict=False):
             ax.set_title(title)
     return figure, panels[: count - 1], panels[count - 1]
@@ -141,8 +143,12 @@ def _draw_convergence(history: np.recarray[Any, Any], objective: str, ax: Axes) 
         failed, top = number[~good], ax.get_xaxis_transform()
         ax.plot(failed, [0.98] * len(failed), "|", transform=top, color=Q_COLOUR, label="failed")
     positive = value[good & (value > 0)]
-    if positive.size:
+    if positive.size and (ticks := log_ticks(positive.min(), positive.max())):
         ax.set_yscale("log")
         ax.set_ylim(top=2.0 * positive.max())
+        ax.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+        ax.minorticks_off()
+    elif positive.size:
+        ax.set_ylim(top=1.05 * positive.max())
     ax.set(xlabel="evaluation", ylabel=objective)
     ax.legend(loc="best" if len(history) < 1000 else "upper right", frameon=False)

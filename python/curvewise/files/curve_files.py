@@ -197,7 +197,7 @@ def read_named_columns(
     # What pictures call the columns.
     titles = [f"column {name}" if name.isdecimal() else name for name in names]
     if factors is None:
-        return NamedCurve(values, titles), names
+        return NamedCurve(values, titles, Path(path).name), names
     given = np.asarray(factors, dtype=np.float64)
     if given.shape != values.shape[1:]:
         raise ValueError(
@@ -210,4 +210,4 @@ def read_named_columns(
         name if factor == 1.0 else f"{name} × {factor:.10g}"
         for name, factor in zip(titles, given.tolist(), strict=True)
     ]
-    return NamedCurve(values * given, changed), names
+    return NamedCurve(values * given, changed, Path(path).name), names

@@ -34,7 +34,8 @@ def main(file: str) -> None:
         problem = f"is a .mat file of version 7.3; {_SAVE}"
     except Exception as error:  # whatever scipy's reader comes upon
         said = shorten(str(error), 90, placeholder=" ...")
-        problem = f"is not a .mat file that scipy reads ({type(error).__name__}: {said}); {_SAVE}"
+        said = f"{type(error).__name__}: {said}"
+        problem = f"is damaged, or not a .mat file that scipy reads ({said}); {_SAVE}"
     lengths = {name: len(column) for name, column in found.items()}
     sys.stdout.buffer.write(json.dumps([problem, lengths]).encode() + b"\n")
     for column in found.values():

@@ -6,6 +6,7 @@ and for several answers that do not overlap. The work is done by the compiled li
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from typing import SupportsFloat, SupportsIndex, get_args
 
@@ -13,11 +14,10 @@ import numpy as np
 
 from .._core import dtw_subsequences, frechet_subsequences
 from .._docstrings import filled, listed
-from .._options import Default, Metric, Order, WarpingName, check_choice
+from .._options import Default, Metric, Order, WarpingName, check_choice, whole_number
 from ..curves.inputs import Array, CurveLike, as_curves, warn_if_transposed
 from ..measures.registry import WARPINGS
 from ..measures.results import Subsequence
-from .nearest import _whole_number
 
 __all__ = ["subsequence"]
 
@@ -89,7 +89,7 @@ def subsequence(
     """
     P, Q = as_curves(P, Q)
     warn_if_transposed(P, "P")
-    count = _whole_number("k", k)
+    count = min(whole_number("k", k, 1, "give a whole number >= 1"), sys.maxsize)
     check_choice("measure", measure, get_args(WarpingName))
     find = dtw_subsequences if measure == "dtw" else frechet_subsequences
     how = {"metric": metric, "p": p, "workers": workers, "cutoff": cutoff}

@@ -81,9 +81,9 @@ def plot_alignment(
     if every is not None and (every < 1 or every % 1):
         raise ValueError(f"every is {every}; give a whole number >= 1, or None")
     refused = "plot_alignment draws 1 or 2 coordinates, plot_table any number"
-    measured, drawn, axes = measured_and_drawn(P, Q, normalized, names, refused)
+    measured, drawn, labels = measured_and_drawn(P, Q, normalized, names, refused)
     path = warping.path(*measured, **options).path
-    artists = draw_path(ax, drawn, path, axes, every=every)
+    artists = draw_path(ax, drawn, path, labels, every=every)
     if measure == "dtw":
         return artists
     # The first place on the path where the ground distance is largest.

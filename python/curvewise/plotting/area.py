@@ -69,14 +69,14 @@ def plot_area(
     >>> len(artists.between.get_paths())
     2
     """
-    measured, drawn, axes = measured_and_drawn(P, Q, normalized, names)
+    measured, drawn, labels = measured_and_drawn(P, Q, normalized, names)
     quads = area_quads(*measured, spacing=spacing, crossing=crossing).quads
     if normalized:
         low, extent = box(drawn[0])
         quads = low + extent * quads
     with matplotlib_required():
         from matplotlib.collections import PolyCollection
-    lines = draw_curves(ax, *drawn, axes)
+    lines = draw_curves(ax, *drawn, labels)
     between = PolyCollection(
         list(quads),
         facecolors=FILL_COLOUR,

@@ -77,14 +77,13 @@ def plot_comparison(comparison: Compared, *, names: Sequence[str] | None = None)
     >>> [ax.get_title() for ax in figure.axes][1:3]
     ['Area: 0.5', 'Partial curve mapping: 0.3953']
     """
-    _, drawn, axes = measured_and_drawn(comparison.P, comparison.Q, False, names)
+    _, drawn, labels = measured_and_drawn(comparison.P, comparison.Q, False, names)
     figure = new_figure(layout="constrained")
-    main, others = panels(figure, len(axes), len(comparison.values))
-    main.set_title(f"Preset: {comparison.preset}")
-    handles = list(draw_curves(main, *drawn, axes))
+    main, others = panels(figure, len(labels.axes), len(comparison.values))
+    handles = list(draw_curves(main, *drawn, labels))
     for ax, (name, value) in zip(others, comparison.values.items(), strict=True):
         ax.set_title(f"{MEASURES[name].title}: {value:.4g}")
-        accent = _draw_measure(comparison, name, ax, axes)
+        accent = _draw_measure(comparison, name, ax, labels.axes)
         if accent is not None:
             handles.append(accent)
     figure.legend(handles=handles, loc="outside upper left", ncols=len(handles), frameon=False)

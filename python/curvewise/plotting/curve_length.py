@@ -70,10 +70,10 @@ def plot_curve_length(
     >>> artists.between.get_segments()[1].tolist()
     [[1.0, 1.0], [2.0, 1.0]]
     """
-    measured, drawn, axes = measured_and_drawn(P, Q, normalized, names)
+    measured, drawn, labels = measured_and_drawn(P, Q, normalized, names)
     curve_length(*measured, scale=scale)  # for its checks
     counterparts = interpolate(drawn[1], *corresponding_positions(*measured))
     links = np.stack([drawn[0], counterparts], axis=1)
-    lines = draw_curves(ax, *drawn, axes)
+    lines = draw_curves(ax, *drawn, labels)
     between = draw_links(ax, links[evenly(len(links))], "points compared")
     return CurveArtists(*lines, between)

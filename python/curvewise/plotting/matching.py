@@ -9,8 +9,8 @@ import numpy as np
 
 from ..curves.arc_length import points_at
 from ..curves.inputs import CurveLike
-from ..drawing.figures import CurveArtists, label_axes, matplotlib_required
-from ..drawing.links import draw_matching, draw_walk
+from ..drawing.figures import CurveArtists, matplotlib_required
+from ..drawing.links import draw_matching, draw_walk, label_places
 from ..drawing.palette import BETWEEN_COLOUR, FILL_COLOUR
 from ..measures import frechet_continuous_path
 from .measured import measured_and_drawn
@@ -73,9 +73,9 @@ def plot_matching(
     [[5.0, 0.0], [5.0, 3.0]]
     """
     refused = "plot_matching draws 1 or 2 coordinates, plot_free_space any number"
-    measured, drawn, axes = measured_and_drawn(P, Q, normalized, names, refused)
+    measured, drawn, labels = measured_and_drawn(P, Q, normalized, names, refused)
     walks = frechet_continuous_path(*measured).parameters
-    return draw_matching(ax, drawn, walks, axes, measured)
+    return draw_matching(ax, drawn, walks, labels, measured)
 
 
 def plot_free_space(
@@ -129,7 +129,7 @@ def plot_free_space(
     """
     with matplotlib_required():
         from matplotlib.colors import ListedColormap
-    measured, *_ = measured_and_drawn(P, Q, normalized)
+    measured, _, labels = measured_and_drawn(P, Q, normalized)
     points = [curve.reshape(len(curve), -1) for curve in measured]
     matching = frechet_continuous_path(*measured)
     leash = matching.distance if distance is None else float(distance)
@@ -150,6 +150,7 @@ def plot_free_space(
     for draw, edges, across in ((ax.hlines, n, m), (ax.vlines, m, n)):
         if edges <= _LINES:
             draw(np.arange(1, edges), 0, across, colors=BETWEEN_COLOUR, linewidths=0.4)
-    path = draw_walk(ax, matching.parameters) if leash >= matching.distance else None
-    label_axes(ax, "vertex of Q", "vertex of P")
-    return image, path
+    label_places(ax, "vertex of", labels)
+    if leash < matching.distance:
+        return image, None
+    return image, draw_walk(ax, matching.parameters, "vertex of", labels)

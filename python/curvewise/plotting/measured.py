@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 from ..curves.inputs import Array, CurveLike, as_curves
-from ..curves.named_curve import axis_names
+from ..curves.named_curve import Labels, labels_of
 from ..measures import normalize
 from ..measures.registry import WARPINGS, Warping
 
@@ -21,7 +21,7 @@ def measured_and_drawn(
     normalized: bool,
     names: Sequence[str] | None = None,
     of_more_than_two: str = "",
-) -> tuple[Pair, Pair, tuple[str, ...]]:
+) -> tuple[Pair, Pair, Labels]:
     """Return what a picture begins with.
 
     Parameters
@@ -39,8 +39,8 @@ def measured_and_drawn(
     -------
     measured, drawn : two ndarrays each
         The curves to measure, and those to draw: (n, d) and in original units.
-    axes : tuple of str
-        What the coordinates are called.
+    labels : Labels
+        What coordinates and curves are called.
     """
     curves = as_curves(P, Q)
     first, second = normalize(*curves) if normalized else curves
@@ -48,7 +48,7 @@ def measured_and_drawn(
     dim = drawn[0].shape[1]
     if of_more_than_two and dim > 2:
         raise ValueError(f"P has shape {drawn[0].shape}; {of_more_than_two}")
-    return (first, second), (drawn[0], drawn[1]), axis_names(dim, names, P, Q)
+    return (first, second), (drawn[0], drawn[1]), labels_of(dim, names, P, Q)
 
 
 def warping_of(measure: str) -> Warping:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from .._options import WarpingName
 from ..curves.inputs import CurveLike
-from ..drawing.figures import label_axes, matplotlib_required
+from ..drawing.figures import matplotlib_required
 from ..drawing.links import draw_walk
 from ..drawing.palette import TABLE_MAP
 from .measured import measured_and_drawn, warping_of
@@ -75,7 +75,7 @@ def plot_table(
     with matplotlib_required():
         from matplotlib.patheffects import withStroke
     warping = warping_of(measure)
-    measured, *_ = measured_and_drawn(P, Q, normalized)
+    measured, _, labels = measured_and_drawn(P, Q, normalized)
     table = warping.table(*measured, **options)
     path = warping.path(*measured, **options).path
     n, m = table.shape
@@ -93,8 +93,7 @@ def plot_table(
         interpolation="nearest",
         extent=(*columns, *rows),
     )
-    line = draw_walk(ax, path)
+    line = draw_walk(ax, path, "index in", labels)
     line.set_path_effects([withStroke(linewidth=3, foreground="white")])  # legible on any colour
     ax.set(xlim=(-0.5, m - 0.5), ylim=(-0.5, n - 0.5))
-    label_axes(ax, "index in Q", "index in P")
     return image, line

@@ -17,12 +17,12 @@ from typing import Any, NamedTuple, get_args
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, Metric, Order, StepPattern, Window, check_choice
+from .._options import Default, Metric, Order, StepPattern, Window, check_choice, whole_number
 from ..curves.ground_distance import check_metric, ground_distances, in_range
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
-from .checks import check_pair, whole_number
+from .checks import check_pair
 from .warping_table import filled_table, traced_path
 
 __all__ = ["dtw", "dtw_path", "dtw_table"]

@@ -24,6 +24,7 @@ from typing import Literal, SupportsFloat, TypeAlias, overload
 
 import numpy as np
 
+from .._options import real_number
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..measures.results import Matching
 from .checks import check_pair
@@ -75,7 +76,7 @@ def frechet_within(
 ) -> bool:
     """One decision in whole numbers of any size: time and memory O(n m)."""
     P, Q = as_curves(P, Q)
-    distance = float(distance)
+    distance = real_number("distance", distance, -math.inf, "give a number >= 0")
     if not distance >= 0:
         raise ValueError(f"distance is {distance:g}; give a number >= 0")
     P, Q = check_pair(P, Q, "frechet_continuous")

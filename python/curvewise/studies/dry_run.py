@@ -18,6 +18,7 @@ from ..calibration import SolverError
 from ..calibration.methods import method_of
 from ..calibration.models.pool import Outcome
 from ..calibration.problem.space import Space
+from ..comparing.units import other_units
 from ..curves.inputs import Array
 from ..curves.several_curves import points_of
 from .contents import Contents
@@ -26,8 +27,6 @@ from .study_model import StudyModel
 
 __all__ = ["DryRun", "dry_run"]
 
-# Test and simulation whose extents differ by more than this are probably in different units.
-_UNITS = 20.0
 _LAST_LINES = 8  # of a log
 
 
@@ -67,17 +66,11 @@ class Read:
         """Return what looks wrong: other units, another sign, a piece of the test."""
         if self.test.is_number or self.simulation.shape[1] != np.shape(self.test.experiment)[1]:
             return []
-        found = []
-        extents = np.ptp(np.asarray(self.test.experiment), axis=0), np.ptp(self.simulation, axis=0)
-        for axis, measured, simulated in zip(self.test.axes, *extents, strict=True):
-            if simulated == 0:
-                found.append(f"look: {axis} of the simulation does not change")
-            elif not 1 / _UNITS < measured / simulated < _UNITS:
-                found.append(
-                    f"look: {axis} of the test is {measured / simulated:.3g} times that of the "
-                    "simulation; different units? see factors"
-                )
-        return found
+        test, axes = np.asarray(self.test.experiment), self.test.axes
+        still = np.ptp(self.simulation, axis=0) == 0
+        found = [f"{axes[c]} of the simulation does not change" for c in np.flatnonzero(still)]
+        units = other_units(test, self.simulation, axes, "the test", "the simulation")
+        return [f"look: {hint}" for hint in (*found, *(f"{unit} see factors" for unit in units))]
 
 
 @dataclass(frozen=True)

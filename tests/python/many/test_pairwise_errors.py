@@ -69,6 +69,8 @@ VALUES = {
     "which computes both directions": lambda: pdist([GOOD], "curve_length", scale="range"),
     "workers is 0; give a whole number >= 1, or -1 for all cores": lambda: cdist([GOOD], workers=0),
     "cutoff is -1.0; give a number >= 0, or None": lambda: cdist([GOOD], cutoff=-1.0),
+    "cutoff is '1'; give a number >= 0, or None": lambda: pdist([GOOD], cutoff="1"),
+    "cutoff is 1j; give a number >= 0, or None": lambda: cdist([GOOD], [GOOD], cutoff=1j),
     "cutoff is nan; give a number >= 0, or None": lambda: cdist([GOOD], cutoff=np.nan),
     NO_LIST: lambda: cdist(np.zeros((4, 2))),
     "X[0] has columns ['x'] and X[1] has columns ['stress']; name and order them alike": lambda: (

@@ -1,4 +1,4 @@
-"""No memory, full disks, damaged files, interpreters that end: tests/faults, once and in small.
+"""No memory, full disks, damaged files and stores, ends: tests/faults, once and in small.
 
 docs/reliability.md has what the long runs of these scripts found.
 """
@@ -12,12 +12,12 @@ from pathlib import Path
 import pytest
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "faults"
-FILES = ["csv", "xlsx", "mat", "toml", "dat", "frd", "abaqus", "nodout", "elout"]
 RUNS = {
     "memory": ["memory.py", "--limits", "2", "--points", "10000"],
     "disks": ["disks.py", "--times", "1"],
+    "stores": ["stores.py", "--times", "12"],
     "endings": ["endings.py", "--times", "1", "--only", "exit"],
-    "damaged files": ["damaged_files.py", "--times", "27", "--only", *FILES],
+    "damaged files": ["damaged_files.py", "--times", "30"],
 }
 
 

@@ -51,6 +51,8 @@ _DRAWN = (0.1, 0.9)  # where starts are drawn, between the bounds
 # many of those that it finds.
 _ATTEMPTS = 3
 _AFTER_RENEWAL = 0.15  # fresh slopes deserve trust again
+# Steps without a new run after which a search ends: slopes of noise lead round in a circle.
+_MOST_IDLE = 30
 # Earlier runs give the slopes at a point if none is further away than this, as a fraction of the
 # bounds' range, and if their spread in every direction is at least this fraction of their reach.
 _NEAR, _FLATTEST = 0.25, 0.03
@@ -180,7 +182,12 @@ def _places(k: int, start: Array | None, count: int, random: np.random.Generator
 def _descend(search: _Search, evaluations: Evaluations, rules: TrustRegion) -> Finish:
     """Go down from one start."""
     radius = rules.first_radius
+    known, idle = 0, 0
     for _ in range(rules.maxiter):
+        idle = idle + 1 if len(evaluations.done) == known else 0
+        if idle == _MOST_IDLE:
+            return Finish(False, f"{idle} steps in a row led only to runs that were known")
+        known = len(evaluations.done)
         candidate, promised = search.lowest(radius)
         least = max(evaluations.negligible, rules.gain * search.value)
         if promised <= least or radius < rules.tol:

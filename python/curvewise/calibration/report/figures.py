@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...curves.inputs import Array
-from ...drawing.figures import evenly, xy_labels, xy_of
+from ...drawing.figures import evenly, log_ticks, xy_labels, xy_of
 from ...drawing.palette import (
     ACCENT_COLOUR,
     FILL_COLOUR,
@@ -25,7 +25,9 @@ from ...drawing.palette import (
     series_colours,
 )
 from ..problem.space import Space
+from ..problem.tables import per_cent
 from ..records.evaluation import Evaluation
+from .shown_search import Loop
 
 __all__ = [
     "Figure",
@@ -44,45 +46,36 @@ _MOST_DOTS = 5000  # of the evaluations in a convergence
 _DOWNWARDS = {"type": "category", "autorange": "reversed"}  # an axis of names, as in a table
 
 
-def loop(
-    experiment: Array, simulation: Array | None, axes: Sequence[str], title: str, most: int
-) -> Figure:
+def loop(shown: Loop, most: int) -> Figure:
     """Return a test and its simulation at the optimum."""
-    traces = [_line(experiment, "test", P_COLOUR, most, mode="lines+markers", width=0.7)]
-    if simulation is not None:
-        traces.append(_line(simulation, "simulation", Q_COLOUR, most, width=2.0))
-    return _figure(traces, *xy_labels(axes), title)
+    traces = [_line(shown.test, "test", P_COLOUR, most, mode="lines+markers", width=0.7)]
+    if shown.simulation is not None:
+        traces.append(_line(shown.simulation, "simulation", Q_COLOUR, most, width=2.0))
+    return _figure(traces, *xy_labels(shown.axes), shown.title)
 
 
-def residuals(
-    branches: Sequence[tuple[str, Array, Array]], axes: Sequence[str], title: str, most: int
-) -> Figure:
+def residuals(shown: Loop, most: int) -> Figure:
     """Return the differences of test and simulation against x, a colour for each branch."""
-    x, y = xy_labels(axes)
+    branches = shown.branches
+    x, _ = xy_labels(shown.axes)
     each = max(10, most // len(branches))
     traces = [
         _line(np.column_stack(both), name, colour, each, mode="lines+markers", width=0.8)
         for (name, *both), colour in zip(branches, series_colours(len(branches)), strict=True)
     ]
-    return _figure(traces, x, f"test − simulation: {y}", title, yaxis={"zeroline": True})
+    y = f"test − simulation: {shown.y_name}"
+    return _figure(traces, x, y, shown.title, yaxis={"zeroline": True})
 
 
-def weakest_direction(
-    experiment: Array,
-    simulation: Array,
-    moved: Sequence[Array],
-    axes: Sequence[str],
-    title: str,
-    most: int,
-) -> Figure:
+def weakest_direction(shown: Loop, moved: Sequence[Array], most: int) -> Figure:
     """Return a loop, and the same moved both ways along the weakest direction."""
     traces = [
-        _line(experiment, "test", FILL_COLOUR, most, mode="markers"),
-        _line(simulation, "optimum", ACCENT_COLOUR, most, width=1.5),
-        _line(moved[0], "weakest direction", P_COLOUR, most, width=1.5, dash="dash"),
+        _line(shown.test, "test", FILL_COLOUR, most, mode="markers"),
+        _line(shown.simulation, "optimum", ACCENT_COLOUR, most, width=1.5),
+        _line(moved[0], "one way", P_COLOUR, most, width=1.5, dash="dash"),
         _line(moved[1], "and back", Q_COLOUR, most, width=1.5, dash="dash"),
     ]
-    return _figure(traces, *xy_labels(axes), title)
+    return _figure(traces, *xy_labels(shown.axes), shown.title)
 
 
 def convergence(evaluations: Sequence[Evaluation], objective: str) -> Figure:
@@ -108,8 +101,10 @@ def convergence(evaluations: Sequence[Evaluation], objective: str) -> Figure:
         said = "evaluation %{x} failed<extra></extra>"
         traces.append(marks | {"yaxis": "y2", "hovertemplate": said})
         layout["yaxis2"] = {"overlaying": "y", "range": [0, 1], "visible": False}
-    if (value[good] > 0).any() and (best[good] > 0).all():
-        layout["yaxis"] = {"type": "log"}
+    drawn = value[good]
+    if drawn.size and best[-1] > 0 and (ticks := log_ticks(best[-1], drawn.max())):
+        texts = [f"{tick:g}" for tick in ticks]
+        layout["yaxis"] = {"type": "log", "tickvals": ticks, "ticktext": texts}
     return _figure(traces, "evaluation", objective, **layout)
 
 
@@ -129,7 +124,9 @@ def intervals(space: Space, parameters: dict[str, float], summary: dict[str, Any
             value, (low, high) = parameters[name], summary["intervals"][name]
             places = (space.place(name, x, parameters) for x in (low, high, value))
             ends.append([min(max(place, 0.0), 1.0) for place in places])
-            texts.append(html.escape(f"{name} = {value:.5g}, {low:.5g} to {high:.5g}"))
+            share = per_cent(summary["standard_errors"][name], value)
+            error = f" ± {share} %" if share else ""
+            texts.append(html.escape(f"{name} = {value:.5g}{error}, {low:.5g} to {high:.5g}"))
         bars = _bars(chosen, [(low, high) for low, high, _ in ends], label, colour, 3)
         at = [place for *_, place in ends]
         dots = _trace(at, chosen, label, colour, "markers", size=10, legendgroup=label)
@@ -138,10 +135,10 @@ def intervals(space: Space, parameters: dict[str, float], summary: dict[str, Any
     return _figure(
         traces,
         "place between the bounds",
-        "",
+        title=f"{100 * summary['level']:g} % intervals",
         xaxis={"range": [-0.03, 1.03]},
         yaxis={**_DOWNWARDS, "categoryorder": "array", "categoryarray": names},
-        height=130 + 34 * len(names),
+        height=155 + 34 * len(names),
     )
 
 
@@ -170,9 +167,10 @@ def correlations(names: Sequence[str], table: Sequence[Sequence[float]]) -> Figu
     }
     return _figure(
         [trace],
+        title="Correlations of the errors",
         xaxis={"type": "category", "showgrid": False},
         yaxis={**_DOWNWARDS, "showgrid": False},
-        height=160 + 42 * len(names),
+        height=185 + 42 * len(names),
     )
 
 

@@ -52,7 +52,7 @@ def summary_of_record(record: SearchRecord) -> tuple[dict[str, Any] | None, str]
     if ending.unit is None or ending.slopes is None:
         return None, (
             "Intervals would take runs of the model: the search has left too few near the optimum. "
-            "Call found.report(..., uncertainty=found.uncertainty()), which makes them."
+            "Call found.uncertainty(), which makes them, and then found.report(...)."
         )
     if record.details["has_function"]:
         return None, (
