@@ -116,9 +116,14 @@ def _read_lines(path: str | os.PathLike[str]) -> list[str]:
     except OSError as error:  # one of reading does not name the file, as one of opening does
         error.filename = error.filename or os.fspath(path)
         raise
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     if "\0" in text:
-        raise ValueError(f"{os.fspath(path)} is not a text file; save the curve as CSV")
-    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+        line = next(i for i, line in enumerate(lines, 1) if "\0" in line)
+        raise ValueError(
+            f"{os.fspath(path)} is damaged, or not a text file: line {line} has a zero byte; save "
+            "the curve as CSV"
+        )
+    return lines
 
 
 def _decode(data: bytes) -> str:

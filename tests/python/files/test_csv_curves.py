@@ -200,7 +200,7 @@ def test_a_latin_1_header_names_its_column(read):
             "loop.csv: no line is made of numbers; the first with a digit is line 1, '# 1,",
         ),
         ("strain,stress\n", "loop.csv holds no numbers; a curve is one point per line"),
-        (b"PK\x03\x04\0\0\x08", "loop.csv is not a text file; save the curve as CSV"),
+        (b"PK\x03\x04\0", "loop.csv is damaged, or not a text file: line 1 has a zero byte; save"),
     ],
 )
 def test_the_place_of_a_bad_cell_is_named(read, content, expected):
