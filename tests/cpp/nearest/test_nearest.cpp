@@ -18,10 +18,6 @@ using namespace curvewise;
 using test::Curve;
 using test::Random;
 
-std::vector<CurveView> views_of(const std::vector<Curve>& curves) {
-    return {curves.begin(), curves.end()};
-}
-
 std::vector<Curve> random_curves(Random& random, std::size_t count, std::ptrdiff_t longest) {
     std::vector<Curve> curves;
     while (curves.size() < count) {

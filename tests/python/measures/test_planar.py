@@ -312,7 +312,7 @@ def test_area_does_not_depend_on_place_size_or_direction(name: str, crossing: An
         close(curvewise.area(P @ turn + (0.7, 1.9), Q @ turn + (0.7, 1.9), crossing=crossing), area)
 
 
-# A vertex of Q lies on the line through one of P, where quadrilaterals turn complex but for rounding.
+# A vertex of Q lies on the line through an edge of P: rounding makes quadrilaterals complex.
 JUMPED = [
     ([(0, 0), (2, 3)], [(2, 1), (2, 3), (2, 0), (1, 0)]),
     ([(1, 0), (2, 1)], [(5, 2), (5, 4), (3, 3), (0, 2)]),
