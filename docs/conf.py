@@ -6,10 +6,11 @@ no Python package. The pages describe the curvewise that is installed, so instal
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
-from importlib.metadata import version as installed_version
+from importlib.metadata import metadata
 from pathlib import Path
 
 from sphinx.application import Sphinx
@@ -38,14 +39,32 @@ def doxygen_xml() -> str:
     return str(output / "xml")
 
 
+def repository() -> list[dict[str, str]]:
+    """Return the header's link to the repository, or none where its address is not known.
+
+    It stands among the package's URLs (`[project.urls]`), or the server that builds the site says
+    where it has cloned from.
+    """
+    address = dict(url.split(", ", 1) for url in installed.get_all("Project-URL", [])).get(
+        "Repository"
+    )
+    if github := os.environ.get("GITHUB_REPOSITORY"):
+        address = address or f"{os.environ['GITHUB_SERVER_URL']}/{github}"
+    address = address or os.environ.get("READTHEDOCS_GIT_CLONE_URL", "").removesuffix(".git")
+    icon = "fa-brands fa-github" if "github" in address else "fa-solid fa-code-branch"
+    return [{"name": "Repository", "url": address, "icon": icon}] if address else []
+
+
+installed = metadata("curvewise")
 project = "curvewise"
 author = "The curvewise developers"
 copyright = "the curvewise developers, MIT licence"
-version = release = installed_version("curvewise")
+version = release = installed["Version"]
 
 extensions = [
     "breathe",
     "command_help",
+    "figures",
     "mathml",
     "myst_parser",
     "numpydoc",
@@ -97,7 +116,13 @@ sphinx_gallery_conf = {
     "min_reported_time": 5,
     "remove_config_comments": True,
     "copyfile_regex": "",
-    "image_scrapers": ("matplotlib", "figures.plain_figures"),
+    "image_scrapers": ("figures.every_figure",),
+    "capture_repr": (),
+    "thumbnail_size": (540, 375),
+    "subsection_order": [
+        f"../examples/{part}"
+        for part in ("measures", "two_curves", "many_curves", "identification")
+    ],
     "show_signature": False,
     "write_computation_times": False,
 }
@@ -113,8 +138,9 @@ html_theme_options = {
     "logo": {
         "image_light": "_static/curvewise.svg",
         "image_dark": "_static/curvewise.svg",
-        "text": "curvewise",
+        "text": f"curvewise {version}",
     },
+    "icon_links": repository(),
     "header_links_before_dropdown": 7,
     "show_toc_level": 2,
     "navigation_with_keys": False,

@@ -9,6 +9,10 @@ again, it runs the solver for nothing that is in its store.
 
     pip install ".[calibration,plot,report]"
     CURVEWISE_DATA=... python benchmarks/validation/worked_example.py
+    python benchmarks/validation/worked_example.py --generated
+
+The second way needs neither the tests nor CalculiX: it generates two tests of another law, with
+noise, and integrates the law of the element instead. It writes everything to --scratch.
 """
 
 from __future__ import annotations
@@ -16,9 +20,11 @@ from __future__ import annotations
 import argparse
 import io
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import redirect_stdout
+from functools import partial
 from pathlib import Path
+from typing import TypeAlias
 
 import calculix_cube as cube
 import numpy as np
@@ -29,7 +35,13 @@ from places import LOOPS, RESULTS, ROOT
 from curvewise import read_curve
 from curvewise.calibration import Case, Identification, Uncertainty, identify, identify_each
 from curvewise.curves import resample, smooth, turning_points
+from curvewise.curves.named_curve import NamedCurve
+from curvewise.datasets import kinematic_hardening
 
+# Parameters in, a curve for each test out.
+Model: TypeAlias = Callable[[Mapping[str, float]], list[np.ndarray]]
+
+NAMES = ("true strain", "true stress, MPa")
 FILES = ("dp780_tct_3pct.csv", "dp780_tct_6pct.csv")
 
 # What an engineer would say before: a modulus of steel, and the knee of the first loading.
@@ -51,14 +63,16 @@ WINDOWS = ((50, 150), (50, 250), (150, 350), (50, 400))  # MPa after the start o
 def main() -> None:
     """Go through the steps, print and draw them."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--generated", action="store_true", help="generated tests, and no solver")
     parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--samples", type=int, default=200, help="of each bootstrap")
     parser.add_argument("--scratch", type=Path, default=ROOT / "build" / "worked_example")
     parser.add_argument("--output", type=Path, metavar="DIR", help="in the place of the project's")
     options = parser.parse_args()
     options.scratch.mkdir(parents=True, exist_ok=True)
-    text = options.output or RESULTS
-    images = options.output or ROOT / "docs" / "images"
+    output = options.output or (options.scratch if options.generated else None)
+    text = output or RESULTS
+    images = output or ROOT / "docs" / "images"
     written = io.StringIO()
 
     def say(title: str, *parts: object) -> None:
@@ -67,13 +81,17 @@ def main() -> None:
             print(f"== {title}\n", *parts, sep="\n", end="\n\n")
         print(written.getvalue().rpartition("== ")[2], flush=True)
 
-    raw = [read_curve(LOOPS / file) for file in FILES]
+    folder = generate(options.scratch) if options.generated else LOOPS
+    model_of = Integrated if options.generated else partial(solved, options.scratch / "runs")
+
+    raw = [read_curve(folder / file) for file in FILES]
     tests = [prepared(test) for test in raw]
     draw_tests(raw, tests).savefig(images / "worked_tests.png", dpi=90)
     say("The elastic slopes of the tests", slopes_table(raw))
 
-    model = cube.CubeModel([path_of(corners_of(test)) for test in raw], options.scratch / "runs")
-    search = {"store": options.scratch / "dp780.db", "workers": options.workers, "progress": False}
+    model = model_of([path_of(corners_of(test)) for test in raw])
+    store = options.scratch / ("generated.db" if options.generated else "dp780.db")
+    search = {"store": store, "workers": options.workers, "progress": False}
     search["start"] = GUESS
     small = Case("3 %", model, tests[0], response=lambda curves: curves[0])
     one = identify([small], bounds=BOUNDS, **search)
@@ -86,7 +104,7 @@ def main() -> None:
     say("What both determine, by area", both["area"], "", uncertainty)
     uncertainty.plot().savefig(images / "worked_uncertainty.png", dpi=80)
 
-    moves = moves_of(TESTS_TO_COME, uncertainty, options.scratch / "runs")
+    moves = moves_of(TESTS_TO_COME, uncertainty, model_of)
     say("A test that would notice the weakest direction", moves)
 
     fixed = {**BOUNDS, **fixed_parameters(raw)}
@@ -95,15 +113,46 @@ def main() -> None:
     uncertainty = fewer.uncertainty(samples=options.samples)
     say("E and H fixed", fewer, "", uncertainty)
     say("The price of fixing", price(both["area"], fewer))
-    fewer.report(options.scratch / "dp780.html", uncertainty=uncertainty)
+    fewer.report(store.with_suffix(".html"), uncertainty=uncertainty)
     (text / "worked_example.txt").write_text(written.getvalue())
+
+
+def generate(folder: Path) -> Path:
+    """Write two tests as a test machine would, of a law that the model does not have."""
+    random = np.random.default_rng(1)
+    for file, strain in zip(FILES, (0.03, 0.06), strict=True):
+        path = strain * np.interp(np.linspace(0, 5, 3001), [0, 1, 3, 5], [0, 1, -1, 1])
+        stress = kinematic_hardening(
+            path, youngs_modulus=195e3, yield_stress=350.0, backstresses=((9e4, 400.0), (1e4, 30.0))
+        )
+        stress += random.normal(0.0, 1.0, len(stress))
+        np.savetxt(folder / file, np.column_stack([path, stress]), delimiter=",", fmt="%.7g")
+    return folder
+
+
+def solved(scratch: Path, paths: Sequence[np.ndarray]) -> cube.CubeModel:
+    """Return the finite element of each test, for CalculiX."""
+    return cube.CubeModel(paths, scratch)
+
+
+class Integrated:
+    """The law of the finite element along the paths of the tests, for small strains, in Python."""
+
+    identity = "calculix_cube.integrate"  # what a store knows the runs by
+
+    def __init__(self, paths: Sequence[np.ndarray]) -> None:
+        self._paths = paths
+
+    def __call__(self, parameters: Mapping[str, float]) -> list[np.ndarray]:
+        """Integrate the law for each test."""
+        return [np.column_stack([path, cube.integrate(parameters, path)]) for path in self._paths]
 
 
 def prepared(test: np.ndarray) -> np.ndarray:
     """Return a test with less noise, branch by branch, and as many points in each."""
     turns = turning_points(test)
     smoothed = smooth(test, window=15, turns=turns)
-    return resample(smoothed, POINTS, turns=turns)
+    return NamedCurve(resample(smoothed, POINTS, turns=turns), NAMES)
 
 
 def path_of(corners: Sequence[float]) -> np.ndarray:
@@ -167,11 +216,15 @@ def price(free: Identification, fixed: Identification) -> str:
     return "\n".join(lines)
 
 
-def moves_of(tests: Mapping[str, Sequence[float]], uncertainty: Uncertainty, scratch: Path) -> str:
+def moves_of(
+    tests: Mapping[str, Sequence[float]],
+    uncertainty: Uncertainty,
+    model_of: Callable[[list[np.ndarray]], Model],
+) -> str:
     """Return by how much tests that nobody has made would move along the weakest direction."""
     best = uncertainty.parameters
     moved = {name: best[name] + uncertainty.weakest_direction.get(name, 0.0) for name in best}
-    model = cube.CubeModel([path_of(corners) for corners in tests.values()], scratch)
+    model = model_of([path_of(corners) for corners in tests.values()])
     lines = []
     for name, one, two in zip(tests, model(best), model(moved), strict=True):
         heights = (two - one)[:, 1] / np.ptp(one[:, 1])

@@ -22,15 +22,7 @@ from .many.nearest import Index
 from .many.pairwise import Prepared, available_measures, cdist, pdist
 from .many.subsequences import subsequence
 from .measures import *  # noqa: F403  # the names that measures/__init__ lists
-from .measures.results import (
-    Alignment,
-    AreaQuads,
-    DtwMean,
-    Matching,
-    PcmMatch,
-    Subsequence,
-    WarpingInfo,
-)
+from .measures.results import *  # noqa: F403  # likewise
 
 if TYPE_CHECKING:
     from . import calibration as calibration
@@ -45,16 +37,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     *measures.__all__,
-    "Alignment",
-    "AreaQuads",
+    *measures.results.__all__,
     "Comparison",
-    "DtwMean",
     "Index",
-    "Matching",
-    "PcmMatch",
     "Prepared",
-    "Subsequence",
-    "WarpingInfo",
     "__version__",
     "available_measures",
     "cdist",

@@ -7,7 +7,9 @@ which type checkers read, stand here once more, and a test holds them to ``_core
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+import operator
+from collections.abc import Collection
 from typing import Any, Final, Literal, SupportsFloat, SupportsIndex, TypeAlias
 
 from ._core import measures
@@ -26,6 +28,8 @@ __all__ = [
     "WarpingName",
     "Window",
     "check_choice",
+    "real_number",
+    "whole_number",
 ]
 
 Differentiable: TypeAlias = Literal["area", "curve_length", "dtw", "frechet", "sum_of_squares"]
@@ -67,7 +71,29 @@ class Default:
     cutoff: Final[SupportsFloat | None] = _DEFAULTS["cutoff"]
 
 
-def check_choice(option: str, value: object, choices: Sequence[str]) -> None:
+def check_choice(option: str, value: object, choices: Collection[str]) -> None:
     """Refuse a `value` that is not one of the strings in `choices`."""
     if not (isinstance(value, str) and value in choices):
         raise ValueError(f"unknown {option} {value!r}; choose from {', '.join(choices)}")
+
+
+def real_number(option: str, value: Any, least: float, advice: str) -> float:
+    """Return `value` as a float; refuse text, nan, what is no number, and what is below `least`."""
+    try:
+        number = math.nan if isinstance(value, str | bytes) else float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if not number >= least:
+        raise ValueError(f"{option} is {value!r}; {advice}")
+    return number
+
+
+def whole_number(option: str, value: Any, least: int, advice: str, most: float = math.inf) -> int:
+    """Return `value` as an int; refuse bools, floats and what is not from `least` to `most`."""
+    try:
+        number = None if isinstance(value, bool) else operator.index(value)
+    except TypeError:
+        number = None
+    if number is None or not least <= number <= most:
+        raise ValueError(f"{option} is {(value if number is None else number)!r}; {advice}")
+    return number

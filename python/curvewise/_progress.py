@@ -27,7 +27,7 @@ def reporting(progress: bool | Report) -> Iterator[Report | None]:
         yield progress
     elif progress:
         with extra("progress", "progress=True needs tqdm", ", or give a function of (done, total)"):
-            from tqdm.auto import tqdm
+            from tqdm import tqdm
         with tqdm(unit="step", unit_scale=True) as bar:
 
             def report(done: int, total: int) -> None:

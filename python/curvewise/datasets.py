@@ -16,6 +16,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from .curves.checks import check_finite
 from .curves.named_curve import NamedCurve
 
 __all__ = ["hysteresis_pair", "kinematic_hardening"]
@@ -99,9 +100,7 @@ def kinematic_hardening(
     path = np.asarray(strain, dtype=np.float64)
     if path.ndim != 1:
         raise ValueError(f"strain has shape {path.shape}; give one value per point, shape (n,)")
-    if not np.isfinite(path).all():
-        first = int(np.argmin(np.isfinite(path)))
-        raise ValueError(f"strain[{first}] is {path[first]}; strains must be finite")
+    check_finite(path, "strain", "strains")
     _check_constants(youngs_modulus, yield_stress, backstresses)
 
     centres = [0.0] * len(backstresses)

@@ -8,13 +8,13 @@ that pipelines, grid searches and cross-validation take it. The neighbours are f
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal, SupportsIndex, TypeAlias
+from typing import Any, Literal, SupportsIndex, TypeAlias, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from ._extras import extra
-from ._options import Default
+from ._options import Default, check_choice
 from .curves.inputs import Array
 from .many.nearest import Index, Places
 from .many.pairwise import Curves
@@ -114,8 +114,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         ValueError, TypeError
             As for :class:`curvewise.Index`; a `y` that does not fit, or holds no classes.
         """
-        if self.weights not in ("uniform", "distance"):
-            raise ValueError(f"unknown weights {self.weights!r}; choose from uniform, distance")
+        check_choice("weights", self.weights, get_args(Weights))
         if y is None:
             raise ValueError(
                 "fit requires y to be passed, but the target y is None: give the classes"

@@ -25,7 +25,7 @@ DATA = Path(os.environ.get("CURVEWISE_DATA", ROOT.parent / "shared" / "data"))
 LONGEST_FIRST = (
     "embedding/test_cpp.py",
     "embedding/test_embed.py::test_fetch_content",
-    "commands/test_cli.py::test_selfcheck_passes_on_this_machine",
+    "commands/test_selfcheck.py::test_selfcheck_passes_on_this_machine",
     "calibration/",
     "embedding/",
 )

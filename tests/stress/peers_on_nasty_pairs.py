@@ -7,7 +7,7 @@ The right number comes from tables whose distances neither overflow nor vanish (
 squares, of fractions. "wrong" is further from it than 1e-9 of it, or a nan; what is refused is
 counted for itself, and so are pairs with coordinates beyond 1e100 or below 1e-100 in magnitude,
 where squares overflow or vanish. Then what each package says of curves that are no curves: nan,
-infinity, no points.
+infinity, no points; and of 1000 random pairs with one coordinate that is nan.
 """
 
 from __future__ import annotations
@@ -121,6 +121,20 @@ def said(call: Call, P: Array, Q: Array) -> float | str:
         return type(error).__name__
 
 
+def said_of_nan(call: Call, pairs: int, seed: int) -> Counter[str]:
+    """Count what a call says of random pairs in each of which one coordinate is nan."""
+    random = np.random.default_rng(seed)
+    counts: Counter[str] = Counter()
+    for _ in range(pairs):
+        pair = [random.normal(size=(random.integers(1, 6), 2)) for _ in range(2)]
+        spoilt = pair[random.integers(2)]
+        spoilt[random.integers(len(spoilt)), random.integers(2)] = math.nan
+        found = said(call, *pair)
+        is_number = isinstance(found, float) and math.isfinite(found)
+        counts["a number" if is_number and found else str(found)] += 1
+    return counts
+
+
 def main() -> None:
     """Run as the module's documentation says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -159,6 +173,8 @@ def main() -> None:
     for what, (P, Q) in BAD.items():
         for name, (_, _, call) in peers().items():
             print(f"{what:14} {name:35} {said(call, P, Q)}")
+    for name, (_, _, call) in peers().items():
+        print(f"{name:35} of 1000 pairs with a nan: {dict(said_of_nan(call, 1000, args.seed))}")
 
 
 if __name__ == "__main__":

@@ -199,7 +199,8 @@ CURVEWISE_EXPORT int curvewise_cdist(const curvewise_curve* XA, ptrdiff_t na,
                                      double* out, curvewise_error* error);
 
 /** Writes the measure of X[i] and X[j], i < j, row by row: k (k - 1) / 2 values: (0, 1), (0, 2)
- * and so on. For symmetric measures: area, both Frechet distances, and dtw without open ends. */
+ * and so on. For symmetric measures: area except with the spacings arc_length and matched, both
+ * Frechet distances, and dtw without open ends. */
 CURVEWISE_EXPORT int curvewise_pdist(const curvewise_curve* X, ptrdiff_t k, int measure,
                                      const void* options, const curvewise_batch_options* batch,
                                      double* out, curvewise_error* error);

@@ -19,9 +19,11 @@ from .methods import *  # noqa: F403  # the classes that methods/__init__ lists
 from .models.command import CommandModel, SolverError
 from .objective.cases import Case
 from .objective.criterion import MEASURES, Criterion
+from .objective.noisy_tests import NoisyTestWarning
 from .objective.objective import Objective, Score
 from .problem.evaluations import Progress
-from .problem.space import Below, Log, Tied
+from .problem.space import Below, Log, Tied, WideBoundsWarning
+from .records.database import StoreError
 from .records.store import SimulationStore
 from .records.stored_run import StoredRun
 from .rescoring import Rescored, rescore
@@ -39,6 +41,7 @@ __all__ = [
     "Identification",
     "LinePlot",
     "Log",
+    "NoisyTestWarning",
     "Objective",
     "Progress",
     "Rescored",
@@ -46,9 +49,11 @@ __all__ = [
     "SeveralMeasures",
     "SimulationStore",
     "SolverError",
+    "StoreError",
     "StoredRun",
     "Tied",
     "Uncertainty",
+    "WideBoundsWarning",
     "cross_validate",
     "identify",
     "identify_each",

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from inspect import signature
 from typing import Any
 
 import numpy as np
@@ -21,10 +22,11 @@ from .answers.identification import Identification
 from .identify import identify
 from .models.identity import model_identity
 from .models.pool import Model
-from .objective.criterion import Criterion, Measure
+from .objective.criterion import Criterion, Measure, criterion_of
+from .objective.noisy_tests import warn_of_noise
 from .objective.objective import Objective
 from .problem.selection import Selection
-from .problem.space import Bounds
+from .problem.space import Bounds, Space
 from .records.store import SimulationStore
 
 __all__ = ["CrossValidation", "Fold", "cross_validate"]
@@ -126,6 +128,11 @@ def cross_validate(
     RuntimeError, ImportError, KeyboardInterrupt
         As for :func:`identify`.
 
+    Warns
+    -----
+    NoisyTestWarning, WideBoundsWarning
+        As for :func:`identify`, once for all searches.
+
     Notes
     -----
     Time: for k loops that of k identifications, and k runs of the model; with ``store=`` a run that
@@ -149,6 +156,11 @@ def cross_validate(
     count = len(curves)
     if count < 2:
         raise ValueError("there is one experiment; cross-validation needs at least 2")
+    own = signature(identify).parameters
+    options = {name: keywords.pop(name) for name in list(keywords) if name not in own}
+    criterion = criterion_of(measure, options, own)
+    warn_of_noise([Objective(curves, criterion.weighing(None))])
+    Space(bounds).warn_of_wide_bounds()
     folds = []
     for left_out in range(count):
         kept = tuple(i for i in range(count) if i != left_out)
@@ -156,20 +168,20 @@ def cross_validate(
             Selection(model, kept, count),
             [curves[i] for i in kept],
             bounds,
-            measure=_measure_of(kept, measure, count),
+            measure=_criterion_of(kept, criterion, count),
             **keywords,
         )
         folds.append(_fold(model, curves, left_out, identification, keywords))
     return CrossValidation(tuple(folds), identification.measure, identification.preset)
 
 
-def _measure_of(kept: Sequence[int], measure: Measure, count: int) -> Measure:
-    """Return the measure for the loops that are kept: with their weights, if it has any."""
-    if not isinstance(measure, Criterion) or (weights := measure.weights) is None:
-        return measure
+def _criterion_of(kept: Sequence[int], criterion: Criterion, count: int) -> Criterion:
+    """Return the criterion for the loops that are kept: with their weights, if it has any."""
+    if (weights := criterion.weights) is None:
+        return criterion
     if len(weights) != count:
         raise ValueError(f"weights has {len(weights)} entries; give one for each of {count} loops")
-    return measure.weighing([weights[i] for i in kept])
+    return criterion.weighing([weights[i] for i in kept])
 
 
 def _fold(

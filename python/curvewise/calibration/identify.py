@@ -15,10 +15,11 @@ from .answers.ended_search import identification_of
 from .answers.identification import Identification
 from .methods import method_of
 from .methods.method import Method
-from .methods.search import Plan, run_search
+from .methods.search import Plan
 from .models.pool import Model
 from .objective.cases import Case, Cases
 from .objective.criterion import Measure, criterion_of
+from .objective.noisy_tests import warn_of_noise
 from .objective.objective import Objective
 from .problem.evaluations import Progress
 from .problem.problem import Problem, models_of
@@ -111,6 +112,13 @@ def identify(
     KeyboardInterrupt
         Ctrl-C, after the processes have been stopped. The store holds what was finished.
 
+    Warns
+    -----
+    NoisyTestWarning
+        A test has noise that the measure does not average out ("curve_length", "pcm", "frechet").
+    WideBoundsWarning
+        Bounds go over more than a decade, for which there is :class:`Log`.
+
     Notes
     -----
     Cost: the runs of the model; how many they are stands with each method. The search is over the
@@ -148,9 +156,12 @@ def identify(
         objective = cases.objective()
     for one in objective.measures:
         plan.method.check(one)
+    if not isinstance(model, Selection):  # of whose tests cross_validate has warned
+        warn_of_noise([objective])
+        space.warn_of_wide_bounds()
     models, assemble = models_of(model if cases is None else cases)
     problem = Problem(models, assemble, objective, space, store, workers, executor)
-    return identification_of(problem, plan, run_search(problem, plan))
+    return identification_of(problem, plan)
 
 
 def _cases_of(model: Any) -> Cases | None:

@@ -24,9 +24,10 @@ from .answers.identification import Identification
 from .answers.several_measures import SeveralMeasures
 from .methods import method_of
 from .methods.method import Method
-from .methods.search import Plan, run_search
+from .methods.search import Plan
 from .models.pool import Model
 from .objective.criterion import Measure
+from .objective.noisy_tests import warn_of_noise
 from .objective.objective import objectives_of
 from .problem.problem import Problem, models_of
 from .problem.space import Bounds, Space
@@ -85,6 +86,11 @@ def identify_each(
     ValueError, RuntimeError, ImportError, KeyboardInterrupt
         As for :func:`identify`; a measure that is given twice.
 
+    Warns
+    -----
+    NoisyTestWarning, WideBoundsWarning
+        As for :func:`identify`, once for all searches.
+
     Notes
     -----
     Runs: for the four measures of `benchmarks/validation/shared_runs.py`, 7 parameters, 393, where
@@ -115,6 +121,8 @@ def identify_each(
     plan = Plan(searching, seed, start, progress, None, max_runs)
     for objective in objectives.values():
         searching.check(objective.measures[0])
+    warn_of_noise(objectives.values())
+    space.warn_of_wide_bounds()
     found: dict[str, Identification] = {}
     with ExitStack() as stack:
         if store is None:
@@ -127,18 +135,14 @@ def identify_each(
             if known:  # a start is given from here on: one search a measure
                 begin = _best_known(known, problem)
                 plan = replace(plan, start=begin, method=searching.near_optimum())
-            found[name] = identification_of(problem, plan, run_search(problem, plan, known))
+            found[name] = identification_of(problem, plan, known)
             known = found[name].runs_with_curves
         if (closer := searching.closer()) is not None:
             _go_on(found, replace(plan, method=closer), known)
     return SeveralMeasures(found)
 
 
-def _go_on(
-    found: dict[str, Identification],
-    plan: Plan,
-    known: tuple[Run, ...],
-) -> None:
+def _go_on(found: dict[str, Identification], plan: Plan, known: tuple[Run, ...]) -> None:
     """Search again by each measure from what all have found, as long as one of them gains."""
     waiting = list(found)
     for _ in range(_ROUNDS):
@@ -149,9 +153,7 @@ def _go_on(
             if left is not None and left < 1:
                 continue
             again = replace(plan, start=_best_known(known, before.problem), max_runs=left)
-            after = identification_of(
-                before.problem, again, run_search(before.problem, again, known)
-            )
+            after = identification_of(before.problem, again, known)
             known = after.runs_with_curves
             found[name] = before.followed_by(after)
             if before.value - after.value > _WORTH_A_ROUND * before.value:

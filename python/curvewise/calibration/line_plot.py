@@ -14,7 +14,8 @@ import numpy as np
 
 from .._extras import required
 from ..curves.inputs import Array
-from ..drawing.lines import lines_by_name
+from ..drawing.figures import new_figure
+from ..drawing.palette import series_colours
 from .models.pool import Model, ModelPool
 from .objective.criterion import Measure
 from .objective.objective import Objective, objectives_of
@@ -118,9 +119,13 @@ def line_plot(
     line = [{key: (1.0 - s) * a[key] + s * b[key] for key in a} for s in t.tolist()]
     values = _values(named, model, line, workers, progress)
     data = _records(t, values)
-    scaled = {name: data[f"{name}_scaled"] for name in named}
-    labels = ("position on the line from a to b", "objective, scaled on the line")
-    return LinePlot(data, lines_by_name(t, scaled, labels))
+    figure = new_figure(figsize=(7, 4.2), layout="constrained")
+    ax = figure.subplots()
+    for name, colour in zip(named, series_colours(len(named)), strict=True):
+        ax.plot(t, data[f"{name}_scaled"], color=colour, linewidth=1.2, label=name)
+    ax.set(xlabel="position on the line from a to b", ylabel="objective, scaled on the line")
+    figure.legend(loc="outside upper center", ncols=len(named), frameon=False)
+    return LinePlot(data, figure)
 
 
 def _values(
@@ -135,7 +140,7 @@ def _values(
     with ModelPool(model, workers) as pool:
         outcomes = pool.run(line)
         if progress:
-            outcomes = required("tqdm.auto").tqdm(outcomes, total=len(line), unit="run")
+            outcomes = required("tqdm").tqdm(outcomes, total=len(line), unit="run")
         for i, outcome in outcomes:
             for name, objective in objectives.items():
                 score = objective.score(outcome.simulations)
@@ -147,8 +152,7 @@ def _values(
 def _records(t: Array, values: dict[str, Array]) -> np.recarray[Any, Any]:
     columns = {"t": t}
     for name, raw in values.items():
-        columns[name] = raw
-        columns[f"{name}_scaled"] = _scaled(raw)
+        columns |= {name: raw, f"{name}_scaled": _scaled(raw)}
     data = np.empty(len(t), dtype=[(name, np.float64) for name in columns])
     for name, column in columns.items():
         data[name] = column

@@ -12,7 +12,7 @@ import argparse
 import io
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from ..installation import build_info, get_cmake_dir, get_include
@@ -89,16 +89,10 @@ def _discard_output() -> None:
 
 
 class _Print(argparse.Action):
-    """An option that prints what `text` returns and ends the program, as --version does."""
-
-    def __init__(
-        self, option_strings: Sequence[str], dest: str, text: Callable[[], str], help: str
-    ) -> None:
-        super().__init__(option_strings, dest, nargs=0, default=argparse.SUPPRESS, help=help)
-        self._text = text
+    """An option that prints what the function `const` returns and ends the program."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
-        print(self._text())
+        print(self.const())
         parser.exit()
 
 
@@ -115,13 +109,15 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--cmakedir",
         action=_Print,
-        text=get_cmake_dir,
+        nargs=0,
+        const=get_cmake_dir,
         help="print the folder for CMake's curvewise_DIR and exit",
     )
     parser.add_argument(
         "--includes",
         action=_Print,
-        text=lambda: f"-I{get_include()}",
+        nargs=0,
+        const=lambda: f"-I{get_include()}",
         help="print the flag that lets a compiler find the C++ and C headers and exit",
     )
     commands = parser.add_subparsers(title="commands", metavar="command", required=True)

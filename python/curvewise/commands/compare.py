@@ -9,7 +9,7 @@ import math
 import shlex
 import sys
 import warnings
-from collections.abc import Iterable
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, get_args
 
@@ -117,25 +117,19 @@ def _compare(arguments: argparse.Namespace) -> int:
     if arguments.plot:
         require_matplotlib()
     files = [arguments.A, arguments.B]
+    columns = [arguments.columns, arguments.columns_b or arguments.columns]
+    sheets = [arguments.sheet_a, arguments.sheet_b]
     factors = [arguments.factors_a, arguments.factors_b]
-    P, of_p = _read(arguments.A, arguments.columns, arguments.sheet_a, factors[0])
-    Q, of_q = _read(
-        arguments.B, arguments.columns_b or arguments.columns, arguments.sheet_b, factors[1]
-    )
-    given = {
-        "area": {"spacing": arguments.spacing, "crossing": arguments.crossing},
-        "dtw": {"window": arguments.window},
-    }
-    options = {
-        measure: chosen
-        for measure, values in given.items()
-        if (chosen := {name: value for name, value in values.items() if value is not None})
-    }
+    curves, names = zip(*map(_read, files, columns, sheets, factors), strict=True)
+    options: dict[str, dict[str, Any]] = {}
+    for measure, option in (("area", "spacing"), ("area", "crossing"), ("dtw", "window")):
+        if (value := getattr(arguments, option)) is not None:
+            options.setdefault(measure, {})[option] = value
     try:
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always", UserWarning)
             comparison = compare(
-                P, Q, preset=arguments.preset, measures=arguments.measures, options=options
+                *curves, preset=arguments.preset, measures=arguments.measures, options=options
             )
     except ValueError as error:
         raise ValueError(f"{error} (P is {files[0]}, Q is {files[1]})") from error
@@ -143,12 +137,14 @@ def _compare(arguments: argparse.Namespace) -> int:
         print("curvewise:", words, file=sys.stderr)
     if arguments.output:
         numbers = _residuals(comparison) if arguments.residuals else comparison.values.values()
-        _write_numbers(numbers, arguments.output)
+        # With all digits: an optimiser takes differences of them.
+        lines = "".join(f"{number:.17g}\n" for number in numbers)
+        Path(arguments.output).write_text(lines, encoding="ascii")
     if arguments.json:
-        print(_to_json(comparison, files, [of_p, of_q], factors))
+        read = {"files": files, "columns": names, "factors": factors}
+        print(json.dumps(read | _in_json(comparison), indent=2))
     else:
-        columns = [_columns_in_words(*of) for of in zip((of_p, of_q), factors, strict=True)]
-        print_table(comparison, files, columns)
+        print_table(comparison, files, list(map(_columns_in_words, names, factors)))
     if arguments.plot:
         write_picture(comparison, arguments.plot)
         if not arguments.json:
@@ -176,35 +172,19 @@ def _columns_in_words(names: list[str], factors: list[float] | None) -> str:
     return f", columns {', '.join(scaled)}"
 
 
-def _to_json(
-    comparison: Comparison,
-    files: list[str],
-    columns: list[list[str]],
-    factors: list[list[float] | None],
-) -> str:
-    values = {name: _json_number(value) for name, value in comparison.values.items()}
-    deviations = {
-        name: {key: _json_number(value) for key, value in found._asdict().items()}
-        for name, found in comparison.deviations.items()
+def _in_json(comparison: Comparison) -> dict[str, Any]:
+    deviations = comparison.deviations.items()
+    return {
+        "preset": comparison.preset,
+        "n": [len(comparison.P), len(comparison.Q)],
+        "values": _json_numbers(comparison.values),
+        "deviations": {name: _json_numbers(found._asdict()) for name, found in deviations},
     }
-    n = [len(comparison.P), len(comparison.Q)]
-    return json.dumps(
-        {
-            "files": files,
-            "columns": columns,
-            "factors": factors,
-            "preset": comparison.preset,
-            "n": n,
-            "values": values,
-            "deviations": deviations,
-        },
-        indent=2,
-    )
 
 
-def _json_number(value: float) -> float | None:
+def _json_numbers(values: Mapping[str, float]) -> dict[str, float | None]:
     """JSON has no infinity: a value beyond the range of a double is null."""
-    return value if math.isfinite(value) else None
+    return {name: value if math.isfinite(value) else None for name, value in values.items()}
 
 
 def _residuals(comparison: Comparison) -> list[float]:
@@ -215,8 +195,3 @@ def _residuals(comparison: Comparison) -> list[float]:
         P, Q = normalize(P, Q)
     residuals: list[float] = curve_length_residuals(P, Q, **condition.options).ravel().tolist()
     return residuals
-
-
-def _write_numbers(numbers: Iterable[float], file: str) -> None:
-    """Write a number a line, with all its digits: an optimiser takes differences of them."""
-    Path(file).write_text("".join(f"{number:.17g}\n" for number in numbers), encoding="ascii")

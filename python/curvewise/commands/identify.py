@@ -10,7 +10,8 @@ import argparse
 import math
 import sys
 import time
-from typing import TYPE_CHECKING, Any
+import warnings
+from typing import TYPE_CHECKING, Any, TextIO
 
 if TYPE_CHECKING:
     from ..calibration import Progress
@@ -69,10 +70,13 @@ def _run(study: Study) -> int:
         print(", ".join(f"curve {i}: {test.name}" for i, test in enumerate(study.tests)))
     is_terminal = sys.stderr.isatty()
     try:
-        found = study.run(
-            progress=is_terminal,
-            callback=None if is_terminal or len(study.search.measures) > 1 else _Reported(),
-        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("always", UserWarning)
+            warnings.showwarning = _say
+            found = study.run(
+                progress=is_terminal,
+                callback=None if is_terminal or len(study.search.measures) > 1 else _Reported(),
+            )
     except KeyboardInterrupt:
         print(
             f"\ncurvewise: interrupted; {_runs(study.stored_runs())} in {study.search.store}. "
@@ -82,6 +86,18 @@ def _run(study: Study) -> int:
         return 130
     print(f"\n{found}\n\nresults: {study.results}")
     return 0
+
+
+def _say(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    """Show a warning in the place of `warnings.showwarning`."""
+    print("curvewise:", message, file=sys.stderr, flush=True)
 
 
 def _runs(count: int) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import Any
 
 __all__ = ["add_report"]
@@ -31,12 +32,23 @@ def add_report(commands: Any) -> None:
     command.add_argument(
         "--csv", metavar="FILE", help="write the evaluations of one search as a table, and no page"
     )
+    command.add_argument(
+        "--rescue",
+        metavar="NEW.db",
+        help="copy all that can still be read of a damaged store into a new one, and write no page",
+    )
 
 
 def _report(arguments: argparse.Namespace) -> int:
     from ..calibration import SimulationStore
+    from ..calibration.records.rescue import rescue
     from ..calibration.report import records_of, write_report
 
+    if arguments.rescue:
+        found = rescue(Path(arguments.file), Path(arguments.rescue))
+        listed = ", ".join(f"{count} {table}" for table, count in found.items())
+        print(f"rescued: {listed} in {arguments.rescue}")
+        return 0
     records = records_of(arguments.file)
     if arguments.list:
         for number, record in records.items():

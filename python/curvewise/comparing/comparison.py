@@ -9,15 +9,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._docstrings import filled
-from .._options import Preset
+from .._options import Preset, check_choice
+from ..curves.column_roles import is_time
 from ..curves.foreign_curves import warn
-from ..curves.inputs import Array, CurveLike, as_curves
-from ..curves.named_curve import copied, known_names
-from ..files.column_choice import is_time
+from ..curves.inputs import Array, CurveLike, as_curves, in_columns
+from ..curves.named_curve import axis_names, copied, known_names
 from ..measures import normalize
 from ..measures.registry import MEASURES, PRESETS, Condition, MeasureInfo, default_measures
 from ..showing.result import Result, Table
 from .deviations import Deviations, cells, deviation
+from .units import other_units
 
 if TYPE_CHECKING:
     from ..drawing.picture import Picture
@@ -55,7 +56,16 @@ class Comparison(Result):
     def __str__(self) -> str:
         width = max(map(len, self.values))
         lines = [f"{name:<{width}}  {value:.6g}" for name, value in self.values.items()]
-        return "\n".join(lines)
+        return "\n".join([*lines, *self.notes])
+
+    @property
+    def notes(self) -> list[str]:
+        """What looks wrong: coordinates in which one curve is more than 20 times the other.
+
+        Per cent against a fraction, for example. `str` and a notebook show it below the values.
+        """
+        P, Q = map(in_columns, (self.P, self.Q))
+        return other_units(P, Q, axis_names(P.shape[1], None, self.P, self.Q), "P", "Q")
 
     @property
     def deviations(self) -> Deviations:
@@ -107,7 +117,7 @@ class Comparison(Result):
             for name, value in self.values.items()
         ]
         header = ["measure", "value", "mean deviation, in units of y", "largest"]
-        return [Table(rows, header), f"preset {self.preset}"]
+        return [Table(rows, header), f"preset {self.preset}", *self.notes]
 
 
 @filled(
@@ -129,9 +139,10 @@ def compare(
     Parameters
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
-        The curves; P is the reference. Every column is a coordinate: of three or more of which one
-        is time by its name, or alone increases from point to point in both curves, a warning says
-        so, unless `measures` is given.
+        The curves; P is the reference. Every column of an array is a coordinate: of three or more
+        of which one is time by its name, or alone increases from point to point in both curves, a
+        warning says so, unless `measures` is given. A table of three columns or more is refused
+        where they are not all coordinates by their names (docs/inputs.md).
     preset : {"scaled", "paper", "raw"}
         "scaled": everything on curves scaled by P's box, area with spacing="matched",
         curve_length with scale="mean_abs".
@@ -147,7 +158,8 @@ def compare(
     Returns
     -------
     Comparison
-        The values by name; prints as a table, plots itself.
+        The values by name; prints as a table, plots itself. Its `notes` say where the curves are
+        probably in different units.
 
     Raises
     ------
@@ -176,8 +188,7 @@ def compare(
     """
     columns = known_names(P, Q)
     P, Q = map(copied, (P, Q), as_curves(P, Q))
-    if not isinstance(preset, str) or preset not in PRESETS:
-        raise ValueError(f"unknown preset {preset!r}; choose from {', '.join(PRESETS)}")
+    check_choice("preset", preset, PRESETS)
     if measures is None:
         measures = default_measures(P)
         _warn_of_time(P, Q, columns, measures)
@@ -185,12 +196,14 @@ def compare(
         raise ValueError(f"measures is {measures!r}; give a list of names, e.g. ['area', 'dtw']")
     given = {} if options is None else options
     for name in (*names, *given):
-        if not isinstance(name, str) or name not in MEASURES:
-            raise ValueError(f"unknown measure {name!r}; choose from {', '.join(MEASURES)}")
+        check_choice("measure", name, MEASURES)
     for name in given:
         if name not in names:
             raise ValueError(f"options are given for {name!r}, which is not among the measures")
-    conditions = {name: _changed(PRESETS[preset][name], given.get(name, {})) for name in names}
+    conditions = {}
+    for name in names:
+        scaled, of_preset = PRESETS[preset][name]
+        conditions[name] = Condition(scaled, {**of_preset, **given.get(name, {})})
     values = {name: _value(MEASURES[name], conditions[name], P, Q) for name in names}
     return Comparison(P, Q, preset, values, conditions)
 
@@ -210,10 +223,6 @@ def _warn_of_time(P: Array, Q: Array, names: Sequence[Any], measures: Sequence[s
             f"column {column} counts as a coordinate, and looks like time; leave it out of P and Q,"
             f" or say measures={list(measures)} if it shall count"
         )
-
-
-def _changed(condition: Condition, options: Mapping[str, Any]) -> Condition:
-    return condition._replace(options={**condition.options, **options})
 
 
 def _value(info: MeasureInfo, condition: Condition, P: Array, Q: Array) -> float:

@@ -32,10 +32,11 @@ class Deviation(NamedTuple):
     Attributes
     ----------
     mean : float
-        area: the area by how far P travels along x, a mean difference in y; infinite where P does
-        not travel along x. dtw, frechet: the mean distance along the path. frechet_continuous: the
-        mean leash, by the lengths that both ends walk. pcm: the area by the length of the mapped
-        curve.
+        area: the area by how far P travels along x, a mean difference in y; where that is more
+        than the largest, because the curves travel elsewhere, the mean distance of facing points,
+        by the lengths that both walk. dtw, frechet: the mean distance along the path.
+        frechet_continuous: the mean leash, by the lengths that both ends walk. pcm: the area by the
+        length of the mapped curve. Never above the largest.
     largest : float
         The largest distance; area: of facing vertices. dtw, frechet: on the path; for both Fréchet
         distances that is the value. pcm: of the mapped vertices.
@@ -132,8 +133,10 @@ def deviation(
     with np.errstate(over="ignore", invalid="ignore"):  # beyond the range of a double: inf
         height = float(np.ptp(P[:, -1] if P.ndim == 2 else P))
         mean, largest = distances(measure, condition.options, *compared)
-    unit = height if is_scaled and height > 0 else 1.0
-    return Deviation(mean * unit, largest * unit, height)
+        unit = height if is_scaled and height > 0 else 1.0
+        if not mean <= largest:  # rounded, of equal distances; or lengths beyond a double
+            mean = largest
+        return Deviation(mean * unit, largest * unit, height)
 
 
 def _along_path(
@@ -154,10 +157,15 @@ def _along_matching(
     match = frechet_continuous_path(P, Q)  # whose options, workers and bounds, do not change it
     ends = [points_at(curve, at) for curve, at in zip((P, Q), match.parameters.T, strict=True)]
     leashes = np.hypot.reduce(np.abs(ends[0] - ends[1]), axis=1)
-    walked = sum(np.hypot.reduce(np.abs(np.diff(end, axis=0)), axis=1) for end in ends)
+    return _mean_leash(leashes, *(np.diff(end, axis=0) for end in ends)), match.distance
+
+
+def _mean_leash(leashes: Array, *edges: Array) -> float:
+    """Return the mean of n + 1 distances by how far both ends walk on n edges between them."""
+    walked = np.sum([np.hypot.reduce(np.abs(one), axis=1) for one in edges], axis=0)
     if not np.any(walked):
-        return match.distance, match.distance
-    return float(np.average((leashes[:-1] + leashes[1:]) / 2, weights=walked)), match.distance
+        return float(leashes.max())
+    return float(np.average((leashes[:-1] + leashes[1:]) / 2, weights=walked))
 
 
 def _between_facing(
@@ -167,16 +175,21 @@ def _between_facing(
     # A quadrilateral that was rearranged has lost the order in which vertices face each other.
     in_order: dict[str, Crossing] = {"crossing": "split"}
     quads, _ = area_quads(P, Q, **{**plain, **in_order})
-    leashes = np.hypot(*(quads[:, [0, 1]] - quads[:, [3, 2]]).reshape(-1, 2).T)
-    length = travel(P[:, 0])
-    return area(P, Q, **plain) / length if length > 0 else math.inf, float(leashes.max())
+    A, B = (np.concatenate([quads[:, k], quads[-1:, m]]) for k, m in ((0, 1), (3, 2)))
+    leashes = np.hypot(*(A - B).T)
+    length, largest = travel(P[:, 0]), float(leashes.max())
+    mean = area(P, Q, **plain) / length if length > 0 else math.inf
+    if not mean <= largest:
+        mean = _mean_leash(leashes, np.diff(A, axis=0), np.diff(B, axis=0))
+    return mean, largest
 
 
 def _of_mapped(measure: str, options: Mapping[str, Any], P: Array, Q: Array) -> tuple[float, float]:
     match = pcm_match(P, Q, **options)
     mapped = P if match.mapped == "P" else Q
-    length = float(np.linalg.norm(np.diff(mapped, axis=0), axis=1).sum())
-    return match.value / length, float(np.linalg.norm(mapped - match.points, axis=1).max())
+    length = float(np.hypot(*np.diff(mapped, axis=0).T).sum())
+    largest = float(np.hypot(*(mapped - match.points).T).max())
+    return match.value / length if length > 0 else math.inf, largest
 
 
 _DISTANCES: Mapping[str, Callable[..., tuple[float, float]]] = {

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from ..curves.inputs import CurveLike, as_curve
+from ..curves.inputs import CurveLike, as_numbers
 
 __all__ = ["RealArray", "plane_curve", "real_array", "vector"]
 
@@ -25,7 +25,7 @@ def real_array(values: CurveLike, name: str) -> RealArray:
 
     Booleans and extended precision become float64.
     """
-    converted = as_curve(values, name)
+    converted = as_numbers(values, name)
     array = np.asarray(values)
     return array if array.dtype.kind in "iuf" and array.dtype.itemsize <= 8 else converted
 

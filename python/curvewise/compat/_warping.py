@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._options import Metric
-from ..curves.inputs import Array, CurveLike, as_curve
+from ..curves.inputs import Array, CurveLike, as_numbers, in_columns
 from ..measures import dtw_table, frechet
 from ._arrays import RealArray
 
@@ -173,7 +173,7 @@ def dtw_path(d: npt.ArrayLike) -> npt.NDArray[np.int64]:
     >>> dtw_path(d).tolist()
     [[0, 0], [1, 1], [2, 1]]
     """
-    table = as_curve(d, "d")
+    table = as_numbers(d, "d")
     if table.ndim != 2 or table.size == 0:
         raise ValueError(f"d has shape {table.shape}; give a cumulative table of shape (n, m)")
     i, j = table.shape[0] - 1, table.shape[1] - 1
@@ -197,8 +197,7 @@ def _curves(exp_data: CurveLike, num_data: CurveLike) -> tuple[Array, Array]:
     """Return both curves in two dimensions: where one is (n,), d is 1."""
     curves = []
     for values, name in ((exp_data, "exp_data"), (num_data, "num_data")):
-        curve = as_curve(values, name)
-        curve = curve[:, np.newaxis] if curve.ndim == 1 else curve
+        curve = in_columns(as_numbers(values, name))
         if curve.size == 0:
             raise ValueError(
                 f"{name} has shape {curve.shape}; a curve needs at least 1 point and 1 coordinate"

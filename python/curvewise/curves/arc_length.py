@@ -82,9 +82,9 @@ def interpolate(curve: Array, segment: npt.NDArray[np.intp], fraction: Array) ->
         return np.asarray(np.where(fraction == 1.0, end, start + fraction * (end - start)))
 
 
-def points_at(curve: Array, parameters: Array) -> Array:
-    """Return the points of a curve at vertex indices plus fractions."""
-    index = np.arange(len(curve))
+def points_at(curve: Array, parameters: Array, of_vertices: Array | None = None) -> Array:
+    """Return the points of a curve at parameters, which by default are its vertices' indices."""
+    index = np.arange(len(curve)) if of_vertices is None else of_vertices
     columns = curve.reshape(len(curve), -1).T
     return np.column_stack([np.interp(parameters, index, column) for column in columns])
 

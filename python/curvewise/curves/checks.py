@@ -9,9 +9,9 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from .inputs import Array, CurveLike, as_curve
+from .inputs import Array, CurveLike, as_numbers, in_columns
 
-__all__ = ["Turns", "branch_slices", "check_column", "checked_curve"]
+__all__ = ["Turns", "branch_slices", "check_column", "check_finite", "checked_curve"]
 
 Turns = Sequence[int] | npt.NDArray[np.int64]
 """Indices of turning points, as `turning_points` returns them."""
@@ -19,15 +19,19 @@ Turns = Sequence[int] | npt.NDArray[np.int64]
 
 def checked_curve(curve: CurveLike, least: int) -> Array:
     """Return a curve as an array of shape (n, d), finite, with at least so many points."""
-    array = as_curve(curve, "curve")
-    if array.ndim == 1:
-        array = array[:, np.newaxis]
+    array = in_columns(as_numbers(curve, "curve"))  # a column of time is resampled with the rest
     if array.shape[0] < least or array.shape[1] == 0:
         raise ValueError(f"curve has shape {array.shape}; at least {least} points are needed")
-    if not np.isfinite(array).all():
-        i, c = np.argwhere(~np.isfinite(array))[0]
-        raise ValueError(f"curve[{i}, {c}] is {array[i, c]}; curves must be finite")
+    check_finite(array, "curve")
     return array
+
+
+def check_finite(array: Array, name: str, what: str = "curves") -> None:
+    """Refuse numbers that are not finite; `what` they are is said in the plural."""
+    bad = np.argwhere(~np.isfinite(array))
+    if len(bad):
+        place = ", ".join(map(str, bad[0]))
+        raise ValueError(f"{name}[{place}] is {array[tuple(bad[0])]}; {what} must be finite")
 
 
 def check_column(curve: Array, column: int) -> int:

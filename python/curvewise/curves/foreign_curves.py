@@ -16,7 +16,18 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["advice", "column_names", "is_curve_of_another_package", "opened", "warn"]
+from .column_roles import coordinates_among
+
+__all__ = [
+    "advice",
+    "all_columns",
+    "chosen_columns",
+    "column_names",
+    "is_curve_of_another_package",
+    "list_instead",
+    "opened",
+    "warn",
+]
 
 _LINES = ("LineString", "LinearRing")
 _INSTEAD_OF_SHAPES = {
@@ -113,6 +124,8 @@ def advice(curve: Any, array: np.ndarray[Any, Any], name: str) -> str:
     if isinstance(curve, str | os.PathLike):
         return f": curvewise.read_curve({name}) reads a file"
     if isinstance(curve, Mapping):
+        if any(np.ndim(value) == 2 for value in curve.values()):
+            return f": list({name}.values()) is a list of curves, for cdist"
         return f": numpy.column_stack(list({name}.values())) has its values as columns"
     if array.dtype.names:
         reader = "numpy.lib.recfunctions.structured_to_unstructured"
@@ -141,6 +154,37 @@ def column_names(curve: Any) -> list[Any]:
         return []
     names = getattr(curve, "column_names", None)  # pyarrow: its columns are the values
     return list(getattr(curve, "columns", []) if names is None else names)
+
+
+def list_instead(curves: Any, name: str) -> str:
+    """Return what to write instead of a collection that is no list of curves, if it is known."""
+    if isinstance(curves, Mapping):
+        return f"give list({name}.values()), in whose order the answers come"
+    if hasattr(curves, "columns") and hasattr(curves, "geometry"):  # GeoDataFrame
+        return f"give {name}.geometry, its lines"
+    if not type(curves).__name__.endswith("GroupBy"):
+        return ""
+    # Of pandas and polars; the groups hold the key too, which is no coordinate.
+    keys = getattr(curves, "keys", getattr(curves, "by", ()))
+    keys = keys if isinstance(keys, list | tuple) else [keys]
+    table = getattr(curves, "obj", getattr(curves, "df", None))
+    names = [one for one in column_names(table) if one not in keys]
+    chosen = f"[{coordinates_among(names)}]" if names else ""
+    return f"give [group{chosen} for _, group in {name}]"
+
+
+def chosen_columns(table: Any, name: str, columns: list[Any]) -> str:
+    """Return what to write for some columns of a table."""
+    if hasattr(table, "column_names"):  # pyarrow
+        return f"{name}.select({columns})"
+    return f"{name}[{columns}]"
+
+
+def all_columns(table: Any, name: str) -> str:
+    """Return what to write for all columns of a table, as an array."""
+    if hasattr(table, "column_names"):
+        return f"numpy.column_stack({name}.columns)"
+    return f"{name}.to_numpy()"
 
 
 def is_curve_of_another_package(thing: Any) -> bool:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, cast, get_args
 
 import numpy as np
 
-from .._options import Metric, check_choice
+from .._options import Metric, check_choice, real_number
 from .inputs import Array
 from .scaling import range_exponent, times_power_of_two
 
@@ -42,18 +42,8 @@ def check_metric(metric: Metric, p: Any) -> tuple[Metric, float]:
         return ("euclidean", 2.0) if metric == "minkowski" else (metric, 2.0)
     if metric != "minkowski":
         raise ValueError(f"p applies to metric='minkowski' only, not to {metric!r}")
-    order = _order(p)
+    order = real_number("p", p, 1.0, "minkowski needs 1 <= p <= inf")
     return _SAME_AS_MINKOWSKI.get(order, metric), order
-
-
-def _order(p: Any) -> float:
-    try:
-        order = np.nan if isinstance(p, (str, bytes)) else float(p)
-    except (TypeError, ValueError, OverflowError):
-        order = np.nan
-    if not order >= 1:
-        raise ValueError(f"p is {p!r}; minkowski needs 1 <= p <= inf")
-    return order
 
 
 def in_range(P: Array, Q: Array, metric: Metric) -> tuple[Array, Array, int]:

@@ -14,7 +14,16 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from .foreign_curves import advice, column_names, opened, warn
+from .column_roles import are_coordinates, coordinates_among
+from .foreign_curves import (
+    advice,
+    all_columns,
+    chosen_columns,
+    column_names,
+    list_instead,
+    opened,
+    warn,
+)
 
 __all__ = [
     "Array",
@@ -22,9 +31,11 @@ __all__ = [
     "as_curve",
     "as_curve_list",
     "as_curves",
+    "as_numbers",
     "check_column_names",
     "column_names",
     "copy_of",
+    "in_columns",
     "warn_if_transposed",
 ]
 
@@ -40,6 +51,26 @@ _MAY_HOLD_MASKED = (np.ma.MaskedArray, list, tuple)
 
 
 def as_curve(curve: Any, name: str) -> Array:
+    """Return a curve that is to be measured, as :func:`as_numbers`; every column is a coordinate.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As for :func:`as_numbers`; a table whose columns are hardly all meant, see column_roles.py.
+    """
+    array = as_numbers(curve, name)
+    names = column_names(curve)
+    if len(names) > 2 and not are_coordinates(names):
+        chosen = coordinates_among(names)
+        raise ValueError(
+            f"{name} has columns {names}, each of which would be a coordinate; choose: "
+            f"{chosen_columns(curve, name, chosen)} for example, or {all_columns(curve, name)} for "
+            "all"
+        )
+    return array
+
+
+def as_numbers(curve: Any, name: str) -> Array:
     """Return `curve` as an aligned, native float64 array of shape (n, d) or (n,).
 
     A float64 array is returned as it is, without a copy, whatever its strides.
@@ -54,18 +85,19 @@ def as_curve(curve: Any, name: str) -> Array:
     """
     if type(curve) is np.ndarray and curve.dtype is _FLOAT64 and 1 <= curve.ndim <= 2:
         return _aligned(curve)
-    if _has_masked(curve):
-        what = "is a masked array" if isinstance(curve, np.ma.MaskedArray) else "is a list"
-        raise TypeError(f"{name} {what} with masked entries; drop or fill them first")
     values = opened(curve, name)
+    _refuse_masked(values, curve, name)
     try:
-        array = np.asarray(values)
+        # Not asarray, which drops the mask that __array__ returns.
+        array = np.asanyarray(values)
     except ValueError as error:
         raise ValueError(
             f"{name} is ragged; a curve is n points with the same number of coordinates each"
         ) from error
     except TypeError as error:  # in the words of its package
         raise TypeError(f"{name}, a {type(curve).__name__}, gives no array: {error}") from error
+    _refuse_masked(array, curve, name)
+    array = np.asarray(array)
     if array.dtype.kind == "c":
         raise TypeError(f"{name} is complex; a curve is real: give real and imaginary as columns")
     if array.dtype.kind not in "fiub":
@@ -101,6 +133,13 @@ def warn_if_transposed(curve: Array, name: str, transpose: str = "{}.T") -> None
         )
 
 
+def _refuse_masked(values: Any, curve: Any, name: str) -> None:
+    if _has_masked(values):
+        known = {np.ma.MaskedArray: "masked array", tuple: "list"}
+        kind = known.get(type(curve), type(curve).__name__)
+        raise TypeError(f"{name} is a {kind} with masked entries; drop or fill them first")
+
+
 def _has_masked(curve: Any, depth: int = 2) -> bool:
     """Say whether entries are masked: of an array, or of the rows of a list.
 
@@ -123,6 +162,11 @@ def copy_of(curve: Array) -> Array:
     for first in range(0, len(curve), _ROWS_AT_ONCE):
         copy[first : first + _ROWS_AT_ONCE] = curve[first : first + _ROWS_AT_ONCE]
     return copy
+
+
+def in_columns(array: Array) -> Array:
+    """Return an array of shape (n, d): (n, 1) for one of shape (n,)."""
+    return array[:, np.newaxis] if array.ndim == 1 else array
 
 
 def as_curves(P: Any, Q: Any) -> tuple[Array, Array]:
@@ -151,13 +195,14 @@ def as_curve_list(curves: Any, name: str, like: Any = None) -> list[Array]:
         Not a list of curves; a curve that :func:`as_curve` refuses, named ``XA[3]``; DataFrames
         whose columns differ from those of the first curve, or of the first of the list `like`.
     """
+    if instead := list_instead(curves, name):
+        raise TypeError(f"{name} is a {type(curves).__name__}; {instead}")
     if hasattr(curves, "columns") or (isinstance(curves, np.ndarray) and curves.dtype != object):
         dimensions = np.ndim(curves)
         if dimensions != 3:
             raise ValueError(
                 f"{name} has {dimensions} array dimensions; give k curves as shape (k, n, d) or as "
                 f"a list: [{name}] for a single curve, list({name}) for k curves with d = 1"
-                + (f": {name}.geometry is one of shapes" if hasattr(curves, "geometry") else "")
             )
     elif isinstance(curves, str | bytes) or not isinstance(curves, Iterable):
         raise TypeError(f"{name} is of type {type(curves).__name__}; give a list of curves")

@@ -11,13 +11,39 @@ axis is worse than none.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .inputs import Array, column_names, copy_of
 
-__all__ = ["NamedCurve", "axis_names", "copied", "known_names", "renamed"]
+__all__ = [
+    "Labels",
+    "NamedCurve",
+    "axis_names",
+    "copied",
+    "known_file",
+    "known_names",
+    "labels_of",
+    "renamed",
+]
+
+_LONGEST = 32  # characters of a file's name that a picture shows
+
+
+class Labels(NamedTuple):
+    """What stands in a picture of two curves.
+
+    Attributes
+    ----------
+    axes : tuple of str
+        What the coordinates are called.
+    curves : tuple of str
+        What the curves are called.
+    """
+
+    axes: tuple[str, ...]
+    curves: tuple[str, str] = ("P", "Q")
 
 
 class NamedCurve(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
@@ -29,11 +55,15 @@ class NamedCurve(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
         The curve, which is not copied.
     names : sequence of str
         One for each column.
+    file : str, optional
+        The name of the file that it was read from.
 
     Attributes
     ----------
     column_names : tuple of str
         The names; empty where they are not known any more.
+    file : str
+        As given.
 
     Raises
     ------
@@ -56,17 +86,18 @@ class NamedCurve(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     """
 
     column_names: tuple[str, ...]
+    file: str
 
-    def __new__(cls, values: Array, names: Sequence[str]) -> NamedCurve:
+    def __new__(cls, values: Array, names: Sequence[str], file: str = "") -> NamedCurve:
         """Make a view of the values, with names."""
         if values.ndim != 2 or values.shape[1] != len(names):
             raise ValueError(f"there are {len(names)} names for an array of shape {values.shape}")
         named = values.view(cls)
-        named.column_names = tuple(names)
+        named.column_names, named.file = tuple(names), file
         return named
 
     def __array_finalize__(self, made_of: Any) -> None:
-        self.column_names = ()
+        self.column_names, self.file = (), ""
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **keywords: Any) -> Any:
         if "out" in keywords:
@@ -77,11 +108,13 @@ class NamedCurve(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
         chosen = _plain(self)[key]
         if isinstance(key, tuple) or np.ndim(chosen) != 2 or not self.column_names:
             return chosen
-        return NamedCurve(chosen, self.column_names)
+        return NamedCurve(chosen, self.column_names, self.file)
 
     def __reduce__(self) -> Any:
         plain = _plain(self)
-        return (NamedCurve, (plain, self.column_names)) if self.column_names else plain.__reduce__()
+        if not self.column_names:
+            return plain.__reduce__()
+        return (NamedCurve, (plain, self.column_names, self.file))
 
     def __repr__(self) -> str:
         return repr(_plain(self))
@@ -92,7 +125,7 @@ class NamedCurve(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     def copy(self, order: Any = "C") -> Any:
         """Return a copy, as of any array, with the same names."""
         copied = _plain(self).copy(order)
-        return NamedCurve(copied, self.column_names) if self.column_names else copied
+        return NamedCurve(copied, self.column_names, self.file) if self.column_names else copied
 
 
 def _plain(value: Any) -> Any:
@@ -108,7 +141,7 @@ def renamed(curve: Any, array: Array) -> Array:
     """Return an array whose columns are those of a curve, with the names that the curve has."""
     names = () if type(curve) is np.ndarray else known_names(curve)
     fits = array.ndim == 2 and len(names) == array.shape[1]
-    return NamedCurve(array, names) if fits else array
+    return NamedCurve(array, names, known_file(curve)) if fits else array
 
 
 def known_names(*curves: Any) -> tuple[str, ...]:
@@ -118,6 +151,19 @@ def known_names(*curves: Any) -> tuple[str, ...]:
         if names:
             return tuple(map(str, names))
     return ()
+
+
+def known_file(curve: Any) -> str:
+    """Return the name of the file that a curve was read from; empty if that is not known."""
+    return curve.file if isinstance(curve, NamedCurve) else ""  # a frame may have such a column
+
+
+def labels_of(dim: int, names: Sequence[str] | None, P: Any, Q: Any) -> Labels:
+    """Return what stands in a picture of P and Q: see `axis_names`, and for curves their files."""
+    files = [known_file(curve)[-_LONGEST:] for curve in (P, Q)]
+    p, q = (file or letter for file, letter in zip(files, "PQ", strict=True))
+    curves = (f"{p} (P)", f"{q} (Q)") if p == q else (p, q)
+    return Labels(axis_names(dim, names, P, Q), curves)
 
 
 def axis_names(

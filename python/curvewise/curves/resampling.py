@@ -12,6 +12,8 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from .._options import real_number
+from .arc_length import points_at
 from .checks import Turns, branch_slices, check_column, checked_curve
 from .inputs import Array, CurveLike
 from .named_curve import renamed
@@ -82,7 +84,7 @@ def resample(
     for k, (branch, number) in enumerate(zip(branches, _counts(count, len(branches)), strict=True)):
         places = _places(points, by, branch, f"branch {k}")
         at = np.linspace(places[0], places[-1], number)
-        piece = _interpolated(at, places, points[branch])
+        piece = points_at(points[branch], at, places)
         piece[0], piece[-1] = points[branch][[0, -1]]
         pieces.append(piece if k == 0 else piece[1:])
     return renamed(curve, np.concatenate(pieces))
@@ -138,8 +140,7 @@ def trim(
     last = len(x) - 1.0 if stop is None else _first_place(x, stop, first, "stop")
     between = np.arange(int(np.floor(first)) + 1, int(np.ceil(last)))
     places = np.concatenate(([first], between, [last])) if last > first else np.array([first])
-    cut = _interpolated(places, np.arange(len(x), dtype=np.float64), points)
-    return renamed(curve, cut)
+    return renamed(curve, points_at(points, places))
 
 
 def _counts(count: int | Sequence[int], branches: int) -> list[int]:
@@ -190,12 +191,9 @@ def _places(points: Array, by: Along, branch: slice, name: str) -> Array:
     return places
 
 
-def _interpolated(at: Array, places: Array, points: Array) -> Array:
-    return np.column_stack([np.interp(at, places, column) for column in points.T])
-
-
 def _first_place(x: Array, value: float, begin: float, name: str) -> float:
     """Return where x first has a value, as an index and a fraction, from `begin` on."""
+    real_number(name, value, -np.inf, "give a number")
     k = int(begin)
     tail = x[k:].copy()
     tail[0] += (begin - k) * (x[min(k + 1, len(x) - 1)] - x[k])

@@ -7,15 +7,14 @@ from typing import Any
 import numpy as np
 
 from .foreign_curves import is_curve_of_another_package
-from .inputs import Array, as_curve
+from .inputs import Array, as_curve, in_columns
 
 __all__ = ["as_points", "curve_list", "points_of"]
 
 
 def as_points(curve: Any, name: str) -> Array:
     """Return a curve as a float64 array of shape (n, d): (n, 1) for a series."""
-    array = as_curve(curve, name)
-    return array[:, np.newaxis] if array.ndim == 1 else array
+    return in_columns(as_curve(curve, name))
 
 
 def curve_list(curves: Any) -> list[Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .._options import real_number
 from .checks import checked_curve
 from .inputs import Array, CurveLike
 from .named_curve import renamed
@@ -100,9 +101,12 @@ def shift_to_origin(curve: CurveLike, *, elastic: tuple[float, float] | None = N
         shifted: Array = points - points[0]
         return renamed(curve, shifted)
     points = _strain_and_stress(curve)
+    needed = "give two stresses, low < high"
+    for limit in elastic:
+        real_number("elastic", limit, -np.inf, needed)
     low, high = elastic
     if not low < high:
-        raise ValueError(f"elastic is {elastic}; give two stresses, low < high")
+        raise ValueError(f"elastic is {elastic}; {needed}")
     strain, stress = points.T
     beyond = np.flatnonzero(stress > high)
     first = slice(0, int(beyond[0]) if beyond.size else len(points))

@@ -7,13 +7,18 @@ that counts. This is the rule by which rainflow counting finds reversals above a
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import numpy.typing as npt
 
+from .._options import real_number
 from .checks import check_column, checked_curve
 from .inputs import CurveLike
 
 __all__ = ["turning_points"]
+
+_REVERSALS = "it must be between 0 and 1"
 
 
 def turning_points(
@@ -55,8 +60,8 @@ def turning_points(
     array([30, 90])
     """
     values = checked_curve(curve, 1)
-    if not 0.0 < reversal < 1.0:
-        raise ValueError(f"reversal is {reversal}; it must be between 0 and 1")
+    if not 0.0 < real_number("reversal", reversal, -math.inf, _REVERSALS) < 1.0:
+        raise ValueError(f"reversal is {reversal}; {_REVERSALS}")
     x = values[:, check_column(values, column)]
     # Halves cannot overflow.
     least = reversal * (0.5 * float(x.max()) - 0.5 * float(x.min()))

@@ -23,9 +23,10 @@ import numpy.typing as npt
 
 from .._core import check_batch, is_symmetric
 from .._extras import extra
+from .._options import whole_number
 from ..curves.inputs import Array, as_curve_list, copy_of
 from ..many import pairwise
-from ..many.nearest import Index, _whole_number
+from ..many.nearest import Index, checked_count
 from ..many.pairwise import Curves, Measure
 from ..measures.registry import MeasureName
 from .cancelled import watch
@@ -111,7 +112,8 @@ def cdist(
     size = _block_size(block, rows, columns)
     token = tokenize(rows, columns, measure, limit, options, size, mirrored)
     compute = partial(_block, measure=measure, cutoff=limit, options=options)
-    return _blocks(_Pieces(rows, size), _Pieces(columns, size), token, compute, mirrored)
+    pieces = _pieces(rows, size)
+    return _blocks(pieces, None if mirrored else _pieces(columns, size), token, compute)
 
 
 def kneighbors(
@@ -168,38 +170,29 @@ def kneighbors(
     _refuse_local_only(options)
     name = pairwise._check_names(measure, options)
     check_batch(queries, targets, name, options)
-    count = _whole_number("n_neighbors", n_neighbors)
-    if not 1 <= count <= len(targets):
-        raise ValueError(
-            f"n_neighbors is {count}; give a whole number from 1 to {len(targets)}, the curves"
-        )
+    count = checked_count(n_neighbors, len(targets), "the curves")
     size = _block_size(block, queries, targets)
     token = tokenize(queries, targets, name, options, size, count)
-    return _neighbor_arrays(
-        _Pieces(queries, size), _Pieces(targets, size), token, count, measure, options
-    )
+    build = partial(_index_of, measure=measure, options=options)
+    return _neighbor_arrays(_pieces(queries, size), _pieces(targets, size), token, count, build)
 
 
 def _neighbor_arrays(
-    queries: _Pieces,
-    targets: _Pieces,
+    queries: list[_Piece],
+    targets: list[_Piece],
     token: str,
     count: int,
-    measure: MeasureName,
-    options: dict[str, Any],
+    build: Callable[[_Piece], Index],
 ) -> tuple[dask_array.Array, dask_array.Array]:
     """Return lazy distances and indices: an index for each piece of targets."""
     P, index, found, merged = (f"{part}-{token}" for part in ("kn-P", "kn-index", "kn", "kn-best"))
-    build = partial(_index_of, measure=measure, options=options)
-    graph: dict[Any, Any] = {(P, a): piece for a, piece in enumerate(queries.packed())}
-    begins = [0, *itertools.accumulate(targets.lengths)]
-    for b, piece in enumerate(targets.packed()):
-        graph[index, b] = (build, piece)
-    for a in range(len(queries.lengths)):
-        parts = []
-        for b, begin in enumerate(begins[:-1]):
+    graph: dict[Any, Any] = {(P, a): piece for a, piece in enumerate(queries)}
+    graph |= {(index, b): (build, piece) for b, piece in enumerate(targets)}
+    begins = [0, *itertools.accumulate(map(len, targets))][:-1]
+    for a in range(len(queries)):
+        for b, begin in enumerate(begins):
             graph[found, a, b] = (partial(_neighbors, count=count, begin=begin), (P, a), (index, b))
-            parts.append((found, a, b))
+        parts = [(found, a, b) for b in range(len(targets))]
         graph[merged, a] = (partial(_best, count=count), parts)
         for which, part in enumerate(("distances", "indices")):
             graph[f"{part}-{token}", a, 0] = (operator.itemgetter(which), (merged, a))
@@ -208,7 +201,7 @@ def _neighbor_arrays(
     for part, dtype in (("distances", np.float64), ("indices", np.int64)):
         name = f"{part}-{token}"
         layers = HighLevelGraph.from_collections(name, graph)
-        arrays.append(array(layers, name, (queries.lengths, (count,)), dtype=dtype))
+        arrays.append(array(layers, name, (tuple(map(len, queries)), (count,)), dtype=dtype))
     return arrays[0], arrays[1]
 
 
@@ -234,26 +227,6 @@ def _best(
     return np.take_along_axis(distances, order, axis=1), np.take_along_axis(indices, order, axis=1)
 
 
-class _Pieces:
-    """A list of curves cut into pieces of `size` curves, and at least one piece."""
-
-    def __init__(self, curves: list[Array], size: int) -> None:
-        self._curves = curves
-        self._starts = range(0, max(len(curves), 1), size)
-
-    @property
-    def lengths(self) -> tuple[int, ...]:
-        """The number of curves of each piece."""
-        return tuple(len(self._curves[part]) for part in self._slices())
-
-    def packed(self) -> list[_Piece]:
-        """Return the pieces, copied: what the caller does to his arrays later changes nothing."""
-        return [_Piece([copy_of(curve) for curve in self._curves[part]]) for part in self._slices()]
-
-    def _slices(self) -> list[slice]:
-        return [slice(start, start + self._starts.step) for start in self._starts]
-
-
 class _Piece:
     """Some curves as one object of a graph, in which dask looks for no tasks."""
 
@@ -262,32 +235,42 @@ class _Piece:
     def __init__(self, curves: list[Array]) -> None:
         self.curves = curves
 
+    def __len__(self) -> int:
+        return len(self.curves)
+
     def __sizeof__(self) -> int:
         return object.__sizeof__(self) + sum(curve.nbytes for curve in self.curves)
 
 
+def _pieces(curves: list[Array], size: int) -> list[_Piece]:
+    """Cut a list into pieces of `size` curves, at least one; copied: who owns them may write."""
+    starts = range(0, max(len(curves), 1), size)
+    return [_Piece([copy_of(curve) for curve in curves[i : i + size]]) for i in starts]
+
+
 def _blocks(
-    rows: _Pieces, columns: _Pieces, token: str, compute: partial[Array], mirrored: bool
+    rows: list[_Piece], columns: list[_Piece] | None, token: str, compute: partial[Array]
 ) -> dask_array.Array:
     """Return the lazy matrix: a task for each piece of curves, and one for each block.
+
+    Without columns it is that of the rows and themselves, of a symmetric measure.
 
     The graph is written out, since no function of dask.array leaves blocks to their transposes:
     see "Custom graphs" in dask's documentation.
     """
     name, P, Q = (f"{part}-{token}" for part in ("cdist", "cdist-P", "cdist-Q"))
-    graph: dict[Any, Any] = {(P, a): piece for a, piece in enumerate(rows.packed())}
-    if mirrored:
-        Q = P
-    else:
-        graph |= {(Q, b): piece for b, piece in enumerate(columns.packed())}
-    chunks = (rows.lengths, columns.lengths)
+    graph: dict[Any, Any] = {(P, a): piece for a, piece in enumerate(rows)}
+    graph |= {(Q, b): piece for b, piece in enumerate(columns or [])}
+    chunks = tuple(tuple(map(len, pieces)) for pieces in (rows, columns or rows))
     for a, b in itertools.product(*(range(len(lengths)) for lengths in chunks)):
-        if mirrored and a > b:
-            graph[name, a, b] = (np.transpose, (name, b, a))
-        elif mirrored and a == b:
-            graph[name, a, b] = (compute, (P, a))
-        else:
+        if columns:
             graph[name, a, b] = (compute, (P, a), (Q, b))
+        elif a == b:
+            graph[name, a, b] = (compute, (P, a))
+        elif a > b:
+            graph[name, a, b] = (np.transpose, (name, b, a))
+        else:
+            graph[name, a, b] = (compute, (P, a), (P, b))
     layers = HighLevelGraph.from_collections(name, graph)
     # The constructor has no annotations of dask's.
     array: Callable[..., dask_array.Array] = dask_array.Array
@@ -315,13 +298,7 @@ def _block_size(
         count = len(rows) + len(columns)
         points = sum(map(len, rows)) + sum(map(len, columns))
         return max(1, _BLOCK_POINTS * count // max(points, 1))
-    try:
-        size = operator.index(block)
-    except TypeError:
-        size = 0
-    if size < 1 or isinstance(block, bool):
-        raise ValueError(f"block is {block!r}; give a whole number >= 1, or None")
-    return size
+    return whole_number("block", block, 1, "give a whole number >= 1, or None")
 
 
 def _refuse_local_only(options: dict[str, Any]) -> None:

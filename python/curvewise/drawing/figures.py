@@ -16,9 +16,11 @@ from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from .._extras import extra
 from ..curves.inputs import Array
+from ..curves.named_curve import Labels
 from .palette import BETWEEN_COLOUR, P_COLOUR, Q_COLOUR
 
 if TYPE_CHECKING:
@@ -37,12 +39,16 @@ __all__ = [
     "evenly",
     "label_axes",
     "legend_above",
+    "log_ticks",
     "matplotlib_required",
     "new_figure",
     "panels",
+    "xy_labels",
+    "xy_of",
 ]
 
 MAX_LINKS = 80  # more lines than this merge into a grey mass
+_MOST_TICKS = 6
 
 
 class CurveArtists(NamedTuple):
@@ -79,33 +85,38 @@ def new_figure(**options: Any) -> Picture:
 
 
 def draw_curves(
-    ax: Axes, P: Array, Q: Array, names: Sequence[str], *, apart: bool = False
+    ax: Axes, P: Array, Q: Array, labels: Labels, *, apart: bool = False
 ) -> tuple[Line2D, Line2D]:
-    """Draw curves in the plane, or series (d = 1) against the index: `apart`, with Q below P.
-
-    `names` are those of the coordinates, as `curves.named_curve.axis_names` gives them.
-    """
-    q_label = "Q"
-    if P.shape[1] == 1:
-        x_label, y_label = "index", names[0]
-        if apart:
-            Q, q_label = _below(P, Q)
-            y_label = f"{y_label} ({q_label})"
-        P, Q = (np.column_stack([np.arange(len(series)), series]) for series in (P, Q))
-    else:
-        x_label, y_label = names[:2]
+    """Draw curves in the plane, or series (d = 1) against the index: `apart`, with Q below P."""
+    p_label, q_label = labels.curves
+    x_label, y_label = xy_labels(labels.axes)
+    if apart and P.shape[1] == 1:
+        Q, q_label = _below(P, Q, q_label)
+        y_label = f"{y_label} ({q_label})"
     label_axes(ax, x_label, y_label)
-    (p_line,) = ax.plot(*P.T, color=P_COLOUR, linewidth=1.3, label="P")
-    (q_line,) = ax.plot(*Q.T, color=Q_COLOUR, linewidth=1.3, label=q_label)
+    (p_line,) = ax.plot(*xy_of(P), color=P_COLOUR, linewidth=1.3, label=p_label)
+    (q_line,) = ax.plot(*xy_of(Q), color=Q_COLOUR, linewidth=1.3, label=q_label)
     return p_line, q_line
 
 
-def _below(P: Array, Q: Array) -> tuple[Array, str]:
+def xy_labels(names: Sequence[str]) -> tuple[str, str]:
+    """Return the labels of the axes on which `xy_of` is drawn."""
+    return ("index", names[0]) if len(names) == 1 else (names[0], names[1])
+
+
+def xy_of(curve: Array) -> tuple[Array, Array]:
+    """Return x and y to draw of a curve: its first two coordinates, or index and value."""
+    if curve.shape[1] == 1:
+        return np.arange(len(curve), dtype=np.float64), curve[:, 0]
+    return curve[:, 0], curve[:, 1]
+
+
+def _below(P: Array, Q: Array, label: str) -> tuple[Array, str]:
     """Return series Q moved below series P, with room between, and a label that says so."""
     span = max(float(np.ptp(P)), float(np.ptp(Q))) or 1.0
     digits = 1 - int(np.floor(np.log10(span)))  # a round number reads well
     shift = round(float(P.min() - Q.max()) - 0.3 * span, digits)
-    return Q + shift, f"Q {'+' if shift > 0 else '−'} {abs(shift):.10g}"
+    return Q + shift, f"{label} {'+' if shift > 0 else '−'} {abs(shift):.10g}"
 
 
 def label_axes(ax: Axes, x: str, y: str) -> None:
@@ -131,11 +142,25 @@ def draw_links(ax: Axes, links: Array, label: str) -> LineCollection:
     return collection
 
 
-def evenly(links: Array) -> Array:
-    """Return at most `MAX_LINKS` of the links, the first and the last among them."""
-    shown = np.linspace(0, len(links) - 1, min(len(links), MAX_LINKS))
-    chosen: Array = links[shown.round().astype(np.intp)]
-    return chosen
+def evenly(count: int, most: int = MAX_LINKS) -> npt.NDArray[np.intp]:
+    """Return at most so many of the indices below `count`, the first and the last among them."""
+    return np.linspace(0, count - 1, min(count, most)).round().astype(np.intp)
+
+
+def log_ticks(low: float, high: float) -> list[float]:
+    """Return ticks of a logarithmic axis that are far enough apart to be read, at most 6.
+
+    1, 2 and 5 times the powers of ten; over two decades or more the powers, every k-th of them.
+    None where the axis covers less than a decade: a linear one is read more easily there.
+    """
+    if high < 10.0 * low:
+        return []
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    if high < 100.0 * low:
+        ticks = [digit * 10.0**power for power in powers for digit in (1.0, 2.0, 5.0)]
+    else:
+        ticks = [10.0**power for power in powers[:: -(-len(powers) // _MOST_TICKS)]]
+    return [tick for tick in ticks if low <= tick <= high]
 
 
 def panels(figure: Figure, dim: int, count: int) -> tuple[Axes, list[Axes]]:

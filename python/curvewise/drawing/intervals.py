@@ -7,8 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..curves.inputs import Array
-from .figures import label_axes, new_figure
-from .loops import xy_labels, xy_of
+from .figures import label_axes, new_figure, xy_labels, xy_of
 from .palette import (
     ACCENT_COLOUR,
     CORRELATION_MAP,
@@ -106,7 +105,7 @@ def _draw_intervals(intervals: Intervals, ax: Axes) -> None:
     ax.set_yticks(rows, intervals.names)
     ax.invert_yaxis()
     percent = f"{100 * intervals.level:g} %"
-    ax.set(xlim=(-0.05, 2.1), xlabel="place between the bounds", title=f"{percent} intervals")
+    ax.set(xlim=(-0.05, 2.5), xlabel="place between the bounds", title=f"{percent} intervals")
     ax.set_xticks([0.0, 0.5, 1.0])
 
 

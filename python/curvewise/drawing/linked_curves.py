@@ -6,21 +6,18 @@ O(n + m).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from ..curves.inputs import Array
-from ..curves.named_curve import axis_names
-from .figures import label_axes, legend_above, new_figure
-from .links import draw_matching, draw_path, draw_placement
-from .palette import ACCENT_COLOUR
+from ..curves.named_curve import Labels, labels_of
+from .figures import legend_above, new_figure
+from .links import draw_matching, draw_path, draw_placement, draw_walk
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
     from .picture import Picture
 
 __all__ = ["alignment_figure", "matching_figure", "placement_figure"]
@@ -30,16 +27,12 @@ Curves: TypeAlias = tuple[Array, Array] | None
 
 def alignment_figure(curves: Curves, path: npt.NDArray[np.int64]) -> Picture:
     """Draw curves and the pairs of a path, or the path alone."""
-    return _linked(curves, path, draw_path, ("index in Q", "index in P"))
+    return _linked(curves, path, draw_path, "index in")
 
 
 def matching_figure(curves: Curves, walks: Array) -> Picture:
     """Draw curves and the leashes between two walks along them, or the walks alone."""
-
-    def draw(ax: Axes, curves: tuple[Array, Array], walks: Array, names: Sequence[str]) -> None:
-        draw_matching(ax, curves, curves, walks, names)
-
-    return _linked(curves, walks, draw, ("vertex of Q", "vertex of P"))
+    return _linked(curves, walks, draw_matching, "vertex of")
 
 
 def placement_figure(
@@ -47,15 +40,14 @@ def placement_figure(
 ) -> Picture:
     """Draw curves and where one of them has been placed on the other."""
     figure = new_figure(figsize=(6.4, 4.4), layout="constrained")
-    names = axis_names(2, None, *curves)
     ax = figure.subplots()
-    draw_placement(ax, curves, mapped, offset, points, names)
+    draw_placement(ax, curves, mapped, offset, points, labels_of(2, None, *curves))
     legend_above(figure, ax)
     return figure
 
 
 def _linked(
-    curves: Curves, links: npt.NDArray[Any], draw: Callable[..., object], labels: tuple[str, str]
+    curves: Curves, links: npt.NDArray[Any], draw: Callable[..., object], place: str
 ) -> Picture:
     """Draw curves with links between them; alone where the curves are unknown, or d is above 2."""
     columns = [curve.reshape(len(curve), -1) for curve in curves or ()]
@@ -63,10 +55,10 @@ def _linked(
     size = {1: (9.0, 3.4), 2: (6.4, 4.4)}.get(dim, (4.4, 4.4))
     figure = new_figure(figsize=size, layout="constrained")
     ax = figure.subplots()
+    labels = labels_of(dim, None, *curves) if curves else Labels(())
     if dim in (1, 2):
-        draw(ax, columns, links, axis_names(dim, None, *(curves or ())))
+        draw(ax, columns, links, labels)
     else:
-        ax.plot(*links.T[::-1], color=ACCENT_COLOUR, linewidth=1.3, label="path")
-        label_axes(ax, *labels)
+        draw_walk(ax, links, place, labels)
     legend_above(figure, ax)
     return figure

@@ -7,65 +7,88 @@ O(n + m); at most `MAX_LINKS` links are drawn.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ..curves.arc_length import arc_lengths, points_at
 from ..curves.inputs import Array
+from ..curves.named_curve import Labels
 from ..curves.scaling import box_scaled
-from .figures import MAX_LINKS, CurveArtists, draw_curves, draw_links, evenly
+from .figures import MAX_LINKS, CurveArtists, draw_curves, draw_links, evenly, label_axes
 from .palette import ACCENT_COLOUR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
 
-__all__ = ["draw_matching", "draw_path", "draw_placement"]
+__all__ = ["draw_matching", "draw_pair", "draw_path", "draw_placement", "draw_walk", "label_places"]
 
 
 def draw_path(
     ax: Axes,
     drawn: tuple[Array, Array],
     path: npt.NDArray[np.int64],
-    axes: Sequence[str],
+    labels: Labels,
     *,
     every: int | None = None,
 ) -> CurveArtists:
     """Draw curves of shapes (n, d), d = 1 or 2, and lines between the points of a path's pairs."""
-    lines = draw_curves(ax, *drawn, axes, apart=True)
+    lines = draw_curves(ax, *drawn, labels, apart=True)
     points = [np.asarray(line.get_xydata()) for line in lines]
     links = np.stack([points[k][path[:, k]] for k in (0, 1)], axis=1)
-    shown = links[:: int(every)] if every else evenly(links)
+    shown = links[:: int(every)] if every else links[evenly(len(links))]
     return CurveArtists(*lines, draw_links(ax, shown, "matched points"))
 
 
 def draw_matching(
     ax: Axes,
-    measured: tuple[Array, Array],
     drawn: tuple[Array, Array],
     walks: Array,
-    axes: Sequence[str],
+    labels: Labels,
+    measured: tuple[Array, Array] | None = None,
 ) -> CurveArtists:
-    """Draw a matching of the curves that were measured on the curves to be drawn."""
-    lengths = _leashes(*measured, walks)
-    lines = draw_curves(ax, *drawn, axes, apart=True)
+    """Draw a matching on curves; that of others, if it was these that were `measured`."""
+    columns = [curve.reshape(len(curve), -1) for curve in measured or drawn]
+    ends = [points_at(curve, walks[:, k]) for k, curve in enumerate(columns)]
+    longest = walks[np.argmax(np.linalg.norm(ends[0] - ends[1], axis=1))]
+    lines = draw_curves(ax, *drawn, labels, apart=True)
     points = [np.asarray(line.get_xydata()) for line in lines]
     shown = _evenly(walks)
     links = np.stack([points_at(points[k], shown[:, k]) for k in (0, 1)], axis=1)
     between = draw_links(ax, links, "matched points")
-    longest = walks[np.argmax(lengths)]
     ends = [points_at(points[k], longest[k : k + 1])[0] for k in (0, 1)]
-    (accent,) = ax.plot(
+    return CurveArtists(*lines, between, draw_pair(ax, ends, "continuous Fréchet distance"))
+
+
+def draw_pair(ax: Axes, ends: Sequence[Array], label: str) -> Line2D:
+    """Draw the two points whose distance is the value, and the line between them."""
+    (pair,) = ax.plot(
         *np.transpose(ends),
         color=ACCENT_COLOUR,
         linewidth=2,
-        marker="o",  # a leash of length 0 is not seen
+        marker="o",  # a distance of 0 has no length to be seen
         markersize=4,
         zorder=3,
-        label="continuous Fréchet distance",
+        label=label,
     )
-    return CurveArtists(*lines, between, accent)
+    return pair
+
+
+def draw_walk(ax: Axes, walk: npt.NDArray[Any], place: str, labels: Labels) -> Line2D:
+    """Draw a walk along both curves, of shape (k, 2): the place on Q to the right, on P upwards.
+
+    `place` is what the axes show: "index in", or "vertex of".
+    """
+    label_places(ax, place, labels)
+    (line,) = ax.plot(*walk.T[::-1], color=ACCENT_COLOUR, linewidth=1.3, label="path")
+    return line
+
+
+def label_places(ax: Axes, place: str, labels: Labels) -> None:
+    """Label axes of which one goes along Q and the other along P."""
+    label_axes(ax, *(f"{place} {curve}" for curve in reversed(labels.curves)))
 
 
 def draw_placement(
@@ -74,7 +97,7 @@ def draw_placement(
     mapped: str,
     offset: float,
     points: Array,
-    axes: Sequence[str],
+    labels: Labels,
 ) -> CurveArtists:
     """Draw curves and where one of them has been placed on the other."""
     scaled = [box_scaled(curve, curves[0]) for curve in curves]
@@ -83,9 +106,9 @@ def draw_placement(
     end = offset + lengths[shorter][-1]
     inside = curves[longer][(lengths[longer] > offset) & (lengths[longer] < end)]
     stretch = np.concatenate([points[:1], inside, points[-1:]])
-    lines = draw_curves(ax, *curves, axes)
+    lines = draw_curves(ax, *curves, labels)
     links = np.stack([curves[shorter], points], axis=1)
-    between = draw_links(ax, evenly(links), "mapped points")
+    between = draw_links(ax, links[evenly(len(links))], "mapped points")
     (accent,) = ax.plot(
         *stretch.T,
         color=ACCENT_COLOUR,
@@ -93,18 +116,9 @@ def draw_placement(
         alpha=0.25,
         solid_capstyle="butt",
         zorder=1.5,
-        label=f"stretch of {'PQ'[longer]} in use",
+        label=f"stretch of {labels.curves[longer]} in use",
     )
     return CurveArtists(*lines, between, accent)
-
-
-def _leashes(P: Array, Q: Array, matched: Array) -> Array:
-    """Return the lengths of the leashes of a matching."""
-    P, Q = (curve.reshape(len(curve), -1) for curve in (P, Q))
-    lengths: Array = np.linalg.norm(
-        points_at(P, matched[:, 0]) - points_at(Q, matched[:, 1]), axis=1
-    )
-    return lengths
 
 
 def _evenly(matched: Array) -> Array:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..curves.inputs import Array
-from .figures import draw_curves, label_axes, legend_above, new_figure
+from ..curves.named_curve import Labels
+from .figures import draw_curves, label_axes, legend_above, log_ticks, new_figure, xy_labels, xy_of
 from .palette import (
     ACCENT_COLOUR,
     BETWEEN_COLOUR,
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
     from .picture import Picture
 
-__all__ = ["loops_and_convergence", "loops_and_places", "xy_labels", "xy_of"]
+__all__ = ["loops_and_convergence", "loops_and_places"]
 
 
 def loops_and_convergence(
@@ -66,9 +67,8 @@ def loops_and_convergence(
     The first two coordinates are drawn of curves that have more.
     """
     figure, panels, last = _panels(titles, (4.2, 3.4))
-    pairs = zip(experiments, simulations, strict=True)
-    for i, (experiment, simulation) in enumerate(pairs):
-        measured, simulated = draw_curves(panels[i], experiment[:, :2], simulation[:, :2], names[i])
+    for ax, P, Q, axes in zip(panels, experiments, simulations, names, strict=True):
+        measured, simulated = draw_curves(ax, P, Q, Labels(tuple(axes)))
         measured.set(label="experiment", marker=".", markersize=3, linewidth=0.6)
         simulated.set_label("simulation")
     legend_above(figure, panels[0])
@@ -126,54 +126,29 @@ def _panels(titles: Sequence[str], size: tuple[float, float]) -> tuple[Picture, 
     panels = figure.subplots(rows, columns, squeeze=False).ravel().tolist()
     for ax in panels[count:]:
         ax.remove()
-    if count > 2:
+    # A lone loop that nobody has named needs no title.
+    if count > 2 or not titles[0].startswith("Loop "):
         for ax, title in zip(panels, titles, strict=False):
             ax.set_title(title)
     return figure, panels[: count - 1], panels[count - 1]
 
 
 def _draw_convergence(history: np.recarray[Any, Any], objective: str, ax: Axes) -> None:
-    good = ~history.failed
-    ax.plot(
-        history.evaluation[good],
-        history.value[good],
-        ".",
-        markersize=2,
-        color=BETWEEN_COLOUR,
-        label="evaluation",
-    )
-    ax.plot(
-        history.evaluation,
-        np.minimum.accumulate(history.value),
-        color=ACCENT_COLOUR,
-        linewidth=1.3,
-        label="best so far",
-    )
+    number, value, good = history.evaluation, history.value, ~history.failed
+    best = np.minimum.accumulate(value)
+    ax.plot(number[good], value[good], ".", markersize=2, color=BETWEEN_COLOUR, label="evaluation")
+    ax.plot(number, best, color=ACCENT_COLOUR, linewidth=1.3, label="best so far")
     if not good.all():
         # At the top of the axes, not at their value: penalties would flatten everything else.
-        ax.plot(
-            history.evaluation[~good],
-            np.full(int((~good).sum()), 0.98),
-            "|",
-            transform=ax.get_xaxis_transform(),
-            color=Q_COLOUR,
-            label="failed",
-        )
-    positive = history.value[good & (history.value > 0)]
-    if positive.size:
+        failed, top = number[~good], ax.get_xaxis_transform()
+        ax.plot(failed, [0.98] * len(failed), "|", transform=top, color=Q_COLOUR, label="failed")
+    positive = value[good & (value > 0)]
+    if positive.size and (ticks := log_ticks(positive.min(), positive.max())):
         ax.set_yscale("log")
         ax.set_ylim(top=2.0 * positive.max())
+        ax.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+        ax.minorticks_off()
+    elif positive.size:
+        ax.set_ylim(top=1.05 * positive.max())
     ax.set(xlabel="evaluation", ylabel=objective)
     ax.legend(loc="best" if len(history) < 1000 else "upper right", frameon=False)
-
-
-def xy_labels(names: Sequence[str]) -> tuple[str, str]:
-    """Return the labels of the axes on which `xy_of` is drawn."""
-    return ("index", names[0]) if len(names) == 1 else (names[0], names[1])
-
-
-def xy_of(curve: Array) -> tuple[Array, Array]:
-    """Return x and y to draw of a curve: its first two coordinates, or index and value."""
-    if curve.shape[1] == 1:
-        return np.arange(len(curve), dtype=np.float64), curve[:, 0]
-    return curve[:, 0], curve[:, 1]

@@ -6,19 +6,12 @@ Where nobody asks, the first two are taken, which is said where they are time an
 from __future__ import annotations
 
 import operator
-import re
 from collections.abc import Sequence
-from typing import Any
 
+from ..curves.column_roles import is_time
 from ..curves.foreign_curves import warn
 
-__all__ = ["TimeColumnWarning", "choose_columns", "column_name", "is_time"]
-
-# "time", "Time [s]", "t (s)", "time_s", "Step Time", "Zeit/s"; not "T" (temperature), "timeout".
-_TIME = re.compile(
-    r"(?:(?i:(?:\w+[ _])?(?:time|zeit|temps|tiempo|tempo)|timestamp)|t)"
-    r"(?:[ _]*[\[(/,].*|[ _](?i:s|sec|seconds?|ms|min|minutes?|h|hours?))?"
-)
+__all__ = ["TimeColumnWarning", "choose_columns", "column_name"]
 
 
 class TimeColumnWarning(UserWarning):
@@ -36,11 +29,6 @@ class TimeColumnWarning(UserWarning):
         super().__init__(f"{found}; name those wanted, for example columns={wanted}")
         self.found = found
         self.wanted = wanted
-
-
-def is_time(name: Any) -> bool:
-    """Say whether a column is time by its name, with or without a unit."""
-    return isinstance(name, str) and _TIME.fullmatch(name.strip()) is not None
 
 
 def choose_columns(

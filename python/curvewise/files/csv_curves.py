@@ -118,15 +118,11 @@ def _decode(data: bytes) -> str:
 def _find_layout(file: str, lines: list[str]) -> _Table:
     """Choose the separator, and tell header from numbers, by the first lines of a file."""
     sample = [i for i, line in enumerate(lines) if line][:_LAYOUT_LINES]
-    scores: dict[str | None, float] = {}
-    for separator in (";", "\t", ",", _BLANKS):  # the first among equal scores is taken
-        if separator is _BLANKS:
-            possible = scores.get("\t", 0.0) == 0.0
-        else:
-            possible = any(separator in lines[i] for i in sample)
-        if possible:
-            scores[separator] = sum(_score(lines[i], separator) for i in sample)
-    separator = max(scores, key=scores.__getitem__)
+    there_are = [sign for sign in (";", "\t", ",") if any(sign in lines[i] for i in sample)]
+    scores: dict[str | None, float] = {sign: _score(lines, sample, sign) for sign in there_are}
+    if scores.get("\t", 0.0) == 0.0:
+        scores[_BLANKS] = _score(lines, sample, _BLANKS)
+    separator = max(scores, key=scores.__getitem__)  # the first among equal scores
     if scores[separator] == 0.0:
         raise ValueError(f"{file} holds no numbers; a curve is one point per line")
 
@@ -134,7 +130,7 @@ def _find_layout(file: str, lines: list[str]) -> _Table:
     headers = 0
     while any(rows[headers]) and _numeric_fraction(rows[headers], separator) == 0.0:
         headers += 1
-    names = max(rows[:headers], key=_count_filled, default=[])
+    names = max(rows[:headers], key=lambda row: sum(map(bool, row)), default=[])
     width = max(len(row) for row in rows[headers:])
     if separator is _BLANKS and len(names) != width:
         names = []  # "true strain  true stress": nobody can say which word belongs where
@@ -145,14 +141,11 @@ def _find_layout(file: str, lines: list[str]) -> _Table:
     return _Table(file, lines, sample[headers], separator, names, width, most)
 
 
-def _score(line: str, separator: str | None) -> float:
-    cells = _cells(line, separator)
+def _score(lines: list[str], sample: list[int], separator: str | None) -> float:
+    """Return how many of the lines are numbers, if they are separated so."""
+    rows = [_cells(lines[i], separator) for i in sample]
     # What is not separated at all has no decimal comma: "1,5" is two cells, and "1," one of two.
-    return _numeric_fraction(cells, separator if len(cells) > 1 else ",")
-
-
-def _count_filled(cells: list[str]) -> int:
-    return sum(map(bool, cells))
+    return sum(_numeric_fraction(row, separator if len(row) > 1 else ",") for row in rows)
 
 
 def _numeric_fraction(cells: list[str], separator: str | None) -> float:

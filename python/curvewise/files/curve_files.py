@@ -152,10 +152,25 @@ def read_named_columns(
     ...     read_named_columns(path, columns=["strain", 3])[1]
     ['strain', 'stress']
     """
-    values, names = _read(path, columns, sheet)
-    titles = _titles(names)
+    kind = Path(path).suffix.lower()
+    if kind in _WORKBOOKS:
+        from .excel_curves import read_sheet_columns
+
+        values, names = read_sheet_columns(path, columns, 1 if sheet is None else sheet)
+    elif sheet is not None:
+        raise ValueError(
+            f"sheet is {sheet!r}, and {os.fspath(path)} is no workbook; leave sheet out"
+        )
+    elif kind == ".mat":
+        from .mat_curves import read_mat_columns
+
+        values, names = read_mat_columns(path, columns)
+    else:
+        values, names = read_csv_columns(path, columns)
+    # What pictures call the columns.
+    titles = [f"column {name}" if name.isdecimal() else name for name in names]
     if factors is None:
-        return NamedCurve(values, titles), names
+        return NamedCurve(values, titles, Path(path).name), names
     given = np.asarray(factors, dtype=np.float64)
     if given.shape != values.shape[1:]:
         raise ValueError(
@@ -168,29 +183,4 @@ def read_named_columns(
         name if factor == 1.0 else f"{name} × {factor:.10g}"
         for name, factor in zip(titles, given.tolist(), strict=True)
     ]
-    return NamedCurve(values * given, changed), names
-
-
-def _titles(names: list[str]) -> list[str]:
-    """Return what pictures call the columns: those that have a number for a name, "column 2"."""
-    return [f"column {name}" if name.isdecimal() else name for name in names]
-
-
-def _read(
-    path: str | os.PathLike[str], columns: Sequence[str | int] | None, sheet: str | int | None
-) -> tuple[Array, list[str]]:
-    """Return the columns and their names, by the kind of the file."""
-    kind = Path(path).suffix.lower()
-    if kind in _WORKBOOKS:
-        from .excel_curves import read_sheet_columns
-
-        return read_sheet_columns(path, columns, 1 if sheet is None else sheet)
-    if sheet is not None:
-        raise ValueError(
-            f"sheet is {sheet!r}, and {os.fspath(path)} is no workbook; leave sheet out"
-        )
-    if kind == ".mat":
-        from .mat_curves import read_mat_columns
-
-        return read_mat_columns(path, columns)
-    return read_csv_columns(path, columns)
+    return NamedCurve(values * given, changed, Path(path).name), names

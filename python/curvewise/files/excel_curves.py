@@ -57,17 +57,18 @@ def _cells(
     with extra("curves", f"to read {file}, curvewise needs pandas and openpyxl"):
         pandas = import_module("pandas")
         with pandas.ExcelFile(path) as book:
-            titles = book.sheet_names
-            if isinstance(sheet, str) and sheet not in titles and sheet.isdecimal():
+            titles: list[str] = book.sheet_names
+            known: dict[str | int, str] = {title: title for title in titles}
+            known |= enumerate(titles, 1)
+            if isinstance(sheet, str) and sheet not in known and sheet.isdecimal():
                 sheet = int(sheet)
-            by_number = isinstance(sheet, int) and 1 <= sheet <= len(titles)
-            if not by_number and sheet not in titles:
+            if sheet not in known:
                 listed = ", ".join(map(str, titles))
                 raise ValueError(
                     f"{file} has no sheet {sheet!r}; its sheets are {listed}; "
                     f"by number, give 1 to {len(titles)}"
                 )
-            title = titles[sheet - 1] if isinstance(sheet, int) else sheet
+            title = known[sheet]
             frame = pandas.read_excel(book, sheet_name=title, header=None, na_filter=False)
     return title, frame.to_numpy(dtype=object).tolist()
 

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from .._core import check_batch, is_symmetric
 from .._core import dtw_mean as compiled_dtw_mean
 from .._docstrings import filled
-from .._options import Default, Window
+from .._options import Default, Window, real_number
 from .._progress import Report, reporting
 from ..curves.inputs import Array, CurveLike, as_curve, as_curve_list
 from ..measures.registry import MeasureName
@@ -101,12 +101,16 @@ def dtw_mean(
         start = given[0] if len(chosen) < 2 else chosen[_start_of(chosen, window, workers)]
     else:
         start = as_curve(initial, "initial")
-    counts = [] if weights is None else np.asarray(weights, dtype=np.float64).tolist()
     if weights is not None and np.ndim(weights) != 1:
         raise ValueError(f"weights has {np.ndim(weights)} array dimensions; give one number each")
+    counts = [
+        real_number(f"weights[{i}]", weight, -np.inf, "give a finite number >= 0")
+        for i, weight in enumerate([] if weights is None else np.asarray(weights).tolist())
+    ]
+    limit = real_number("tolerance", tolerance, -np.inf, "give a number >= 0")
     with reporting(progress) as report:
         mean, costs, converged = compiled_dtw_mean(
-            given, counts, start, window, iterations, float(tolerance), workers, report
+            given, counts, start, window, iterations, limit, workers, report
         )
     return DtwMean(mean, costs, converged)
 

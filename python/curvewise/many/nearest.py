@@ -6,11 +6,13 @@ and conventions of ``sklearn.neighbors.NearestNeighbors``. The work is done by t
 
 from __future__ import annotations
 
-import operator
-import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
 from importlib import import_module
 from itertools import pairwise
-from typing import Any, Literal, SupportsFloat, SupportsIndex, overload
+from threading import get_ident
+from typing import Any, Literal, SupportsFloat, SupportsIndex, get_args, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -18,13 +20,13 @@ import numpy.typing as npt
 from .._core import Index as CompiledIndex
 from .._docstrings import filled
 from .._extras import extra
-from .._options import Default
+from .._options import Default, check_choice, real_number, whole_number
 from .._progress import Report, reporting
 from ..curves.inputs import Array, as_curve_list
 from ..measures.registry import MeasureName
 from .pairwise import Curves, _check_names
 
-__all__ = ["Index"]
+__all__ = ["Index", "checked_count"]
 
 Places = npt.NDArray[np.int64]
 GraphMode = Literal["connectivity", "distance"]
@@ -84,6 +86,7 @@ class Index:
         self._measure = _check_names(measure, options)
         self._options = options
         self._index = CompiledIndex(as_curve_list(curves, "curves"), self._measure, options)
+        self._searching: list[int] = []  # threads; one stands as often as it searches
 
     def __len__(self) -> int:
         return self._index.size()
@@ -93,7 +96,7 @@ class Index:
         return f"Index(<{len(self)} curves>, {self._measure!r}{options})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _index_of, (self._index.curves(), self._measure, self._options)
+        return partial(Index, **self._options), (self._index.curves(), self._measure)
 
     def add(self, curves: Curves) -> None:
         """Add curves behind those there are.
@@ -107,11 +110,18 @@ class Index:
         ------
         ValueError, TypeError
             As for :class:`Index`.
+        RuntimeError
+            The progress function of a search in this index calls it.
 
         Notes
         -----
         O(n) time a curve. Waits for searches that run in other threads.
         """
+        if get_ident() in self._searching:
+            raise RuntimeError(
+                "add was called by the progress function of a search in the same index, for whose "
+                "end it would wait; add the curves after the search"
+            )
         self._index.add(as_curve_list(curves, "curves"))
 
     @overload
@@ -184,8 +194,9 @@ class Index:
         :func:`curvewise.cdist`.
         """
         queries = None if X is None else as_curve_list(X, "X")
-        count = _whole_number("n_neighbors", n_neighbors)
-        with reporting(progress) as report:
+        which = "the other curves of the index" if X is None else "the curves of the index"
+        count = checked_count(n_neighbors, len(self) - (X is None), which)
+        with self._reporting(progress) as report:
             distances, indices, _ = self._index.kneighbors(queries, count, workers, report)
         return (distances, indices) if return_distance else indices
 
@@ -248,7 +259,7 @@ class Index:
         Raises
         ------
         ValueError, TypeError, ImportError
-            As for :meth:`kneighbors`; and ValueError for a negative `radius`.
+            As for :meth:`kneighbors`; and ValueError for a `radius` that is negative or no number.
 
         Notes
         -----
@@ -303,7 +314,7 @@ class Index:
         >>> index.kneighbors_graph(n_neighbors=1, mode="distance").toarray().tolist()
         [[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0]]
         """
-        _check_mode(mode)
+        check_choice("mode", mode, get_args(GraphMode))
         distances, indices = self.kneighbors(X, n_neighbors, workers=workers, progress=progress)
         begins = np.arange(len(indices) + 1) * indices.shape[1]
         return self._graph(mode, distances.ravel(), indices.ravel(), begins)
@@ -341,8 +352,18 @@ class Index:
         -----
         As for :meth:`kneighbors`.
         """
-        _check_mode(mode)
+        check_choice("mode", mode, get_args(GraphMode))
         return self._graph(mode, *self._within(X, radius, True, True, workers, progress))
+
+    @contextmanager
+    def _reporting(self, progress: bool | Report) -> Iterator[Report | None]:
+        """Yield the function for the reports of a search, which this thread must not add to."""
+        self._searching.append(get_ident())
+        try:
+            with reporting(progress) as report:
+                yield report
+        finally:
+            self._searching.remove(get_ident())
 
     def _within(
         self,
@@ -354,10 +375,8 @@ class Index:
         progress: bool | Report,
     ) -> tuple[Array, Places, Places]:
         queries = None if X is None else as_curve_list(X, "X")
-        limit = float(radius)
-        if not limit >= 0:
-            raise ValueError(f"radius is {radius!r}; give a number >= 0")
-        with reporting(progress) as report:
+        limit = real_number("radius", radius, 0.0, "give a number >= 0")
+        with self._reporting(progress) as report:
             found = self._index.radius_neighbors(
                 queries, limit, bool(sort_results), bool(with_distances), workers, report
             )
@@ -370,21 +389,10 @@ class Index:
         return csr_matrix((values, indices, begins), shape=(len(begins) - 1, len(self)))
 
 
-def _index_of(curves: list[Array], measure: MeasureName, options: dict[str, Any]) -> Index:
-    return Index(curves, measure, **options)
-
-
-def _whole_number(name: str, value: SupportsIndex) -> int:
-    try:
-        # Beyond 64 bits it is as good as the largest number there is.
-        return max(-sys.maxsize, min(operator.index(value), sys.maxsize))
-    except TypeError:
-        raise ValueError(f"{name} is {value!r}; give a whole number >= 1") from None
-
-
-def _check_mode(mode: str) -> None:
-    if mode not in ("connectivity", "distance"):
-        raise ValueError(f"unknown mode {mode!r}; choose from connectivity, distance")
+def checked_count(n_neighbors: SupportsIndex, most: int, which: str) -> int:
+    """Return how many neighbours are asked for; refuse more than there are curves to be one."""
+    advice = f"give a whole number from 1 to {most}, {which}"
+    return whole_number("n_neighbors", n_neighbors, 1, advice, most)
 
 
 def _divided(values: npt.NDArray[Any], begins: Places) -> npt.NDArray[np.object_]:

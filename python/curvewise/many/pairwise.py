@@ -7,6 +7,7 @@ library; a callable given in the place of a measure's name is called pair by pai
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import combinations, product
 from typing import Any, SupportsFloat, SupportsIndex, TypeAlias, get_args, overload
@@ -18,7 +19,7 @@ from .._core import cdist as compiled_cdist
 from .._core import is_symmetric
 from .._core import pdist as compiled_pdist
 from .._docstrings import filled, listed
-from .._options import Default, Metric
+from .._options import Default, Metric, check_choice, real_number
 from .._progress import Report, reporting
 from ..curves.foreign_curves import is_curve_of_another_package
 from ..curves.inputs import (
@@ -115,8 +116,8 @@ def cdist(
     Notes
     -----
     Time: the sum of the pairs'. Memory: the result and a packed copy of the curves (two without
-    XB). Ctrl-C ends a call on the main thread, and all its threads, within 0.2 s; Python delivers
-    KeyboardInterrupt on no other thread.
+    XB). Ctrl-C ends a call on the main thread, and all its threads, within 0.2 s; the exceptions
+    stand in docs/reliability.md.
 
     Examples
     --------
@@ -162,8 +163,8 @@ def pdist(
     X : array_like, shape (k, n, d), or a sequence of curves
         As for :func:`cdist`.
     measure : {symmetric} or callable
-        A symmetric one: dtw without open ends, area without spacing="arc_length". A callable is
-        taken to be symmetric.
+        A symmetric one: dtw without open ends, area without spacing="arc_length" or "matched". A
+        callable is taken to be symmetric.
     out : ndarray of float64, shape (k (k-1) / 2,), C-contiguous, optional
         Where to write the result.
     workers, cutoff, progress, **options
@@ -320,15 +321,14 @@ def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
             f"{measure!r} is a ground distance, between points; the measure is of curves, one of "
             f"{', '.join(names)}: use measure='dtw', metric={measure!r} for example"
         )
-    if not isinstance(measure, str) or measure not in names:
-        raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(names)}")
+    check_choice("measure", measure, names)
     metric = options.get("metric")
     if isinstance(metric, str) and metric in names:
         raise ValueError(
             f"{metric!r} is a measure, of curves; the metric is the ground distance between their "
             f"points, one of {', '.join(metrics)}: use measure={metric!r}"
         )
-    return measure
+    return str(measure)
 
 
 def _checked_out(out: Array | None, shape: tuple[int, ...], name: str) -> Array:
@@ -351,12 +351,8 @@ def _apart(curves: list[Array], out: Array) -> list[Array]:
 
 
 def _checked_cutoff(cutoff: SupportsFloat | None) -> float:
-    if cutoff is None:
-        return float("inf")
-    limit = float(cutoff)
-    if not limit >= 0:
-        raise ValueError(f"cutoff is {cutoff!r}; give a number >= 0, or None")
-    return limit
+    limit = math.inf if cutoff is None else cutoff
+    return real_number("cutoff", limit, 0.0, "give a number >= 0, or None")
 
 
 def _fill(

@@ -6,15 +6,18 @@ and for several answers that do not overlap. The work is done by the compiled li
 
 from __future__ import annotations
 
+import sys
+from dataclasses import replace
 from typing import SupportsFloat, SupportsIndex, get_args
+
+import numpy as np
 
 from .._core import dtw_subsequences, frechet_subsequences
 from .._docstrings import filled, listed
-from .._options import Default, Metric, Order, WarpingName
+from .._options import Default, Metric, Order, WarpingName, check_choice, whole_number
 from ..curves.inputs import Array, CurveLike, as_curves, warn_if_transposed
-from ..measures import dtw_path, frechet_path
-from ..measures.results import Alignment, Subsequence
-from .nearest import _whole_number
+from ..measures.registry import WARPINGS
+from ..measures.results import Subsequence
 
 __all__ = ["subsequence"]
 
@@ -86,16 +89,11 @@ def subsequence(
     """
     P, Q = as_curves(P, Q)
     warn_if_transposed(P, "P")
-    count = _whole_number("k", k)
-    options = {"metric": metric, "p": p, "workers": workers, "cutoff": cutoff}
-    if measure == "dtw":
-        found = dtw_subsequences(P, Q, count, options)
-    elif measure == "frechet":
-        found = frechet_subsequences(P, Q, count, options)
-    else:
-        names = ", ".join(get_args(WarpingName))
-        raise ValueError(f"unknown measure {measure!r}; choose from {names}")
-    answers = [Subsequence(*answer) for answer in found]
+    count = min(whole_number("k", k, 1, "give a whole number >= 1"), sys.maxsize)
+    check_choice("measure", measure, get_args(WarpingName))
+    find = dtw_subsequences if measure == "dtw" else frechet_subsequences
+    how = {"metric": metric, "p": p, "workers": workers, "cutoff": cutoff}
+    answers = [Subsequence(*answer) for answer in find(P, Q, count, how)]
     if not path:
         return answers
     return [_with_path(P, Q, measure, metric, p, answer) for answer in answers]
@@ -106,11 +104,5 @@ def _with_path(
 ) -> Subsequence:
     """Return an answer with its path, which begins and ends with the run."""
     run = Q[answer.start : answer.stop + 1]
-    alignment: Alignment
-    if measure == "dtw":
-        alignment = dtw_path(P, run, metric=metric, p=p)
-    else:
-        alignment = frechet_path(P, run, metric=metric, p=p)
-    path = alignment.path.copy()
-    path[:, 1] += answer.start
-    return Subsequence(answer.distance, answer.start, answer.stop, path)
+    alignment = WARPINGS[measure].path(P, run, metric=metric, p=p)
+    return replace(answer, path=alignment.path + np.array([0, answer.start]))

@@ -105,22 +105,19 @@ def dtw(
     0.0
     """
     P, Q = as_curves(P, Q)
-    return compiled_dtw(
-        P,
-        Q,
-        {
-            "metric": metric,
-            "p": p,
-            "step_pattern": step_pattern,
-            "window": window,
-            "open_begin": open_begin,
-            "open_end": open_end,
-            "normalize": normalize,
-            "workers": workers,
-            "prune": prune,
-            "cutoff": cutoff,
-        },
-    )
+    options = {
+        "metric": metric,
+        "p": p,
+        "step_pattern": step_pattern,
+        "window": window,
+        "open_begin": open_begin,
+        "open_end": open_end,
+        "normalize": normalize,
+        "workers": workers,
+        "prune": prune,
+        "cutoff": cutoff,
+    }
+    return compiled_dtw(P, Q, options)
 
 
 def dtw_info(
@@ -166,22 +163,10 @@ def dtw_info(
     (1.0, 12, 1.0)
     """
     P, Q = as_curves(P, Q)
-    return WarpingInfo(
-        *compiled_dtw_info(
-            P,
-            Q,
-            {
-                "metric": metric,
-                "p": p,
-                "step_pattern": step_pattern,
-                "window": window,
-                "open_begin": open_begin,
-                "open_end": open_end,
-                "workers": workers,
-                "prune": prune,
-            },
-        )
-    )
+    steps = {"metric": metric, "p": p, "step_pattern": step_pattern, "window": window}
+    ends = {"open_begin": open_begin, "open_end": open_end}
+    how = {"workers": workers, "prune": prune}
+    return WarpingInfo(*compiled_dtw_info(P, Q, steps | ends | how))
 
 
 def dtw_path(
@@ -228,23 +213,11 @@ def dtw_path(
     [[0, 0], [1, 0], [2, 1], [3, 2]]
     """
     A, B = as_curves(P, Q)
-    return Alignment(
-        *compiled_dtw_path(
-            A,
-            B,
-            {
-                "metric": metric,
-                "p": p,
-                "step_pattern": step_pattern,
-                "window": window,
-                "open_begin": open_begin,
-                "open_end": open_end,
-                "workers": workers,
-                "prune": prune,
-            },
-        ),
-        (copied(P, A), copied(Q, B)),
-    )
+    steps = {"metric": metric, "p": p, "step_pattern": step_pattern, "window": window}
+    ends = {"open_begin": open_begin, "open_end": open_end}
+    how = {"workers": workers, "prune": prune}
+    found = compiled_dtw_path(A, B, steps | ends | how)
+    return Alignment(*found, (copied(P, A), copied(Q, B)))
 
 
 def dtw_table(
@@ -289,15 +262,6 @@ def dtw_table(
     [[0.0, 2.0, 5.0], [1.0, 1.0, 3.0]]
     """
     P, Q = as_curves(P, Q)
-    return compiled_dtw_table(
-        P,
-        Q,
-        {
-            "metric": metric,
-            "p": p,
-            "step_pattern": step_pattern,
-            "window": window,
-            "open_begin": open_begin,
-            "open_end": open_end,
-        },
-    )
+    steps = {"metric": metric, "p": p, "step_pattern": step_pattern, "window": window}
+    ends = {"open_begin": open_begin, "open_end": open_end}
+    return compiled_dtw_table(P, Q, steps | ends)

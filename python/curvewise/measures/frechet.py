@@ -69,11 +69,8 @@ def frechet(
     3.0
     """
     P, Q = as_curves(P, Q)
-    return compiled_frechet(
-        P,
-        Q,
-        {"metric": metric, "p": p, "workers": workers, "prune": prune, "cutoff": cutoff},
-    )
+    how = {"metric": metric, "p": p, "workers": workers, "prune": prune, "cutoff": cutoff}
+    return compiled_frechet(P, Q, how)
 
 
 def frechet_info(
@@ -115,8 +112,8 @@ def frechet_info(
     (3.0, 6, 1.0)
     """
     P, Q = as_curves(P, Q)
-    options = {"metric": metric, "p": p, "workers": workers, "prune": prune}
-    return WarpingInfo(*compiled_frechet_info(P, Q, options))
+    how = {"metric": metric, "p": p, "workers": workers, "prune": prune}
+    return WarpingInfo(*compiled_frechet_info(P, Q, how))
 
 
 def frechet_path(
@@ -159,8 +156,8 @@ def frechet_path(
     [[0, 0], [1, 0], [2, 1]]
     """
     A, B = as_curves(P, Q)
-    options = {"metric": metric, "p": p, "workers": workers, "prune": prune}
-    return Alignment(*compiled_frechet_path(A, B, options), (copied(P, A), copied(Q, B)))
+    how = {"metric": metric, "p": p, "workers": workers, "prune": prune}
+    return Alignment(*compiled_frechet_path(A, B, how), (copied(P, A), copied(Q, B)))
 
 
 def frechet_table(

@@ -6,6 +6,7 @@ Künnemann & Nusser (2019). Near-linear time for curves that are alike, memory O
 
 from __future__ import annotations
 
+import math
 from typing import Literal, SupportsFloat, SupportsIndex, overload
 
 from .._core import frechet_continuous as compiled_frechet_continuous
@@ -13,7 +14,7 @@ from .._core import frechet_continuous_bounds as compiled_frechet_continuous_bou
 from .._core import frechet_continuous_path as compiled_frechet_continuous_path
 from .._core import frechet_within as compiled_frechet_within
 from .._docstrings import filled
-from .._options import Default
+from .._options import Default, real_number
 from ..curves.inputs import CurveLike, as_curves
 from ..curves.named_curve import copied
 from .results import Matching
@@ -179,4 +180,5 @@ def frechet_within(
     (True, False)
     """
     P, Q = as_curves(P, Q)
-    return compiled_frechet_within(P, Q, float(distance), bool(continuous))
+    radius = real_number("distance", distance, -math.inf, "give a number >= 0")
+    return compiled_frechet_within(P, Q, radius, bool(continuous))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any, get_args
 
 from .._core import value_and_gradient as compiled_value_and_gradient
-from .._options import Differentiable
+from .._options import Differentiable, check_choice
 from ..curves.inputs import Array, CurveLike, as_curves
 
 __all__ = ["value_and_gradient"]
@@ -70,9 +70,7 @@ def value_and_gradient(
     (2.75, [1.0, 1.0, 1.0])
     """
     P, Q = as_curves(P, Q)
-    names = get_args(Differentiable)
-    if measure not in names:
-        raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(names)}")
+    check_choice("measure", measure, get_args(Differentiable))
     if measure == "sum_of_squares" and options:
         raise TypeError(f"sum_of_squares has no options, but {', '.join(options)} given")
     return compiled_value_and_gradient(measure, P, Q, options)

@@ -6,15 +6,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
-from .._options import Default, Metric, Order, WarpingName
+from .._options import Default, WarpingName
 from ..curves.ground_distance import check_metric, ground_distances
-from ..curves.inputs import Array, CurveLike
-from ..curves.named_curve import axis_names
+from ..curves.inputs import CurveLike
 from ..drawing.figures import CurveArtists
-from ..drawing.links import draw_path
-from ..drawing.palette import ACCENT_COLOUR
+from ..drawing.links import draw_pair, draw_path
 from .measured import measured_and_drawn, warping_of
 
 if TYPE_CHECKING:
@@ -83,41 +80,18 @@ def plot_alignment(
     warping = warping_of(measure)
     if every is not None and (every < 1 or every % 1):
         raise ValueError(f"every is {every}; give a whole number >= 1, or None")
-    measured, drawn = measured_and_drawn(P, Q, normalized)
-    if drawn[0].shape[1] > 2:
-        raise ValueError(
-            f"P has shape {drawn[0].shape}; plot_alignment draws 1 or 2 coordinates, "
-            "plot_table any number"
-        )
+    refused = "plot_alignment draws 1 or 2 coordinates, plot_table any number"
+    measured, drawn, labels = measured_and_drawn(P, Q, normalized, names, refused)
     path = warping.path(*measured, **options).path
-    axes = axis_names(drawn[0].shape[1], names, P, Q)
-    artists = draw_path(ax, drawn, path, axes, every=every)
+    artists = draw_path(ax, drawn, path, labels, every=every)
     if measure == "dtw":
         return artists
-    farthest = path[_farthest_pair(*measured, path, **options)]
+    # The first place on the path where the ground distance is largest.
+    metric = check_metric(options.get("metric", Default.metric), options.get("p", Default.p))
+    points = [curve[path[:, k]].reshape(len(path), -1) for k, curve in enumerate(measured)]
+    farthest = path[np.argmax(ground_distances(points[0], points[1], *metric))]
     ends = [
         np.asarray(line.get_xydata())[i]
         for line, i in zip((artists.P, artists.Q), farthest, strict=True)
     ]
-    (accent,) = ax.plot(
-        *np.transpose(ends),
-        color=ACCENT_COLOUR,
-        linewidth=2,
-        marker="o",  # a pair at distance 0 has no length to be seen
-        markersize=4,
-        zorder=3,
-        label="Fréchet distance",
-    )
-    return artists._replace(accent=accent)
-
-
-def _farthest_pair(
-    P: Array,
-    Q: Array,
-    path: npt.NDArray[np.int64],
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-) -> int:
-    """Return the first place on the path where the ground distance is largest."""
-    p_points, q_points = (c[path[:, k]].reshape(len(path), -1) for k, c in enumerate((P, Q)))
-    return int(np.argmax(ground_distances(p_points, q_points, *check_metric(metric, p))))
+    return artists._replace(accent=draw_pair(ax, ends, "Fréchet distance"))

@@ -15,9 +15,8 @@ import numpy as np
 
 from .._options import WarpingName
 from ..curves.inputs import CurveLike
-from ..curves.named_curve import axis_names
-from ..drawing.figures import evenly, label_axes, matplotlib_required, new_figure
-from ..drawing.links import draw_path
+from ..drawing.figures import evenly, matplotlib_required, new_figure
+from ..drawing.links import draw_path, label_places
 from ..drawing.palette import ACCENT_COLOUR
 from .measured import measured_and_drawn, warping_of
 
@@ -83,28 +82,24 @@ def animate_alignment(
     if not 0.0 < seconds < np.inf:
         raise ValueError(f"seconds is {seconds}; it must be finite and above 0")
     warping = warping_of(measure)
-    measured, drawn = measured_and_drawn(P, Q, normalized)
-    dim = drawn[0].shape[1]
-    if dim > 2:
-        raise ValueError(
-            f"P has shape {drawn[0].shape}; animate_alignment draws 1 or 2 coordinates"
-        )
+    refused = "animate_alignment draws 1 or 2 coordinates"
+    measured, drawn, labels = measured_and_drawn(P, Q, normalized, names, refused)
     path = warping.path(*measured, **options).path
     figure = new_figure(figsize=(9.0, 4.2), layout="constrained")
     with matplotlib_required():
         from matplotlib.animation import FuncAnimation, PillowWriter
     left, right = figure.subplots(1, 2, width_ratios=(1.7, 1.0))
-    artists = draw_path(left, drawn, path, axis_names(dim, names, P, Q), every=1)
+    artists = draw_path(left, drawn, path, labels, every=1)
     ends = [np.asarray(line.get_xydata()) for line in (artists.P, artists.Q)]
     links = np.stack([ends[k][path[:, k]] for k in (0, 1)], axis=1)
     (now,) = left.plot([], [], "o-", color=ACCENT_COLOUR, linewidth=2, markersize=5)
     (walked,) = right.plot([], [], color=ACCENT_COLOUR, linewidth=1.6)
     right.set(xlim=(-0.5, path[:, 1].max() + 0.5), ylim=(-0.5, path[:, 0].max() + 0.5))
-    label_axes(right, "index in Q", "index in P")
-    places = np.linspace(0, len(path) - 1, min(int(frames), len(path))).round().astype(int)
+    label_places(right, "index in", labels)
+    places = evenly(len(path), int(frames))
 
     def show(place: int) -> list[Any]:
-        artists.between.set_segments(list(evenly(links[: place + 1])))  # type: ignore[attr-defined]  # a LineCollection has it
+        artists.between.set_segments(list(links[evenly(place + 1)]))  # type: ignore[attr-defined]  # a LineCollection has it
         now.set_data(*links[place].T)
         walked.set_data(*path[: place + 1].T[::-1])
         return [artists.between, now, walked]

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from .._options import Crossing, Default, Spacing
 from ..curves.inputs import CurveLike
-from ..curves.named_curve import axis_names
 from ..curves.scaling import box
 from ..drawing.figures import MAX_LINKS, CurveArtists, draw_curves, matplotlib_required
 from ..drawing.palette import FILL_COLOUR
@@ -70,15 +69,14 @@ def plot_area(
     >>> len(artists.between.get_paths())
     2
     """
-    measured, drawn = measured_and_drawn(P, Q, normalized)
-    axes = axis_names(drawn[0].shape[1], names, P, Q)
+    measured, drawn, labels = measured_and_drawn(P, Q, normalized, names)
     quads = area_quads(*measured, spacing=spacing, crossing=crossing).quads
     if normalized:
         low, extent = box(drawn[0])
         quads = low + extent * quads
     with matplotlib_required():
         from matplotlib.collections import PolyCollection
-    lines = draw_curves(ax, *drawn, axes)
+    lines = draw_curves(ax, *drawn, labels)
     between = PolyCollection(
         list(quads),
         facecolors=FILL_COLOUR,

@@ -7,7 +7,6 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ..curves.inputs import Array
-from ..curves.named_curve import axis_names
 from ..drawing.figures import CurveArtists, draw_curves, new_figure, panels
 from ..measures.registry import MEASURES, Condition
 from .matching import plot_free_space
@@ -78,18 +77,13 @@ def plot_comparison(comparison: Compared, *, names: Sequence[str] | None = None)
     >>> [ax.get_title() for ax in figure.axes][1:3]
     ['Area: 0.5', 'Partial curve mapping: 0.3953']
     """
-    P, Q = comparison.P, comparison.Q
-    _, drawn = measured_and_drawn(P, Q, normalized=False)
-    dim = drawn[0].shape[1]
-    axes = axis_names(dim, names, P, Q)
+    _, drawn, labels = measured_and_drawn(comparison.P, comparison.Q, False, names)
     figure = new_figure(layout="constrained")
-    main, others = panels(figure, dim, len(comparison.values))
-    main.set_title(f"Preset: {comparison.preset}")
-    P, Q = (curve[:, :2] for curve in drawn)
-    handles = list(draw_curves(main, P, Q, axes))
+    main, others = panels(figure, len(labels.axes), len(comparison.values))
+    handles = list(draw_curves(main, *drawn, labels))
     for ax, (name, value) in zip(others, comparison.values.items(), strict=True):
         ax.set_title(f"{MEASURES[name].title}: {value:.4g}")
-        accent = _draw_measure(comparison, name, ax, axes)
+        accent = _draw_measure(comparison, name, ax, labels.axes)
         if accent is not None:
             handles.append(accent)
     figure.legend(handles=handles, loc="outside upper left", ncols=len(handles), frameon=False)

@@ -10,7 +10,6 @@ import numpy as np
 from .._options import Default, LengthScale
 from ..curves.arc_length import corresponding_positions, interpolate
 from ..curves.inputs import CurveLike
-from ..curves.named_curve import axis_names
 from ..drawing.figures import CurveArtists, draw_curves, draw_links, evenly
 from ..measures import curve_length
 from .measured import measured_and_drawn
@@ -71,11 +70,10 @@ def plot_curve_length(
     >>> artists.between.get_segments()[1].tolist()
     [[1.0, 1.0], [2.0, 1.0]]
     """
-    measured, drawn = measured_and_drawn(P, Q, normalized)
+    measured, drawn, labels = measured_and_drawn(P, Q, normalized, names)
     curve_length(*measured, scale=scale)  # for its checks
     counterparts = interpolate(drawn[1], *corresponding_positions(*measured))
     links = np.stack([drawn[0], counterparts], axis=1)
-    axes = axis_names(2, names, P, Q)
-    lines = draw_curves(ax, *drawn, axes)
-    between = draw_links(ax, evenly(links), "points compared")
+    lines = draw_curves(ax, *drawn, labels)
+    between = draw_links(ax, links[evenly(len(links))], "points compared")
     return CurveArtists(*lines, between)

@@ -9,10 +9,9 @@ import numpy as np
 
 from ..curves.arc_length import points_at
 from ..curves.inputs import CurveLike
-from ..curves.named_curve import axis_names
-from ..drawing.figures import CurveArtists, label_axes, matplotlib_required
-from ..drawing.links import draw_matching
-from ..drawing.palette import ACCENT_COLOUR, BETWEEN_COLOUR, FILL_COLOUR
+from ..drawing.figures import CurveArtists, matplotlib_required
+from ..drawing.links import draw_matching, draw_walk, label_places
+from ..drawing.palette import BETWEEN_COLOUR, FILL_COLOUR
 from ..measures import frechet_continuous_path
 from .measured import measured_and_drawn
 
@@ -73,15 +72,10 @@ def plot_matching(
     >>> artists.accent.get_xydata().tolist()
     [[5.0, 0.0], [5.0, 3.0]]
     """
-    measured, drawn = measured_and_drawn(P, Q, normalized)
-    if drawn[0].shape[1] > 2:
-        raise ValueError(
-            f"P has shape {drawn[0].shape}; plot_matching draws 1 or 2 coordinates, "
-            "plot_free_space any number"
-        )
-    axes = axis_names(drawn[0].shape[1], names, P, Q)
+    refused = "plot_matching draws 1 or 2 coordinates, plot_free_space any number"
+    measured, drawn, labels = measured_and_drawn(P, Q, normalized, names, refused)
     walks = frechet_continuous_path(*measured).parameters
-    return draw_matching(ax, measured, drawn, walks, axes)
+    return draw_matching(ax, drawn, walks, labels, measured)
 
 
 def plot_free_space(
@@ -135,9 +129,9 @@ def plot_free_space(
     """
     with matplotlib_required():
         from matplotlib.colors import ListedColormap
-    (P, Q), _ = measured_and_drawn(P, Q, normalized)
-    points = [curve.reshape(len(curve), -1) for curve in (P, Q)]
-    matching = frechet_continuous_path(P, Q)
+    measured, _, labels = measured_and_drawn(P, Q, normalized)
+    points = [curve.reshape(len(curve), -1) for curve in measured]
+    matching = frechet_continuous_path(*measured)
     leash = matching.distance if distance is None else float(distance)
     n, m = (max(len(curve) - 1, 1) for curve in points)
     sides = [(np.arange(_PIXELS) + 0.5) / _PIXELS * edges for edges in (n, m)]
@@ -153,17 +147,10 @@ def plot_free_space(
         interpolation="nearest",
         extent=(0, m, 0, n),
     )
-    for draw, edges in ((ax.hlines, n), (ax.vlines, m)):
+    for draw, edges, across in ((ax.hlines, n, m), (ax.vlines, m, n)):
         if edges <= _LINES:
-            across = m if draw == ax.hlines else n
             draw(np.arange(1, edges), 0, across, colors=BETWEEN_COLOUR, linewidths=0.4)
-    path = None
-    if leash >= matching.distance:
-        (path,) = ax.plot(
-            *matching.parameters.T[::-1],
-            color=ACCENT_COLOUR,
-            linewidth=1.3,
-            label="path",
-        )
-    label_axes(ax, "vertex of Q", "vertex of P")
-    return image, path
+    label_places(ax, "vertex of", labels)
+    if leash < matching.distance:
+        return image, None
+    return image, draw_walk(ax, matching.parameters, "vertex of", labels)

@@ -2,23 +2,53 @@
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Sequence
+from typing import TypeAlias
 
 from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.named_curve import Labels, labels_of
 from ..measures import normalize
 from ..measures.registry import WARPINGS, Warping
 
-__all__ = ["measured_and_drawn", "warping_of"]
+__all__ = ["Pair", "measured_and_drawn", "warping_of"]
+
+Pair: TypeAlias = tuple[Array, Array]
 
 
 def measured_and_drawn(
-    P: CurveLike, Q: CurveLike, normalized: bool
-) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
-    """Return the curves to measure, and the curves to draw: (n, d) and in original units."""
-    P, Q = as_curves(P, Q)
-    measured = tuple(normalize(P, Q)) if normalized else (P, Q)
-    P, Q = (curve[:, np.newaxis] if curve.ndim == 1 else curve for curve in (P, Q))
-    return (measured[0], measured[1]), (P, Q)
+    P: CurveLike,
+    Q: CurveLike,
+    normalized: bool,
+    names: Sequence[str] | None = None,
+    of_more_than_two: str = "",
+) -> tuple[Pair, Pair, Labels]:
+    """Return what a picture begins with.
+
+    Parameters
+    ----------
+    P, Q
+        As given.
+    normalized : bool
+        Whether the curves are measured scaled by P's box.
+    names : sequence of str, optional
+        What the coordinates are called on the axes.
+    of_more_than_two : str
+        What the error says of curves of more than two coordinates; if empty they are drawn.
+
+    Returns
+    -------
+    measured, drawn : two ndarrays each
+        The curves to measure, and those to draw: (n, d) and in original units.
+    labels : Labels
+        What coordinates and curves are called.
+    """
+    curves = as_curves(P, Q)
+    first, second = normalize(*curves) if normalized else curves
+    drawn = tuple(curve.reshape(len(curve), -1) for curve in curves)
+    dim = drawn[0].shape[1]
+    if of_more_than_two and dim > 2:
+        raise ValueError(f"P has shape {drawn[0].shape}; {of_more_than_two}")
+    return (first, second), (drawn[0], drawn[1]), labels_of(dim, names, P, Q)
 
 
 def warping_of(measure: str) -> Warping:

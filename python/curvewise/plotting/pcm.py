@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from .._options import Default, Offsets
 from ..curves.inputs import CurveLike, as_curves
-from ..curves.named_curve import axis_names
+from ..curves.named_curve import labels_of
 from ..drawing.figures import CurveArtists
 from ..drawing.links import draw_placement
 from ..measures import pcm_match
@@ -64,5 +64,5 @@ def plot_pcm(
     [[1.0, 1.0], [3.0, 3.0]]
     """
     match = pcm_match(P, Q, offsets=offsets)
-    axes = axis_names(2, names, P, Q)
-    return draw_placement(ax, as_curves(P, Q), match.mapped, match.offset, match.points, axes)
+    labels = labels_of(2, names, P, Q)
+    return draw_placement(ax, as_curves(P, Q), match.mapped, match.offset, match.points, labels)

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 from .._options import WarpingName
 from ..curves.inputs import CurveLike
-from ..drawing.figures import label_axes, matplotlib_required
-from ..drawing.palette import ACCENT_COLOUR, TABLE_MAP
+from ..drawing.figures import matplotlib_required
+from ..drawing.links import draw_walk
+from ..drawing.palette import TABLE_MAP
 from .measured import measured_and_drawn, warping_of
 
 if TYPE_CHECKING:
@@ -74,34 +75,25 @@ def plot_table(
     with matplotlib_required():
         from matplotlib.patheffects import withStroke
     warping = warping_of(measure)
-    measured, _ = measured_and_drawn(P, Q, normalized)
+    measured, _, labels = measured_and_drawn(P, Q, normalized)
     table = warping.table(*measured, **options)
     path = warping.path(*measured, **options).path
     n, m = table.shape
-    row_step, column_step = (-(-size // _MAX_TABLE_SIDE) for size in (n, m))
-    shown = table[::row_step, ::column_step]
-    rows, columns = shown.shape
+    steps = [-(-size // _MAX_TABLE_SIDE) for size in (n, m)]
+    shown = table[:: steps[0], :: steps[1]]
+    # Pixel centres are at the indices of the rows and columns drawn.
+    rows, columns = (
+        (-step / 2, (size - 0.5) * step) for size, step in zip(shown.shape, steps, strict=True)
+    )
     image = ax.imshow(
         shown,
         cmap=TABLE_MAP,
         origin="lower",
         aspect="auto",
         interpolation="nearest",
-        # Pixel centres are at the indices of the rows and columns drawn.
-        extent=(
-            -column_step / 2,
-            (columns - 0.5) * column_step,
-            -row_step / 2,
-            (rows - 0.5) * row_step,
-        ),
+        extent=(*columns, *rows),
     )
-    (line,) = ax.plot(
-        *path.T[::-1],
-        color=ACCENT_COLOUR,
-        linewidth=1.3,
-        path_effects=[withStroke(linewidth=3, foreground="white")],  # legible on any colour
-        label="path",
-    )
+    line = draw_walk(ax, path, "index in", labels)
+    line.set_path_effects([withStroke(linewidth=3, foreground="white")])  # legible on any colour
     ax.set(xlim=(-0.5, m - 0.5), ylim=(-0.5, n - 0.5))
-    label_axes(ax, "index in Q", "index in P")
     return image, line

@@ -6,32 +6,12 @@ compiled library uses the same words.
 
 from __future__ import annotations
 
-import operator
-from typing import Any
-
 import numpy as np
 
-from ..curves.inputs import Array
+from ..curves.checks import check_finite
+from ..curves.inputs import Array, in_columns
 
-__all__ = [
-    "check_length",
-    "check_pair",
-    "check_same_shape",
-    "whole_number",
-]
-
-
-def whole_number(option: str, value: Any, least: int, advice: str) -> int:
-    """Return `value` as an int; refuse bools, floats and whatever is below `least`."""
-    try:
-        number = operator.index(value)
-    except TypeError:
-        number = None
-    if number is None or isinstance(value, bool):
-        raise ValueError(f"{option} is {value!r}; {advice}")
-    if number < least:
-        raise ValueError(f"{option} is {number}; {advice}")
-    return number
+__all__ = ["check_length", "check_pair", "check_same_shape"]
 
 
 def check_pair(
@@ -44,26 +24,27 @@ def check_pair(
     name: str = "Q",
 ) -> tuple[Array, Array]:
     """Check P and Q, which goes by `name`, and return both with shape (n, d)."""
-    _check_columns(P, "P")
-    _check_columns(Q, name)
-    if _points(P).shape[1] != _points(Q).shape[1]:
+    named = ((P, "P"), (Q, name))
+    _check_columns(*named)
+    if in_columns(P).shape[1] != in_columns(Q).shape[1]:
         need = "both need the same number of coordinates"
         raise ValueError(f"{_shapes(P, Q, name)}; {need}{_transposed(P, Q)}")
-    if planar and _points(P).shape[1] != 2:
+    if planar and in_columns(P).shape[1] != 2:
         need = f"{measure} needs 2 coordinates, x and y"
         raise ValueError(f"{_shapes(P, Q, name)}; {need}{_transposed(P, Q)}")
-    _check_least_points(P, "P", measure, least_points)
-    _check_least_points(Q, name, measure, least_points)
-    _check_finite(P, "P")
-    _check_finite(Q, name)
-    return _points(P), _points(Q)
+    for curve, its_name in named:
+        if len(curve) < least_points:
+            need = f"{measure} needs at least {least_points} point{'s' * (least_points > 1)}"
+            raise ValueError(f"{its_name} has shape {curve.shape}; {need}")
+    for curve, its_name in named:
+        check_finite(curve, its_name)
+    return in_columns(P), in_columns(Q)
 
 
 def check_same_shape(P: Array, Q: Array, measure: str) -> None:
     """Refuse curves that cannot be compared entry by entry."""
-    _check_columns(P, "P")
-    _check_columns(Q, "Q")
-    if _points(P).shape != _points(Q).shape:
+    _check_columns((P, "P"), (Q, "Q"))
+    if in_columns(P).shape != in_columns(Q).shape:
         raise ValueError(f"{_shapes(P, Q)}; {measure} needs equal shapes")
 
 
@@ -76,33 +57,17 @@ def check_length(curve: Array, name: str, measure: str) -> None:
         )
 
 
-def _points(curve: Array) -> Array:
-    return curve[:, np.newaxis] if curve.ndim == 1 else curve
-
-
 def _shapes(P: Array, Q: Array, name: str = "Q") -> str:
     return f"P has shape {P.shape} and {name} has shape {Q.shape}"
 
 
 def _transposed(P: Array, Q: Array) -> str:
     """Return the question that few points of many coordinates raise: x and y in rows."""
-    few = any(len(curve) <= 3 < _points(curve).shape[1] for curve in (P, Q))
+    few = any(len(curve) <= 3 < in_columns(curve).shape[1] for curve in (P, Q))
     return " (a row is a point: transpose?)" if few else ""
 
 
-def _check_columns(curve: Array, name: str) -> None:
-    if _points(curve).shape[1] < 1:
-        raise ValueError(f"{name} has shape {curve.shape}; a curve needs at least 1 coordinate")
-
-
-def _check_least_points(curve: Array, name: str, measure: str, least: int) -> None:
-    if len(curve) < least:
-        noun = "point" if least == 1 else "points"
-        raise ValueError(f"{name} has shape {curve.shape}; {measure} needs at least {least} {noun}")
-
-
-def _check_finite(curve: Array, name: str) -> None:
-    bad = np.argwhere(~np.isfinite(curve))
-    if len(bad):
-        place = ", ".join(str(index) for index in bad[0])
-        raise ValueError(f"{name}[{place}] is {curve[tuple(bad[0])]}; curves must be finite")
+def _check_columns(*named: tuple[Array, str]) -> None:
+    for curve, name in named:
+        if in_columns(curve).shape[1] < 1:
+            raise ValueError(f"{name} has shape {curve.shape}; a curve needs at least 1 coordinate")

@@ -17,12 +17,13 @@ from typing import Any, NamedTuple, get_args
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, Metric, Order, StepPattern, Window, check_choice
+from .._options import Default, Metric, Order, StepPattern, Window, check_choice, whole_number
 from ..curves.ground_distance import check_metric, ground_distances, in_range
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
-from .checks import check_pair, whole_number
+from .checks import check_pair
+from .warping_table import filled_table, traced_path
 
 __all__ = ["dtw", "dtw_path", "dtw_table"]
 
@@ -67,7 +68,12 @@ def dtw_path(
     """As for :func:`dtw`."""
     table = _accumulate(P, Q, metric, p, step_pattern, window, open_begin, open_end)
     distance = float(table.restored(table.costs[-1, table.end]))
-    return Alignment(distance, _warping_path(table))
+    c, d, w = table.costs, table.ground, table.weight
+
+    def is_diagonal(i: int, j: int) -> bool:
+        return bool(c[i - 1, j - 1] + w * d[i, j] <= min(c[i - 1, j], c[i, j - 1]) + d[i, j])
+
+    return Alignment(distance, traced_path(c, table.end, is_diagonal, open_begin=open_begin))
 
 
 def dtw_table(
@@ -93,7 +99,6 @@ class _Table(NamedTuple):
     ground: Array  # d(P[i], Q[j]), in the same units; inf outside the window
     weight: float  # of a diagonal step
     end: int  # the column in which the path ends
-    open_begin: bool
     exponent: int
 
     def restored(self, values: Any) -> Array:
@@ -127,9 +132,13 @@ def _accumulate(
     if radius is not None:
         ground[~_sakoe_chiba_band(len(P), len(Q), radius)] = np.inf
     weight = 1.0 if step_pattern == "symmetric1" else 2.0
-    costs = _cumulative_costs(ground, weight, open_begin)
+    costs = filled_table(
+        ground,
+        lambda d, up, left, diagonal: np.minimum(np.minimum(up, left) + d, diagonal + weight * d),
+        open_begin=open_begin,
+    )
     end = int(np.argmin(costs[-1])) if open_end else len(Q) - 1
-    return _Table(costs, ground, weight, end, open_begin, exponent)
+    return _Table(costs, ground, weight, end, exponent)
 
 
 def _check_steps(step_pattern: StepPattern, window: Any, open_begin: bool, open_end: bool) -> Any:
@@ -157,44 +166,3 @@ def _sakoe_chiba_band(n: int, m: int, radius: int) -> npt.NDArray[np.bool_]:
     # A radius of max(n, m) admits every cell, so a larger one need not overflow int64.
     limit = min(radius, max(n, m)) * (max(n, m) - 1)
     return np.asarray(np.abs(i * (m - 1) - j * (n - 1)) <= limit)
-
-
-def _cumulative_costs(ground: Array, weight: float, open_begin: bool) -> Array:
-    n, m = ground.shape
-    # costs[i + 1, j + 1] is c[i, j]: behind a border of inf the first row and column need no case
-    # of their own. Above an open first row the border is 0: a path may begin in each of its cells.
-    costs = np.full((n + 1, m + 1), np.inf)
-    if open_begin:
-        costs[0, :] = 0.0
-    costs[1, 1] = ground[0, 0]
-    with np.errstate(over="ignore"):
-        for s in range(1, n + m - 1):
-            i = np.arange(max(0, s - m + 1), min(s, n - 1) + 1)
-            j = s - i
-            up, left, diagonal = costs[i, j + 1], costs[i + 1, j], costs[i, j]
-            d = ground[i, j]
-            costs[i + 1, j + 1] = np.minimum(np.minimum(up, left) + d, diagonal + weight * d)
-    return costs[1:, 1:]
-
-
-def _warping_path(table: _Table) -> npt.NDArray[np.int64]:
-    """Trace the path back from its end."""
-    costs, ground = table.costs, table.ground
-    i, j = len(costs) - 1, table.end
-    path = [(i, j)]
-    while i > 0 or (j > 0 and not table.open_begin):
-        if i == 0:
-            j -= 1
-        elif j == 0:
-            i -= 1
-        else:
-            up, left, diagonal = costs[i - 1, j], costs[i, j - 1], costs[i - 1, j - 1]
-            d = ground[i, j]
-            if diagonal + table.weight * d <= min(up, left) + d:
-                i, j = i - 1, j - 1
-            elif up <= left:
-                i -= 1
-            else:
-                j -= 1
-        path.append((i, j))
-    return np.array(path[::-1], dtype=np.int64)

@@ -16,7 +16,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from .._options import Default, Metric, Order
 from ..curves.ground_distance import check_metric, ground_distances, in_range, without_root
@@ -24,6 +23,7 @@ from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
 from .checks import check_pair
+from .warping_table import filled_table, traced_path
 
 __all__ = ["frechet", "frechet_path", "frechet_table"]
 
@@ -41,7 +41,13 @@ def frechet_path(
 ) -> Alignment:
     """As for :func:`frechet`."""
     table = _accumulate(P, Q, metric, p)
-    return Alignment(float(table.restored(table.leashes[-1, -1])), _coupling(table.leashes))
+    c = table.leashes
+
+    def is_diagonal(i: int, j: int) -> bool:
+        return bool(c[i - 1, j - 1] <= min(c[i - 1, j], c[i, j - 1]))
+
+    coupling = traced_path(c, c.shape[1] - 1, is_diagonal)
+    return Alignment(float(table.restored(c[-1, -1])), coupling)
 
 
 def frechet_table(
@@ -72,40 +78,8 @@ def _accumulate(P: CurveLike, Q: CurveLike, metric: Metric, p: Order) -> _Table:
     P, Q, exponent = in_range(P, Q, metric)
     under_root = without_root(metric, P.shape[1])
     ground = ground_distances(P[:, np.newaxis], Q, under_root, order)
-    return _Table(_cumulative_leashes(ground), under_root != metric, exponent)
-
-
-def _cumulative_leashes(ground: Array) -> Array:
-    n, m = ground.shape
-    # leashes[i + 1, j + 1] is c[i, j]: behind a border of inf the first row and column need no
-    # case of their own.
-    leashes = np.full((n + 1, m + 1), np.inf)
-    leashes[1, 1] = ground[0, 0]
-    for s in range(1, n + m - 1):
-        i = np.arange(max(0, s - m + 1), min(s, n - 1) + 1)
-        j = s - i
-        up, left, diagonal = leashes[i, j + 1], leashes[i + 1, j], leashes[i, j]
-        shortest = np.minimum(np.minimum(up, left), diagonal)
-        leashes[i + 1, j + 1] = np.maximum(ground[i, j], shortest)
-    return leashes[1:, 1:]
-
-
-def _coupling(leashes: Array) -> npt.NDArray[np.int64]:
-    """Trace the coupling back from its end."""
-    i, j = leashes.shape[0] - 1, leashes.shape[1] - 1
-    path = [(i, j)]
-    while i > 0 or j > 0:
-        if i == 0:
-            j -= 1
-        elif j == 0:
-            i -= 1
-        else:
-            up, left, diagonal = leashes[i - 1, j], leashes[i, j - 1], leashes[i - 1, j - 1]
-            if diagonal <= min(up, left):
-                i, j = i - 1, j - 1
-            elif up <= left:
-                i -= 1
-            else:
-                j -= 1
-        path.append((i, j))
-    return np.array(path[::-1], dtype=np.int64)
+    leashes = filled_table(
+        ground,
+        lambda d, up, left, diagonal: np.maximum(d, np.minimum(np.minimum(up, left), diagonal)),
+    )
+    return _Table(leashes, under_root != metric, exponent)

@@ -17,13 +17,14 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable
 from fractions import Fraction
 from itertools import product
 from typing import Literal, SupportsFloat, TypeAlias, overload
 
 import numpy as np
 
+from .._options import real_number
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..measures.results import Matching
 from .checks import check_pair
@@ -66,7 +67,8 @@ def frechet_continuous_path(P: CurveLike, Q: CurveLike) -> Matching:
     value = _value(P, Q)
     parameters = np.array(_trace(_Diagram(*_with_edges(P, Q), value)))
     parameters = np.minimum(parameters, (len(P) - 1, len(Q) - 1))
-    return Matching(max([value, *_leashes(P, Q, parameters)]), parameters)
+    leashes = [_leash(_point(P, x), _point(Q, y)) for x, y in parameters.tolist()]
+    return Matching(max([value, *leashes]), parameters)
 
 
 def frechet_within(
@@ -74,7 +76,7 @@ def frechet_within(
 ) -> bool:
     """One decision in whole numbers of any size: time and memory O(n m)."""
     P, Q = as_curves(P, Q)
-    distance = float(distance)
+    distance = real_number("distance", distance, -math.inf, "give a number >= 0")
     if not distance >= 0:
         raise ValueError(f"distance is {distance:g}; give a number >= 0")
     P, Q = check_pair(P, Q, "frechet_continuous")
@@ -167,14 +169,7 @@ class _Diagram:
 
 
 def _value(P: Array, Q: Array) -> float:
-    low, high = -1, _bits(math.inf)  # too short, and long enough
-    while high - low > 1:
-        middle = (low + high) // 2
-        if _is_long_enough(P, Q, _double(middle)):
-            high = middle
-        else:
-            low = middle
-    return _double(high)
+    return _least_double(lambda radius: _is_long_enough(P, Q, radius))
 
 
 def _with_edges(P: Array, Q: Array) -> tuple[Array, Array]:
@@ -217,18 +212,10 @@ def _trace(diagram: _Diagram) -> list[tuple[float, float]]:
     return path[::-1]
 
 
-def _leashes(P: Array, Q: Array, parameters: Array) -> Iterator[float]:
-    """Yield for each row the least double that is not below its leash."""
-    for x, y in parameters.tolist():
-        square = sum((a - b) ** 2 for a, b in zip(_point(P, x), _point(Q, y), strict=True))
-        low, high = -1, _bits(math.inf)
-        while high - low > 1:
-            middle = (low + high) // 2
-            if Fraction(_double(middle)) ** 2 >= square:
-                high = middle
-            else:
-                low = middle
-        yield _double(high)
+def _leash(x: list[Fraction], y: list[Fraction]) -> float:
+    """Return the least double that is not below the distance of two points."""
+    square = sum((a - b) ** 2 for a, b in zip(x, y, strict=True))
+    return _least_double(lambda leash: Fraction(leash) ** 2 >= square)
 
 
 def _point(C: Array, parameter: float) -> list[Fraction]:
@@ -282,6 +269,18 @@ def _exponent(x: float) -> int:
 
 def _whole(x: float, exponent: int) -> int:
     return int(Fraction(x) * 2**exponent)
+
+
+def _least_double(is_enough: Callable[[float], bool]) -> float:
+    """Return the least double from 0 on that is enough, as all above it are: inf, if no other."""
+    low, high = -1, _bits(math.inf)  # too short, and long enough
+    while high - low > 1:
+        middle = (low + high) // 2
+        if is_enough(_double(middle)):
+            high = middle
+        else:
+            low = middle
+    return _double(high)
 
 
 def _bits(x: float) -> int:

@@ -14,12 +14,12 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from .._options import Default, Offsets
+from .._options import Default, Offsets, whole_number
 from ..curves.arc_length import box_scaled_arc_lengths, interpolate, locate, norms
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import box_scaled, range_exponent, times_power_of_two
 from ..measures.results import PcmMatch
-from .checks import check_length, check_pair, whole_number
+from .checks import check_length, check_pair
 
 __all__ = ["pcm", "pcm_match"]
 

@@ -68,10 +68,10 @@ def read_abaqus_dat(path: str | os.PathLike[str]) -> SolverOutput:
     output = SolverOutput(path)
     time, title = 0.0, ""
     reader: _Rows | None = None
-    for number, line in lines_of(path):
+    for place, line in lines_of(path):
         words = line.split()
         if found := _TIME.search(line):
-            time = as_number(found[1], f"{os.fspath(path)}, line {number}")
+            time = as_number(found[1], place)
         if _TABLE.search(line):
             title, reader = line, None
         elif title and words and words[0] in ("NODE", "ELEMENT") and "FOOT-" in words:
@@ -79,7 +79,7 @@ def read_abaqus_dat(path: str | os.PathLike[str]) -> SolverOutput:
         elif reader is None and title and words:
             title += line  # a title of two lines
         elif reader is not None and words and words[0].isdigit():
-            reader.add(words, f"{os.fspath(path)}, line {number}")
+            reader.add(words, place)
         elif reader is not None and reader.has_rows:
             title, reader = "", None
     return output

@@ -53,7 +53,7 @@ def read_calculix_dat(path: str | os.PathLike[str]) -> SolverOutput:
     rows: dict[Row, list[float]] | None = None
     labels = 0
     count = 0
-    for number, line in lines_of(path):
+    for place, line in lines_of(path):
         words = line.split()
         if not words:
             continue
@@ -63,10 +63,9 @@ def read_calculix_dat(path: str | os.PathLike[str]) -> SolverOutput:
             is_total = title[1].startswith("total")
             labels = 0 if is_total else 2 if "elem" in names else 1
             count = len(components)
-            time = as_number(title[4], f"{path}, line {number}")
+            time = as_number(title[4], place)
             rows = output.add(title[1], title[3], components, time)
         elif rows is not None and len(words) == labels + count:
-            place = f"{os.fspath(path)}, line {number}"
             values = [as_number(word, place) for word in words]
             label = [int(value) for value in values[:labels]]
             rows.setdefault(Row(*(label or [0])), values[labels:])

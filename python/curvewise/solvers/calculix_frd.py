@@ -63,8 +63,7 @@ def read_calculix_frd(path: str | os.PathLike[str]) -> SolverOutput:
     output = SolverOutput(path)
     rows: dict[Row, list[float]] | None = None
     variable, components, time, last = "", [""], 0.0, Row(0)
-    for number, line in lines_of(path):
-        place = f"{os.fspath(path)}, line {number}"
+    for place, line in lines_of(path):
         code = line[:5].strip()
         if code.startswith("100"):
             if line.split()[-1] in _BINARY:

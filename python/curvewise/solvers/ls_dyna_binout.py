@@ -76,8 +76,8 @@ def read_ls_dyna_binout(
 def _branches(binout: Any) -> list[str]:
     """Return what holds times: "nodout", "elout/solid"."""
     found = []
-    for name in map(str, binout.read()):
-        below = [str(item) for item in binout.read(name)]
+    for name in _items(binout):
+        below = _items(binout, name)
         if "time" in below:
             found.append(name)
         else:

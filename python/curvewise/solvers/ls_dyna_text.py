@@ -72,8 +72,7 @@ def read_ls_dyna_nodout(path: str | os.PathLike[str]) -> SolverOutput:
     time = 0.0
     rows: dict[Row, list[float]] | None = None
     count = 0
-    for number, line in lines_of(path):
-        place = f"{os.fspath(path)}, line {number}"
+    for place, line in lines_of(path):
         if found := _TIME.search(line):
             time, rows = as_number(found[1], place), None
         elif line.split()[:2] == ["nodal", "point"]:
@@ -135,8 +134,7 @@ def read_ls_dyna_elout(path: str | os.PathLike[str]) -> SolverOutput:
     """
     output = SolverOutput(path)
     time, element, variable, surface = 0.0, 0, "", 0
-    for number, line in lines_of(path):
-        place = f"{os.fspath(path)}, line {number}"
+    for place, line in lines_of(path):
         folded = line.lower()
         if found := _TIME.search(folded):
             time, variable = as_number(found[1], place), "stress"

@@ -12,6 +12,7 @@ where curvewise is made.
 Cost: linear in what is written.
 """
 
+import collections
 import importlib
 import sys
 
@@ -37,7 +38,7 @@ def main(arguments):  # type: (list[str]) -> None
 
 def histories(database, wanted):  # type: (Any, list[str]) -> list[tuple[str, dict[float, float]]]
     """Return name and {time: value} of every history, in the order of the database."""
-    columns = []  # type: list[tuple[str, dict[float, float]]]
+    columns = collections.OrderedDict()  # type: dict[str, dict[float, float]]
     for step in database.steps.values():
         for region in step.historyRegions.values():
             for variable, output in region.historyOutputs.items():
@@ -45,20 +46,15 @@ def histories(database, wanted):  # type: (Any, list[str]) -> list[tuple[str, di
                     continue
                 # "Node TOP.1" is the name of a region; a comma in it would be another column.
                 name = variable + " " + region.name.replace(",", " ")
-                known = dict(columns)
-                if name not in known:
-                    columns.append((name, {}))
-                    known = dict(columns)
+                values = columns.setdefault(name, {})
                 for time, value in output.data or ():
-                    known[name][step.totalTime + time] = value
-    return columns
+                    values[step.totalTime + time] = value
+    return list(columns.items())
 
 
 def write(columns, target):  # type: (list[tuple[str, dict[float, float]]], str) -> None
     """Write the columns, at the times that all of them have."""
-    times = set(columns[0][1])
-    for _, values in columns[1:]:
-        times &= set(values)
+    times = set.intersection(*(set(values) for _, values in columns))
     with open(target, "w") as file:
         file.write(",".join(["time"] + [name for name, _ in columns]) + "\n")
         for time in sorted(times):

@@ -185,11 +185,8 @@ class SolverOutput:
         found = list(self._tables.values())
         if not found:
             raise ValueError(f"{self.file} holds no results that can be read; did the run end?")
-        for what, wanted in (
-            ("variable", variable),
-            ("set", set_name),
-            ("component", component),
-        ):
+        given = {"variable": variable, "set": set_name, "component": component}
+        for what, wanted in given.items():
             if wanted is None:
                 continue
             kept = [t for t in found if wanted.lower() in map(str.lower, t.names(what))]
@@ -260,7 +257,8 @@ def as_number(text: str, place: str) -> float:
         raise ValueError(f"{place}: {text.strip()!r} is no number") from None
 
 
-def lines_of(path: str | os.PathLike[str]) -> Iterator[tuple[int, str]]:
-    """Yield the lines of a text file with their numbers, from 1."""
+def lines_of(path: str | os.PathLike[str]) -> Iterator[tuple[str, str]]:
+    """Yield each line of a text file with what messages call its place: the file and a number."""
     with Path(path).open(encoding="latin-1") as file:
-        yield from enumerate(file, 1)
+        for number, line in enumerate(file, 1):
+            yield f"{os.fspath(path)}, line {number}", line

@@ -12,7 +12,7 @@ from typing import Any
 
 from ..calibration import Case, CommandModel, Criterion, Objective, SimulationStore
 from ..calibration.models.command import LOG
-from ..calibration.models.identity import model_identity
+from ..calibration.models.identity import ModelIdentity, model_identity
 from ..calibration.models.templates import read_templates
 from ..calibration.objective.cases import Cases
 from .measured_tests import MeasuredTest
@@ -35,9 +35,9 @@ class Contents:
     search: SearchSettings
     results: Path
 
-    def identity(self, model: StudyModel) -> str:
+    def identity(self, model: StudyModel) -> ModelIdentity:
         """Return what the store knows the runs of a model by."""
-        return model_identity(model, self.store.version).text
+        return model_identity(model, self.search.version)
 
     @property
     def store(self) -> SimulationStore:

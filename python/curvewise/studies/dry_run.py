@@ -16,9 +16,9 @@ import numpy as np
 
 from ..calibration import SolverError
 from ..calibration.methods import method_of
-from ..calibration.models.identity import model_identity
 from ..calibration.models.pool import Outcome
 from ..calibration.problem.space import Space
+from ..comparing.units import other_units
 from ..curves.inputs import Array
 from ..curves.several_curves import points_of
 from .contents import Contents
@@ -27,8 +27,6 @@ from .study_model import StudyModel
 
 __all__ = ["DryRun", "dry_run"]
 
-# Test and simulation whose extents differ by more than this are probably in different units.
-_UNITS = 20.0
 _LAST_LINES = 8  # of a log
 
 
@@ -68,17 +66,11 @@ class Read:
         """Return what looks wrong: other units, another sign, a piece of the test."""
         if self.test.is_number or self.simulation.shape[1] != np.shape(self.test.experiment)[1]:
             return []
-        found = []
-        extents = np.ptp(np.asarray(self.test.experiment), axis=0), np.ptp(self.simulation, axis=0)
-        for axis, measured, simulated in zip(self.test.axes, *extents, strict=True):
-            if simulated == 0:
-                found.append(f"look: {axis} of the simulation does not change")
-            elif not 1 / _UNITS < measured / simulated < _UNITS:
-                found.append(
-                    f"look: {axis} of the test is {measured / simulated:.3g} times that of the "
-                    "simulation; different units? see factors"
-                )
-        return found
+        test, axes = np.asarray(self.test.experiment), self.test.axes
+        still = np.ptp(self.simulation, axis=0) == 0
+        found = [f"{axes[c]} of the simulation does not change" for c in np.flatnonzero(still)]
+        units = other_units(test, self.simulation, axes, "the test", "the simulation")
+        return [f"look: {hint}" for hint in (*found, *(f"{unit} see factors" for unit in units))]
 
 
 @dataclass(frozen=True)
@@ -151,34 +143,26 @@ def dry_run(study: Contents) -> DryRun:
     shutil.rmtree(place, ignore_errors=True)  # of an earlier check
     models = study.study_models(kept_in=place)
     began = time.perf_counter()
-    folders, simulations = [], {}
-    for name, model in models.items():
-        folder, curves = _run(model, parameters, study, place)
-        folders.append(folder)
-        simulations[name] = list(curves)
+    made = {name: _run(model, parameters, study, place) for name, model in models.items()}
     seconds = time.perf_counter() - began
-    read = []
-    for test in study.tests:
-        read.append(Read(test, simulations[test.model].pop(0)))
-    objectives = {name: study.objective(models, name) for name in study.search.measures}
+    curves = {name: iter(simulated) for name, (_, simulated) in made.items()}
+    read = tuple(Read(test, next(curves[test.model])) for test in study.tests)
     values = {}
-    simulated = [one.simulation for one in read]
-    for name, objective in objectives.items():
-        score = objective.predicted(simulated)
+    for name in study.search.measures:
+        score = study.objective(models, name).predicted([one.simulation for one in read])
         if score.failures:
             raise ValueError(f"the run has no value by {name}: {'; '.join(score.failures)}")
         values[name] = score.value
-    search = study.search
-    method = method_of(search.method or "auto")
+    method = method_of(study.search.method or "auto")
     runs = method.fewest_runs(len(space.names), has_start=bool(start))
     return DryRun(
         parameters,
-        tuple(folders),
-        tuple(read),
+        tuple(folder for folder, _ in made.values()),
+        read,
         values,
         seconds,
-        min(runs, search.max_runs or runs),
-        max(1, search.workers or 1),
+        min(runs, study.search.max_runs or runs),
+        max(1, study.search.workers or 1),
     )
 
 
@@ -194,8 +178,8 @@ def _run(
         raise SolverError(f"{error}{_end_of_log(str(error))}") from None
     seconds = time.perf_counter() - began
     (folder, *_) = set(place.iterdir()) - before
+    identity = study.identity(model)
     with study.store as store:
-        identity = model_identity(model, store.version)
         store.register(identity)
         store.save(identity.text, parameters, Outcome(result, "", seconds))
     return folder, points_of(result)

@@ -23,7 +23,7 @@ __all__ = ["Formula", "undefined_names"]
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|(?P<name>[A-Za-z_]\w*)"
-    r"|(?P<sign>\*\*|[-+*/^(),]))"
+    r"|(?P<sign>\*\*|[-+*/^(),])|(?P<end>\Z)|(?P<other>\S))"
 )
 _DEEPEST = 100  # brackets within brackets
 _LONGEST = 500  # characters: what is longer, a search would not like to evaluate either
@@ -108,8 +108,9 @@ class Formula:
                 f"parts, a formula has at most {_LONGEST}"
             )
         self.text = text
-        self._tree = _Parser(text).tree()
-        self.names = tuple(dict.fromkeys(_names(self._tree)))
+        parser = _Parser(text)
+        self._tree = parser.tree()
+        self.names = tuple(parser.names)
 
     def __call__(self, values: Mapping[str, Any]) -> Any:
         """Return the value, a number or an array."""
@@ -136,8 +137,8 @@ def undefined_names(formula: Formula, known: Iterable[str]) -> list[str]:
 
 class _Parser:
     def __init__(self, text: str) -> None:
-        self._text, self._at, self._depth = text, 0, 0
-        self._kind, self._token, self._begin = "", "", 0
+        self._text, self._depth, self._at = text, 0, 0
+        self.names: dict[str, None] = {}  # from left to right
         self._advance()
 
     def tree(self) -> _Tree:
@@ -147,18 +148,13 @@ class _Parser:
         return tree
 
     def _advance(self) -> None:
-        rest = self._text[self._at :]
-        if not rest.strip():
-            self._kind, self._token, self._begin = "end", "the end", len(self._text)
-            return
         match = _TOKEN.match(self._text, self._at)
-        if match is None:
-            stop = len(self._text) - len(rest.lstrip())
-            self._begin = stop
-            raise self._error(f"{self._text[stop]!r} has no meaning here")
+        assert match is not None  # something, or the end
         self._kind = str(match.lastgroup)
-        self._token, self._at = match[self._kind], match.end()
-        self._begin = match.start(self._kind)
+        self._token = match[self._kind] or "the end"
+        self._begin, self._at = match.span(self._kind)
+        if self._kind == "other":
+            raise self._error(f"{self._token!r} has no meaning here")
 
     def _error(self, what: str) -> ValueError:
         return ValueError(f"is {self._text!r}, which is no formula: {what}, at {self._begin + 1}")
@@ -199,7 +195,12 @@ class _Parser:
             tree: _Tree = float(token)
         elif kind == "name":
             self._advance()
-            tree = self._call(token) if self._take("(") else token
+            if self._take("("):
+                tree = self._call(token)
+            else:
+                tree = token
+                if token not in _CONSTANTS:
+                    self.names[token] = None
         elif self._take("("):
             tree = self._sum()
             self._close()
@@ -225,18 +226,6 @@ class _Parser:
     def _close(self) -> None:
         if not self._take(")"):
             raise self._error(f"')' is missing before {self._token!r}")
-
-
-def _names(tree: _Tree) -> list[str]:
-    """Return the names in a formula, from left to right."""
-    found, pending = [], [tree]
-    while pending:
-        node = pending.pop()
-        if isinstance(node, tuple):
-            pending += reversed(node[1:])
-        elif isinstance(node, str) and node not in _CONSTANTS:
-            found.append(node)
-    return found
 
 
 def _value(tree: _Tree, values: Mapping[str, Any]) -> Any:

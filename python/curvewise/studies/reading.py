@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 from . import keys
 from .contents import Contents
@@ -18,6 +19,7 @@ from .formulas import Formula
 from .keys import Table, key, key_at, table
 from .measured_tests import MeasuredTest, read_test
 from .parameters import read_parameters
+from .result_files import file_name
 from .search_settings import SearchSettings, read_search
 from .solver_models import SolverModel, read_model
 from .toml_source import KeyPath, Source
@@ -110,4 +112,17 @@ def _tests(
     for i, name in enumerate(names):
         if name in names[:i]:
             source.problem(("tests", i), f"is called {name!r}, as another test is; give it a name")
+    files: dict[str, str] = {}
+    for i, test in enumerate(tests):
+        if test is None or test.is_number:
+            continue
+        written = f"simulation_{file_name(test.name)}.csv"
+        # Some file systems ignore case, and how a letter is put together.
+        first = files.setdefault(normalize("NFD", written).casefold(), test.name)
+        if first != test.name:
+            source.problem(
+                ("tests", i),
+                f"is called {test.name!r}, and its results would go to {written}, as those of "
+                f"{first!r} would; rename one of them",
+            )
     return tuple(test for test in tests if test is not None)

@@ -12,7 +12,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -21,7 +21,7 @@ from ..calibration import Identification, SeveralMeasures, Uncertainty
 from ..installation import build_info
 from .contents import Contents
 
-__all__ = ["StudyResult", "write_results"]
+__all__ = ["StudyResult", "file_name", "write_results"]
 
 _COLUMNS = (
     "measure",
@@ -79,15 +79,17 @@ def write_results(study: Contents, found: StudyResult) -> None:
             for name, row in one["parameters"].items():
                 writer.writerow({"measure": measure, "parameter": name, **row})
     for measure, identification in found.identifications.items():
-        ending = f"_{_file_name(measure)}" if len(found.identifications) > 1 else ""
+        ending = f"_{file_name(measure)}" if len(found.identifications) > 1 else ""
         for test, curve in zip(study.tests, identification.simulations, strict=False):
             if not test.is_number:
-                _write_curve(folder / f"simulation_{_file_name(test.name)}{ending}.csv", curve)
+                path = folder / f"simulation_{file_name(test.name)}{ending}.csv"
+                np.savetxt(path, curve, delimiter=",", fmt="%.10g")
     drawn = found.several or next(iter(found.identifications.values()))
     figure = drawn.plot()
     for ax, test in zip(figure.axes, study.tests, strict=False):  # the loops come first
         if not test.is_number:
-            ax.set(title=test.name, xlabel=test.axes[0], ylabel=test.axes[-1])
+            title, xlabel, ylabel = map(_label, (test.name, test.axes[0], test.axes[-1]))
+            ax.set(title=title, xlabel=xlabel, ylabel=ylabel)
     figure.savefig(folder / "loops.png", dpi=120)
 
 
@@ -133,12 +135,19 @@ def _one(found: Identification, uncertainty: Uncertainty | None) -> dict[str, An
     return contents
 
 
-def _write_curve(path: Path, curve: Any) -> None:
-    np.savetxt(path, curve, delimiter=",", fmt="%.10g")
-
-
-def _file_name(name: str) -> str:
+def file_name(name: str) -> str:
+    """Return a name as a part of a file's: several may become one."""
     return re.sub(r"[^\w.-]+", "_", name).strip("_") or "test"
+
+
+def _label(text: str) -> str:
+    """Return a name for a picture: a formula between dollars where it is one."""
+    text = re.sub(r"[\x00-\x1f\x7f]+", " ", text)
+    try:
+        import_module("matplotlib.mathtext").MathTextParser("path").parse(text)
+    except ValueError:
+        return text.replace("$", r"\$")
+    return text
 
 
 def _without_nan(value: Any) -> Any:

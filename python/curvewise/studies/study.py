@@ -12,13 +12,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from ..calibration import (
-    Identification,
-    Progress,
-    SeveralMeasures,
-    identify,
-    identify_each,
-)
+from ..calibration import Identification, Progress, SeveralMeasures, identify, identify_each
 from ..drawing.figures import matplotlib_required
 from .compatibility import check_together
 from .contents import Contents
@@ -194,8 +188,8 @@ class Study(Contents):
         if not self.search.store.exists():
             return 0
         with self.store as store:
-            names = [self.identity(model) for model in self.study_models().values()]
-            return sum(1 for name in names for _ in store.runs(name))
+            known = [self.identity(model).text for model in self.study_models().values()]
+            return sum(1 for identity in known for _ in store.runs(identity))
 
     def _searched(
         self, progress: bool, callback: Callable[[Progress], Any] | None

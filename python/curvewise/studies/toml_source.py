@@ -197,85 +197,81 @@ class _Locator:
 
     def __init__(self, text: str) -> None:
         self.lines: dict[KeyPath, int] = {}
-        self._tokens = list(_tokens(text))
-        self._at = 0
-        self._arrays: dict[KeyPath, int] = {}
+        self._last_items: dict[KeyPath, int] = {}  # of the arrays of tables
+        self._tokens = [*_tokens(text), ("", 0)][::-1]  # the next one is the last of them
         table: KeyPath = ()
-        while self._skip_lines():
-            if self._next_is("["):
-                table = self._header()
+        while line := self._next_line():
+            if self._take("["):
+                table = self._header(line)
             else:
                 self._assignment(table)
 
-    def _header(self) -> KeyPath:
-        is_array = self._at + 1 < len(self._tokens) and self._tokens[self._at + 1][0] == "["
-        line = self._tokens[self._at][1]
-        self._at += 2 if is_array else 1
-        path = self._inside(self._names())
-        self._at += 2 if is_array else 1
-        if is_array:
-            self._arrays[path] = self._arrays.get(path, -1) + 1
-            self.lines.setdefault(path, line)
-            path = (*path, self._arrays[path])
-        self.lines.setdefault(path, line)
-        return path
-
-    def _inside(self, names: list[str]) -> KeyPath:
-        """Return the path of a header, in the last item of every array of tables on its way."""
+    def _header(self, line: int) -> KeyPath:
+        """Return the path of a table, in the last item of every array of tables on its way."""
+        is_array = self._take("[")
+        *outer, name = self._names()
         path: KeyPath = ()
-        for i, name in enumerate(names):
-            path = (*path, name)
-            if i < len(names) - 1 and path in self._arrays:
-                path = (*path, self._arrays[path])
+        for outer_name in outer:
+            path = (*path, outer_name)
+            if path in self._last_items:
+                path = (*path, self._last_items[path])
+        path = (*path, name)
+        if is_array:
+            self.lines.setdefault(path, line)
+            self._last_items[path] = self._last_items.get(path, -1) + 1
+            path = (*path, self._last_items[path])
+        self.lines.setdefault(path, line)
+        while self._take("]"):
+            pass
         return path
 
-    def _assignment(self, table: KeyPath) -> None:
-        line = self._tokens[self._at][1]
-        names = self._names()
-        for i in range(len(names)):
-            self.lines.setdefault((*table, *names[: i + 1]), line)
-        assert self._next_is("=")
-        self._at += 1
-        self._value((*table, *names))
+    def _assignment(self, path: KeyPath) -> None:
+        line = self._next_line()
+        for name in self._names():
+            path = (*path, name)
+            self.lines.setdefault(path, line)
+        self._take("=")
+        self._value(path)
 
     def _names(self) -> list[str]:
-        names = [_unquoted(self._tokens[self._at][0])]
-        self._at += 1
-        while self._next_is("."):
-            names.append(_unquoted(self._tokens[self._at + 1][0]))
-            self._at += 2
+        names = [_unquoted(self._tokens.pop()[0])]
+        while self._take("."):
+            names.append(_unquoted(self._tokens.pop()[0]))
         return names
 
     def _value(self, path: KeyPath) -> None:
-        if self._next_is("["):
+        if self._take("["):
             for item in self._items("]"):
-                self.lines.setdefault((*path, item), self._tokens[self._at][1])
+                self.lines.setdefault((*path, item), self._next_line())
                 self._value((*path, item))
-        elif self._next_is("{"):
+        elif self._take("{"):
             for _ in self._items("}"):
                 self._assignment(path)
         else:  # a date or a number may be several tokens
-            while self._at < len(self._tokens) and self._tokens[self._at][0] not in "\n,]}":
-                self._at += 1
+            while self._tokens[-1][0] not in "\n,]}":
+                self._tokens.pop()
 
     def _items(self, closing: str) -> Iterator[int]:
         """Count what stands between brackets, each item being read before the next."""
-        self._at += 1
         for item in count():
-            if not self._skip_lines() or self._next_is(closing):
-                break
+            if not self._next_line() or self._take(closing):
+                return
             yield item
-            if self._skip_lines() and self._next_is(","):
-                self._at += 1
-        self._at += 1
+            self._next_line()
+            self._take(",")
 
-    def _skip_lines(self) -> bool:
-        while self._next_is("\n"):
-            self._at += 1
-        return self._at < len(self._tokens)
+    def _next_line(self) -> int:
+        """Return the line of what comes after any line breaks; 0 at the end."""
+        while self._take("\n"):
+            pass
+        return self._tokens[-1][1]
 
-    def _next_is(self, token: str) -> bool:
-        return self._at < len(self._tokens) and self._tokens[self._at][0] == token
+    def _take(self, token: str) -> bool:
+        """Go past a token, and return whether it is the next one."""
+        is_next = self._tokens[-1][0] == token
+        if is_next:
+            self._tokens.pop()
+        return is_next
 
 
 def _tokens(text: str) -> Iterator[tuple[str, int]]:

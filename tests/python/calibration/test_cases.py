@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-import itertools
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
+from test_methods import BOUNDS, STRAIN, TRUE, material
+from test_methods import model as cycle
 from test_resuming import assert_same
 
 from curvewise import datasets
@@ -22,23 +24,8 @@ from curvewise.calibration import (
 from curvewise.calibration.objective.cases import Cases
 from curvewise.calibration.problem.space import Space
 
-CYCLE = np.concatenate(
-    [np.linspace(a, b, 20, endpoint=False) for a, b in itertools.pairwise((0.0, 0.02, -0.02, 0.02))]
-)
 TENSION = np.linspace(0.0, 0.1, 40)
-TRUTH = {"E": 200e3, "yield": 300.0, "C": 80e3}
-BOUNDS = {"E": (150e3, 260e3), "yield": (150.0, 500.0), "C": (20e3, 200e3)}
 QUIET = {"method": "trust-region", "progress": False}
-
-
-def material(parameters, strain):
-    stress = datasets.kinematic_hardening(
-        strain,
-        youngs_modulus=parameters["E"],
-        yield_stress=parameters["yield"],
-        backstresses=((parameters["C"], 400.0), (5e3, 20.0)),
-    )
-    return np.column_stack((strain, stress))
 
 
 def test_a_response_picks_among_curves_of_different_lengths():
@@ -55,10 +42,6 @@ def test_a_response_picks_among_curves_of_different_lengths():
     assert (found.parameters["a"], found.parameters["b"]) == pytest.approx((2.0, 3.0), rel=1e-3)
 
 
-def cycle(parameters):
-    return material(parameters, CYCLE)
-
-
 def tension(parameters):
     return material(parameters, TENSION)
 
@@ -69,37 +52,27 @@ def strength(curve):
 
 def three_cases(cycle=cycle, tension=tension):
     return [
-        Case("cycle", cycle, material(TRUTH, CYCLE), measure="dtw", weight=2.0),
-        Case("tension", tension, tension(TRUTH), measure="sum_of_squares", sigma=4.0),
-        Case("strength", tension, strength(tension(TRUTH)), response=strength, sigma=8.0),
+        Case("cycle", cycle, cycle(TRUE), measure="dtw", weight=2.0),
+        Case("tension", tension, tension(TRUE), measure="sum_of_squares", sigma=4.0),
+        Case("strength", tension, strength(tension(TRUE)), response=strength, sigma=8.0),
     ]
 
 
 def test_a_cycle_a_tension_test_and_a_strength_in_one_call():
-    runs = {"cycle": 0, "tension": 0}
-
-    def counted_cycle(p):
-        runs["cycle"] += 1
-        return cycle(p)
-
-    def counted_tension(p):
-        runs["tension"] += 1
-        return tension(p)
-
-    cases = three_cases(counted_cycle, counted_tension)
-    before = dict(runs)
+    counted = Mock(side_effect=cycle), Mock(side_effect=tension)
+    cases = three_cases(*counted)
+    before = [one.call_count for one in counted]
     found = identify(cases, bounds=BOUNDS, **QUIET)
-    assert {name: runs[name] - before[name] for name in runs} == dict.fromkeys(
-        runs, found.evaluations
-    )
-    for name, value in TRUTH.items():
+    after = [one.call_count for one in counted]
+    assert np.subtract(after, before).tolist() == [found.evaluations] * 2
+    for name, value in TRUE.items():
         assert found.parameters[name] == pytest.approx(value, rel=5e-3)
     assert list(found.measures) == ["cycle", "tension", "strength"]
     assert sum(found.measures.values()) == pytest.approx(found.value)
     assert found.measure == "dtw + sum_of_squares + area"
     assert "cycle" in str(found)
     assert len(found.plot().axes) == 4
-    assert set(found.uncertainty(samples=20).standard_errors) == set(TRUTH)
+    assert set(found.uncertainty(samples=20).standard_errors) == set(TRUE)
 
 
 def test_terms_answer_for_their_objective():
@@ -111,7 +84,7 @@ def test_terms_answer_for_their_objective():
     assert by_name.titles == ["cycle", "tension", "strength"]
     assert by_name.sigmas == [None, 4.0, 8.0]
     assert [written["sigma"] for written in by_name.settings["cases"]] == by_name.sigmas
-    of_function = Case("own", cycle, material(TRUTH, CYCLE), measure=largest_difference)
+    of_function = Case("own", cycle, cycle(TRUE), measure=largest_difference)
     objective = Cases([*three_cases(), of_function]).objective()
     assert objective.has_function
     assert objective.measure == "dtw + sum_of_squares + area + largest_difference"
@@ -124,7 +97,7 @@ def largest_difference(P, Q):
 
 
 def test_a_case_has_a_criterion_of_its_own():
-    test, criterion = material(TRUTH, CYCLE), Criterion("dtw", preset="raw", metric="cityblock")
+    test, criterion = cycle(TRUE), Criterion("dtw", preset="raw", metric="cityblock")
     moved = test + np.array([0.0, 4.0])
     objective = Cases([Case("a", cycle, test, measure=criterion)]).objective()
     assert objective([moved]) == Objective(test, criterion)(moved)
@@ -134,23 +107,26 @@ def test_a_case_has_a_criterion_of_its_own():
     assert objective([None]) == 14.0
 
 
-def test_cases_count_in_units_of_their_noise():
+NOISY = {"experiment": tension(TRUE) + np.array([0.0, 4.0]), "sigma": 4.0, "weight": 3.0}
+STRONG = {"experiment": strength(tension(TRUE)) + 8.0, "response": strength}
+
+
+@pytest.mark.parametrize(
+    ("case", "expected", "rel"),
+    [
+        ({**NOISY, "measure": "area"}, 3.0, 1e-2),
+        ({**NOISY, "measure": "dtw"}, 3.0, 1e-2),
+        ({**NOISY, "measure": "sum_of_squares"}, 3.0 * 40.0, 1e-2),
+        ({**STRONG, "sigma": 4.0}, 2.0, 1e-6),
+        ({**STRONG, "sigma": 4.0, "measure": "sum_of_squares"}, 4.0, 1e-6),
+        (STRONG, 8.0 / STRONG["experiment"], 1e-6),
+    ],
+)
+def test_cases_count_in_units_of_their_noise(case, expected, rel):
     """A simulation that is off by sigma everywhere counts 1; squares n; a number its deviation."""
-    moved = material(TRUTH, TENSION) + np.array([0.0, 4.0])
-    start = dict(TRUTH)
-    for measure, expected in [("area", 1.0), ("dtw", 1.0), ("sum_of_squares", 40.0)]:
-        cases = [Case("t", tension, moved, measure=measure, sigma=4.0, weight=3.0)]
-        found = identify(cases, bounds=BOUNDS, start=start, max_runs=1, **QUIET)
-        assert found.value == pytest.approx(3.0 * expected, rel=1e-2), measure
-    numbers = [
-        ({"sigma": 4.0}, 2.0),
-        ({"sigma": 4.0, "measure": "sum_of_squares"}, 4.0),
-        ({}, 8.0 / (strength(tension(TRUTH)) + 8.0)),
-    ]
-    for keywords, expected in numbers:
-        case = Case("s", tension, strength(tension(TRUTH)) + 8.0, response=strength, **keywords)
-        found = identify([case], bounds=BOUNDS, start=start, max_runs=1, **QUIET)
-        assert found.value == pytest.approx(expected), keywords
+    case = Case("of its noise", tension, **case)
+    found = identify([case], bounds=BOUNDS, start=TRUE, max_runs=1, **QUIET)
+    assert found.value == pytest.approx(expected, rel=rel)
 
 
 def test_a_case_that_fails_leaves_the_others():
@@ -192,7 +168,7 @@ def test_cases_in_a_store_run_once(tmp_path):
         ([Case("a", cycle, 1.0)], "its experiment is a number; give the case a response"),
         ([Case("a", cycle, 1.0, measure=Criterion(weights=[1]))], "case 'a': its Criterion has"),
         (
-            [Case("a", lambda p: [cycle(p)] * 2, cycle(TRUTH))],
+            [Case("a", lambda p: [cycle(p)] * 2, cycle(TRUE))],
             "case 'a': the model returned 2 curves; give a response",
         ),
     ],
@@ -232,11 +208,11 @@ def test_a_viscosity_over_six_decades(viscosity):
 
 def two_backstresses(parameters):
     stress = datasets.kinematic_hardening(
-        CYCLE,
+        STRAIN,
         youngs_modulus=parameters["E"],
         backstresses=((parameters["C1"], parameters["gamma1"]), (parameters["C2"], 20.0)),
     )
-    return np.column_stack((CYCLE, stress))
+    return np.column_stack((STRAIN, stress))
 
 
 @pytest.mark.parametrize("method", ["trust-region", "sdrm"])
@@ -313,4 +289,4 @@ def test_a_start_among_ordered_and_logarithmic_parameters():
 )
 def test_bounds_that_are_wrong(bounds, message):
     with pytest.raises(ValueError, match=message):
-        identify(cycle, cycle(TRUTH), bounds, **QUIET)
+        identify(cycle, cycle(TRUE), bounds, **QUIET)

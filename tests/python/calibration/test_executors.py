@@ -9,8 +9,7 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from test_identify import BOUNDS, EXPERIMENT, fragile_line, line
-from test_resuming import assert_same
+from test_resuming import BOUNDS, EXPERIMENT, assert_same, fragile_line, line
 
 from curvewise.calibration import SDRM, SimulationStore, identify
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from test_near_names import line
 
 from curvewise import calibration
 from curvewise.calibration import (
@@ -21,12 +22,6 @@ from curvewise.calibration import (
 from curvewise.calibration.methods import METHODS, method_of, method_with
 from curvewise.calibration.methods.method import Method
 from curvewise.calibration.problem.evaluations import Finish
-
-X = np.linspace(0.0, 1.0, 20)
-
-
-def line(parameters):
-    return np.column_stack((X, parameters["a"] * X))
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -82,10 +77,8 @@ def test_a_new_method_needs_its_record_alone():
     assert (found.parameters["a"], found.evaluations) == (pytest.approx(4.0), 11)
     assert (found.method, found.message) == ("grid", "11 points")
     assert len(found.runs_with_curves) == 11
-    each = identify_each(
-        line, line({"a": 4.05}), {"a": (0, 10)}, measures=["area", "dtw"], method=Grid(),
-        progress=False,
-    )  # fmt: skip
+    keywords = {"measures": ["area", "dtw"], "method": Grid(), "progress": False}
+    each = identify_each(line, line({"a": 4.05}), {"a": (0, 10)}, **keywords)
     assert each["area"].parameters["a"] == pytest.approx(4.0)
     assert each["dtw"].parameters["a"] == pytest.approx(4.05, abs=0.051)
 

@@ -25,6 +25,7 @@ def line(parameters):
 
 
 EXPERIMENT = line({"a": 2.0})
+LINE = {"model": line, "experiments": EXPERIMENT, "bounds": {"a": (0, 10)}}
 
 
 @pytest.mark.parametrize(
@@ -44,7 +45,7 @@ EXPERIMENT = line({"a": 2.0})
 )
 def test_the_near_name_is_offered(keywords, error, message):
     with pytest.raises(error, match=message):
-        identify(line, EXPERIMENT, {"a": (0, 10)}, progress=False, **keywords)
+        identify(**LINE, progress=False, **keywords)
 
 
 @pytest.mark.parametrize(
@@ -66,54 +67,45 @@ def test_the_near_option_is_offered(method, options, message):
             method(options=options)
 
 
-def test_own_options_do_not_stand_among_those_passed_on():
-    with pytest.raises(ValueError, match=r"it has popsize, .*you mean 'mutation'"):
-        DifferentialEvolution(options={"mutatin": 0.5})
-    with pytest.raises(ValueError, match="options has popsize; give it to DifferentialEvolution"):
-        DifferentialEvolution(options={"popsize": 3})
+NOT_DE = "options has popsize; give it to DifferentialEvolution"
+
+
+@pytest.mark.parametrize(
+    ("function", "keywords", "message"),
+    [
+        # Own options do not stand among those that are passed on.
+        (DifferentialEvolution, {"options": {"mutatin": 1}}, "it has popsize, .*you mean 'mutat"),
+        (DifferentialEvolution, {"options": {"popsize": 3}}, NOT_DE),
+        # Nothing is offered where nothing is near.
+        (identify, {**LINE, "method": "magic"}, "choose from .*nelder-mead$"),
+        # Of the settings of a criterion, and of several measures.
+        (Criterion, {"preset": "scald"}, "unknown preset .*you mean 'scaled'"),
+        (Criterion, {"part": "simulations"}, "unknown part .*you mean 'simulation'"),
+        (identify_each, {**LINE, "measures": ["dwt"]}, "unknown measure 'dwt'.*did you mean 'dtw'"),
+    ],
+)
+def test_names_elsewhere(function, keywords, message):
+    with pytest.raises(ValueError, match=message):
+        function(**keywords)
 
 
 def test_nothing_is_offered_where_nothing_is_near():
-    with pytest.raises(ValueError, match=r"choose from .*nelder-mead$"):
-        identify(line, EXPERIMENT, {"a": (0, 10)}, method="magic")
     with pytest.raises(TypeError, match=r"it has spacing, crossing, squared$"):
         Objective(EXPERIMENT, "area", wibble=1)
-
-
-def test_of_the_settings_of_a_criterion():
-    with pytest.raises(ValueError, match=r"unknown preset .*you mean 'scaled'"):
-        Criterion(preset="scald")
-    with pytest.raises(ValueError, match=r"unknown part .*you mean 'simulation'"):
-        Criterion(part="simulations")
-
-
-def test_of_several_measures_too():
-    with pytest.raises(ValueError, match=r"unknown measure 'dwt'.*did you mean 'dtw'"):
-        identify_each(line, EXPERIMENT, {"a": (0, 10)}, measures=["area", "dwt"])
 
 
 def test_options_of_scipy_are_passed_on():
     """Those that are offered are taken: a robust loss, and a tolerance of the simplex."""
     outlier = EXPERIMENT.copy()
     outlier[7, 1] += 40.0
+    keywords = {**LINE, "progress": False}
+    squares = {**keywords, "experiments": outlier, "measure": "sum_of_squares"}
     found = {
-        loss: identify(
-            line,
-            outlier,
-            {"a": (0, 10)},
-            progress=False,
-            measure="sum_of_squares",
-            method=LeastSquares(loss=loss, f_scale=0.01),
-        ).parameters["a"]
+        loss: identify(**squares, method=LeastSquares(loss=loss, f_scale=0.01)).parameters["a"]
         for loss in ("linear", "soft_l1")
     }
     assert abs(found["linear"] - 2.0) > 1.0  # which fits the outlier, too
     assert abs(found["soft_l1"] - 2.0) < 0.1 * abs(found["linear"] - 2.0)
-    coarse = identify(
-        line,
-        EXPERIMENT,
-        {"a": (0, 10)},
-        progress=False,
-        method=NelderMead(restarts=0, options={"xatol": 0.1, "fatol": 1.0}),
-    )
+    method = NelderMead(restarts=0, options={"xatol": 0.1, "fatol": 1.0})
+    coarse = identify(**keywords, method=method)
     assert coarse.evaluations < 12

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 import sqlite3
@@ -22,12 +23,15 @@ from curvewise.calibration import (
     identify,
     identify_each,
 )
+from curvewise.calibration.records.evaluation import Evaluation
 from curvewise.calibration.report import figures, page, records_of
 from curvewise.calibration.report.branches import branches_of
 from curvewise.calibration.report.repeating import code_to_repeat
 from curvewise.calibration.report.sections import most_points
+from curvewise.calibration.report.shown_search import Loop
 from curvewise.commands import command_line as cli
 from curvewise.curves.named_curve import NamedCurve
+from curvewise.drawing.figures import log_ticks
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 X = np.linspace(0.0, 1.0, 20)
@@ -104,6 +108,98 @@ def test_a_page_is_small_complete_and_loads_nothing(search):
     assert found.record().details["versions"]["numpy"] == np.__version__
 
 
+def figures_of(text):
+    (written,) = re.findall(r'<script type="application/json" id="figures">(.*?)</script>', text)
+    return written, json.loads(written)
+
+
+def said_by(text):
+    """Return the verdict of a page, without its marks."""
+    (verdict,) = re.findall(r'<div class="verdict">(.*?)</div>', text, flags=re.DOTALL)
+    return re.sub(r"<.*?>", "", verdict)
+
+
+def test_no_name_of_a_parameter_ends_the_figures(tmp_path):
+    name = "E<!--<script>"
+    noisy = experiments()[0]
+    found = identify(lambda p: line({"a": p[name], "b": 1.0}), noisy, {name: (0.5, 5.0)}, **QUICK)
+    found.report(tmp_path / "x.html")
+    written, drawn = figures_of((tmp_path / "x.html").read_text())
+    assert "<" not in written
+    assert "\\u003c!--\\u003cscript>" in written
+    assert name in drawn[0]["data"][0]["y"]
+
+
+def test_the_page_begins_with_a_verdict_in_units(tmp_path):
+    def flat(parameters):
+        return np.column_stack((X, parameters["a"] * X + parameters["b"] + 0.0 * parameters["c"]))
+
+    bounds = {"a": (0.5, 10.0), "b": (0.1, 5.0), "c": (1.0, 2.0)}
+    test = NamedCurve(np.array(experiments()[0]), ["strain [-]", "stress [MPa]"])
+    found = identify(flat, test, bounds, **QUICK)
+    found.report(tmp_path / "x.html")
+    text = (tmp_path / "x.html").read_text()
+    said = said_by(text)
+    assert text.index("verdict") < text.index("<nav>")
+    assert re.search(r"The test determines a .*± \d.* % and b .*± \d.* %", said)
+    assert "does not determine c" in said
+    residual = np.abs(test[:, 1] - found.simulations[0][:, 1])
+    assert f"{residual.mean():.3g} MPa" in said
+    assert f"{residual.max():.3g} MPa" in said
+    assert found.message not in said
+    (footnote,) = re.findall(r'<p class="footnote">(.*?)</p>', text)
+    assert found.message in footnote
+
+
+def test_a_verdict_of_several_tests(search):
+    said = said_by(search[2])
+    assert "the model is off by" in said
+    assert said.count("Loop 0: 0.") == said.count("Loop 1: 0.") == 1
+    assert "The tests determine a" in said
+    assert re.search(r"\d+ evaluations, of which \d+ failed", said)
+    record = search[0].record()
+    share = 100 * record.ending.uncertainty["standard_errors"]["a"] / record.ending.parameters["a"]
+    both = page([record, record])
+    assert both.count(f"{record.ending.parameters['a']:.5g} ± {share:.2g} %</td>") == 2
+
+
+def test_a_page_asks_for_names_and_units_that_are_missing(search):
+    _, _, before = search
+    assert "the names of the columns of Loop 1 are not known" in before
+    assert "units of &quot;strain &lt;1&gt;&quot; and &quot;stress &amp; more&quot;" in before
+    test = NamedCurve(np.array(experiments()[0]), ["strain [-]", "stress [MPa]"])
+    found = identify(model, [test, test], BOUNDS, **QUICK)
+    assert "are not known" not in page([found.record()])
+
+
+def test_the_intervals_of_a_page_are_those_that_were_computed(tmp_path):
+    store = SimulationStore(tmp_path / "s.db", version="1")
+    found = identify(model, experiments(), BOUNDS, store=store, **QUICK)
+    uncertainty = found.uncertainty(sigma=0.7, level=0.9)
+    assert "90 % from" in page(list(records_of(store.path).values()))
+    found.report(tmp_path / "x.html")
+    text = (tmp_path / "x.html").read_text()
+    assert "90 % from" in text
+    assert "95 % from" not in text
+    for name, error in uncertainty.standard_errors.items():
+        assert f"{100 * error / found.parameters[name]:.2g}</td>" in text
+
+
+def test_ticks_of_a_logarithm_are_apart_and_the_correlations_have_a_title():
+    values = enumerate((90.0, 3.0, 2.0, 1.0))
+    evaluations = [Evaluation(i, (0.0,), value, False, 0.0) for i, value in values]
+    axis = figures.convergence(evaluations, "area")["layout"]["yaxis"]
+    assert (axis["type"], axis["tickvals"]) == ("log", [1.0, 2.0, 5.0, 10.0, 20.0, 50.0])
+    near = figures.convergence(evaluations[1:], "area")["layout"]["yaxis"]
+    assert "type" not in near  # where a linear axis does
+    for low, high in [(1e-12, 1e3), (2e-3, 7e-2), (3.0, 3000.0), (0.9, 1100.0)]:
+        ticks = log_ticks(low, high)
+        assert 2 <= len(ticks) <= 6
+        assert np.diff(np.log(ticks)).min() > 0.1 * np.log(high / low)
+    drawn = figures.correlations(["a", "b"], [[1.0, 0.5], [0.5, 1.0]])
+    assert "orrelations" in drawn["layout"]["title"]["text"]
+
+
 def test_the_call_on_the_page_makes_the_search_again(search):
     found, folder, _ = search
     (record,) = records_of(folder / "s.db").values()
@@ -138,7 +234,7 @@ def test_cases_are_written_down_too(tmp_path):
     before = page(list(records_of(tmp_path / "s.db").values()))
     found.report(tmp_path / "found.html")
     assert (tmp_path / "found.html").read_text() == before
-    assert "a number" in before
+    assert re.search(r"a number: -?0\.\d+ \(.* %\), for 1.1 measured", said_by(before))
 
 
 def test_an_interrupted_search_has_a_page(tmp_path):
@@ -189,6 +285,7 @@ def test_a_result_is_not_lost_where_its_store_is(search, tmp_path):
         found.report(tmp_path / "x.html")
 
 
+@pytest.mark.filterwarnings("ignore::curvewise.calibration.NoisyTestWarning")
 def test_several_searches_of_a_store_on_one_page(tmp_path, capsys):
     # A single design over all of the bounds leaves no runs near the optimum: no intervals.
     keywords = {"method": SDRM(initial_range=1.0), "progress": False, "max_runs": 5}
@@ -234,11 +331,11 @@ def test_a_function_as_a_measure_is_not_written_down(tmp_path):
     assert "95 % from" in page([record])
 
 
-def test_stores_from_before_reports_open_and_say_what_to_do(tmp_path, capsys):
-    store = SimulationStore(tmp_path / "old.db", version="1")
+def test_runs_without_a_search_say_what_to_do(tmp_path, capsys):
+    store = SimulationStore(tmp_path / "runs.db", version="1")
     identify(line, experiments()[0], BOUNDS, store=store, **QUICK)
     with sqlite3.connect(store.path) as database:
-        database.executescript("DROP TABLE searches; DROP TABLE evaluations;")
+        database.executescript("DELETE FROM searches; DELETE FROM evaluations;")
     database.close()
     assert cli.main(["report", str(store.path)]) == 1
     assert "runs are looked up, and none is made again" in capsys.readouterr().err
@@ -264,7 +361,7 @@ def test_many_and_long_curves_are_thinned(search):
     assert most_points([record], 120_000) == 3000
     assert most_points([record] * 40, 120_000) == 120_000 // (7 * 2 * 40)
     long = np.column_stack([np.arange(100_000.0), np.zeros(100_000)])
-    trace = figures.loop(long, None, ["x", "y"], "", 3000)["data"][0]
+    trace = figures.loop(Loop("", ["x", "y"], True, long, None, 1), 3000)["data"][0]
     assert len(trace["x"]) == 3000
     assert (trace["x"][0], trace["x"][-1]) == (0.0, 99_999.0)
 

@@ -9,18 +9,12 @@ import sqlite3
 import subprocess
 import sys
 import textwrap
-import time
 
 import numpy as np
 import pytest
+from solver_scripts import wait_until
 
-from curvewise.calibration import (
-    SDRM,
-    Criterion,
-    DifferentialEvolution,
-    SimulationStore,
-    identify,
-)
+from curvewise.calibration import SDRM, Criterion, DifferentialEvolution, SimulationStore, identify
 from curvewise.commands import command_line as cli
 
 X = np.linspace(0.0, 1.0, 25)
@@ -201,6 +195,17 @@ class SlowLine:
         return line(parameters)
 
 
+def started(folder, workers, more_than, **streams):
+    """Start the script in a process group of its own; return it and its store with some runs."""
+    script, file = folder / "slow.py", folder / "s.db"
+    script.write_text(textwrap.dedent(SLOW_SCRIPT))
+    command = [sys.executable, str(script), str(workers), str(file)]
+    process = subprocess.Popen(command, text=True, start_new_session=True, **streams)
+    wait_until(lambda: process.poll() is not None or runs_of(file) > more_than, 60.0)
+    assert process.poll() is None, process.stderr and process.stderr.read()
+    return process, file
+
+
 def processes_left(group):
     """Tell whether a process group has any process."""
     try:
@@ -214,19 +219,7 @@ def processes_left(group):
 @pytest.mark.parametrize("workers", [1, 2])
 @pytest.mark.parametrize("target", ["process", "group"])
 def test_interrupted_and_resumed_is_as_if_it_had_run_through(tmp_path, workers, target):
-    script, file = tmp_path / "slow.py", tmp_path / "s.db"
-    script.write_text(textwrap.dedent(SLOW_SCRIPT))
-    process = subprocess.Popen(
-        [sys.executable, str(script), str(workers), str(file)],
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    deadline = time.monotonic() + 60
-    while runs_of(file) <= 15:
-        assert process.poll() is None, process.stderr.read()
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
+    process, file = started(tmp_path, workers, 15, stderr=subprocess.PIPE)
     (os.kill if target == "process" else os.killpg)(process.pid, signal.SIGINT)
     _, errors = process.communicate(timeout=30)
     assert process.returncode == 42, errors
@@ -245,17 +238,7 @@ def test_interrupted_and_resumed_is_as_if_it_had_run_through(tmp_path, workers, 
 
 @pytest.mark.skipif(os.name != "posix", reason="kills a process by a signal")
 def test_workers_end_when_their_parent_is_killed(tmp_path):
-    script, file = tmp_path / "slow.py", tmp_path / "s.db"
-    script.write_text(textwrap.dedent(SLOW_SCRIPT))
-    command = [sys.executable, str(script), "2", str(file)]
-    process = subprocess.Popen(command, stderr=subprocess.DEVNULL, start_new_session=True)
-    deadline = time.monotonic() + 60
-    while runs_of(file) <= 3:
-        assert process.poll() is None
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
+    process, _ = started(tmp_path, 2, 3, stderr=subprocess.DEVNULL)
     process.kill()
     process.wait()
-    while (left := processes_left(process.pid)) and time.monotonic() < deadline:
-        time.sleep(0.1)
-    assert not left
+    wait_until(lambda: not processes_left(process.pid), 60.0)

@@ -13,7 +13,7 @@ import time
 
 import numpy as np
 import pytest
-from test_resuming import assert_same
+from test_resuming import BOUNDS, EXPERIMENT, QUICK, X, assert_same, line, runs_of
 
 from curvewise.calibration import (
     SDRM,
@@ -29,24 +29,14 @@ from curvewise.calibration import (
 from curvewise.calibration.models.pool import Outcome
 from curvewise.calibration.records.evaluation import Evaluation
 
-X = np.linspace(0.0, 1.0, 25)
-BOUNDS = {"a": (0.0, 10.0), "b": (-5.0, 5.0)}
-QUICK = {"method": DifferentialEvolution(maxiter=3, after=SDRM(maxiter=3)), "progress": False}
 SHORT = {"progress": False, "method": SDRM(maxiter=3)}
 LONG = {"progress": False, "method": SDRM(maxiter=8)}
-
-
-def line(parameters):
-    return np.column_stack((X, parameters["a"] * X + parameters["b"]))
 
 
 def fragile_line(parameters):
     if parameters["a"] > 8.0:
         raise ValueError("too steep")
     return None if parameters["a"] < 1.0 else line(parameters)
-
-
-EXPERIMENT = line({"a": 2.0, "b": 1.0})
 
 
 class Counted:
@@ -83,8 +73,7 @@ def test_runs_are_shared_by_measures_methods_and_weights(tmp_path):
     keywords["method"] = DifferentialEvolution(maxiter=1, popsize=4, after=SDRM(maxiter=1))
     identify(counted, EXPERIMENT, BOUNDS, **keywords)
     assert counted.runs > 5
-    with SimulationStore(tmp_path / "s.db") as store:
-        assert len(store) == counted.runs
+    assert runs_of(tmp_path / "s.db") == counted.runs
 
 
 def test_workers_fill_the_store_too(tmp_path):
@@ -148,13 +137,11 @@ def test_an_edited_template_is_another_model(tmp_path):
     file = tmp_path / "s.db"
     keywords = {"method": "nelder-mead", "progress": False, "max_runs": 2, "store": file}
     one = identify(command_model(tmp_path), EXPERIMENT, BOUNDS, **keywords)
-    with SimulationStore(file) as store:
-        assert len(store) == 2
+    assert runs_of(file) == 2
     same = command_model(tmp_path)
     assert same.identity == command_model(tmp_path).identity
     assert_same(one, identify(same, EXPERIMENT, BOUNDS, **keywords))
-    with SimulationStore(file) as store:
-        assert len(store) == 2
+    assert runs_of(file) == 2
     edited = command_model(tmp_path, slope="2 * <<a>>")
     two = identify(edited, EXPERIMENT, BOUNDS, **keywords)
     assert one.simulations[0][1, 1] != two.simulations[0][1, 1]
@@ -374,11 +361,6 @@ def started(script, file):
     )
 
 
-def stored(file):
-    with SimulationStore(file) as store:
-        return len(store)
-
-
 @pytest.fixture
 def script(tmp_path):
     file = tmp_path / "slow.py"
@@ -391,12 +373,12 @@ def test_killed_and_resumed_is_as_if_it_had_run_through(tmp_path, script):
     process = started(script, file)
     deadline = time.monotonic() + 60
     while process.poll() is None and process.stdout.readline():
-        if stored(file) > 9:
+        if runs_of(file) > 9:
             break
         assert time.monotonic() < deadline
     process.kill()  # SIGKILL
     process.communicate()
-    saved = stored(file)
+    saved = runs_of(file)
     resumed = started(script, file)
     out, _ = resumed.communicate(timeout=60)
     *runs, result = out.splitlines()
@@ -416,4 +398,4 @@ def test_two_processes_on_one_store(tmp_path, script):
     whole = identify(line, EXPERIMENT, BOUNDS, **LONG)
     for *_, result in outputs:
         assert result.split() == [whole.value.hex(), str(whole.evaluations)]
-    assert stored(file) == whole.evaluations
+    assert runs_of(file) == whole.evaluations

@@ -49,7 +49,7 @@ class Scripted:
 
 def descended(search: Any, rules: TrustRegion = RULES) -> list[tuple[float, bool]]:
     """Return in which regions a search looked for minima, and whether with fresh slopes."""
-    evaluations: Any = SimpleNamespace(negligible=0.0)
+    evaluations: Any = SimpleNamespace(negligible=0.0, done=[])
     finish = _descend(search, evaluations, rules)
     assert finish.converged
     assert not search.gains
@@ -91,7 +91,7 @@ def test_the_region_is_never_more_than_the_bounds():
 
 def test_a_region_below_tol_has_its_slopes_renewed():
     search: Any = Scripted([-1.0, -1.0, -1.0])
-    evaluations: Any = SimpleNamespace(negligible=0.0)
+    evaluations: Any = SimpleNamespace(negligible=0.0, done=[])
     finish = _descend(search, evaluations, replace(RULES, tol=0.1))
     assert [radius for radius, _ in search.looked] == [0.2, 0.2, 0.08, 0.15, 0.06, 0.15]
     assert finish == (
@@ -104,6 +104,15 @@ def test_a_search_that_leaves_a_valley_goes_on():
     search = Scripted([], is_fresh=True, valleys=1)
     assert descended(search) == [(0.2, True), (0.2, False), (0.2, True)]
     assert search.valleys == -1
+
+
+def test_a_search_that_only_meets_known_runs_ends():
+    """Where slopes are of noise alone, each step may lead to where the search has been."""
+    search: Any = Scripted([-1.0] * 200)
+    evaluations: Any = SimpleNamespace(negligible=0.0, done=[None] * 9)
+    finish = _descend(search, evaluations, replace(RULES, maxiter=200))
+    assert finish == (False, "30 steps in a row led only to runs that were known")
+    assert len(search.looked) == 30
 
 
 SLOPES = np.array([[3.0, 0.0], [-1.0, 2.0], [0.0, 0.5], [4.0, -4.0]])  # of two points' coordinates

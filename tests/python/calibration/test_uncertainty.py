@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import itertools
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy import stats
 
 from curvewise import datasets
-from curvewise.calibration import SimulationStore, identify, identify_each
+from curvewise.calibration import Log, NoisyTestWarning, SimulationStore, identify, identify_each
+from curvewise.calibration.problem.space import Space
+from curvewise.calibration.uncertainty.determined import determined
 
 X = np.linspace(0.0, 1.0, 40)
 BOUNDS = {"a": (-10.0, 10.0), "b": (-20.0, 20.0), "c": (-20.0, 20.0)}
@@ -187,6 +190,57 @@ def test_a_parameter_at_its_bound_is_not_determined():
     assert "at its lower bound" in str(uncertainty)
 
 
+@pytest.mark.parametrize(
+    ("bounds", "value", "change", "expected"),
+    [
+        ((0.0, 100.0), 58.5, 10.5, True),  # 58.5 ± 5, were the tests ten times as many
+        ((0.0, 1000.0), 58.5, 25.0, False),
+        ((55.0, 65.0), 58.5, 4.0, False),  # the bounds had said as much
+        ((-1.0, 1.0), 0.001, 0.03, True),  # next to nothing, and known to be
+        (Log(1e-3, 1e3), 1.0, 0.2, True),
+        (Log(1e-3, 1e3), 1.0, 0.4, False),
+        ((0.0, 58.5), 58.5, 1.0, False),  # at its bound
+    ],
+)
+def test_what_is_determined(bounds, value, change, expected):
+    assert determined(Space({"Q": bounds}), {"Q": value}, [change]) == {"Q": expected}
+
+
+def test_a_half_interval_of_a_fifth_is_determined_whatever_the_linear_theory_says():
+    """Swift's offset, 0.0045 ± 9 %: the interval that is shown decides, and no other estimate."""
+    strain = np.linspace(0.002, 0.15, 60)
+
+    def swift(p):
+        return np.column_stack((strain, p["K"] * (p["strain_0"] + strain) ** p["n"]))
+
+    test = with_noise(swift({"K": 520.0, "strain_0": 0.004, "n": 0.19}), 2.0)
+    bounds = {"K": (300, 900), "strain_0": (0.0005, 0.02), "n": (0.05, 0.4)}
+    found = identify(swift, test, bounds, measure="sum_of_squares", **QUIET)
+    uncertainty = found.uncertainty()
+    low, high = uncertainty.intervals["strain_0"]
+    assert 0.15 < (high - low) / 2 / found.parameters["strain_0"] < 0.2
+    assert uncertainty.determined == found.determined == dict.fromkeys(bounds, True)
+
+
+def test_the_weakest_direction_of_a_parameter_that_is_0():
+    """10 % of nothing is no change: a part of the range is, and the loops are seen to move."""
+    test = parabola({**TRUTH, "c": 0.0})
+    found = identify(parabola, test, {**BOUNDS, "c": (0.0, 20.0)}, measure="area", **QUIET)
+    found = replace(found, parameters={**found.parameters, "c": 0.0})
+    uncertainty = found.uncertainty(samples=20)
+    assert max(map(abs, uncertainty.weakest_direction.values())) > 0.05
+    assert " of its range" in uncertainty.in_words or "by 10 %" in uncertainty.in_words
+
+
+def test_errors_are_said_in_per_cent():
+    uncertainty = identify(parabola, TEST, BOUNDS, measure="sum_of_squares", **QUIET).uncertainty()
+    rows = str(uncertainty).splitlines()
+    assert rows[0].split()[:5] == ["parameter", "value", "std.", "error", "%"]
+    for row, (name, error) in zip(rows[1:], uncertainty.standard_errors.items(), strict=False):
+        per_cent = 100 * error / abs(uncertainty.parameters[name])
+        assert row.split()[3] == f"{per_cent:.2g}"
+
+
 def test_draws_that_end_at_a_bound_make_up_no_limit():
     """Half of the draws of a end at its bound; their mirror image would be 0.2 errors away."""
     free = identify(parabola, TEST, BOUNDS, measure="dtw", start=TRUTH, **QUIET)
@@ -217,7 +271,8 @@ def test_a_bias_is_measured_and_said():
     truth = {"E": 200e3, "yield": 300.0, "C": 80e3}
     keywords = {"start": truth, **QUIET}
     test = with_noise(hardening(truth), 5.0, seed=2)
-    biased = identify(hardening, test, THREE, measure="curve_length", **keywords)
+    with pytest.warns(NoisyTestWarning, match="curve_length takes noise for length"):
+        biased = identify(hardening, test, THREE, measure="curve_length", **keywords)
     uncertainty = biased.uncertainty(samples=60, sigma=5.0)
     assert uncertainty.bias["yield"] > 0.25 * uncertainty.standard_errors["yield"]
     assert "in the mean; intervals allow for it in part only" in str(uncertainty)
@@ -247,6 +302,7 @@ def test_pictures_and_errors():
 # Several measures.
 
 
+@pytest.mark.filterwarnings("ignore::curvewise.calibration.NoisyTestWarning")
 def test_several_measures_share_their_runs():
     runs = []
 

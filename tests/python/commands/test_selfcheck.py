@@ -6,6 +6,7 @@ import io
 
 import pytest
 
+import curvewise
 from curvewise.commands import kernel_check
 from curvewise.measures.registry import MEASURES
 
@@ -13,7 +14,7 @@ CHECK = (MEASURES["frechet"], {"metric": "euclidean"})
 NAME = "frechet euclidean"
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture
 def one_check(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kernel_check, "_checks", lambda: iter([CHECK]))
 
@@ -29,16 +30,33 @@ def break_one_bit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kernel_check, "_results", wrong)
 
 
-def test_a_level_with_the_bits_of_one_that_was_confirmed_needs_no_reference(monkeypatch) -> None:
+def test_a_level_with_the_bits_of_one_that_was_confirmed_needs_no_reference(
+    one_check: None, monkeypatch
+) -> None:
     known = kernel_check._check_active_level(io.StringIO(), {})
     assert known[NAME]
     monkeypatch.setattr(kernel_check, "_agree", None)  # would fail if it were called
     assert kernel_check._check_active_level(io.StringIO(), known) == known
 
 
-def test_a_wrong_bit_is_found(monkeypatch) -> None:
+def test_a_wrong_bit_is_found(one_check: None, monkeypatch) -> None:
     known = kernel_check._check_active_level(io.StringIO(), {})
     break_one_bit(monkeypatch)
     said = io.StringIO()
     assert kernel_check._check_active_level(said, known) == {NAME: ""}
     assert "DIFFERS for 1 pairs" in said.getvalue()
+
+
+@pytest.mark.parametrize(("equal", "expected"), [(True, 0), (False, 1)])
+def test_selfcheck_reports_what_it_found(run, monkeypatch, equal, expected):
+    def report(stream):
+        print("dtw baseline", file=stream)
+        return equal
+
+    monkeypatch.setattr("curvewise.commands.kernel_check.run", report)
+    assert run("selfcheck") == (expected, "dtw baseline\n", "")
+
+
+def test_selfcheck_passes_on_this_machine(output):
+    out = output("selfcheck")
+    assert curvewise.installation.build_info()["active"] in out

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import numpy.typing as npt
 import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
 
 import curvewise
+from curvewise._options import Spacing
 from curvewise.comparing.comparison import PRESETS
 from curvewise.comparing.deviations import Deviation, deviation
 from curvewise.measures.registry import Condition
@@ -94,8 +97,51 @@ def test_area_faces_vertices_where_quadrilaterals_are_rearranged() -> None:
     assert of("area", P, Q, crossing="split") == (2.0, 4.0, 2.0)
 
 
-def test_area_of_curves_without_an_extent_in_x_has_no_mean() -> None:
-    assert of("area", [(0, 0), (0, 1)], [(1, 0), (1, 1)]) == (np.inf, 1.0, 1.0)
+def test_area_of_curves_without_an_extent_in_x_has_the_mean_of_facing_points() -> None:
+    assert of("area", [(0, 0), (0, 1)], [(1, 0), (1, 1)]) == (1.0, 1.0, 1.0)
+    assert of("area", [(0, 0), (0, 2)], [(1, 0), (3, 2)]).mean == pytest.approx(2.0)
+
+
+def test_area_of_other_units_has_no_mean_above_the_largest() -> None:
+    per_cent = SIMULATION * (100.0, 1.0)
+    for preset in ("scaled", "raw", "paper"):
+        found = of("area", LOOP, per_cent, preset)
+        assert 0.1 * found.largest < found.mean <= found.largest
+    # Where the curves travel alike, the mean stays the area by how far the reference travels.
+    assert str(of("area", LOOP, SIMULATION, "scaled")).startswith("mean 54.09 ")
+
+
+COORDINATES = st.integers(-4, 4).map(float) | st.floats(-3, 3) | st.floats(-1.7e308, 1.7e308)
+PLANAR = st.lists(st.tuples(COORDINATES, COORDINATES), min_size=2, max_size=9).map(np.array)
+FACTORS = st.sampled_from([1.0, 100.0, 1e6, 1e-6, 1e-300, 1e300])
+MEASURES: list[tuple[str, dict[str, Any]]] = [
+    *(("area", {"spacing": spacing}) for spacing in get_args(Spacing)),
+    ("area", {"spacing": "distance", "crossing": "rearrange"}),
+    ("area", {"spacing": "matched", "squared": True}),
+    ("pcm", {}),
+    ("frechet", {}),
+    ("frechet_continuous", {}),
+    ("dtw", {"step_pattern": "symmetric2"}),
+]
+
+
+PRESET_NAMES = ["scaled", "raw"]
+
+
+@settings(derandomize=True, deadline=None, max_examples=400)
+@given(st.sampled_from(MEASURES), st.sampled_from(PRESET_NAMES), PLANAR, PLANAR, FACTORS, FACTORS)
+def test_the_largest_is_never_below_the_mean(
+    measure: tuple[str, dict[str, Any]], preset: str, P: Array, Q: Array, x: float, y: float
+) -> None:
+    with np.errstate(over="ignore"):
+        Q = Q * (x, y)
+    assume(np.isfinite(Q).all())
+    try:
+        found = of(measure[0], P, Q, preset, **measure[1])
+    except ValueError as error:
+        assume("zero length" not in str(error))
+        raise
+    assert 0.0 <= found.mean <= found.largest
 
 
 def test_pcm_by_the_length_of_the_curve_that_is_mapped() -> None:

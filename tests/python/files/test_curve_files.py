@@ -11,7 +11,6 @@ import pytest
 import scipy.io
 
 from curvewise import read_curve
-from curvewise.commands import command_line as cli
 from curvewise.files.column_choice import TimeColumnWarning
 
 POINTS = [[0.0, 0.0], [0.001, 199.5], [-0.0005, -1e-05]]
@@ -113,16 +112,3 @@ def test_a_missing_package_is_named(book: Path, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(ImportError, match=r'pandas and openpyxl: pip install "curvewise\[curves'):
         read_curve(book)
-
-
-def test_the_command_line_takes_columns_of_each_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    Path("A.csv").write_text("time,strain,stress\n0,0,0\n1,1,2\n2,2,3\n")
-    Path("B.csv").write_text("stress,e\n0,0\n2,1\n3,2\n")
-    arguments = ["compare", "A.csv", "B.csv", "--measures", "dtw", "--columns", "strain", "stress"]
-    assert cli.main([*arguments, "--columns-b", "e", "stress", "--output", "value"]) == 0
-    assert float(Path("value").read_text()) == 0.0
-    assert cli.main(arguments) == 1
-    assert "B.csv has no column 'strain'" in capsys.readouterr().err

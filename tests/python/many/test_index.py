@@ -205,6 +205,10 @@ def test_errors_say_what_and_where():
         (lambda: index.kneighbors([[(0, 0)]], 1.5), "n_neighbors is 1.5; give a whole number"),
         (lambda: index.radius_neighbors([[(0, 0)]], -1.0), "radius is -1.0; give a number >= 0"),
         (lambda: index.radius_neighbors([[(0, 0)]], np.nan), "radius is nan"),
+        (lambda: index.radius_neighbors([[(0, 0)]], "1"), "radius is '1'; give a number >= 0"),
+        (lambda: index.radius_neighbors([[(0, 0)]], None), "radius is None; give a number >= 0"),
+        (lambda: index.radius_neighbors_graph(radius=b"1"), "radius is b'1'; give a number >= 0"),
+        (lambda: index.radius_neighbors(radius=[[1]]), "radius is .*; give a number >= 0"),
         (lambda: index.kneighbors([[(0, 0)]], 1, workers=0), "workers is 0"),
         (lambda: index.kneighbors_graph(n_neighbors=1, mode="near"), "unknown mode 'near'"),
         (lambda: Index([[0], [np.nan]]), r"curves\[1\]\[0\] is nan"),
@@ -282,6 +286,39 @@ def test_an_exception_in_the_report_ends_the_search():
 
     with pytest.raises(RuntimeError, match="enough"):
         index.kneighbors(n_neighbors=199, progress=fail)
+
+
+def test_adding_from_a_report_of_a_search_is_refused():
+    curves = np.random.default_rng(7).normal(size=(200, 100, 2))
+    index, other = Index(curves), Index(curves[:3])
+
+    def add(done: int, total: int) -> None:
+        other.add(curves[:1])
+        index.kneighbors(curves[:1], 1, progress=lambda done, total: None)  # a search in a search
+        index.add(curves[:1])
+
+    for search in (
+        lambda: index.kneighbors(n_neighbors=5, progress=add),
+        lambda: index.radius_neighbors(radius=1.0, progress=add),
+        lambda: index.kneighbors_graph(n_neighbors=5, progress=add),
+    ):
+        with pytest.raises(
+            RuntimeError, match=r"progress function of a search in the same index.*; a"
+        ):
+            search()
+    index.add(curves[:1])
+    assert len(index) == 201
+    assert pickle.loads(pickle.dumps(index)).kneighbors(curves[:1], 1)[0].tolist() == [[0.0]]
+
+
+@pytest.mark.parametrize("count", [10**10, 10**18, 10**30])
+def test_more_neighbours_than_curves_take_no_memory(count):
+    index = Index(np.random.default_rng(7).normal(size=(20, 10, 2)))
+    for X, most in ((None, "19, the other curves of the index"), ([[(0, 0)]], "20, the curves of")):
+        message = f"^n_neighbors is {count}; give a whole number from 1 to {most}"
+        with pytest.raises(ValueError, match=message):
+            index.kneighbors(X, count)
+    assert len(curvewise.subsequence([0, 1], [0, 1, 0, 1], k=count)) <= 4
 
 
 def test_curves_may_be_added_while_others_search():

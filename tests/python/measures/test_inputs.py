@@ -51,6 +51,27 @@ P = np.array([(1, 2), (3, 5), (8, 4), (9, 9), (4, 11), (2, 7), (6, 1)], dtype=np
 Q = np.array([(2, 2), (3, 7), (7, 5), (9, 12), (5, 10), (3, 3), (6, 6)], dtype=np.float64)
 
 
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: curvewise.frechet_within(P, Q, "1"),
+        lambda: reference.frechet_within(P, Q, "1"),
+        lambda: curvewise.dtw(P, Q, cutoff="1"),
+        lambda: curvewise.dtw(P, Q, metric="minkowski", p="1"),
+        lambda: reference.dtw(P, Q, metric="minkowski", p="1"),
+        lambda: curvewise.dtw_mean([P, Q], tolerance="1"),
+        lambda: curvewise.dtw_mean([P, Q], weights=["1", "2"]),
+        lambda: curvewise.curves.turning_points(P, reversal="1"),
+        lambda: curvewise.curves.trim(P, "1"),
+        lambda: curvewise.curves.trim(P, 3.0, "1"),
+        lambda: curvewise.curves.shift_to_origin(P, elastic=("0", "1")),
+    ],
+)
+def test_text_is_no_number(call: Callable[[], object]) -> None:
+    with pytest.raises(ValueError, match=r"^\w+(\[0\])? is \(?'[01]'.*; \w"):
+        call()
+
+
 class Subclass(np.ndarray[Any, np.dtype[Any]]):
     """An ndarray whose arithmetic must not be used: only its numbers count."""
 
@@ -65,7 +86,34 @@ class Duck:
     values: Array
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
-        return np.array(self.values, dtype=dtype)
+        return np.array(self.values, dtype=dtype, subok=True)
+
+
+MASKED = np.ma.masked_array(P, mask=np.arange(14).reshape(7, 2) == 5)
+
+
+@pytest.mark.parametrize(
+    ("hidden", "kind"),
+    [
+        (lambda: (row for row in MASKED), "generator"),
+        (lambda: iter(MASKED), "iterator"),
+        (lambda: zip(MASKED[:, 0], MASKED[:, 1], strict=True), "zip"),
+        (lambda: Duck(MASKED), "Duck"),
+        (lambda: MASKED, "masked array"),
+        (lambda: tuple(MASKED), "list"),
+    ],
+)
+def test_masked_entries_are_found_wherever_they_are(hidden: Any, kind: str) -> None:
+    for module in (curvewise, reference):
+        with pytest.raises(
+            TypeError, match=f"^P is a {kind} with masked entries; drop or fill them "
+        ):
+            module.dtw(hidden(), Q)
+    with pytest.raises(TypeError, match=rf"^X\[0\] is a {kind} with masked"):
+        curvewise.pdist([hidden()])
+    unmasked = np.ma.masked_array(P)
+    for curve in (Duck(unmasked), iter(unmasked), unmasked):
+        assert curvewise.dtw(curve, Q) == curvewise.dtw(P, Q)
 
 
 def sliced(curve: Array) -> Array:

@@ -9,11 +9,13 @@ import shlex
 from collections import Counter
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 
 import curvewise
+from curvewise._core import is_symmetric
+from curvewise._options import Spacing
 from curvewise.commands import command_line as cli
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -24,13 +26,22 @@ BUILT = {DOCS / "_build", DOCS / "gallery", DOCS / "api" / "generated"}
 PAGES = [page for page in sorted(DOCS.rglob("*.md")) if BUILT.isdisjoint({page, *page.parents})]
 # Pages show how to use these, and nobody has all of them.
 OPTIONAL = ("geopandas", "polars", "shapely", "xarray")
+# Examples of the gallery that take seconds: they run where the site is built.
+SLOW = {"plot_identification", "plot_million_points", "plot_two_tests"}
 PYTHON = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+# What the Python before it prints, where a page shows it.
+PRINTED = re.compile(r"\n\n```text\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 CONSOLE = re.compile(r"^```console\n\$ curvewise (.*?)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 def name_of(page: Path) -> str:
     """Return a page's path from the root, as its test is called."""
     return page.relative_to(ROOT).as_posix()
+
+
+def without_numbers(text: str) -> str:
+    """Return a text with "#" for each number, whose last digits are those of a machine."""
+    return re.sub(r" *\d[\d.]*(e[+-]?\d+)?", " #", text)
 
 
 def has_code(page: Path) -> bool:
@@ -49,7 +60,8 @@ def test_the_code_of_a_page_runs(
 ) -> None:
     """Run a page's blocks in their order; an error of the Python shows the page's line.
 
-    Python runs in one namespace. A command prints what stands behind it.
+    Python runs in one namespace. A command prints what stands behind it, and so does Python where
+    output stands behind it, except for the digits.
     """
     text = page.read_text(encoding="utf-8")
     blocks = sorted(
@@ -62,18 +74,74 @@ def test_the_code_of_a_page_runs(
     for block in blocks:
         if block.re is PYTHON:
             before = "\n" * text.count("\n", 0, block.start(1))
+            capsys.readouterr()
             try:
                 exec(compile(before + block[1], str(page), "exec"), names)
             except ModuleNotFoundError as error:
                 if error.name not in OPTIONAL:
                     raise
                 missing.append(error.name)
+            if shown := PRINTED.match(text, block.end()):
+                assert without_numbers(capsys.readouterr().out) == without_numbers(shown[1])
         else:
             capsys.readouterr()
             assert cli.main(shlex.split(block[1])) == 0
             assert capsys.readouterr().out == block[2]
     if missing:
         pytest.skip(f"all but the blocks with {', '.join(missing)}, which are not installed")
+
+
+@pytest.mark.parametrize(
+    "example",
+    [file for file in sorted((ROOT / "examples").glob("*/plot_*.py")) if file.stem not in SLOW],
+    ids=lambda file: file.stem,
+)
+def test_an_example_of_the_gallery_runs(example: Path) -> None:
+    plt = pytest.importorskip("matplotlib.pyplot")
+    plt.switch_backend("Agg")
+    exec(compile(example.read_text(encoding="utf-8"), example, "exec"), {"__name__": "__main__"})
+    plt.close("all")
+
+
+def test_nothing_is_installed_by_name_that_is_not_there() -> None:
+    """No release is on PyPI: pip finds curvewise by name only where it is installed already."""
+    commands = [
+        (name_of(page), line)
+        for page in [ROOT / "README.md", *PAGES]
+        for line in page.read_text(encoding="utf-8").splitlines()
+        if line.startswith("    ") and "pip install" in line
+    ]
+    assert len(commands) > 4
+    assert [one for one in commands if re.search(r"install [^&#]*curvewise\b", one[1])] == []
+
+
+def test_pages_agree_on_what_is_symmetric() -> None:
+    """The last column of two tables, and the measures themselves with each of their options."""
+    columns = []
+    for page in (ROOT / "README.md", DOCS / "measures/index.md"):
+        table = (
+            page.read_text(encoding="utf-8").partition(" | symmetric |\n")[2].partition("\n\n")[0]
+        )
+        rows = re.findall(r"^\| (?:\[|`)(\w+).* \| ([^|]+) \|$", table, flags=re.MULTILINE)
+        columns.append(dict(rows))
+    assert columns[0] == columns[1]
+    assert set(columns[0]) == set(curvewise.available_measures())
+    for measure, says in columns[0].items():
+        assert is_symmetric(measure, {}) == says.startswith("yes")
+    unless = {choice for choice in get_args(Spacing) if f'"{choice}"' in columns[0]["area"]}
+    assert unless == {
+        choice for choice in get_args(Spacing) if not is_symmetric("area", {"spacing": choice})
+    }
+
+
+def test_the_exceptions_of_ctrl_c_stand_in_one_place() -> None:
+    """Whoever says how fast Ctrl-C is names the list of its exceptions."""
+    for page in (ROOT / "README.md", DOCS / "many_curves.md"):
+        (said,) = re.findall(
+            r"Ctrl-C ends.*?\.\s", page.read_text(encoding="utf-8"), flags=re.DOTALL
+        )
+        assert "reliability.md#4-interruptible" in said, page
+    assert "docs/reliability.md" in (curvewise.cdist.__doc__ or "").partition("Ctrl-C ends")[2]
 
 
 def test_the_worked_example_shows_its_script() -> None:

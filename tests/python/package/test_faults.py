@@ -1,4 +1,4 @@
-"""No memory, full disks, killed searches, interpreters that end: tests/faults, once and in small.
+"""No memory, full disks, damaged stores, interpreters that end: tests/faults, once and in small.
 
 docs/reliability.md has what the long runs of these scripts found.
 """
@@ -15,6 +15,7 @@ SCRIPTS = Path(__file__).resolve().parents[2] / "faults"
 RUNS = {
     "memory": ["memory.py", "--limits", "2", "--points", "10000"],
     "disks": ["disks.py", "--times", "1"],
+    "stores": ["stores.py", "--times", "12"],
     "endings": ["endings.py", "--times", "1", "--only", "exit"],
 }
 

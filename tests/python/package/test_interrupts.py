@@ -168,7 +168,7 @@ def test_progress_bar(capsys):
 
 
 def test_progress_bar_without_tqdm(monkeypatch):
-    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    monkeypatch.setitem(sys.modules, "tqdm", None)
     with pytest.raises(ImportError, match=r'pip install "curvewise\[progress\]"'):
         curvewise.pdist([random_walk(3)], progress=True)
 

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import io
 import itertools
+import pickle
 import subprocess
 import sys
 import time
 
 import numpy as np
+import pandas as pd
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -390,9 +392,9 @@ def test_every_value_is_printed(dim, measures):
     curves = {1: (SERIES_P, SERIES_Q), 2: (P, Q), 3: (SPACE_P, SPACE_Q)}[dim]
     comparison = curvewise.compare(*curves, measures=measures)
     titles = [ax.get_title() for ax in comparison.plot().axes if ax.get_title()]
-    printed = [float(title.split(": ")[1]) for title in titles[1:]]
+    printed = [float(title.split(": ")[1]) for title in titles]
     assert printed == pytest.approx(list(comparison.values.values()), rel=1e-3)
-    assert titles[0] == "Preset: scaled"
+    assert not any("scaled" in title for title in titles)
 
 
 @pytest.mark.parametrize(
@@ -422,6 +424,31 @@ def test_no_texts_overlap(pair, data_dir, monkeypatch):
         assert not box.overlaps(other_box), f"{one} and {other}"
         assert figure.bbox.containsx(box.x0)
         assert figure.bbox.containsx(box.x1)
+
+
+def test_pictures_name_the_files(tmp_path):
+    for file, curve in (("test.csv", P), ("simulation.csv", Q)):
+        np.savetxt(tmp_path / file, curve, delimiter=",", header="strain,stress", comments="")
+    test, simulated = (curvewise.read_curve(tmp_path / f"{n}.csv") for n in ("test", "simulation"))
+    files = ["test.csv", "simulation.csv"]
+    comparison = curvewise.compare(test, simulated)
+    figures = [
+        comparison.plot(),
+        curvewise.dtw_path(test, simulated).plot(),
+        curvewise.pcm_match(test, simulated[5:30]).plot(),
+        curvewise.frechet_continuous_path(test[::2], pickle.loads(pickle.dumps(simulated))).plot(),
+    ]
+    for figure in figures:
+        labels = [text.get_text() for text in figure.legends[0].get_texts()]
+        assert labels[:2] == files
+        assert "P" not in labels
+    assert plotting.plot_alignment(test, simulated, figures[0].axes[0]).Q.get_label() == files[1]
+    twice = curvewise.compare(test, test).plot().legends[0].get_texts()
+    assert [text.get_text() for text in twice[:2]] == ["test.csv (P)", "test.csv (Q)"]
+    table = plotting.plot_table(test, simulated, Figure().subplots())[0].axes
+    assert table.get_xlabel() == "index in simulation.csv"
+    frame = pd.DataFrame(P, columns=["file", "stress"])  # whose column is no file
+    assert plotting.plot_alignment(frame, Q, Figure().subplots()).P.get_label() == "P"
 
 
 @pytest.mark.parametrize("format", ["png", "svg", "pdf"])

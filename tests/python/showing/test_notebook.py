@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import base64
+import gc
 import io
 import re
 import sys
+import types
+import weakref
 
 import numpy as np
 import pytest
@@ -112,6 +115,66 @@ def test_a_figure_shows_itself_in_a_notebook():
     figure = curvewise.dtw_path(P, Q).plot()
     assert figure._repr_png_().startswith(b"\x89PNG")
     assert figure._repr_png_() == curvewise.dtw_path(P, Q).plot()._repr_png_()
+
+
+class Notebook:
+    """A shell as IPython's, which shows pictures and tells when a cell has run."""
+
+    def __init__(self, monkeypatch, *formats):
+        self.shown, self.callbacks = [], []
+        self.display_formatter = self.displayhook = self.events = self
+        self.active_types, self.exec_result = formats, "a cell is running"
+        module = types.ModuleType("IPython")
+        module.version_info = (9, 0)  # which matplotlib asks for
+        module.get_ipython = lambda: self
+        module.display = types.ModuleType("IPython.display")
+        module.display.display = self.shown.append
+        monkeypatch.setitem(sys.modules, "IPython", module)
+        monkeypatch.setitem(sys.modules, "IPython.display", module.display)
+
+    def register(self, event, callback):
+        assert event == "post_run_cell"
+        self.callbacks.append(callback)
+
+    def unregister(self, event, callback):
+        self.callbacks.remove(callback)
+
+    def ends_cell(self, result=None, success=True):
+        for callback in list(self.callbacks):
+            callback(types.SimpleNamespace(result=result, success=success))
+        shown = self.shown.copy()
+        self.shown.clear()
+        return shown
+
+
+def test_a_notebook_shows_a_picture_though_a_semicolon_hides_the_value(found, monkeypatch):
+    notebook = Notebook(monkeypatch, "text/plain", "image/png")
+    comparison = curvewise.compare(P, Q, measures=["area"])
+    for plot in (comparison.plot, found.plot, found.uncertainty().plot):
+        figure = plot()
+        (shown,) = notebook.ends_cell()
+        assert shown is figure
+        assert notebook.ends_cell() == []  # once
+    figure = comparison.plot()
+    assert notebook.ends_cell(result=figure) == []  # the cell's value is shown by itself
+    comparison._repr_html_()
+    assert notebook.ends_cell(result=comparison) == []
+    comparison.plot().savefig(io.BytesIO())
+    assert notebook.ends_cell() == []  # a file was wanted
+    comparison.plot()
+    assert notebook.ends_cell(success=False) == []
+    assert notebook.callbacks == []
+    notebook.exec_result = None  # not in a cell, as in a widget's callback
+    comparison.plot()
+    assert notebook.callbacks == []
+
+
+def test_scripts_and_terminals_keep_no_pictures(monkeypatch):
+    notebook = Notebook(monkeypatch, "text/plain")
+    kept = weakref.ref(curvewise.compare(P, Q, measures=["area"]).plot())
+    gc.collect()
+    assert kept() is None
+    assert notebook.callbacks == []
 
 
 def test_results_keep_copies_of_their_curves():

@@ -152,6 +152,18 @@ def test_results_are_the_same_in_every_file(tmp_path: Path) -> None:
     assert "weakest direction" in str(found)
 
 
+def test_names_may_have_any_character(tmp_path: Path) -> None:
+    """Control characters, and what means something to JSON, to CSV or in a picture."""
+    name = "".join(map(chr, [*range(32), 127])) + '"\\,;$x^^$'
+    escaped = "".join(f"\\U{ord(character):08x}" for character in name)
+    text = STUDY.replace('"tension"', f'"{escaped}"').replace('"a bar"', f'"{escaped}"')
+    study = Study.read(study_file(tmp_path, text))
+    study.run(progress=False)
+    result = json.loads((tmp_path / "study_results" / "result.json").read_text(encoding="utf-8"))
+    assert (result["tests"], result["title"]) == ([name], name)
+    assert (tmp_path / "study_results" / "loops.png").exists()
+
+
 def test_a_check_runs_once_and_says_what_it_read(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -204,6 +216,16 @@ def test_a_check_says_why_a_run_has_no_curve(
         text = text.replace('{ e = "strain", f = "force" }', '{ e = "D1", f = "F1" }')
     assert main(["identify", str(study_file(tmp_path, text)), "--check"]) == 1
     assert message in capsys.readouterr().err
+
+
+def test_what_a_search_warns_of_is_said_before_it_in_a_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = STUDY.replace("max_runs = 9", "max_runs = 1").replace("[200, 600]", "[20, 600]")
+    assert main(["identify", str(study_file(tmp_path, text))]) == 0
+    said, evaluated = capsys.readouterr().err.splitlines()
+    assert said.startswith("curvewise: the bounds of sy (20 to 600) go over more than a decade: ")
+    assert "1 evaluated, best " in evaluated
 
 
 def test_several_measures_share_runs(tmp_path: Path) -> None:

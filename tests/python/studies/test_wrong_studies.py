@@ -294,6 +294,18 @@ def test_a_study_that_is_not_there(tmp_path: Path, capsys: pytest.CaptureFixture
     assert "study.toml: No such file" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("one", "other"), [("shear (1)", "shear [1]"), ("Shear", "shear"), ("\uac00", "\u1100\u1161")]
+)
+def test_two_tests_do_not_write_one_file(tmp_path: Path, one: str, other: str) -> None:
+    """Nor where a file system ignores case, or how a letter is written."""
+    text = STUDY.replace('name = "line"', f'name = "{one}"')
+    begin, end = text.index("[[tests]]"), text.index("[model]")
+    (found,) = problems(tmp_path, f"{text}\n{text[begin:end].replace(one, other)}")
+    assert found.startswith(f"study.toml, line 25: tests[2] is called {other!r}, and its results ")
+    assert found.endswith(f".csv, as those of {one!r} would; rename one of them")
+
+
 def test_several_measures_do_not_go_with_tests_of_different_kinds(tmp_path: Path) -> None:
     text = STUDY.replace('measure = "area"', 'measures = ["area", "dtw"]')
     text = text.replace('name = "line"', 'name = "line"\nsigma = 4.0')

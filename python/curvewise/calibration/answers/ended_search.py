@@ -1,13 +1,15 @@
-"""From a search that has ended to what it has found, which is written into its store."""
+"""A search, and what it has found, which is written into its store."""
 
 from __future__ import annotations
 
 import logging
+from collections.abc import Sequence
 
 from ...curves.several_curves import points_of
-from ..methods.search import EndedSearch, Plan
+from ..methods.search import Plan, run_search
 from ..problem.problem import Problem
 from ..records.evaluation import as_records
+from ..surfaces.nearby_runs import Run
 from .identification import Identification
 
 __all__ = ["identification_of"]
@@ -15,8 +17,11 @@ __all__ = ["identification_of"]
 _log = logging.getLogger("curvewise.calibration")
 
 
-def identification_of(problem: Problem, plan: Plan, ended: EndedSearch) -> Identification:
-    """Return what a search has found."""
+def identification_of(
+    problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()
+) -> Identification:
+    """Search, and return what has been found; the arguments are those of `run_search`."""
+    ended = run_search(problem, plan, earlier_runs)
     evaluations, objective = ended.evaluations, problem.objective
     done, best = evaluations.done, evaluations.best
     found = Identification(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +28,7 @@ from ..records.search_record import Ending, SearchRecord
 from ..report.page import write_report
 from ..report.uncertainty_summary import summary_of
 from ..uncertainty.determined import determined_by
-from ..uncertainty.sensitivity import Optimum, design_runs, optimum_surfaces, sensitivity_of
+from ..uncertainty.sensitivity import Optimum, design_runs, optimum_surfaces
 from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
 
 if TYPE_CHECKING:
@@ -141,7 +142,8 @@ class Identification(Result):
     def _ending(self) -> str:
         """Say how the search ended; what is not determined has not converged to anything."""
         determined = self.determined
-        loose = [name for name, good in (determined or {}).items() if not good]
+        bounded = self.problem.space.at_bounds(self.parameters)  # which the table says
+        loose = [n for n, good in (determined or {}).items() if not good and n not in bounded]
         if self.converged and loose:
             return (
                 f"undetermined: {', '.join(loose)} (the objective hardly notices; see "
@@ -162,14 +164,12 @@ class Identification(Result):
     def determined(self) -> dict[str, bool] | None:
         """Whether the tests determine each parameter, as far as can be said without noise.
 
-        A parameter is determined if it cannot change by a tenth of its bounds' range or a fifth of
-        itself, others with it, before the objective rises by 1 %, and if twice its standard error
-        by linear theory is within the same. None if that would take runs (`uncertainty_runs`).
+        A parameter is determined if it is at no bound, cannot change by a quarter of itself or of
+        its bounds' range, others with it, before the objective rises by 1 %, and if twice its
+        standard error by linear theory is within the same. None if that would take runs
+        (`uncertainty_runs`).
         """
-        if self.uncertainty_runs:
-            return None
-        optimum = self._optimum()
-        return determined_by(optimum, sensitivity_of(optimum).reach)
+        return None if self.uncertainty_runs else determined_by(self._optimum())
 
     def uncertainty(
         self,
@@ -233,26 +233,32 @@ class Identification(Result):
         {'slope': 0.041, 'intercept': 0.024}
         """
         runs = self.uncertainty_runs
-        return uncertainty_of(
+        computed = uncertainty_of(
             self._optimum(), sigma=sigma, level=level, samples=samples, seed=seed, runs=runs
         )
+        # What cannot be written now, report() says: it writes it once more.
+        with suppress(OSError, ValueError):
+            self._take_down(computed)
+        return computed
 
     def report(
         self, path: str | os.PathLike[str], *, uncertainty: Uncertainty | None = None
     ) -> None:
         """Write the identification down as one page of HTML, which opens without a network.
 
-        Tests and simulations to zoom into, residuals by branch, convergence, parameters with
-        intervals and correlations, the weakest directions, failures, versions, and the settings to
-        repeat it. ``curvewise report store.db`` makes the same file of the store, bit for bit.
+        A verdict in words, tests and simulations to zoom into, residuals by branch, convergence,
+        parameters with intervals and correlations, the weakest directions, failures, versions, and
+        the settings to repeat it. ``curvewise report store.db`` makes the same file of the store,
+        bit for bit.
 
         Parameters
         ----------
         path : path-like
             The file; what is there is replaced.
         uncertainty : Uncertainty, optional
-            What the page says of the parameters. By default what :meth:`uncertainty` gives, unless
-            it takes runs of the model (`uncertainty_runs`): then the page is without intervals.
+            What the page says of the parameters. By default what :meth:`uncertainty` has given
+            last; or would give, where it was not called and takes no runs of the model
+            (`uncertainty_runs`): if it does, the page is without intervals.
 
         Raises
         ------
@@ -298,13 +304,19 @@ class Identification(Result):
         OSError, ValueError
             The store of the search cannot be written.
         """
-        ending = self.recorder.ending or self.ending()
-        if uncertainty is None and ending.uncertainty is None and self._has_surfaces:
+        ending = self.recorder.ending
+        is_known = ending is not None and ending.uncertainty is not None
+        if uncertainty is None and not is_known and self._has_surfaces:
             uncertainty = self.uncertainty()
+        self._take_down(uncertainty)
+        return self.recorder.record()
+
+    def _take_down(self, uncertainty: Uncertainty | None) -> None:
+        """Write down how the search ended, with what is known of the uncertainty."""
+        ending = self.recorder.ending or self.ending()
         if uncertainty is not None:
             ending = replace(ending, uncertainty=summary_of(uncertainty))
         self.recorder.end(ending)
-        return self.recorder.record()
 
     def ending(self) -> Ending:
         """Return what is written down of how the search ended, without the uncertainty."""

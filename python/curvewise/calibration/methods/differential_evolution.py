@@ -52,7 +52,7 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
         A search that is made before, and whose best point joins the first population:
         ``DifferentialEvolution(after=SDRM())`` is what "sdrm+de" stands for.
     options : mapping, optional
-        Others of :func:`scipy.optimize.differential_evolution`: atol, mutation, recombination, ...
+        Others of ``scipy.optimize.differential_evolution``: atol, mutation, recombination, ...
 
     Raises
     ------

@@ -27,7 +27,7 @@ from ..._extras import required
 from ...curves.inputs import Array
 from ..problem.evaluations import Evaluations, Finish
 from ..surfaces.surface_minimum import SurfaceMinimum
-from ..surfaces.surfaces import Responses, Surfaces
+from ..surfaces.surfaces import Responses, regression
 from .method import Method, with_other_defaults
 
 __all__ = ["SDRM"]
@@ -103,10 +103,11 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
                         evaluations.objective,
                         responses,
                         random,
-                        evaluations.negligible,
                         evaluations.show_activity,
                     )
-                planes = _planes(points[good], np.array([responses.vector(c) for c in curves]))
+                places = points[good]
+                vectors = np.array([responses.vector(c) for c in curves])
+                planes = regression(places, vectors, places.mean(axis=0), np.ones(len(good)))
                 target = minimum.lowest(planes, centre, (low, high), thoroughly=True)
             last_move, move = move, np.clip(2.0 * (target - centre) / size, -1.0, 1.0)
             size = size * self._contraction(last_move, move)
@@ -143,14 +144,3 @@ def _design(k: int, random: np.random.Generator) -> Array:
     columns = required("scipy.linalg").hadamard(rows)[:, 1 + random.permutation(rows - 1)[:k]]
     signs: Array = columns * random.choice((-1.0, 1.0), k)
     return signs
-
-
-def _planes(points: Array, responses: Array) -> Surfaces:
-    """Return the planes, one for every column of responses, that fit best."""
-    # Centred and scaled: a region may be 1e-3 wide.
-    middle = points.mean(axis=0)
-    width = np.ptp(points, axis=0)
-    width = np.where(width == 0, 1.0, width)
-    design = np.column_stack((np.ones(len(points)), (points - middle) / width))
-    coefficients: Array = np.linalg.lstsq(design, responses, rcond=None)[0]
-    return Surfaces(middle, coefficients[0], coefficients[1:].T / width)

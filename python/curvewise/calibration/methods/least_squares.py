@@ -43,7 +43,7 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
     f_scale : float, default 1.0
         Residuals above this count less with such a loss, in units of the experiment's height.
     options : mapping, optional
-        Others of :func:`scipy.optimize.least_squares`: xtol, ftol, gtol, max_nfev, ...
+        Others of ``scipy.optimize.least_squares``: xtol, ftol, gtol, max_nfev, ...
 
     Raises
     ------

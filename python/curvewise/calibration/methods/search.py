@@ -55,15 +55,16 @@ def run_search(problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()) -
     """
     start = None if plan.start is None else problem.space.unit(plan.start)
     required("scipy.optimize")
-    tqdm = required("tqdm.auto").tqdm
+    tqdm = required("tqdm").tqdm  # a line of text, in a notebook too: widgets may be missing there
     settings, details = _settings(problem, plan), details_of(problem, plan.max_runs)
     with problem.simulator() as simulator:
         recorder = Recorder(settings, details, simulator.store)
-        with tqdm(total=plan.max_runs, unit="run", disable=not plan.progress) as bar:
+        most = "" if plan.max_runs is None else " of at most {total_fmt}"
+        line = f"{{desc}}{{elapsed}}, {{n_fmt}}{most} runs{{postfix}}"
+        with tqdm(total=plan.max_runs, bar_format=line, disable=not plan.progress) as bar:
             evaluations = Evaluations(
                 simulator,
-                problem.objective,
-                problem.space,
+                problem,
                 recorder,
                 limit=plan.max_runs,
                 callback=plan.callback,
@@ -74,6 +75,7 @@ def run_search(problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()) -
                 finish = plan.method.search(evaluations, start, plan.seed)
             except SearchEndedError as end:
                 finish = Finish(False, str(end))
+            evaluations.show()
         simulations = evaluations.best_simulations()
     return EndedSearch(evaluations, finish, simulations, simulator.runs, recorder)
 

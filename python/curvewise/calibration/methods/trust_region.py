@@ -25,6 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, get_args
 
 import numpy as np
@@ -50,6 +51,8 @@ _DRAWN = (0.1, 0.9)  # where starts are drawn, between the bounds
 # many of those that it finds.
 _ATTEMPTS = 3
 _AFTER_RENEWAL = 0.15  # fresh slopes deserve trust again
+# Steps without a new run after which a search ends: slopes of noise lead round in a circle.
+_MOST_IDLE = 30
 # Earlier runs give the slopes at a point if none is further away than this, as a fraction of the
 # bounds' range, and if their spread in every direction is at least this fraction of their reach.
 _NEAR, _FLATTEST = 0.25, 0.03
@@ -179,7 +182,12 @@ def _places(k: int, start: Array | None, count: int, random: np.random.Generator
 def _descend(search: _Search, evaluations: Evaluations, rules: TrustRegion) -> Finish:
     """Go down from one start."""
     radius = rules.first_radius
+    known, idle = 0, 0
     for _ in range(rules.maxiter):
+        idle = idle + 1 if len(evaluations.done) == known else 0
+        if idle == _MOST_IDLE:
+            return Finish(False, f"{idle} steps in a row led only to runs that were known")
+        known = len(evaluations.done)
         candidate, promised = search.lowest(radius)
         least = max(evaluations.negligible, rules.gain * search.value)
         if promised <= least or radius < rules.tol:
@@ -223,7 +231,6 @@ class _Search:
         self._evaluations, self._random = evaluations, random
         self._diff_step, self._gain = rules.diff_step, rules.gain
         self.responses = responses
-        self._minimum: SurfaceMinimum | None = None
         self.is_fresh = False
         self.value = np.inf
 
@@ -274,7 +281,7 @@ class _Search:
         The surfaces learn from each that is not, so that the next is another one.
         """
         for _ in range(_ATTEMPTS):
-            candidate = self._minimum_on_surfaces().elsewhere(self._surfaces, self._region(radius))
+            candidate = self._minimum.elsewhere(self._surfaces, self._region(radius))
             promised = self._promised(candidate)
             if promised <= least:
                 return False
@@ -284,29 +291,27 @@ class _Search:
 
     def lowest(self, radius: float) -> tuple[Array, float]:
         """Return where the surfaces are lowest within the region, and the gain they promise."""
-        best = self._minimum_on_surfaces().lowest(
+        best = self._minimum.lowest(
             self._surfaces, self.centre, self._region(radius), thoroughly=self.is_fresh
         )
         return best, self._promised(best)
 
-    def _minimum_on_surfaces(self) -> SurfaceMinimum:
+    @cached_property
+    def _minimum(self) -> SurfaceMinimum:
         assert self.responses is not None
-        if self._minimum is None:
-            self._minimum = SurfaceMinimum(
-                self._evaluations.objective,
-                self.responses,
-                self._random,
-                self._evaluations.negligible,
-                self._evaluations.show_activity,
-                self._gain,
-            )
-        return self._minimum
+        return SurfaceMinimum(
+            self._evaluations.objective,
+            self.responses,
+            self._random,
+            self._evaluations.show_activity,
+            self._gain,
+        )
 
     def _region(self, radius: float) -> tuple[Array, Array]:
         return np.clip(self.centre - radius, 0.0, 1.0), np.clip(self.centre + radius, 0.0, 1.0)
 
     def _promised(self, point: Array) -> float:
-        return self.value - self._minimum_on_surfaces().value(self._surfaces, point)
+        return self.value - self._minimum.value(self._surfaces, point)
 
     def step(self, candidate: Array) -> float:
         """Run a candidate, learn from it, move there if it is better; return the gain."""

@@ -120,11 +120,10 @@ class ModelPool:
                 lost.append(i)
         for future in as_completed(futures):
             i = futures[future]
-            outcome = _result(future)
-            if outcome is None:
-                lost.append(i)
-            else:
+            if outcome := _result(future):
                 yield i, outcome
+            else:
+                lost.append(i)
         if lost:
             yield from self._run_one_by_one(parameters, sorted(lost))
 
@@ -154,10 +153,8 @@ class ModelPool:
             started = time.perf_counter()
             assert self._pool is not None
             outcome = _result(self._pool.submit(_call_in_worker, parameters[i]))
-            yield (
-                i,
-                outcome or Outcome(None, "the worker process died", time.perf_counter() - started),
-            )
+            seconds = time.perf_counter() - started
+            yield i, outcome or Outcome(None, "the worker process died", seconds)
         self._restart(self._workers)
 
     def _start(self, workers: int) -> None:
@@ -210,8 +207,12 @@ def _called(model: Model, parameters: dict[str, Any]) -> Outcome:
     try:
         simulations, message = model(dict(parameters)), ""
     except Exception as error:  # whatever a model raises is a failed simulation
-        simulations, message = None, " ".join(f"{type(error).__name__}: {error}".split())
-    return Outcome(simulations, message[:_LONGEST_MESSAGE], time.perf_counter() - started)
+        simulations, message = None, _message(error)
+    return Outcome(simulations, message, time.perf_counter() - started)
+
+
+def _message(error: Exception) -> str:
+    return " ".join(f"{type(error).__name__}: {error}".split())[:_LONGEST_MESSAGE]
 
 
 def _result(future: Future[Outcome]) -> Outcome | None:
@@ -234,8 +235,7 @@ def _result_of_executor(future: Future[Outcome]) -> Outcome:
             "top level of a module"
         ) from error
     except Exception as error:  # dask's KilledWorker, say: the model's own are outcomes already
-        message = " ".join(f"{type(error).__name__}: {error}".split())
-        return Outcome(None, message[:_LONGEST_MESSAGE], 0.0)
+        return Outcome(None, _message(error), 0.0)
 
 
 # What follows runs in the worker processes.

@@ -72,16 +72,13 @@ def run_solver(
             raise SolverError(f"{program} did not start: {error}; folder: {folder}") from error
         try:
             code = _wait(process, begin + timeout, log)
-            too_much = False
         except subprocess.TimeoutExpired:
             raise SolverError(
                 f"{program} took longer than {timeout:g} s and was stopped; log: {log}"
             ) from None
-        except _RunAwayError:
-            too_much = True
         finally:
             _end_group(process)
-    if too_much:
+    if code is None:
         os.truncate(log, _KEPT_OUTPUT)
         raise SolverError(
             f"{program} printed more than {_MOST_OUTPUT >> 20} MiB and was stopped; "
@@ -93,12 +90,8 @@ def run_solver(
         raise SolverError(f"{program} {how} after {seconds:.1f} s; log: {log}")
 
 
-class _RunAwayError(Exception):
-    """A program has printed more than any log is worth."""
-
-
-def _wait(process: subprocess.Popen[bytes], deadline: float, log: Path) -> int:
-    """Return the exit code; TimeoutExpired at the deadline, _RunAwayError for a huge log."""
+def _wait(process: subprocess.Popen[bytes], deadline: float, log: Path) -> int | None:
+    """Return the exit code, or None for a huge log; TimeoutExpired at the deadline."""
     while True:
         left = deadline - time.monotonic()
         try:
@@ -107,7 +100,7 @@ def _wait(process: subprocess.Popen[bytes], deadline: float, log: Path) -> int:
             if left <= _LOOK:
                 raise
             if log.stat().st_size > _MOST_OUTPUT:
-                raise _RunAwayError from None
+                return None
 
 
 def _end_group(process: subprocess.Popen[bytes]) -> None:

@@ -115,13 +115,9 @@ class Cases:
             if names.count(name) > 1:
                 raise ValueError(f"two cases are called {name!r}; rename one")
         self.cases = tuple(cases)
-        self.models: list[Model] = []
-        self._places = []
-        for case in cases:
-            known = [i for i, model in enumerate(self.models) if model is case.model]
-            if not known:
-                self.models.append(case.model)
-            self._places.append(known[0] if known else len(self.models) - 1)
+        models = {id(case.model): case.model for case in cases}
+        self.models: list[Model] = list(models.values())
+        self._places = [list(models).index(id(case.model)) for case in cases]
 
     def objective(self) -> Objective:
         """Return the weighted sum over the cases."""

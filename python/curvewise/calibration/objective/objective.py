@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...curves.inputs import Array
+from ...curves.named_curve import known_file
 from ...curves.several_curves import as_points, curve_list
 from ...curves.thinning import thinned_rows
 from ...measures.registry import Condition, default_measures
@@ -77,9 +78,9 @@ class Objective:
     failures : int
         How many simulations have failed so far, counted by experiment.
     titles, names, sigmas, extents, y_columns : list
-        For every experiment: its number or the case's name; what its columns are called, if that
-        is known; the noise, where it is given; the extent in each coordinate, of a number the
-        number itself; the column that noise is in.
+        For every experiment: its file or number, or the case's name; what its columns are called,
+        if that is known; the noise, where it is given; the extent in each coordinate, of a number
+        the number itself; the column that noise is in.
     residual_counts, residual_factors : list of int, ndarray
         For every experiment: how many residuals it has, and by what a difference in y is multiplied
         to be a residual of "sum_of_squares".
@@ -125,9 +126,13 @@ class Objective:
             raise ValueError(
                 f"weights has shape ({len(weights)},); give one for each of {count} loops"
             )
-        labels = [Label("Loop 0", "P", "")]
+        files = [known_file(curve) for curve in curves]
+        titles = [f if f and files.count(f) == 1 else f"Loop {i}" for i, f in enumerate(files)]
+        labels = [Label(titles[0], "P", "")]
         if count > 1:
-            labels = [Label(f"Loop {i}", f"experiments[{i}]", f"loop {i}: ") for i in range(count)]
+            labels = [
+                Label(title, f"experiments[{i}]", f"loop {i}: ") for i, title in enumerate(titles)
+            ]
         self._sum_up(
             [
                 CurveTerm(curve, criterion, label, weight)
@@ -312,17 +317,14 @@ class Objective:
         criterion = self.criterion
         assert criterion is not None, "by_measure asks it of terms with the same"
         try:
-            other = Objective(
-                list(self.experiments),
-                Criterion(
-                    measure,
-                    preset=criterion.preset,
-                    part=criterion.part if measure == "pcm" else "experiment",
-                    min_coverage=criterion.min_coverage,
-                    weights=criterion.weights,
-                ),
+            other = Criterion(
+                measure,
+                preset=criterion.preset,
+                part=criterion.part if measure == "pcm" else "experiment",
+                min_coverage=criterion.min_coverage,
+                weights=criterion.weights,
             )
-            score = other.predicted(simulations)
+            score = Objective(list(self.experiments), other).predicted(simulations)
         except ValueError:  # e.g. curve_length, raw, of a loop centred on zero
             return math.nan
         return math.nan if score.failures else score.value

@@ -61,14 +61,9 @@ def of_simulation(criterion: Criterion, P: Array) -> OfSimulation:
     differentiable = measure in ("curve_length", "dtw") or (
         measure == "area" and options.get("spacing") != "arc_length"
     )
-    gradient = partial(_value_and_gradient, P, measure, options) if differentiable else None
+    named: dict[str, Any] = {"measure": measure, **options}
+    gradient = partial(value_and_gradient, P, **named) if differentiable else None
     return OfSimulation(Prepared(P, info.name, **options), residuals, gradient)
-
-
-def _value_and_gradient(
-    P: Array, measure: Any, options: dict[str, Any], Q: Array
-) -> tuple[float, Array]:
-    return value_and_gradient(P, Q, measure, **options)
 
 
 def _called(function: Callable[..., float], P: Array, options: dict[str, Any], Q: Array) -> float:

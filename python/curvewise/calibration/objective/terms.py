@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -26,6 +26,8 @@ from .criterion import Criterion
 from .of_simulation import of_simulation
 
 __all__ = ["CurveTerm", "FailedSimulationError", "Label", "NumberTerm", "Term"]
+
+T = TypeVar("T")
 
 # A failed simulation costs as much as so many simulations that are wrong by the loop's height.
 _FAILURE = 1e6
@@ -161,9 +163,7 @@ class Term(ABC):
 
     def fitted(self, simulation: Any) -> Array:
         """Return the experiment with the simulated y, of a sum of squares."""
-        points = self.experiment.copy()
-        points[:, self.y] += self.height * self.residuals(simulation)
-        return points
+        return _moved(self.experiment, self.y, self.height * self.residuals(simulation))
 
     @abstractmethod
     def value(self, simulation: Any) -> float:
@@ -209,7 +209,8 @@ class CurveTerm(Term):
             self.height = 1.0 if self._box is None else float(self._box[1][self.y])
             self._measured = of_simulation(self.criterion, P)
             # Fails here, not at the first simulation, for an experiment or option it refuses.
-            value = self._measured.value(_moved_up(P, self.y))
+            height = np.ptp(P[:, self.y]) or 1.0
+            value = self._measured.value(_moved(P, self.y, height))
             self.scale = value.value if isinstance(value, PcmMatch) else value
         except ValueError as error:
             prefix = "" if argument == "P" else f"{argument}, as P: "
@@ -226,17 +227,12 @@ class CurveTerm(Term):
             return self.factor
         if self.is_least_squares:
             return self.factor * float(self.height / self.sigma) ** 2
-        moved = self.experiment.copy()  # off by sigma everywhere
-        moved[:, self.y] += self.sigma
-        return self.factor / float(self.value(moved))
+        off_by_sigma = _moved(self.experiment, self.y, self.sigma)
+        return self.factor / float(self.value(off_by_sigma))
 
     def value(self, simulation: Any) -> float:
         """Return the value of the measure, or raise FailedSimulationError."""
-        Q = self._checked(simulation)
-        try:
-            value = self._measured.value(Q)
-        except ValueError as error:
-            raise FailedSimulationError(str(error)) from error
+        value = self._asked(self._measured.value, simulation)
         if isinstance(value, PcmMatch):
             value = self._covered(value)
         if not math.isfinite(value):
@@ -246,11 +242,7 @@ class CurveTerm(Term):
     def value_and_gradient(self, simulation: Any) -> tuple[float, Array]:
         """Return the value and its derivative by the simulation's coordinates."""
         assert self._measured.gradient is not None, "see has_gradient"
-        Q = self._checked(simulation)
-        try:
-            value, gradient = self._measured.gradient(Q)
-        except ValueError as error:
-            raise FailedSimulationError(str(error)) from error
+        value, gradient = self._asked(self._measured.gradient, simulation)
         if not (math.isfinite(value) and np.isfinite(gradient).all()):
             raise FailedSimulationError(f"the value of the measure is {value}")
         return value, gradient if self._box is None else gradient / self._box[1]
@@ -258,9 +250,13 @@ class CurveTerm(Term):
     def residuals(self, simulation: Any) -> Array:
         """Return the differences that the measure squares, or raise FailedSimulationError."""
         assert self._measured.residuals is not None, "Objective refuses measures without"
+        return self._asked(self._measured.residuals, simulation).ravel()
+
+    def _asked(self, function: Callable[[Array], T], simulation: Any) -> T:
+        """Return what a function of the measure makes of a simulation that can be compared."""
         Q = self._checked(simulation)
         try:
-            return self._measured.residuals(Q).ravel()
+            return function(Q)
         except ValueError as error:
             raise FailedSimulationError(str(error)) from error
 
@@ -342,8 +338,8 @@ class NumberTerm(Term):
         return np.array([(float(value[0, 0]) - self._target) / self.height])
 
 
-def _moved_up(curve: Array, y: int) -> Array:
-    """Return the curve, moved along a coordinate by its extent there."""
+def _moved(curve: Array, y: int, by: float | Array) -> Array:
+    """Return the curve, moved along a coordinate."""
     moved = curve.copy()
-    moved[:, y] += np.ptp(moved[:, y]) or 1.0
+    moved[:, y] += by
     return moved

@@ -18,12 +18,11 @@ import numpy as np
 from ...curves.inputs import Array
 from ...curves.several_curves import as_points, curve_list
 from ..models.pool import Outcome
-from ..objective.objective import Objective
 from ..records.evaluation import Evaluation, Point
 from ..records.recorder import Recorder
 from ..surfaces.nearby_runs import Run
+from .problem import Problem
 from .simulator import Simulator
-from .space import Space
 
 __all__ = ["Evaluations", "Finish", "Progress", "SearchEndedError"]
 
@@ -66,8 +65,8 @@ class Evaluations:
 
     Parameters
     ----------
-    simulator, objective, space, recorder
-        What runs the model, scores it, names the parameters, and takes the search down.
+    simulator, problem, recorder
+        What runs the models, what scores them and names the parameters, and takes the search down.
     limit : int or None
         How many parameter sets to evaluate at most.
     callback : callable or None
@@ -81,8 +80,7 @@ class Evaluations:
     def __init__(
         self,
         simulator: Simulator,
-        objective: Objective,
-        space: Space,
+        problem: Problem,
         recorder: Recorder,
         *,
         limit: int | None,
@@ -91,14 +89,14 @@ class Evaluations:
         earlier_runs: Sequence[Run] = (),
     ) -> None:
         self.earlier_runs = earlier_runs
-        self.objective = objective
-        self._simulator, self._space, self._recorder = simulator, space, recorder
+        self.objective, self._space = problem.objective, problem.space
+        self._simulator, self._recorder = simulator, recorder
         self._limit, self._callback, self._bar = limit, callback, bar
         self._done: dict[Point, Evaluation] = {}
         self._units: dict[Point, Array] = {}
         self._best: Point | None = None
         self._best_simulations: Any = None
-        self._predictions, self._shown = 0, time.monotonic()
+        self._shown, self._slowest = -np.inf, 0.0
         self._keeps_curves = False
         self._log_level = logging.WARNING  # of the first failure; all are kept anyway
 
@@ -155,11 +153,20 @@ class Evaluations:
 
     def show_activity(self) -> None:
         """Show that a search is at work between runs, on what it predicts of them."""
-        self._predictions += 1
-        now = time.monotonic()
-        if self._best is not None and now - self._shown > _PAUSE:
-            self._shown = now
-            self._bar.set_postfix(best=f"{self.best.value:.4g}", predicted=self._predictions)
+        if time.monotonic() - self._shown > _PAUSE:
+            self.show("choosing the next run")
+
+    def show(self, doing: str = "", *, refresh: bool = True) -> None:
+        """Say beside the progress what the best value is, and what the search is waiting for."""
+        stored = self._simulator.looked_up
+        parts = [
+            f"{stored} of them from the store" if stored else "",
+            "" if self._best is None else f"best value {self.best.value:.4g}",
+            doing,
+        ]
+        self._bar.set_postfix_str(", ".join(filter(None, parts)), refresh=refresh)
+        if refresh:
+            self._shown = time.monotonic()
 
     def values(self, units: Array) -> Array:
         """Return the objective at points of the unit cube, shape (count, dimensions)."""
@@ -213,10 +220,14 @@ class Evaluations:
         first = len(self._done) + 1
         finished: dict[Point, Evaluation] = {}
         simulations: dict[Point, Any] = {}
+        since = time.monotonic() - self._shown
+        self._show_waiting(len(batch), refresh=max(since, self._slowest) > _PAUSE)
         for k, outcome in self._simulator.run([self._space.dictionary(p) for p in batch]):
             point = batch[k]
             finished[point] = self._judged(first + k, point, outcome)
             simulations[point] = outcome.simulations
+            self._slowest = max(self._slowest, outcome.seconds)
+            self._show_waiting(len(batch) - len(finished), refresh=False)
             self._bar.update()
         for point in batch:
             self._done[point] = finished[point]
@@ -225,10 +236,14 @@ class Evaluations:
                 self._best = point
                 self._best_simulations = simulations.get(point)
 
+    def _show_waiting(self, runs: int, *, refresh: bool) -> None:
+        self.show(
+            f"waiting for {runs} run{'s' if runs > 1 else ''}" if runs else "", refresh=refresh
+        )
+
     def _judged(self, number: int, point: Point, outcome: Outcome) -> Evaluation:
-        simulations = outcome.simulations
-        if outcome.message:  # in full, as the objective would give it for an exception
-            simulations = None
+        # Its message in full, as the objective would give it for an exception.
+        simulations = None if outcome.message else outcome.simulations
         score = self.objective.score(simulations)
         message = outcome.message or "; ".join(score.failures)
         if message:
@@ -237,12 +252,13 @@ class Evaluations:
         curves = None
         if self._keeps_curves and not message:
             curves = tuple(as_points(curve, "Q").copy() for curve in curve_list(simulations))
-        seconds = outcome.seconds
-        return Evaluation(number, point, score.value, bool(message), seconds, message, curves)
+        return Evaluation(
+            number, point, score.value, bool(message), outcome.seconds, message, curves
+        )
 
     def _report(self) -> None:
         best = self.best
-        self._bar.set_postfix(best=f"{best.value:.4g}", refresh=False)
+        self.show(refresh=False)
         if self._callback is None:
             return
         parameters = self._space.dictionary(best.point)

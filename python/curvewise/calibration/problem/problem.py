@@ -7,12 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Any
 
 from ..models.identity import model_identity
-from ..models.pool import Model, ModelPool, Outcome
+from ..models.pool import Model, ModelPool
 from ..objective.cases import Cases
 from ..objective.objective import Objective
 from ..records.store import SimulationStore, StoreOrPath
@@ -21,12 +22,6 @@ from .simulator import Assemble, Dispatch, Simulator
 from .space import Space
 
 __all__ = ["Problem", "models_of"]
-
-
-def _only(outcomes: list[Outcome]) -> Outcome:
-    """Return the outcome of a problem's only model."""
-    (outcome,) = outcomes
-    return outcome
 
 
 @dataclass(frozen=True)
@@ -58,12 +53,9 @@ class Problem:
     @contextmanager
     def simulator(self) -> Iterator[Simulator]:
         """Start what runs the models, and end it."""
-        with ExitStack() as stack:
-            pool = ModelPool(Dispatch(self.models), self.workers, self.executor)
-            stack.enter_context(pool)
-            store = None
-            if self.store is not None:
-                store = stack.enter_context(SimulationStore(self.store))
+        pool = ModelPool(Dispatch(self.models), self.workers, self.executor)
+        opened = nullcontext() if self.store is None else SimulationStore(self.store)
+        with pool, opened as store:
             yield Simulator(pool, self.models, self.assemble, store)
 
     def identities(self) -> list[str] | None:
@@ -81,4 +73,4 @@ def models_of(model: Any) -> tuple[Sequence[Model], Assemble]:
         return model.models, model.assembled
     if isinstance(model, Selection):
         return (model.whole,), model.assembled
-    return (model,), _only
+    return (model,), itemgetter(0)  # the outcome of the only model

@@ -52,8 +52,9 @@ class Simulator:
     ----------
     store
         As given.
-    runs : int
-        How many runs of models this simulator has made.
+    runs, looked_up : int
+        How many runs of models this simulator has made, and how many sets of parameters it has
+        looked up.
     """
 
     def __init__(
@@ -70,30 +71,34 @@ class Simulator:
             self._identities = [model_identity(model, store.version) for model in models]
             for identity in self._identities:
                 store.register(identity)
-        self.runs = 0
+        self.runs = self.looked_up = 0
 
     def run(self, parameters: Sequence[dict[str, float]]) -> Iterator[tuple[int, Outcome]]:
         """Yield index and outcome of every dict, those that are stored first."""
-        found: list[list[Outcome | None]] = [self._stored(values) for values in parameters]
-        calls, origins = [], []
+        found = [self._stored(values) for values in parameters]
+        missing = []
         for i, outcomes in enumerate(found):
-            if None not in outcomes:
-                yield i, self._assemble([o for o in outcomes if o is not None])
-                continue
-            for j, outcome in enumerate(outcomes):
-                if outcome is None:
-                    calls.append({"model": j, "parameters": parameters[i]})
-                    origins.append((i, j))
+            if len(outcomes) == self._count:
+                self.looked_up += 1
+                yield i, self._assembled(outcomes)
+            missing += [(i, j) for j in range(self._count) if j not in outcomes]
+        calls = [{"model": j, "parameters": parameters[i]} for i, j in missing]
         for k, outcome in self._pool.run(calls):
-            i, j = origins[k]
+            i, j = missing[k]
             self.runs += 1
             if self.store is not None:
                 self.store.save(self._identities[j].text, parameters[i], outcome)
             found[i][j] = outcome
-            if None not in found[i]:
-                yield i, self._assemble([o for o in found[i] if o is not None])
+            if len(found[i]) == self._count:
+                yield i, self._assembled(found[i])
 
-    def _stored(self, values: dict[str, float]) -> list[Outcome | None]:
+    def _assembled(self, outcomes: dict[int, Outcome]) -> Outcome:
+        return self._assemble([outcomes[j] for j in range(self._count)])
+
+    def _stored(self, values: dict[str, float]) -> dict[int, Outcome]:
+        """Return what the store has of a set of parameters, by the model's number."""
         if self.store is None:
-            return [None] * self._count
-        return [self.store.look_up(identity.text, values) for identity in self._identities]
+            return {}
+        texts = [identity.text for identity in self._identities]
+        looked_up = ((j, self.store.look_up(text, values)) for j, text in enumerate(texts))
+        return {j: outcome for j, outcome in looked_up if outcome is not None}

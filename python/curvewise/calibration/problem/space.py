@@ -15,17 +15,21 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ...curves.foreign_curves import warn
 from ...curves.inputs import Array
 from ..models.identity import fingerprint
 from ..records.evaluation import Point
 
-__all__ = ["Below", "Bounds", "Log", "Space", "Tied"]
+__all__ = ["Below", "Bounds", "Log", "Space", "Tied", "WideBoundsWarning"]
 
 # Columns of the table of evaluations, beside the parameters.
 _RESERVED = ("evaluation", "value", "failed", "seconds", "message")
 
 # How far a parameter stays below another one, as a fraction of its bounds' range.
 _GAP = 1e-6
+
+# Bounds that go further than this, the upper by the lower, are better searched as logarithms.
+_DECADE = 10.0
 
 # A parameter this near to a bound, as a fraction of the range, is said to be at the bound.
 _AT_BOUND = 1e-3
@@ -48,6 +52,21 @@ class Log:
 
     low: float
     high: float
+
+
+class WideBoundsWarning(UserWarning):
+    """Bounds go over more than a decade on a linear scale, of which most is the last decade.
+
+    :func:`identify`, :func:`identify_each` and :func:`cross_validate` warn once, before the first
+    run of the model; :class:`Log` is what to give in their place.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from curvewise.calibration import WideBoundsWarning
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("ignore", WideBoundsWarning)  # and identify(...) here
+    """
 
 
 @dataclass(frozen=True)
@@ -166,6 +185,24 @@ class Space:
                 f"{name} stays below {other!r}, which is no parameter with bounds before it"
             )
         return list(self.bounds).index(other)
+
+    def warn_of_wide_bounds(self) -> None:
+        """Warn of parameters that are better searched for on a logarithmic scale."""
+        wide = [
+            f"{name} ({low:g} to {high:g})"
+            for (name, (low, high)), is_log in zip(self.bounds.items(), self.is_log, strict=True)
+            if not is_log
+            and not isinstance(self._given[name], Below)
+            and 0.0 < _DECADE * low < high
+        ]
+        if wide:
+            warn(
+                WideBoundsWarning(
+                    f"the bounds of {', '.join(wide)} go over more than a decade: a logarithmic "
+                    "scale searches small values like large ones, Log(low, high), in a study "
+                    "scale = 'log'"
+                )
+            )
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -294,12 +331,11 @@ def _pair(name: str, given: Any) -> tuple[float, float]:
             f"bounds[{name!r}] is {given!r}; give (low, high), or a number that it stays"
         )
     low, high = pair
-    if not (math.isfinite(low) and math.isfinite(high) and low <= high):
+    may_stay = low == high and not isinstance(given, (Log, Below))
+    if not (math.isfinite(low) and math.isfinite(high) and (low < high or may_stay)):
         raise ValueError(f"bounds[{name!r}] is {given!r}; they must be finite, low < high")
     if not math.isfinite(high - low):
         raise ValueError(f"bounds[{name!r}] is {given!r}; the range overflows")
-    if isinstance(given, (Log, Below)) and low == high:
-        raise ValueError(f"bounds[{name!r}] is {given!r}; they must be finite, low < high")
     if isinstance(given, Log) and low <= 0:
         raise ValueError(f"bounds[{name!r}] is {given!r}; a logarithm needs low above 0")
     return float(low), float(high)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 from ...showing.result import Table
 from .space import Space
 
-__all__ = ["measure_table", "parameter_table"]
+__all__ = ["digits", "measure_table", "parameter_table", "per_cent"]
 
 _NARROWEST = 12  # characters of a column of numbers
 
@@ -35,7 +36,7 @@ def parameter_table(
     """
     header = ["parameter", "value"]
     if spread is not None:
-        header += ["std. error", f"{100 * spread['level']:g} % from", "to"]
+        header += ["std. error", "%", f"{100 * spread['level']:g} % from", "to"]
     if with_bounds:
         header += ["from", "to"] if spread is None else ["lower bound", "upper bound"]
     at_bounds = space.at_bounds(parameters) if parameters else {}
@@ -46,13 +47,27 @@ def parameter_table(
         if name in space.bounds:
             note = f"at its {at_bounds[name]} bound" if name in at_bounds else ""
             if spread is not None:
-                low, high = spread["intervals"][name]
-                cells += [f"{spread['standard_errors'][name]:.3g}", f"{low:.5g}", f"{high:.5g}"]
+                error, interval = spread["standard_errors"][name], spread["intervals"][name]
+                cells += [digits(error, 3), per_cent(error, value)]
+                cells += [digits(end, 5) for end in interval]
                 note = note or ("" if spread["determined"][name] else "not determined")
             if with_bounds:
                 cells += [f"{bound:.6g}" for bound in space.bounds[name]]
         rows.append([*cells, *[""] * (len(header) - len(cells)), note])
     return Table(rows, [*header, ""], _NARROWEST)
+
+
+def digits(value: float, count: int) -> str:
+    """Return a number to so many digits, as 176340 where it is read more easily than 1.7634e+05."""
+    return f"{float(f'{value:.{count}g}'):.10g}"
+
+
+def per_cent(error: float, value: float) -> str:
+    """Return an error in per cent of a value, to two digits; nothing where the value is 0."""
+    share = 100.0 * abs(error / value) if value else math.inf
+    if not math.isfinite(share):
+        return ""
+    return f"{share:.2g}" if share < 99.5 else f"{share:.0f}"
 
 
 def measure_table(values: Mapping[str, float], minimised: str, preset: str) -> Table:

@@ -10,6 +10,7 @@ second of what was not, and several processes may use one store at once.
 
 Cost: a transaction takes 20 milliseconds on a slow disk, a look-up some 50 microseconds; the
 file has 8 bytes for every number of every curve, and some hundred bytes for every evaluation.
+What reads all runs, or all searches, has SQLite look through their tables first, some 1 GB/s.
 """
 
 from __future__ import annotations
@@ -18,7 +19,6 @@ import csv
 import hashlib
 import json
 import os
-import sqlite3
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
@@ -30,16 +30,15 @@ from typing import Any, TypeAlias
 from ...curves.inputs import Array
 from ..models.identity import ModelIdentity
 from ..models.pool import Outcome
-from .database import make_tables, opened, transaction
+from .database import Database
 from .evaluation import Evaluation
 from .search_record import Ending, SearchRecord
-from .stored_run import StoredRun, decoded, encoded, key_of
+from .stored_run import StoredRun, decoded, encoded, key_of, parameters_of
 
 __all__ = ["SimulationStore", "StoreOrPath"]
 
-_PAUSE = (
-    0.2  # seconds between transactions: models that take a millisecond should not wait for them
-)
+# Seconds between transactions: models that take a millisecond should not wait for them.
+_PAUSE = 0.2
 
 
 class SimulationStore:
@@ -59,8 +58,8 @@ class SimulationStore:
     ------
     ValueError
         A version that is no text. When it is first used: the file is something else than a store.
-    OSError
-        When it is first used: it cannot be made.
+    StoreError
+        When it is used: it cannot be made, read or written, or is damaged.
 
     Notes
     -----
@@ -100,8 +99,8 @@ class SimulationStore:
         self._written = 0.0
 
     @cached_property
-    def _database(self) -> sqlite3.Connection:
-        return opened(self.path)
+    def _database(self) -> Database:
+        return Database(self.path)
 
     def __repr__(self) -> str:
         version = "" if self.version is None else f", version={self.version!r}"
@@ -122,8 +121,8 @@ class SimulationStore:
     def __len__(self) -> int:
         """How many runs there are, of all models."""
         self._write()
-        (count,) = self._database.execute("SELECT count(*) FROM runs").fetchone()
-        return int(count)
+        self._database.check("runs")
+        return self._database.number("SELECT count(*) FROM runs")
 
     def close(self) -> None:
         """Write what is not written yet, and close the file; the next use opens it again."""
@@ -137,24 +136,21 @@ class SimulationStore:
 
     def models(self) -> list[str]:
         """Return the identities of the models that have runs here, in the order of their first."""
-        rows = self._database.execute("SELECT identity FROM models ORDER BY rowid")
-        return [identity for (identity,) in rows]
+        self._database.check("models")
+        return [identity for identity, _ in self._database.rows("models")]
 
     def runs(self, identity: str) -> Iterator[StoredRun]:
         """Yield the runs of a model, in the order in which they were stored."""
         self._write()
-        rows = self._database.execute(
-            "SELECT parameters, seconds, message, shapes, curves FROM runs "
-            "WHERE identity = ? ORDER BY rowid",
-            (identity,),
-        )
-        for parameters, *rest in rows:
-            yield StoredRun.of_row(parameters, decoded(*rest))
+        self._database.check("runs")
+        for _, parameters, *outcome in self._database.rows("runs", identity=identity):
+            yield StoredRun(parameters_of(parameters), *decoded(*outcome))
 
     def forget_failures(self) -> int:
         """Delete the runs that failed, say for want of a licence; return how many there were."""
         self._write()
-        return self._database.execute("DELETE FROM runs WHERE message != ''").rowcount
+        with self._database.transaction():
+            return self._database.delete("runs", "message != ''")
 
     def register(self, model: ModelIdentity) -> None:
         """Make a model known, or refuse one whose code is not that of its runs.
@@ -164,11 +160,9 @@ class SimulationStore:
         ValueError
             The store has runs under this identity and another fingerprint.
         """
-        with transaction(self._database):
-            self._database.execute("INSERT OR IGNORE INTO models VALUES (?, ?)", model)
-        (stored,) = self._database.execute(
-            "SELECT fingerprint FROM models WHERE identity = ?", (model.text,)
-        ).fetchone()
+        with self._database.transaction():
+            self._database.write("models", [model])
+        ((_, stored),) = self._database.rows("models", identity=model.text)
         # Another Python compiles the same code to other bytes, of which nothing can be said.
         same_python = stored.partition(":")[0] == model.fingerprint.partition(":")[0]
         if same_python and stored != model.fingerprint:
@@ -182,12 +176,8 @@ class SimulationStore:
         key = identity, key_of(parameters)
         if (row := self._new_runs.get(key)) is not None:
             return decoded(*row[2:])
-        row = self._database.execute(
-            "SELECT seconds, message, shapes, curves FROM runs "
-            "WHERE identity = ? AND parameters = ?",
-            key,
-        ).fetchone()
-        return None if row is None else decoded(*row)
+        found = self._database.rows("runs", identity=identity, parameters=key[1])
+        return next((decoded(*outcome) for _, _, *outcome in found), None)
 
     def save(self, identity: str, parameters: Mapping[str, Any], outcome: Outcome) -> None:
         """Store a run; what the model should not have returned is left out, to be run again."""
@@ -207,21 +197,16 @@ class SimulationStore:
         Parameters
         ----------
         settings, details : str
-            Those of a :class:`SearchRecord`, as JSON.
+            Those of a `SearchRecord`, as JSON.
         """
         key = hashlib.sha256(settings.encode()).hexdigest()
-        with transaction(self._database):
-            make_tables(self._database)
-            self._database.execute(
-                "INSERT INTO searches (key, settings, details, ending) VALUES (?, ?, ?, '') "
-                "ON CONFLICT (key) DO UPDATE SET details = excluded.details, ending = ''",
-                (key, settings, details),
-            )
-            (number,) = self._database.execute(
-                "SELECT number FROM searches WHERE key = ?", (key,)
-            ).fetchone()
-            self._database.execute("DELETE FROM evaluations WHERE search = ?", (number,))
-        return int(number)
+        with self._database.transaction():
+            known = [row[0] for row in self._database.rows("searches", key=key)]
+            last = "SELECT coalesce(max(number), 0) FROM searches"
+            number: int = known[0] if known else 1 + self._database.number(last)
+            self._database.write("searches", [(number, key, settings, details, "")], replace=True)
+            self._database.delete("evaluations", "search = ?", (number,))
+        return number
 
     def add_evaluation(self, search: int, evaluation: Evaluation) -> None:
         """Take down an evaluation of a search, whose curves are in the runs."""
@@ -232,22 +217,18 @@ class SimulationStore:
 
     def end_search(self, search: int, ending: Ending) -> None:
         """Write how a search ended."""
-        with transaction(self._database):
-            self._database.execute(
-                "UPDATE searches SET ending = ? WHERE number = ?", (ending.to_json(), search)
-            )
+        with self._database.transaction():
+            rows = list(self._database.rows("searches", number=search))
+            ended = [(*row, ending.to_json()) for *row, _ in rows]
+            self._database.write("searches", ended, replace=True)
 
     def searches(self) -> dict[int, SearchRecord]:
         """Return all searches by their numbers, in the order in which they were begun."""
         self._write()
-        exists = "SELECT count(*) FROM sqlite_master WHERE name = 'searches'"
-        if self._database.execute(exists).fetchone() == (0,):
-            return {}
-        rows = self._database.execute(
-            "SELECT number, settings, details, ending FROM searches ORDER BY number"
-        ).fetchall()
+        self._database.check("searches")
+        self._database.check("evaluations")
         records = {}
-        for number, settings, details, ending in rows:
+        for number, _, settings, details, ending in self._database.rows("searches"):
             record = SearchRecord(
                 json.loads(settings),
                 json.loads(details),
@@ -294,11 +275,7 @@ class SimulationStore:
                 table.writerow(row)
 
     def _evaluations(self, search: int) -> tuple[Evaluation, ...]:
-        rows = self._database.execute(
-            "SELECT number, point, value, failed, seconds, message FROM evaluations "
-            "WHERE search = ? ORDER BY number",
-            (search,),
-        )
+        rows = self._database.rows("evaluations", "number", search=search)
         return tuple(
             Evaluation(
                 number,
@@ -308,7 +285,7 @@ class SimulationStore:
                 seconds,
                 message,
             )
-            for number, point, value, failed, seconds, message in rows
+            for _, number, point, value, failed, seconds, message in rows
         )
 
     def _best(self, record: SearchRecord) -> tuple[Array, ...]:
@@ -330,15 +307,9 @@ class SimulationStore:
     def _write(self) -> None:
         if not self._new_runs and not self._new_evaluations:
             return
-        with transaction(self._database):
-            self._database.executemany(
-                "INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?)", self._new_runs.values()
-            )
-            if self._new_evaluations:  # else there may be no table: not every run has a search
-                self._database.executemany(
-                    "INSERT OR REPLACE INTO evaluations VALUES (?, ?, ?, ?, ?, ?, ?)",
-                    self._new_evaluations,
-                )
+        with self._database.transaction():
+            self._database.write("runs", self._new_runs.values())
+            self._database.write("evaluations", self._new_evaluations, replace=True)
         self._new_runs.clear()
         self._new_evaluations.clear()
         self._written = time.monotonic()

@@ -12,7 +12,7 @@ from ...curves.inputs import Array
 from ...curves.several_curves import as_points, curve_list
 from ..models.pool import Outcome
 
-__all__ = ["StoredRun", "decoded", "encoded", "key_of"]
+__all__ = ["StoredRun", "decoded", "encoded", "key_of", "parameters_of"]
 
 
 class StoredRun(NamedTuple):
@@ -35,12 +35,6 @@ class StoredRun(NamedTuple):
     message: str
     seconds: float
 
-    @classmethod
-    def of_row(cls, key: str, outcome: Outcome) -> StoredRun:
-        """Return the run with the key of its parameters."""
-        parameters = {name: _number(text) for name, text in json.loads(key).items()}
-        return cls(parameters, outcome.simulations, outcome.message, outcome.seconds)
-
 
 def key_of(parameters: Mapping[str, Any]) -> str:
     """Return parameters as a text that is the same for the same numbers, bit for bit."""
@@ -49,6 +43,11 @@ def key_of(parameters: Mapping[str, Any]) -> str:
         for name, value in parameters.items()
     }
     return json.dumps(texts, sort_keys=True)
+
+
+def parameters_of(key: str) -> dict[str, Any]:
+    """Return the parameters of which `key_of` has made a text."""
+    return {name: _number(text) for name, text in json.loads(key).items()}
 
 
 def _number(text: str) -> Any:

@@ -36,15 +36,10 @@ class Branch(NamedTuple):
 
     def row(self) -> list[str]:
         """Return its name, from where to where, how many points, and mean, rms and largest."""
-        rms = float(np.sqrt(np.mean(self.residual**2)))
-        largest = float(np.abs(self.residual).max())
-        numbers = [float(self.x[0]), float(self.x[-1])]
-        return [
-            self.name,
-            *(f"{number:.4g}" for number in numbers),
-            f"{len(self.x)}",
-            *(f"{number:.4g}" for number in (float(self.residual.mean()), rms, largest)),
-        ]
+        ends = [f"{x:.4g}" for x in self.x[[0, -1]]]
+        rms, largest = np.sqrt(np.mean(self.residual**2)), np.abs(self.residual).max()
+        spread = [f"{number:.4g}" for number in (self.residual.mean(), rms, largest)]
+        return [self.name, *ends, f"{len(self.x)}", *spread]
 
 
 def branches_of(experiment: Array, simulation: Array, y: int) -> list[Branch]:

@@ -9,17 +9,25 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ...curves.inputs import Array
-from ...drawing.loops import xy_labels, xy_of
-from ...drawing.palette import ACCENT_COLOUR, FILL_COLOUR, GROUND_COLOUR, P_COLOUR, Q_COLOUR, SERIES
+from ...drawing.figures import evenly, log_ticks, xy_labels, xy_of
+from ...drawing.palette import (
+    ACCENT_COLOUR,
+    FILL_COLOUR,
+    GROUND_COLOUR,
+    P_COLOUR,
+    Q_COLOUR,
+    series_colours,
+)
 from ..problem.space import Space
+from ..problem.tables import per_cent
 from ..records.evaluation import Evaluation
+from .shown_search import Loop
 
 __all__ = [
     "Figure",
@@ -35,57 +43,39 @@ Figure = dict[str, Any]
 
 _DIGITS = 7
 _MOST_DOTS = 5000  # of the evaluations in a convergence
+_DOWNWARDS = {"type": "category", "autorange": "reversed"}  # an axis of names, as in a table
 
 
-def loop(
-    experiment: Array, simulation: Array | None, axes: Sequence[str], title: str, most: int
-) -> Figure:
+def loop(shown: Loop, most: int) -> Figure:
     """Return a test and its simulation at the optimum."""
-    traces = [_line(experiment, "test", P_COLOUR, most, mode="lines+markers", width=0.7)]
-    if simulation is not None:
-        traces.append(_line(simulation, "simulation", Q_COLOUR, most, width=2.0))
-    return {"data": traces, "layout": _layout(*xy_labels(axes), title=title)}
+    traces = [_line(shown.test, "test", P_COLOUR, most, mode="lines+markers", width=0.7)]
+    if shown.simulation is not None:
+        traces.append(_line(shown.simulation, "simulation", Q_COLOUR, most, width=2.0))
+    return _figure(traces, *xy_labels(shown.axes), shown.title)
 
 
-def residuals(
-    branches: Sequence[tuple[str, Array, Array]], axes: Sequence[str], title: str, most: int
-) -> Figure:
+def residuals(shown: Loop, most: int) -> Figure:
     """Return the differences of test and simulation against x, a colour for each branch."""
-    x, y = xy_labels(axes)
+    branches = shown.branches
+    x, _ = xy_labels(shown.axes)
     each = max(10, most // len(branches))
     traces = [
-        _line(
-            np.column_stack([place, residual]),
-            name,
-            SERIES[i % len(SERIES)],
-            each,
-            mode="lines+markers",
-            width=0.8,
-        )
-        for i, (name, place, residual) in enumerate(branches)
+        _line(np.column_stack(both), name, colour, each, mode="lines+markers", width=0.8)
+        for (name, *both), colour in zip(branches, series_colours(len(branches)), strict=True)
     ]
-    layout = _layout(x, f"test − simulation: {y}", title=title)
-    layout["yaxis"]["zeroline"] = True
-    return {"data": traces, "layout": layout}
+    y = f"test − simulation: {shown.y_name}"
+    return _figure(traces, x, y, shown.title, yaxis={"zeroline": True})
 
 
-def weakest_direction(
-    experiment: Array,
-    simulation: Array,
-    moved: Sequence[Array],
-    axes: Sequence[str],
-    title: str,
-    most: int,
-) -> Figure:
+def weakest_direction(shown: Loop, moved: Sequence[Array], most: int) -> Figure:
     """Return a loop, and the same moved both ways along the weakest direction."""
     traces = [
-        _line(experiment, "test", FILL_COLOUR, most, mode="markers"),
-        _line(simulation, "optimum", ACCENT_COLOUR, most, width=1.5),
+        _line(shown.test, "test", FILL_COLOUR, most, mode="markers"),
+        _line(shown.simulation, "optimum", ACCENT_COLOUR, most, width=1.5),
+        _line(moved[0], "one way", P_COLOUR, most, width=1.5, dash="dash"),
+        _line(moved[1], "and back", Q_COLOUR, most, width=1.5, dash="dash"),
     ]
-    names = ("weakest direction", "and back")
-    for curve, name, colour in zip(moved, names, (P_COLOUR, Q_COLOUR), strict=True):
-        traces.append(_line(curve, name, colour, most, width=1.5, dash="dash"))
-    return {"data": traces, "layout": _layout(*xy_labels(axes), title=title)}
+    return _figure(traces, *xy_labels(shown.axes), shown.title)
 
 
 def convergence(evaluations: Sequence[Evaluation], objective: str) -> Figure:
@@ -94,37 +84,28 @@ def convergence(evaluations: Sequence[Evaluation], objective: str) -> Figure:
     value = np.array([one.value for one in evaluations])
     failed = np.array([one.failed for one in evaluations])
     good = np.nonzero(~failed)[0]
-    shown = good[_evenly(len(good), _MOST_DOTS)]
+    shown = good[evenly(len(good), _MOST_DOTS)]
     best = np.minimum.accumulate(value)
     steps = np.nonzero(np.diff(best, prepend=np.inf, append=-np.inf)[:-1] < 0)[0]
     steps = np.union1d(steps, [len(best) - 1])
-    traces = [
-        {
-            **_trace(number[shown], value[shown], "evaluation", "markers"),
-            "marker": {"color": FILL_COLOUR, "size": 5},
-        },
-        {
-            **_trace(number[steps], best[steps], "best so far", "lines"),
-            "line": {"color": ACCENT_COLOUR, "width": 2, "shape": "hv"},
-        },
-    ]
-    layout = _layout("evaluation", html.escape(objective, quote=False))
+    dots = _trace(number[shown], value[shown], "evaluation", FILL_COLOUR, "markers", size=5)
+    so_far = _trace(number[steps], best[steps], "best so far", ACCENT_COLOUR, width=2)
+    so_far["line"]["shape"] = "hv"
+    traces = [dots, so_far]
+    layout: dict[str, Any] = {}
     if failed.any():
-        at = np.nonzero(failed)[0][_evenly(int(failed.sum()), _MOST_DOTS)]
+        at = np.nonzero(failed)[0][evenly(int(failed.sum()), _MOST_DOTS)]
+        marks = _trace(number[at], [0.98] * len(at), "failed", Q_COLOUR, "markers", size=9)
+        marks["marker"]["symbol"] = "line-ns-open"
         # On an axis of their own: their value, a penalty, would flatten everything else.
-        traces.append(
-            {
-                **_trace(number[at], np.full(len(at), 0.98), "failed", "markers"),
-                "yaxis": "y2",
-                "hovertemplate": "evaluation %{x} failed<extra></extra>",
-                "marker": {"color": Q_COLOUR, "size": 9, "symbol": "line-ns-open"},
-            }
-        )
+        said = "evaluation %{x} failed<extra></extra>"
+        traces.append(marks | {"yaxis": "y2", "hovertemplate": said})
         layout["yaxis2"] = {"overlaying": "y", "range": [0, 1], "visible": False}
-    of_good = value[good]
-    if (of_good > 0).any() and (best[good] > 0).all():
-        layout["yaxis"]["type"] = "log"
-    return {"data": traces, "layout": layout}
+    drawn = value[good]
+    if drawn.size and best[-1] > 0 and (ticks := log_ticks(best[-1], drawn.max())):
+        texts = [f"{tick:g}" for tick in ticks]
+        layout["yaxis"] = {"type": "log", "tickvals": ticks, "ticktext": texts}
+    return _figure(traces, "evaluation", objective, **layout)
 
 
 def intervals(space: Space, parameters: dict[str, float], summary: dict[str, Any]) -> Figure:
@@ -138,56 +119,36 @@ def intervals(space: Space, parameters: dict[str, float], summary: dict[str, Any
         chosen = [name for name in names if summary["determined"][name] == good]
         if not chosen:
             continue
-        ends, places, texts = [], [], []
+        ends, texts = [], []
         for name in chosen:
             value, (low, high) = parameters[name], summary["intervals"][name]
-            first, last, place = (_place(space, parameters, name, x) for x in (low, high, value))
-            ends.append((first, last))
-            places.append(place)
-            texts.append(html.escape(f"{name} = {value:.5g}, {low:.5g} to {high:.5g}"))
-        bars = _bars(chosen, ends, label, colour, 3)
-        dots = {
-            "type": "scatter",
-            "x": places,
-            "y": chosen,
-            "mode": "markers",
-            "marker": {"color": colour, "size": 10},
-            "legendgroup": label,
-            "name": label,
-            "text": texts,
-            "hovertemplate": "%{text}<extra></extra>",
-        }
+            places = (space.place(name, x, parameters) for x in (low, high, value))
+            ends.append([min(max(place, 0.0), 1.0) for place in places])
+            share = per_cent(summary["standard_errors"][name], value)
+            error = f" ± {share} %" if share else ""
+            texts.append(html.escape(f"{name} = {value:.5g}{error}, {low:.5g} to {high:.5g}"))
+        bars = _bars(chosen, [(low, high) for low, high, _ in ends], label, colour, 3)
+        at = [place for *_, place in ends]
+        dots = _trace(at, chosen, label, colour, "markers", size=10, legendgroup=label)
+        dots |= {"text": texts, "hovertemplate": "%{text}<extra></extra>"}
         traces += [bars | {"legendgroup": label, "showlegend": False}, dots]
-    layout = _layout("place between the bounds", "")
-    layout["xaxis"]["range"] = [-0.03, 1.03]
-    layout["yaxis"] |= {
-        "autorange": "reversed",
-        "type": "category",
-        "categoryorder": "array",
-        "categoryarray": names,
-    }
-    layout["height"] = 130 + 34 * len(names)
-    return {"data": traces, "layout": layout}
+    return _figure(
+        traces,
+        "place between the bounds",
+        title=f"{100 * summary['level']:g} % intervals",
+        xaxis={"range": [-0.03, 1.03]},
+        yaxis={**_DOWNWARDS, "categoryorder": "array", "categoryarray": names},
+        height=155 + 34 * len(names),
+    )
 
 
 def _bars(
-    names: Sequence[str], ends: Sequence[Sequence[Any]], label: str, colour: str, width: int
+    names: Sequence[str], ends: Sequence[tuple[float, float]], label: str, colour: str, width: int
 ) -> dict[str, Any]:
     """Return a bar for each name, from one end to the other."""
-    return {
-        "type": "scatter",
-        "x": [x for both in ends for x in (*both, None)],
-        "y": [part for name in names for part in (name, name, None)],
-        "mode": "lines",
-        "line": {"color": colour, "width": width},
-        "hoverinfo": "skip",
-        "name": label,
-    }
-
-
-def _place(space: Space, parameters: dict[str, float], name: str, value: float) -> float | None:
-    """Return where a value is between its bounds; outside of them the bound."""
-    return _rounded(min(max(space.place(name, value, parameters), 0.0), 1.0))
+    x = [x for both in ends for x in (*both, None)]
+    y = [part for name in names for part in (name, name, None)]
+    return _trace(x, y, label, colour, width=width, hoverinfo="skip")
 
 
 def correlations(names: Sequence[str], table: Sequence[Sequence[float]]) -> Figure:
@@ -200,63 +161,66 @@ def correlations(names: Sequence[str], table: Sequence[Sequence[float]]) -> Figu
         "z": rows,
         "zmin": -1,
         "zmax": 1,
-        "text": [[f"{value:.2f}" for value in row] for row in rows],
-        "texttemplate": "%{text}",
+        "texttemplate": "%{z:.2f}",
         "colorscale": [[0, Q_COLOUR], [0.5, "#FFFFFF"], [1, P_COLOUR]],
         "hovertemplate": "%{y}, %{x}: %{z}<extra></extra>",
     }
-    layout = _layout("", "")
-    layout["xaxis"] |= {"type": "category", "showgrid": False}
-    layout["yaxis"] |= {"type": "category", "autorange": "reversed", "showgrid": False}
-    layout["height"] = 160 + 42 * len(names)
-    return {"data": [trace], "layout": layout}
+    return _figure(
+        [trace],
+        title="Correlations of the errors",
+        xaxis={"type": "category", "showgrid": False},
+        yaxis={**_DOWNWARDS, "showgrid": False},
+        height=185 + 42 * len(names),
+    )
 
 
 def _line(
-    curve: Array,
+    curve: Array, name: str, colour: str, most: int, *, mode: str = "lines", **look: Any
+) -> dict[str, Any]:
+    """Return a curve, thinned to at most so many points."""
+    shown = evenly(len(curve), most)
+    x, y = xy_of(curve)
+    return _trace(x[shown], y[shown], name, colour, mode, **look)
+
+
+def _trace(
+    x: Iterable[Any],
+    y: Iterable[Any],
     name: str,
     colour: str,
-    most: int,
-    *,
     mode: str = "lines",
+    *,
     width: float = 1.0,
+    size: int = 3,
     dash: str = "solid",
+    **more: Any,
 ) -> dict[str, Any]:
-    x, y = xy_of(curve)
-    shown = _evenly(len(x), most)
-    return {
-        **_trace(x[shown], y[shown], name, mode),
-        "line": {"color": colour, "width": width, "dash": dash},
-        "marker": {"color": colour, "size": 3},
-    }
-
-
-def _trace(x: npt.NDArray[Any], y: npt.NDArray[Any], name: str, mode: str) -> dict[str, Any]:
     return {
         "type": "scatter",
-        "x": [_rounded(value) for value in x.tolist()],
-        "y": [_rounded(value) for value in y.tolist()],
+        "x": [_written(value) for value in x],
+        "y": [_written(value) for value in y],
         "name": name,
         "mode": mode,
+        "line": {"color": colour, "width": width, "dash": dash},
+        "marker": {"color": colour, "size": size},
+        **more,
     }
 
 
-def _rounded(value: float) -> float | None:
+def _written(value: Any) -> str | float | None:
     """Return a number with seven digits; JSON has no infinity, and nothing is drawn there."""
+    if value is None or isinstance(value, str):
+        return value
     return float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else None
 
 
-def _evenly(count: int, most: int) -> npt.NDArray[np.intp]:
-    """Return at most so many of the indices, the first and the last among them."""
-    return np.linspace(0, count - 1, min(count, most)).round().astype(np.intp)
-
-
-def _layout(x: str, y: str, *, title: str = "") -> dict[str, Any]:
+def _figure(
+    traces: list[dict[str, Any]], x: str = "", y: str = "", title: str = "", **layout: Any
+) -> Figure:
+    """Return traces with a layout; what is given of the layout is put into that of every figure."""
     axis = {"zeroline": False, "gridcolor": "#E6E6E6", "linecolor": "#808080", "mirror": True}
     axis |= {"ticks": "outside", "automargin": True}
-    layout: dict[str, Any] = {
-        "xaxis": {**axis, "title": {"text": html.escape(x, quote=False)}},
-        "yaxis": {**axis, "title": {"text": html.escape(y, quote=False)}},
+    usual: dict[str, Any] = {
         "margin": {"l": 70, "r": 20, "t": 70 if title else 45, "b": 55},
         "legend": {
             "orientation": "h",
@@ -271,8 +235,11 @@ def _layout(x: str, y: str, *, title: str = "") -> dict[str, Any]:
         "font": {"family": "system-ui, sans-serif", "size": 13, "color": "#202020"},
         "height": 420,
     }
+    for name, label in (("xaxis", x), ("yaxis", y)):
+        text = html.escape(label, quote=False)
+        layout[name] = {**axis, "title": {"text": text}, **layout.get(name, {})}
     if title:
         text = html.escape(title, quote=False)
         # To the left, out of the way of the buttons.
-        layout["title"] = {"text": text, "font": {"size": 15}, "x": 0.02, "y": 0.97}
-    return layout
+        usual["title"] = {"text": text, "font": {"size": 15}, "x": 0.02, "y": 0.97}
+    return {"data": traces, "layout": {**usual, **layout}}

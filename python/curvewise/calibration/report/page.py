@@ -20,8 +20,9 @@ from pathlib import Path
 from ..._extras import extra
 from ..records.search_record import SearchRecord
 from .figures import Figure
-from .sections import AddFigure, headline, most_points, overview, sections_of
-from .uncertainty_summary import summary_of_record
+from .sections import most_points, overview, sections_of
+from .shown_search import ShownSearch
+from .verdict import footnote, verdict
 
 __all__ = ["page", "write_report"]
 
@@ -63,47 +64,42 @@ def page(records: Sequence[SearchRecord]) -> str:
         )
 
     most = most_points(records, _POINTS)
-    several = len(records) > 1
-    numbered = dict(enumerate(records, 1))
+    searches = list(map(ShownSearch, records))
     title = f"Identification of {', '.join(records[0].names)}"
     body = [f"<h1>{html.escape(title)}</h1>"]
-    if several:
-        body.append(overview(numbered))
-    for number, record in numbered.items():
-        body.append(_search(record, f"s{number}", _heading(record, number, several), add, most))
-    data = json.dumps(figures, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+    if len(searches) > 1:
+        body.append(overview(searches))
+    for number, search in enumerate(searches, 1):
+        heading = f"{search.objective}, {search.record.settings['method']}"
+        if len(searches) > 1:
+            heading = f"Search {number}: {heading}"
+        sections = sections_of(search, add, most)
+        body.append(_section(search, f"s{number}", heading, list(enumerate(sections))))
+    data = json.dumps(figures, separators=(",", ":"), allow_nan=False)
     return _PAGE.format(
         title=html.escape(title),
         style=_asset("report.css"),
         body="\n".join(body),
-        figures=data,
+        figures=data.replace("<", "\\u003c"),  # a name cannot end the script, or begin another
         plotly=script,
         draw=_asset("report.js"),
     )
 
 
-def _heading(record: SearchRecord, number: int, several: bool) -> str:
-    settings = record.settings
-    text = f"{settings['measure']} ({settings['preset']}), {settings['method']}"
-    return f"Search {number}: {text}" if several else text
-
-
-def _search(record: SearchRecord, prefix: str, heading: str, add: AddFigure, most: int) -> str:
-    summary, reason = summary_of_record(record)
-    sections = sections_of(record, summary, reason, add, most)
+def _section(
+    search: ShownSearch, prefix: str, heading: str, sections: list[tuple[int, tuple[str, str]]]
+) -> str:
+    """Return a search with its sections, which are numbered."""
+    links = [f'<a href="#{prefix}-{i}">{title}</a>' for i, (title, _) in sections]
     parts = [
         f'<section id="{prefix}"><h2>{html.escape(heading)}</h2>',
-        f'<p class="state">{html.escape(headline(record, summary))}</p>',
+        verdict(search),
+        f"<nav>{' · '.join(links)}</nav>",
+        *(f'<h3 id="{prefix}-{i}">{title}</h3>\n{content}' for i, (title, content) in sections),
+        footnote(search),
+        "</section>",
     ]
-    anchors = [f"{prefix}-{i}" for i in range(len(sections))]
-    links = [
-        f'<a href="#{anchor}">{title}</a>'
-        for anchor, (title, _) in zip(anchors, sections, strict=True)
-    ]
-    parts.append(f"<nav>{' · '.join(links)}</nav>")
-    for anchor, (title, content) in zip(anchors, sections, strict=True):
-        parts.append(f'<h3 id="{anchor}">{title}</h3>\n{content}')
-    return "\n".join([*parts, "</section>"])
+    return "\n".join(parts)
 
 
 def _asset(name: str) -> str:

@@ -26,7 +26,7 @@ def records_of(path: str | os.PathLike[str]) -> dict[int, SearchRecord]:
             return records
         models = "; ".join(store.models()) or "no model"
         raise ValueError(
-            f"{path} holds {len(store)} runs (of {models}) and no search: they are from a "
-            "curvewise that did not write searches down. Call identify(..., store=...) once "
-            "more with this file: the runs are looked up, and none is made again"
+            f"{path} holds {len(store)} runs (of {models}) and no search; call "
+            "identify(..., store=...) with this file: the runs are looked up, and none is made "
+            "again"
         )

@@ -10,10 +10,6 @@ from ..records.search_record import SearchRecord
 
 __all__ = ["code_to_repeat"]
 
-_DEFAULTS: dict[str, Any] = {
-    "start": None,
-    "max_runs": None,
-}
 _OF_A_CASE: dict[str, Any] = {"weight": 1.0, "sigma": None}
 
 
@@ -25,19 +21,9 @@ def code_to_repeat(record: SearchRecord) -> str:
     """
     settings, details = record.settings, record.details
     method = settings["method_call"]
-    names = [
-        "Below",
-        "Case",
-        "Criterion",
-        "Log",
-        *re.findall(r"\b[A-Z]\w+(?=\()", method),
-        "identify",
-    ]
-    lines = [
-        f"from curvewise.calibration import {', '.join(names)}",
-        "",
-        "found = identify(",
-    ]
+    methods = re.findall(r"\b[A-Z]\w+(?=\()", method)
+    names = ["Below", "Case", "Criterion", "Log", *methods, "identify"]
+    lines = [f"from curvewise.calibration import {', '.join(names)}", "", "found = identify("]
     if settings["cases"] is None:
         lines += ["    model,", "    experiments,"]
     else:
@@ -47,14 +33,10 @@ def code_to_repeat(record: SearchRecord) -> str:
     lines.append("    },")
     if settings["criterion"] is not None:
         lines.append(f"    measure={criterion_as_code(settings['criterion'])},")
-    keywords: dict[str, Any] = {"seed": settings["seed"]}
-    for name, default in _DEFAULTS.items():
-        value = settings[name] if name in settings else details[name]
-        if value != default:
-            keywords[name] = value
-    lines += [f"    {name}={value!r}," for name, value in keywords.items()]
-    lines.append(f"    method={method},")
-    return "\n".join([*lines, ")"])
+    keywords = {"seed": settings["seed"], "start": settings["start"]}
+    keywords["max_runs"] = details["max_runs"]
+    given = [f"    {name}={value!r}," for name, value in keywords.items() if value is not None]
+    return "\n".join([*lines, *given, f"    method={method},", ")"])
 
 
 def _bound(name: str, given: Any) -> str:

@@ -1,6 +1,6 @@
 "use strict";
-// Unpacks plotly.js and draws the figures. On paper they have the width of a page; on the screen
-// that of their place. "data-drawn" on the page's root says how many have been drawn.
+// Unpacks plotly.js and draws the figures. On paper they have the width of a page, or half of it
+// where there are several; on the screen that of their place. "data-drawn" on the page's root says how many have been drawn.
 (async function () {
   const root = document.documentElement;
   const figures = JSON.parse(document.getElementById("figures").textContent);
@@ -15,18 +15,32 @@
   script.textContent = await new Response(unpacked).text();
   document.head.append(script);
 
-  const options = { responsive: true, displaylogo: false };
+  // What chooses points is of no use here, and would hide the titles on narrow screens.
+  const modeBarButtonsToRemove = ["select2d", "lasso2d", "autoScale2d"];
+  const options = { responsive: true, displaylogo: false, modeBarButtonsToRemove };
   const places = figures.map((_, i) => document.getElementById("figure-" + i));
   for (const [i, figure] of figures.entries()) {
     await Plotly.newPlot(places[i], figure.data, figure.layout, options);
     root.dataset.drawn = String(i + 1);
   }
 
-  const paperWidth = 680;
   window.addEventListener("beforeprint", () => {
-    for (const place of places) Plotly.relayout(place, { width: paperWidth, autosize: false });
+    for (const place of places) {
+      const isAlone = place.parentElement.children.length === 1;
+      const size = { width: isAlone ? 700 : 345, height: 300, autosize: false };
+      resize(place, { ...size, "font.size": 10, "title.font.size": 12 });
+    }
   });
   window.addEventListener("afterprint", () => {
-    for (const place of places) Plotly.relayout(place, { width: null, autosize: true });
+    for (const [i, place] of places.entries()) {
+      const { height, font, title } = figures[i].layout;
+      const size = { width: null, height, autosize: true };
+      resize(place, { ...size, "font.size": font.size, "title.font.size": title?.font.size });
+    }
   });
+
+  function resize(place, size) {
+    place.style.height = size.height + "px";
+    Plotly.relayout(place, size);
+  }
 })();

@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import html
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 
 from ...comparing.deviations import Deviation, cells
 from ...showing.result import Table, paragraph
-from ..problem.tables import measure_table, parameter_table
-from ..records.search_record import SearchRecord
+from ..problem.tables import digits, measure_table, parameter_table, per_cent
+from ..records.search_record import SearchRecord, curves_of
+from ..uncertainty.determined import THE_RULE
 from . import figures
-from .branches import branches_of
 from .figures import Figure
 from .repeating import code_to_repeat
-from .uncertainty_summary import moved_curves, space_of
+from .shown_search import ShownSearch
+from .uncertainty_summary import space_of
+from .verdict import asked_for
 
-__all__ = ["AddFigure", "headline", "most_points", "overview", "sections_of"]
+__all__ = ["AddFigure", "most_points", "overview", "sections_of"]
 
 AddFigure = Callable[[Figure, str], str]
 """Takes a figure and what it shows in words, and returns the HTML of its place."""
@@ -26,93 +27,66 @@ AddFigure = Callable[[Figure, str], str]
 _MOST_FAILURES = 100  # in the table; the others are counted
 
 
-def headline(record: SearchRecord, summary: dict[str, Any] | None) -> str:
-    """Return the state of a search as a sentence; what is undetermined has not converged."""
-    failed = sum(one.failed for one in record.evaluations)
-    count = f"{len(record.evaluations)} evaluations" + (f", {failed} failed" if failed else "")
-    if record.ending is None:
-        return f"The search has not ended: it was interrupted, or goes on. So far {count}."
-    determined = {} if summary is None else summary["determined"]
-    loose = [name for name, good in determined.items() if not good]
-    if record.ending.converged and loose:
-        names = ", ".join(loose)
-        return f"Undetermined: {names}. The search ended: {record.ending.message}. {count}."
-    state = "Converged" if record.ending.converged else "Not converged"
-    return f"{state}: {record.ending.message}. {count}."
-
-
-def _objective_name(record: SearchRecord) -> str:
-    return f"{record.settings['measure']} ({record.settings['preset']})"
-
-
-def overview(records: dict[int, SearchRecord]) -> str:
+def overview(searches: Sequence[ShownSearch]) -> str:
     """Return the parameters that several searches have found, side by side."""
-    names = list(dict.fromkeys(name for record in records.values() for name in record.names))
+    names = list(dict.fromkeys(name for search in searches for name in search.record.names))
     rows = []
-    for number, record in records.items():
-        parameters, best = _parameters(record), record.best
-        values = [f"{parameters[name]:.5g}" if name in parameters else "" for name in names]
+    for number, search in enumerate(searches, 1):
+        record, best = search.record, search.record.best
+        errors = {} if search.summary is None else search.summary["standard_errors"]
+        values = [_with_error(name, search.parameters, errors) for name in names]
         value = "" if best is None else f"{best.value:.5g}"
-        searched = [f"{number}", _objective_name(record), record.settings["method"]]
+        searched = [f"{number}", search.objective, record.settings["method"]]
         rows.append([*searched, *values, f"{len(record.evaluations)}", value])
     header = ["search", "measure", "method", *names, "evaluations", "value"]
     return Table(rows, header).html()
 
 
-def sections_of(
-    record: SearchRecord,
-    summary: dict[str, Any] | None,
-    reason: str,
-    add: AddFigure,
-    most: int,
-) -> list[tuple[str, str]]:
+def _with_error(name: str, parameters: dict[str, float], errors: dict[str, float]) -> str:
+    """Return a value with its error in per cent, as far as they are known."""
+    if name not in parameters:
+        return ""
+    share = per_cent(errors[name], parameters[name]) if name in errors else ""
+    return f"{parameters[name]:.5g}{f' ± {share} %' if share else ''}"
+
+
+def sections_of(search: ShownSearch, add: AddFigure, most: int) -> list[tuple[str, str]]:
     """Return the title and the HTML of every section.
 
     Parameters
     ----------
-    record : SearchRecord
-    summary, reason
-        What `summary_of_record` gives.
+    search : ShownSearch
     add : callable
         Adds a figure to the page.
     most : int
         How many points are drawn of a curve.
     """
     return [
-        ("Parameters", _parameters_section(record, summary, reason, add)),
-        ("Tests and simulations", _tests(record, add, most)),
-        ("Residuals by branch", _residuals(record, add, most)),
-        ("Convergence", _convergence(record, add)),
-        ("Weakest directions", _weakest(record, summary, reason, add, most)),
-        ("Failures", _failures(record)),
-        ("Settings and versions", _settings(record)),
+        ("Parameters", _parameters(search, add)),
+        ("Tests and simulations", _tests(search, add, most)),
+        ("Residuals by branch", _residuals(search, add, most)),
+        ("Convergence", _convergence(search, add)),
+        ("Weakest directions", _weakest(search, add, most)),
+        ("Failures", _failures(search)),
+        ("Settings and versions", _settings(search)),
     ]
 
 
-def _parameters(record: SearchRecord) -> dict[str, float]:
-    if record.ending is not None:
-        return record.ending.parameters
-    best = record.best
-    return {} if best is None else dict(zip(record.names, best.point, strict=True))
-
-
-def _parameters_section(
-    record: SearchRecord, summary: dict[str, Any] | None, reason: str, add: AddFigure
-) -> str:
-    space, parameters = space_of(record), _parameters(record)
+def _parameters(search: ShownSearch, add: AddFigure) -> str:
+    record, parameters, summary = search.record, search.parameters, search.summary
+    space = space_of(record)
     parts = [parameter_table(space, parameters, spread=summary).html()]
     if summary is None:
-        parts.append(paragraph(reason))
+        parts.append(paragraph(search.reason))
     else:
         noise = ", ".join(f"{sigma:.3g}" for sigma in summary["sigma"])
+        note = paragraph(f"Intervals from noise of standard deviation {noise} in y, loop by loop.")
+        intervals = figures.intervals(space, parameters, summary)
         correlations = figures.correlations(space.names, summary["correlations"])
-        parts += [
-            paragraph(f"Intervals from noise of standard deviation {noise} in y, loop by loop."),
-            _side_by_side(
-                add(figures.intervals(space, parameters, summary), "Intervals between the bounds"),
-                add(correlations, "Correlations of the errors"),
-            ),
-        ]
+        left = add(intervals, "Intervals between the bounds")
+        if not all(summary["determined"].values()):
+            note += paragraph(f"{THE_RULE}.")
+        parts += [note, _side_by_side(left, add(correlations, "Correlations of the errors"))]
     if record.ending is not None:
         values, settings = record.ending.measures, record.settings
         measures = measure_table(values, settings["measure"], settings["preset"])
@@ -125,50 +99,39 @@ def _side_by_side(*places: str) -> str:
     return "\n".join(['<div class="figures">', *places, "</div>"])
 
 
-def _loops(record: SearchRecord) -> list[tuple[str, list[str], Any, Any]]:
-    """Return title, names of the axes, test, and simulation or None, of every loop with points."""
-    tests = record.experiments
-    simulated: list[Any] = [*record.curves, *[None] * (len(tests) - len(record.curves))]
-    details = record.details
-    return list(zip(details["titles"], details["axes"], tests, simulated, strict=True))
-
-
-def _tests(record: SearchRecord, add: AddFigure, most: int) -> str:
+def _tests(search: ShownSearch, add: AddFigure, most: int) -> str:
+    record, loops = search.record, search.loops
     drawn, numbers = [], []
-    for title, axes, test, simulation in _loops(record):
-        if test.size == 1:
-            number = "" if simulation is None else f"{simulation[0, 0]:.6g}"
-            numbers.append([title, f"{test[0, 0]:.6g}", number])
+    for loop in loops:
+        if loop.test.size == 1:
+            number = f"{loop.simulation[0, 0]:.6g}" if loop.has_number else ""
+            numbers.append([loop.title, f"{loop.test[0, 0]:.6g}", number])
             continue
-        figure = figures.loop(test, simulation, axes, title, most)
-        drawn.append(add(figure, f"{title}: test and simulation"))
-    parts = [_side_by_side(*drawn)]
+        drawn.append(add(figures.loop(loop, most), f"{loop.title}: test and simulation"))
+    asked = asked_for(loops)
+    parts = [paragraph(asked) if asked else "", _side_by_side(*drawn)]
     if numbers:
         parts.append(Table(numbers, ["number", "test", "simulation"]).html())
-    if record.ending is not None:
-        titles = record.details["titles"]
-        rows = [
-            [title, *cells(Deviation(*deviation))]
-            for title, deviation in zip(titles, record.ending.deviations, strict=False)
-            if deviation is not None
-        ]
-        if rows:
-            parts.append(f"<h4>As {record.settings['measure']} sees it</h4>")
-            parts.append(Table(rows, ["loop", "mean deviation, in units of y", "largest"]).html())
+    deviations = [] if record.ending is None else record.ending.deviations
+    rows = [
+        [loop.title, *cells(Deviation(*deviation))]
+        for loop, deviation in zip(loops, deviations, strict=False)
+        if deviation is not None
+    ]
+    if rows:
+        parts.append(f"<h4>As {record.settings['measure']} sees it</h4>")
+        parts.append(Table(rows, ["loop", "mean deviation, in units of y", "largest"]).html())
     if not record.curves:
         parts.append(paragraph("The simulated curves at the best point are not known."))
     return "\n".join(parts)
 
 
-def _residuals(record: SearchRecord, add: AddFigure, most: int) -> str:
+def _residuals(search: ShownSearch, add: AddFigure, most: int) -> str:
     drawn, rows = [], []
-    for (title, axes, test, simulation), y in zip(_loops(record), record.details["y"], strict=True):
-        if simulation is None or test.size == 1 or len(test) < 2:
-            continue
-        branches = branches_of(test, simulation, y)
-        names = axes if len(axes) == 1 else [axes[0], axes[y]]
-        drawn.append(add(figures.residuals(branches, names, title, most), f"{title}: residuals"))
-        rows += [[title, *branch.row()] for branch in branches]
+    for loop in search.loops:
+        if loop.branches:
+            drawn.append(add(figures.residuals(loop, most), f"{loop.title}: residuals"))
+            rows += [[loop.title, *branch.row()] for branch in loop.branches]
     if not rows:
         return paragraph("There is no simulated curve to take from a test.")
     header = ["loop", "branch", "x from", "to", "points", "mean", "rms", "largest"]
@@ -176,7 +139,8 @@ def _residuals(record: SearchRecord, add: AddFigure, most: int) -> str:
     return "\n".join([paragraph(note), _side_by_side(*drawn), Table(rows, header).html()])
 
 
-def _convergence(record: SearchRecord, add: AddFigure) -> str:
+def _convergence(search: ShownSearch, add: AddFigure) -> str:
+    record = search.record
     if not record.evaluations:
         return paragraph("Nothing has been evaluated yet.")
     seconds = sum(one.seconds for one in record.evaluations)
@@ -186,30 +150,29 @@ def _convergence(record: SearchRecord, add: AddFigure) -> str:
         f"{len(record.evaluations)} parameter sets, which took the model {seconds:.3g} s. "
         f"Best value {best.value:.6g}, at evaluation {best.number}."
     )
-    figure = figures.convergence(record.evaluations, _objective_name(record))
+    figure = figures.convergence(record.evaluations, search.objective)
     return f'{paragraph(text)}<div class="figures wide">{add(figure, "Convergence")}</div>'
 
 
-def _weakest(
-    record: SearchRecord, summary: dict[str, Any] | None, reason: str, add: AddFigure, most: int
-) -> str:
+def _weakest(search: ShownSearch, add: AddFigure, most: int) -> str:
+    loops, summary, names = search.loops, search.summary, search.record.names
     if summary is None:
-        return paragraph(reason)
-    names, in_words = record.names, summary["in_words"]
+        return paragraph(search.reason)
+    in_words = summary["in_words"]
     drawn = []
-    moved = zip(*moved_curves(summary), strict=True)
-    for (title, axes, test, simulation), both in zip(_loops(record), moved, strict=True):
-        if test.size > 1 and simulation is not None:
-            figure = figures.weakest_direction(test, simulation, both, axes, title, most)
-            drawn.append(add(figure, f"{title}, moved along the weakest direction"))
+    moved = zip(*map(curves_of, summary["moved"]), strict=True)
+    for loop, both in zip(loops, moved, strict=True):
+        if loop.test.size > 1 and loop.simulation is not None:
+            figure = figures.weakest_direction(loop, both, most)
+            drawn.append(add(figure, f"{loop.title}, moved along the weakest direction"))
     changes = [
-        [name, f"{summary['weakest_direction'][name]:.4g}", f"{summary['unnoticed'][name]:.4g}"]
+        [name, *(digits(summary[which][name], 4) for which in ("weakest_direction", "unnoticed"))]
         for name in names
     ]
     header = ["parameter", "change along the weakest direction", "change that raises the value 1 %"]
     sensitivities = [
-        [title, *(f"{100 * value:.3g}" for value in row)]
-        for title, row in zip(record.details["titles"], summary["sensitivities"], strict=True)
+        [loop.title, *(f"{100 * value:.3g}" for value in row)]
+        for loop, row in zip(loops, summary["sensitivities"], strict=True)
     ]
     singular = ", ".join(f"{100 * value:.3g}" for value in summary["singular_values"])
     parts = [
@@ -223,7 +186,8 @@ def _weakest(
     return "\n".join(parts)
 
 
-def _failures(record: SearchRecord) -> str:
+def _failures(search: ShownSearch) -> str:
+    record = search.record
     failed = [one for one in record.evaluations if one.failed]
     if not failed:
         return paragraph("No evaluation has failed.")
@@ -237,24 +201,17 @@ def _failures(record: SearchRecord) -> str:
     return made + (paragraph(f"And {more} more.") if more else "")
 
 
-def _settings(record: SearchRecord) -> str:
-    details, settings = record.details, record.settings
+def _settings(search: ShownSearch) -> str:
+    details, settings = search.record.details, search.record.settings
     tests = [
-        [title, f"{curve.shape[0]}", ", ".join(axes), f"{weight:.4g}"]
-        for title, curve, axes, weight in zip(
-            details["titles"], record.experiments, details["axes"], settings["weights"], strict=True
-        )
+        [loop.title, f"{len(loop.test)}", ", ".join(loop.axes), f"{weight:.4g}"]
+        for loop, weight in zip(search.loops, settings["weights"], strict=True)
     ]
-    rows = [["model", "; ".join(details["model"])]]
-    rows += [[name, text] for name, text in details["versions"].items()]
+    rows = [["model", "; ".join(details["model"])], *details["versions"].items()]
     rows.append(["SHA-256 of the tests", settings["experiments"]])
-    return "\n".join(
-        [
-            f"<pre>{html.escape(code_to_repeat(record))}</pre>",
-            Table(tests, ["test", "points", "columns", "weight"]).html(),
-            Table(rows, ["", ""]).html(),
-        ]
-    )
+    listed = Table(tests, ["test", "points", "columns", "weight"])
+    code = html.escape(code_to_repeat(search.record))
+    return "\n".join([f"<pre>{code}</pre>", listed.html(), Table(rows, ["", ""]).html()])
 
 
 def most_points(records: Sequence[SearchRecord], budget: int) -> int:

@@ -14,18 +14,17 @@ import numpy as np
 
 from ...curves.inputs import Array
 from ...curves.named_curve import NamedCurve
-from ..models.pool import Outcome
 from ..objective.cases import Case, Cases
 from ..objective.criterion import Criterion
 from ..objective.objective import Objective
 from ..problem.problem import Problem
-from ..problem.space import Below, Bounds, Log, Space
-from ..records.search_record import SearchRecord, curves_of, text_of
+from ..problem.space import Below, Log, Space
+from ..records.search_record import SearchRecord, text_of
 from ..surfaces.surfaces import Responses, Surfaces
 from ..uncertainty.sensitivity import Optimum
 from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
 
-__all__ = ["moved_curves", "space_of", "summary_of", "summary_of_record"]
+__all__ = ["space_of", "summary_of", "summary_of_record"]
 
 
 # Attributes of an uncertainty that the page has from elsewhere, or does not have.
@@ -43,11 +42,6 @@ def summary_of(uncertainty: Uncertainty) -> dict[str, Any]:
     }
 
 
-def moved_curves(summary: dict[str, Any]) -> list[tuple[Array, ...]]:
-    """Return the curves moved along the weakest direction, and the other way."""
-    return [curves_of(text) for text in summary["moved"]]
-
-
 def summary_of_record(record: SearchRecord) -> tuple[dict[str, Any] | None, str]:
     """Return what a page says of the uncertainty of a search, or None and why it is not known."""
     ending = record.ending
@@ -58,7 +52,7 @@ def summary_of_record(record: SearchRecord) -> tuple[dict[str, Any] | None, str]
     if ending.unit is None or ending.slopes is None:
         return None, (
             "Intervals would take runs of the model: the search has left too few near the optimum. "
-            "Call found.report(..., uncertainty=found.uncertainty()), which makes them."
+            "Call found.uncertainty(), which makes them, and then found.report(...)."
         )
     if record.details["has_function"]:
         return None, (
@@ -74,18 +68,14 @@ def _optimum(
     record: SearchRecord, simulations: tuple[Array, ...], unit: Array, slopes: Array
 ) -> Optimum:
     """Return the optimum of a search, made again of what was written down."""
-    problem = Problem((), _assemble_nothing, _objective(record), space_of(record))
+    problem = Problem((), _run_nothing, _objective(record), space_of(record))
     responses = Responses(simulations)
     base = responses.vector(simulations)
     return Optimum(problem, unit, responses, Surfaces(unit, base, slopes))
 
 
-def _assemble_nothing(outcomes: list[Outcome]) -> Outcome:
-    raise RuntimeError("a report assembles no runs")  # nothing asks it to: surfaces are there
-
-
-def _no_model(parameters: dict[str, Any]) -> Any:
-    raise RuntimeError("a report runs no model")  # likewise
+def _run_nothing(_: Any) -> Any:
+    raise RuntimeError("a report runs no model")  # nothing asks it to: surfaces are there
 
 
 def _objective(record: SearchRecord) -> Objective:
@@ -103,20 +93,16 @@ def _objective(record: SearchRecord) -> Objective:
 def _case(written: dict[str, Any], test: Any) -> Case:
     criterion = Criterion(**written["criterion"])
     weighed = {name: written[name] for name in ("weight", "sigma")}
-    return Case(written["name"], _no_model, test, measure=criterion, **weighed)
+    return Case(written["name"], _run_nothing, test, measure=criterion, **weighed)
 
 
 def space_of(record: SearchRecord) -> Space:
     """Return the space; parameters that follow from others by a function are left out."""
     bounds: dict[str, Any] = {}
+    kinds = {"log": Log, "below": Below}
     for name, given in record.settings["bounds"].items():
-        if not isinstance(given, list):
+        if isinstance(given, list) and given[0] in kinds:
+            bounds[name] = kinds[given[0]](*given[1:])
+        elif not isinstance(given, list) or given[0] != "tied":
             bounds[name] = given
-        elif given[0] == "log":
-            bounds[name] = Log(*given[1:])
-        elif given[0] == "below":
-            bounds[name] = Below(*given[1:])
-        elif given[0] != "tied":
-            bounds[name] = tuple(given)
-    made: Bounds = bounds
-    return Space(made)
+    return Space(bounds)

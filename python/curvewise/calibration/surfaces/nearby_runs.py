@@ -45,7 +45,7 @@ class NearbyRuns(NamedTuple):
         """Return the slopes at the point; runs nearer than `alike` count about the same."""
         vectors = np.array([responses.vector(run.simulations or ()) for run in self.runs])
         weights = 1.0 / (self.distances + alike) ** 2
-        return regression(self.points, vectors, self.unit, weights)
+        return regression(self.points, vectors, self.unit, weights).slopes
 
 
 def runs_near(

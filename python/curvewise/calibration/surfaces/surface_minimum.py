@@ -51,8 +51,6 @@ class SurfaceMinimum:
         What the surfaces stand for.
     random : numpy.random.Generator
         For the simplex search.
-    negligible : float
-        Gains of the whole search below this do not count.
     show_activity : callable
         Called before every evaluation on predicted curves, to show that something moves.
     gain : float
@@ -64,13 +62,12 @@ class SurfaceMinimum:
         objective: Objective,
         responses: Responses,
         random: np.random.Generator,
-        negligible: float,
         show_activity: Callable[[], None],
         gain: float = _LESS,
     ) -> None:
         self._random = random
         # Of squares the root counts, and a step on the surfaces costs little.
-        self._negligible = _OF_NEGLIGIBLE * negligible
+        self._negligible = _OF_NEGLIGIBLE * objective.negligible
         self._exact = _Predicted(objective, responses, None, show_activity)
         self._thinned: _Predicted | None = None
         if not objective.can_be_thinned:

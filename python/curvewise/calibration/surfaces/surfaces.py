@@ -65,13 +65,9 @@ class Responses:
 
     def places_of_rows(self, rows: Sequence[Rows]) -> Rows:
         """Return where in a vector the coordinates of some of the points are."""
-        parts = []
-        first = 0
-        for (count, dimension), kept in zip(self.shapes, rows, strict=True):
-            numbers = first + np.arange(count * dimension).reshape(count, dimension)
-            parts.append(numbers[kept].ravel())
-            first += count * dimension
-        return np.concatenate(parts)
+        numbers = self.curves(np.arange(sum(curve.size for curve in self._first), dtype=float))
+        places = [of_curve[kept].ravel() for of_curve, kept in zip(numbers, rows, strict=True)]
+        return np.concatenate(places).astype(np.intp)
 
     def _resampled(self, curve: Array, count: int, extent: Array) -> Array:
         if not self._warned:
@@ -142,8 +138,8 @@ class Surfaces:
             self.centre, self.base = point, response
 
 
-def regression(points: Array, responses: Array, centre: Array, weights: Array) -> Array:
-    """Return the slopes that fit runs best, by weighted least squares with a free intercept.
+def regression(points: Array, responses: Array, centre: Array, weights: Array) -> Surfaces:
+    """Return the surfaces that fit runs best, by weighted least squares with a free intercept.
 
     Parameters
     ----------
@@ -151,10 +147,6 @@ def regression(points: Array, responses: Array, centre: Array, weights: Array) -
     responses : ndarray, shape (m, coordinates)
     centre : ndarray, shape (k,)
     weights : ndarray, shape (m,)
-
-    Returns
-    -------
-    ndarray, shape (coordinates, k)
     """
     # Centred and scaled: runs may be 1e-3 apart.
     width = np.ptp(points, axis=0)
@@ -162,5 +154,4 @@ def regression(points: Array, responses: Array, centre: Array, weights: Array) -
     root = np.sqrt(weights)[:, np.newaxis]
     design = root * np.column_stack((np.ones(len(points)), (points - centre) / width))
     coefficients = np.linalg.lstsq(design, root * responses, rcond=None)[0]
-    slopes: Array = coefficients[1:].T / width
-    return slopes
+    return Surfaces(centre, coefficients[0], coefficients[1:].T / width)

@@ -1,50 +1,63 @@
-"""Which parameters the tests determine: those that neither noise nor indifference moves far.
+"""Which parameters the tests determine: the rule, and what is known without a bootstrap.
 
-A parameter is determined if it may be wrong by less than a tenth of its bounds' range and a fifth
-of itself. Cost: that of the singular values (`sensitivity`) and of a fitted curve.
+A parameter is determined if it is at no bound, and may be wrong by at most a quarter of its value
+and a quarter of its bounds' range: tests that leave more than that open have hardly told more than
+the bounds. Of a parameter that is nearly 0 a fiftieth of the range takes the place of the quarter
+of the value. By how much it may be wrong is half its interval or twice its error, and by how much
+it may change unnoticed. Cost: that of the singular values (`sensitivity`) and of a fitted curve.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+
 import numpy as np
 
-from ...curves.inputs import Array
 from ..problem.space import Space
 from .noise import noise_of
-from .sensitivity import Optimum
+from .sensitivity import Optimum, sensitivity_of
 from .spread import linear_covariance
 
-__all__ = ["determined_by", "is_narrow"]
+__all__ = ["THE_RULE", "determined", "determined_by"]
 
-# Of the bounds' range; of the value; and of the range, for a parameter that is nearly 0.
-_OF_RANGE, _OF_VALUE, _SMALL = 0.1, 0.2, 0.02
+_OF_VALUE, _OF_RANGE, _SMALL = 0.25, 0.25, 0.02
+
+THE_RULE = (
+    "A parameter is not determined if it is at a bound, or if half its interval, or the change "
+    f"that raises the value by 1 %, is more than {100 * _OF_VALUE:g} % of the parameter or "
+    f"{100 * _OF_RANGE:g} % of the range between its bounds"
+)
+"""The rule in words, for a page."""
 
 
-def determined_by(optimum: Optimum, reach: Array) -> dict[str, bool]:
+def determined(
+    space: Space, parameters: Mapping[str, float], changes: Iterable[float]
+) -> dict[str, bool]:
+    """Return which parameters are determined, where each of them may be wrong by a change."""
+    at_bounds = space.at_bounds(parameters)
+    return {
+        name: name not in at_bounds and change <= _most(space, name, abs(parameters[name]))
+        for name, change in zip(space.names, changes, strict=True)
+    }
+
+
+def _most(space: Space, name: str, size: float) -> float:
+    """Return by how much a parameter of a size may be wrong and still be determined."""
+    if space.is_log[space.names.index(name)]:  # decades of bounds say nothing of a value
+        return _OF_VALUE * size
+    low, high = space.bounds[name]
+    return min(max(_OF_VALUE * size, _SMALL * (high - low)), _OF_RANGE * (high - low))
+
+
+def determined_by(optimum: Optimum) -> dict[str, bool]:
     """Return which parameters are determined as far as can be said without a bootstrap.
 
     By how far they go unnoticed, and by twice the standard errors of the linear theory.
     """
     space = optimum.problem.space
     differential = space.differential(optimum.unit)
-    noise = noise_of(optimum, None)
-    covariance = differential @ linear_covariance(optimum, noise) @ differential.T
-    changes = np.maximum(np.abs(differential) @ reach, 2.0 * np.sqrt(np.diag(covariance)))
-    point = space.point(optimum.unit)
-    return {name: _small(space, i, changes[i], point[i]) for i, name in enumerate(space.names)}
-
-
-def is_narrow(optimum: Optimum, i: int, interval: tuple[float, float]) -> bool:
-    """Return whether an interval of parameter i leaves it determined."""
-    space = optimum.problem.space
-    low, high = interval
-    return _small(space, i, (high - low) / 2.0, space.point(optimum.unit)[i])
-
-
-def _small(space: Space, i: int, change: float, value: float) -> bool:
-    """Return whether a parameter that may be off by a change is still determined."""
-    low, high = space.bounds[space.names[i]]
-    most = _OF_VALUE * abs(value)
-    if not space.is_log[i]:
-        most = min(_OF_RANGE * (high - low), max(most, _SMALL * (high - low)))
-    return bool(change <= most)
+    covariance = differential @ linear_covariance(optimum, noise_of(optimum, None)) @ differential.T
+    unnoticed = np.abs(differential) @ sensitivity_of(optimum).reach
+    changes = np.maximum(unnoticed, 2.0 * np.sqrt(np.diag(covariance)))
+    parameters = space.dictionary(space.point(optimum.unit))
+    return determined(space, parameters, changes.tolist())

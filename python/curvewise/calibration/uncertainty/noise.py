@@ -103,11 +103,9 @@ def block_length(residuals: Array) -> int:
 def draw_noise(noise: Noise, loop: int, lengths: list[int], random: np.random.Generator) -> Array:
     """Return noise of one loop, drawn anew."""
     count = len(noise.fitted[loop])
-    if noise.residuals is None:
+    if noise.residuals is None or lengths[loop] == 1:
         return random.normal(0.0, noise.sigma[loop], count)
     length = lengths[loop]
-    if length == 1:
-        return random.normal(0.0, noise.sigma[loop], count)
     starts = random.integers(0, count, -(-count // length))
     places = (starts[:, np.newaxis] + np.arange(length)).ravel()[:count] % count
     residuals: Array = noise.residuals[loop][places]

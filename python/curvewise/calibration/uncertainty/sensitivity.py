@@ -52,24 +52,26 @@ class Optimum:
         """Return the predicted curves at a place."""
         return self.responses.curves(self.surfaces.at(unit))
 
-    def scaled_slopes(self) -> Array:
+    @property
+    def slopes(self) -> list[list[Array]]:
+        """By parameter, the slopes of the curves."""
+        return [self.responses.curves(column) for column in self.surfaces.slopes.T]
+
+    def scaled_slopes(self) -> list[Array]:
         """Return the slopes in units of each loop's box, each loop's points weighing 1 together.
 
-        Shape (coordinates, k): a column's norm over a loop is the root mean square distance by
+        For each loop of shape (coordinates, k): a column's norm is the root mean square distance by
         which the loop moves as the parameter goes through its bounds.
         """
         parts = []
-        columns = [self.responses.curves(column) for column in self.surfaces.slopes.T]
-        for i, extent in enumerate(self.problem.objective.extents):
-            moves = np.array([column[i] / extent for column in columns])
+        for extent, *columns in zip(self.problem.objective.extents, *self.slopes, strict=True):
+            moves = np.array(columns) / extent
             parts.append(moves.reshape(len(columns), -1).T / np.sqrt(moves.shape[1]))
-        return np.concatenate(parts)
+        return parts
 
     def loop_sensitivities(self) -> Array:
         """Return the root mean square move of every loop, in units of its box; (loops, k)."""
-        counts = [len(curve) * curve.shape[1] for curve in self.curves(self.unit)]
-        parts = np.split(self.scaled_slopes(), np.cumsum(counts)[:-1])
-        return np.array([np.linalg.norm(part, axis=0) for part in parts])
+        return np.array([np.linalg.norm(part, axis=0) for part in self.scaled_slopes()])
 
 
 class Sensitivity(NamedTuple):
@@ -146,7 +148,7 @@ def _differences(problem: Problem, unit: Array, responses: Responses, base: Arra
 
 def sensitivity_of(optimum: Optimum) -> Sensitivity:
     """Return what the loops notice of the parameters, and how far these may go unnoticed."""
-    slopes = optimum.scaled_slopes()
+    slopes = np.concatenate(optimum.scaled_slopes())
     _, values, directions = np.linalg.svd(slopes, full_matrices=False)
     objective = optimum.problem.objective
     lowest = objective.predicted(optimum.curves(optimum.unit)).value

@@ -52,14 +52,14 @@ def linear_spread(optimum: Optimum, noise: Noise, level: float, differential: Ar
         ]
     ) / (2.0 * step)
     # With a given sigma in units of y; else of the residuals themselves, one deviation a loop.
-    ends = np.cumsum(objective.residual_counts)
-    parts = np.split(residuals, ends[:-1])
+    counts = objective.residual_counts
     inflation = residuals.size / max(1, residuals.size - optimum.unit.size)
     if noise.residuals is None:
         scale = objective.residual_factors * noise.sigma
     else:
+        parts = np.split(residuals, np.cumsum(counts)[:-1])
         scale = np.sqrt([inflation * float(np.mean(part**2)) for part in parts])
-    spread = np.concatenate([np.full(p.size, s) for p, s in zip(parts, scale, strict=True)])
+    spread = np.repeat(scale, counts)
     inverse = np.linalg.pinv(jacobian)
     covariance = (inverse * spread**2) @ inverse.T
     covariance = differential @ covariance @ differential.T
@@ -80,7 +80,7 @@ def linear_covariance(optimum: Optimum, noise: Noise) -> Array:
     """
     k = optimum.unit.size
     information, scatter = np.zeros((k, k)), np.zeros((k, k))
-    columns = [optimum.responses.curves(column) for column in optimum.surfaces.slopes.T]
+    columns = optimum.slopes
     for i, sigma in enumerate(noise.sigma):
         y = optimum.problem.objective.y_columns[i]
         count = len(noise.fitted[i])
@@ -197,14 +197,12 @@ def _reminimised(optimum: Optimum, tests: list[Array], steps: Array) -> Array:
 
 def _natural_steps(optimum: Optimum, sigma: Array) -> Array:
     """Return steps, as columns, that the loops notice alike: about one standard error each."""
-    slopes = optimum.scaled_slopes()
+    slopes = np.concatenate(optimum.scaled_slopes())
     _, values, directions = np.linalg.svd(slopes, full_matrices=False)
-    experiments = optimum.problem.objective.experiments
     objective = optimum.problem.objective
-    heights = np.array(
-        [extent[y] for extent, y in zip(objective.extents, objective.y_columns, strict=True)]
-    )
-    count = sum(map(len, experiments))
+    columns = zip(objective.extents, objective.y_columns, strict=True)
+    heights = np.array([extent[y] for extent, y in columns])
+    count = sum(map(len, objective.experiments))
     noise = max(float(np.mean(sigma / heights)), 1e-9) / math.sqrt(count)
     sizes = noise / np.maximum(values, _FLATTEST * values[0])
     steps: Array = directions.T * np.minimum(sizes, 0.25)

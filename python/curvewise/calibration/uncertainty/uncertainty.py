@@ -20,8 +20,10 @@ import numpy as np
 from ...curves.inputs import Array
 from ...drawing.intervals import Intervals, intervals_and_moves
 from ...showing.result import Result, Table
-from ..problem.tables import parameter_table
-from .determined import determined_by, is_narrow
+from ..objective.noisy_tests import advice_against_noise
+from ..problem.space import Space
+from ..problem.tables import digits, parameter_table, per_cent
+from .determined import determined
 from .noise import noise_of
 from .sensitivity import Optimum, sensitivity_of
 from .spread import bootstrapped_spread, linear_spread
@@ -35,8 +37,8 @@ _Value = TypeVar("_Value")
 
 # A bias of less than this many standard errors does not matter (Efron & Tibshirani, section 10.3).
 _HARMLESS_BIAS = 0.25
-# Measures that go by arc length, which noise adds to.
-_OF_LENGTH = ("curve_length", "pcm")
+# A value below this part of the bounds' range is 0.
+_ZERO = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,13 +65,14 @@ class Uncertainty(Result):
         The same for the combinations of parameters that the loops notice most to least.
     weakest_direction : dict of str to float
         By how much each parameter changes, in its own unit, along the direction that the loops
-        notice least: by so much that one of them changes by 10 % of its value.
+        notice least: by so much that one of them changes by 10 % of its value, or of its bounds'
+        range if its value is 0.
     unnoticed : dict of str to float
         By how much each parameter may change, others with it, before the objective rises by 1 %.
     determined : dict of str to bool
-        Whether half the interval, twice the error by linear theory and `unnoticed` are all within
-        10 % of the bounds' range and 20 % of the value (or 2 % of the range), and the parameter is
-        not at a bound.
+        Whether half the interval and `unnoticed` are within 25 % of the value (or 2 % of the
+        bounds' range, if that is more) and 25 % of the bounds' range, and the parameter is not at a
+        bound.
     at_bounds : dict of str to str
         "lower" or "upper", for the parameters that are at a bound.
     sigma : ndarray, shape (loops,)
@@ -108,14 +111,15 @@ class Uncertainty(Result):
     @property
     def in_words(self) -> str:
         """The weakest direction as a sentence."""
-        changes = sorted(self.weakest_direction.items(), key=lambda item: -abs(item[1]))
-        parts = []
-        for name, change in changes:
-            share = 100.0 * change / abs(self.parameters[name]) if self.parameters[name] else 0.0
-            if abs(share) >= 1.0:
-                parts.append((abs(share), f"{'raise' if share > 0 else 'lower'} {name} by "))
-        parts.sort(key=lambda part: -part[0])
-        moves = [f"{text}{share:.2g} %" for share, text in parts]
+        space = self.optimum.problem.space
+        sizes = {name: _size(space, name, self.parameters[name]) for name in self.weakest_direction}
+        shares = {name: 100.0 * self.weakest_direction[name] / size for name, size in sizes.items()}
+        moves = [
+            f"{'raise' if share > 0 else 'lower'} {name} by {abs(share):.2g} %"
+            f"{'' if sizes[name] == abs(self.parameters[name]) else ' of its range'}"
+            for name, share in sorted(shares.items(), key=lambda item: -abs(item[1]))
+            if abs(share) >= 1.0
+        ]
         listed = " and ".join([", ".join(moves[:-1]), moves[-1]] if len(moves) > 1 else moves)
         if not listed:
             return "no parameter changes by 1 % of itself along the weakest direction"
@@ -142,11 +146,8 @@ class Uncertainty(Result):
             lines.append(
                 f"noise like this moves {moved} in the mean; intervals allow for it in part only"
             )
-            if self.measure in _OF_LENGTH:
-                lines.append(
-                    f"{self.measure} takes noise for length: filter the test "
-                    "(curvewise.curves.smooth), or take another measure"
-                )
+            if advice := advice_against_noise(self.optimum.problem.objective.measures):
+                lines.append(advice)
         return [table, "\n".join(lines)]
 
     def _biased(self) -> str:
@@ -177,8 +178,10 @@ class Uncertainty(Result):
             value = self.parameters[name]
             ends = (*self.intervals[name], value)
             places.append([space.place(name, end, self.parameters) for end in ends])
+            share = per_cent(error, value)
             note = "" if self.determined[name] else ", not determined"
-            texts.append(f"{value:.4g} ± {error:.2g}{note}")
+            part = f" ({share} %)" if share else ""
+            texts.append(f"{digits(value, 4)} ± {digits(error, 2)}{part}{note}")
         return intervals_and_moves(
             Intervals(space.names, places, texts, list(self.determined.values()), self.level),
             self.correlations,
@@ -186,6 +189,12 @@ class Uncertainty(Result):
             objective.axes(names),
             self.in_words,
         )
+
+
+def _size(space: Space, name: str, value: float) -> float:
+    """Return what a change of a parameter is small beside: its value, or if that is 0 its range."""
+    low, high = space.bounds[name]
+    return abs(value) if abs(value) > _ZERO * (high - low) else high - low
 
 
 def uncertainty_of(
@@ -213,29 +222,27 @@ def uncertainty_of(
     point = space.point(optimum.unit)
     parameters = space.dictionary(point)
     weakest = differential @ directions[-1]
-    shares = np.abs(weakest) / np.maximum(np.abs(point), 1e-300)
+    sizes = [_size(space, name, value) for name, value in zip(space.names, point, strict=True)]
+    shares = np.abs(weakest) / sizes
     weakest = weakest * (0.1 / shares.max()) * (np.sign(weakest[np.argmax(shares)]) or 1.0)
-    at_bounds = space.at_bounds(parameters)
 
     def named(values: Iterable[_Value]) -> dict[str, _Value]:
         return dict(zip(space.names, values, strict=True))
 
-    intervals = named(spread.intervals)
+    unnoticed = np.abs(differential) @ reach
+    halves = np.ptp(spread.intervals, axis=1) / 2.0
     return Uncertainty(
         parameters=parameters,
         standard_errors=named(spread.errors.tolist()),
-        intervals=intervals,
+        intervals=named(spread.intervals),
         bias=named(spread.bias.tolist()),
         correlations=spread.correlations,
         sensitivities=optimum.loop_sensitivities(),
         singular_values=values,
         weakest_direction=named(weakest.tolist()),
-        unnoticed=named((np.abs(differential) @ reach).tolist()),
-        determined={
-            name: good and name not in at_bounds and is_narrow(optimum, i, intervals[name])
-            for i, (name, good) in enumerate(determined_by(optimum, reach).items())
-        },
-        at_bounds=at_bounds,
+        unnoticed=named(unnoticed.tolist()),
+        determined=determined(space, parameters, np.maximum(halves, unnoticed).tolist()),
+        at_bounds=space.at_bounds(parameters),
         sigma=noise.sigma,
         level=level,
         measure=objective.measure,

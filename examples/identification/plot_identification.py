@@ -44,5 +44,5 @@ figure = uncertainty.plot()
 
 # %%
 # The test was made with a yield stress of 330 MPa, C = 110,000 MPa and gamma = 600: each lies
-# within its interval. The loops change by next to nothing where C and gamma rise together, so that
-# C is called undetermined.
+# within its interval. The loops change by next to nothing where C and gamma rise together: that is
+# the weakest direction.

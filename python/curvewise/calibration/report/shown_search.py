@@ -1,0 +1,109 @@
+"""A search as a page shows it: what was written down, and what is computed of that once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ...curves.inputs import Array
+from ..records.search_record import SearchRecord
+from .branches import Branch, branches_of
+from .uncertainty_summary import summary_of_record
+
+__all__ = ["Loop", "ShownSearch"]
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A test with its simulation.
+
+    Attributes
+    ----------
+    title : str
+        What the test is called.
+    axes : sequence of str
+        What its columns are called; `is_named` says whether anybody has named them.
+    test : ndarray, shape (n, d)
+        Of a number (1, 1).
+    simulation : ndarray, or None where it is not known
+        At the optimum.
+    y : int
+        The column whose differences are residuals.
+    """
+
+    title: str
+    axes: Sequence[str]
+    is_named: bool
+    test: Array = field(repr=False)
+    simulation: Any = field(repr=False)
+    y: int
+
+    @property
+    def has_number(self) -> bool:
+        """Whether it is a number with its simulated value, and no curve."""
+        return self.test.size == 1 and self.simulation is not None
+
+    @property
+    def y_name(self) -> str:
+        """What y is called."""
+        return self.axes[self.y]
+
+    @cached_property
+    def branches(self) -> list[Branch]:
+        """The branches with their residuals; none without a simulated curve."""
+        if self.simulation is None or len(self.test) < 2:
+            return []
+        return branches_of(self.test, self.simulation, self.y)
+
+    @property
+    def residual(self) -> Array:
+        """The residual of every point of the test."""
+        # Branches share the points at which the test turns.
+        return np.concatenate([one.residual[i > 0 :] for i, one in enumerate(self.branches)])
+
+
+class ShownSearch:
+    """A search with its tests, and with what is known of its uncertainty.
+
+    Parameters
+    ----------
+    record : SearchRecord
+
+    Attributes
+    ----------
+    record : SearchRecord
+    loops : list of Loop
+        Its tests with their simulations at the optimum.
+    summary, reason
+        What a page says of its uncertainty; None and why that is not known.
+    """
+
+    def __init__(self, record: SearchRecord) -> None:
+        self.record = record
+        self.summary, self.reason = summary_of_record(record)
+        details, tests = record.details, record.experiments
+        simulated = [*record.curves, *[None] * (len(tests) - len(record.curves))]
+        # What a file without a header has, "column 2", is no name.
+        named = [
+            any(not re.fullmatch(r"column \d+", n) for n in names) for names in details["named"]
+        ]
+        columns = (details["titles"], details["axes"], named, tests, simulated, details["y"])
+        self.loops = [Loop(*one) for one in zip(*columns, strict=True)]
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The parameters that it has found, or the best so far."""
+        record, best = self.record, self.record.best
+        if record.ending is not None:
+            return record.ending.parameters
+        return {} if best is None else dict(zip(record.names, best.point, strict=True))
+
+    @property
+    def objective(self) -> str:
+        """What is minimised, with its preset."""
+        return f"{self.record.settings['measure']} ({self.record.settings['preset']})"

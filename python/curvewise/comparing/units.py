@@ -1,0 +1,38 @@
+"""Whether two curves are in the same units, as far as their extents tell. Time O(n + m).
+
+Per cent against a fraction, MPa against Pa: the widths or heights of the two boxes differ by a
+factor that no model is wrong by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..curves.inputs import Array
+
+__all__ = ["other_units"]
+
+# Extents that differ by more than this are probably in different units.
+_FACTOR = 20.0
+
+
+def other_units(P: Array, Q: Array, axes: Sequence[str], p_name: str, q_name: str) -> list[str]:
+    """Return a question for each coordinate in which the extents differ by more than 20 times.
+
+    Parameters
+    ----------
+    P, Q : ndarray, shapes (n, d) and (m, d)
+    axes : sequence of str
+        What the coordinates are called.
+    p_name, q_name : str
+        What the curves are called.
+    """
+    questions = []
+    with np.errstate(over="ignore"):
+        extents = np.ptp(P, axis=0).tolist(), np.ptp(Q, axis=0).tolist()
+    for axis, p, q in zip(axes, *extents, strict=True):
+        if q > 0 and not 1 / _FACTOR < p / q < _FACTOR:
+            questions.append(f"{axis} of {p_name} is {p / q:.3g} times that of {q_name}")
+    return [f"{question}; different units?" for question in questions]

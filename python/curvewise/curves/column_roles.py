@@ -1,0 +1,75 @@
+"""What the names of a table's columns say of them: time, a count of rows, coordinates of a point.
+
+A table of three columns or more is hardly ever meant whole: a logger writes time, a number of the
+row, a temperature beside strain and stress, and each would be a coordinate. It is taken where its
+names say that all are coordinates of one point; docs/inputs.md has the rule. The cost is that of
+some comparisons of short texts.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from itertools import pairwise, takewhile
+from typing import Any
+
+__all__ = ["are_coordinates", "coordinates_among", "is_time"]
+
+# "time", "Time [s]", "t (s)", "time_s", "Step Time", "Zeit/s"; not "T" (temperature), "timeout".
+_TIME = re.compile(
+    r"(?:(?i:(?:\w+[ _])?(?:time|zeit|temps|tiempo|tempo)|timestamp)|t)"
+    r"(?:[ _]*[\[(/,].*|[ _](?i:s|sec|seconds?|ms|min|minutes?|h|hours?))?"
+)
+# "id", "track_id", "Point No"; and what pandas calls an index that it read from a file.
+_COUNT = re.compile(
+    r"(?i)(?:.*[ _])?(?:id|index|no|nr|number|frame|sample|row|point|step)|unnamed: \d+|level_\d+"
+)
+_COMPONENT = re.compile(r"[xyz]{2}|[xyz]?\d+")
+_ON_EARTH = {
+    *("x", "y", "z", "lon", "long", "lng", "longitude", "lat", "latitude", "easting", "northing"),
+    *("east", "north", "up", "alt", "altitude", "ele", "elev", "elevation", "height", "depth"),
+}
+
+
+def is_time(name: Any) -> bool:
+    """Say whether a column is time by its name, with or without a unit."""
+    return isinstance(name, str) and _TIME.fullmatch(name.strip()) is not None
+
+
+def are_coordinates(names: Sequence[Any]) -> bool:
+    """Say whether names are those of the coordinates of one point.
+
+    They are numbers, or letters that follow one another in the alphabet (x, y, z), or components
+    (xx, yy, xy), alone or where longer names differ; or a place on the Earth. Units, in brackets or
+    behind a comma or slash, and capitals do not count.
+    """
+    plain = [re.split(r"[\[(/,]", _text(name))[0].strip().lower() for name in names]
+    if len(set(plain)) < len(plain):
+        return False
+    if set(plain) <= _ON_EARTH or all(name.isdigit() for name in plain):
+        return True
+    before = _alike_at_the_start(plain)
+    behind = _alike_at_the_start([name[before:][::-1] for name in plain])
+    differing = [name[before : len(name) - behind] for name in plain]
+    letters = sorted(differing)
+    if all(len(letter) == 1 and letter.isalpha() for letter in letters) and "t" not in letters:
+        return all(ord(b) - ord(a) == 1 for a, b in pairwise(letters))
+    return all(_COMPONENT.fullmatch(one) for one in differing)
+
+
+def coordinates_among(names: Sequence[Any]) -> list[Any]:
+    """Return those of many columns that are probably meant: without time, counts and a third."""
+    others = [name for name in names if not is_time(name) and not _COUNT.fullmatch(_text(name))]
+    if not others:
+        return list(names[:2])
+    return others if are_coordinates(others) else others[:2]
+
+
+def _alike_at_the_start(names: list[str]) -> int:
+    """Return how many of their first letters all names share."""
+    places = zip(*names, strict=False)
+    return sum(1 for _ in takewhile(lambda letters: len(set(letters)) == 1, places))
+
+
+def _text(name: Any) -> str:
+    return " ".join(map(str, name)) if isinstance(name, tuple) else str(name)

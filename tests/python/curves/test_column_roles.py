@@ -1,0 +1,186 @@
+"""Tables of three columns or more: taken where all are coordinates, else asked about by all."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import curvewise
+from curvewise import curves, reference
+from curvewise.calibration import Objective
+from curvewise.curves.column_roles import are_coordinates, coordinates_among
+
+P = np.array([(0.0, 0.0), (1.0, 2.0), (2.0, 1.0), (3.0, 3.0)])
+Q = P + np.array([0.25, 0.5])
+
+
+def logged(curve: Any, **others: Any) -> pd.DataFrame:
+    """Return a table as a logger writes it: the others, then strain and stress."""
+    return pd.DataFrame({**others, "strain": curve[:, 0], "stress": curve[:, 1]})
+
+
+SECONDS = np.arange(4.0)
+TABLES = {
+    "time": logged(P, time=SECONDS),
+    "id": logged(P, id=[7, 7, 7, 7]),
+    "index": logged(P).reset_index(),
+    "temperature": logged(P).assign(temperature=20.0),
+    "Unnamed: 0": logged(P, **{"Unnamed: 0": range(4)}),
+}
+
+
+@pytest.mark.parametrize("third", TABLES)
+def test_a_third_column_is_asked_about(third: str) -> None:
+    table = TABLES[third]
+    message = (
+        f"P has columns {list(table.columns)}, each of which would be a coordinate; choose: "
+        "P[['strain', 'stress']] for example, or P.to_numpy() for all"
+    )
+    for module in (curvewise, reference):
+        for measure in ("dtw", "frechet", "area", "frechet_continuous"):
+            with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
+                getattr(module, measure)(table, table)
+    assert curvewise.dtw(table[["strain", "stress"]], Q) == curvewise.dtw(P, Q)
+    assert curvewise.dtw(table.to_numpy(), table.to_numpy()) == 0.0
+
+
+def test_the_place_in_a_list_is_said() -> None:
+    table = TABLES["time"]
+    chosen = re.escape("[['strain', 'stress']] for example")
+    calls = {
+        "XA": lambda: curvewise.cdist([P, table]),
+        "X": lambda: curvewise.pdist([P, table]),
+        "curves": lambda: curvewise.Index([P, table]),
+    }
+    for name, call in calls.items():
+        with pytest.raises(
+            ValueError, match=rf"^{name}\[1\] has columns .* choose: {name}\[1\]{chosen}"
+        ):
+            call()
+    with pytest.raises(ValueError, match=r"^curves\[1\] has columns"):
+        curvewise.dtw_mean([P, table])
+    with pytest.raises(ValueError, match=r"has columns .* each of which would be a coordinate"):
+        Objective(table, measure="frechet")
+    with pytest.raises(ValueError, match=r"^P has columns"):
+        curvewise.compare(table, table)
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        *(["x", "y", "z"], ["X [mm]", "Y [mm]", "Z [mm]"], ["x_mm", "y_mm", "z_mm"]),
+        *(["z", "y", "x"], ["u", "v", "w"], ["a", "b", "c"], ["ux", "uy", "uz"]),
+        *([0, 1, 2], ["0", "1", "2", "3"], ["x1", "x2", "x3"], [f"joint {i}" for i in range(12)]),
+        *(["strain_xx", "strain_yy", "strain_xy"], ["s11", "s22", "s12"], ["x1", "y1", "x2", "y2"]),
+        *(["lon", "lat", "alt"], ["Longitude", "Latitude", "Altitude (m)"], ["x", "y", "height"]),
+        [("head", "x"), ("head", "y"), ("head", "z")],
+    ],
+    ids=str,
+)
+def test_coordinates_of_a_point_need_no_word(names: list[Any]) -> None:
+    assert are_coordinates(names)
+    solid = np.random.default_rng(0).normal(size=(5, len(names)))
+    frame = pd.DataFrame(solid, columns=pd.Index(names))
+    assert curvewise.dtw(frame, frame + 1.0) == curvewise.dtw(solid, solid + 1.0)
+    assert curvewise.cdist([frame], [solid]).tolist() == [[0.0]]
+
+
+@pytest.mark.parametrize(
+    ("names", "meant"),
+    [
+        (["t", "x", "y"], ["x", "y"]),
+        (["Time [s]", "x", "y", "z"], ["x", "y", "z"]),
+        (["lon", "lat", "timestamp"], ["lon", "lat"]),
+        (["x", "y", "track_id"], ["x", "y"]),
+        (["step", "force", "displacement"], ["force", "displacement"]),
+        (["strain", "stress", "T"], ["strain", "stress"]),
+        (["r", "s", "t"], ["r", "s"]),
+        (["left_x", "left_y", "right_x", "right_y"], ["left_x", "left_y"]),
+        (["time", "id", "frame"], ["time", "id"]),
+        (["x", "y", "y"], ["x", "y"]),
+    ],
+)
+def test_what_is_proposed(names: list[str], meant: list[str]) -> None:
+    assert not are_coordinates(names)
+    assert coordinates_among(names) == meant
+
+
+def test_other_packages_tables() -> None:
+    polars, pyarrow = pytest.importorskip("polars"), pytest.importorskip("pyarrow")
+    with pytest.raises(
+        ValueError, match=r"choose: P\[\['strain', 'stress'\]\] for example, or P\.to_"
+    ):
+        curvewise.dtw(polars.from_pandas(TABLES["time"]), P)
+    table = pyarrow.Table.from_pandas(TABLES["time"])
+    message = (
+        r"choose: P\.select\(\['strain', 'stress'\]\) .* or numpy\.column_stack\(P\.columns\) for"
+    )
+    with pytest.raises(ValueError, match=message):
+        curvewise.dtw(table, P)
+    assert curvewise.dtw(table.select(["strain", "stress"]), P) == 0.0
+    assert curvewise.dtw(np.column_stack(table.columns), TABLES["time"].to_numpy()) == 0.0
+
+
+def test_two_columns_and_what_prepares_curves_take_any_names() -> None:
+    assert curvewise.dtw(logged(P)[["stress"]].assign(time=SECONDS), Q) > 0
+    table = TABLES["time"]
+    assert curves.trim(table, 1.0, 2.0, by=0).tolist() == table.to_numpy()[1:3].tolist()
+    assert curves.resample(table, 7, by=0).shape == (7, 3)
+
+
+IN_ORDER = ", in whose order the answers come"
+
+
+def collections() -> dict[str, tuple[Any, str]]:
+    grouped = pd.concat([logged(P, id=[1] * 4), logged(Q, id=[2] * 4)]).groupby("id")
+    choice = "give [group[['strain', 'stress']] for _, group in {}]"
+    several = pd.concat([logged(P, id=[1] * 4), logged(Q, id=[2] * 4)]).groupby(["id"])
+    return {
+        "dict": ({"first": P, "second": Q}, f"give list({{}}.values()){IN_ORDER}"),
+        "DataFrameGroupBy": (grouped, choice),
+        "DataFrameGroupBy of a list": (several, choice),
+    }
+
+
+@pytest.mark.parametrize("kind", collections())
+def test_collections_name_what_makes_them_lists(kind: str) -> None:
+    given, instead = collections()[kind]
+    calls = {
+        "XA": lambda: curvewise.cdist(given),
+        "XB": lambda: curvewise.cdist([P], given),
+        "X": lambda: curvewise.pdist(given),
+        "curves": lambda: curvewise.Index(given),
+    }
+    for name, call in calls.items():
+        words = f"{name} is a {kind.split()[0]}; {instead.format(name)}"
+        with pytest.raises(TypeError, match=f"^{re.escape(words)}$"):
+            call()
+    for average in (curvewise.dtw_mean, curvewise.medoid):
+        with pytest.raises(TypeError, match=re.escape(instead.format("curves"))):
+            average(given)
+    written = instead.format("given").removeprefix("give ").removesuffix(IN_ORDER)
+    assert curvewise.pdist(eval(written, {"given": given})).tolist() == [curvewise.dtw(P, Q)]
+
+
+def test_groups_of_polars_and_a_table_of_lines() -> None:
+    polars = pytest.importorskip("polars")
+    grouped = polars.from_pandas(logged(P, id=[1] * 4)).group_by("id")
+    with pytest.raises(
+        TypeError, match=r"^XA is a GroupBy; give \[group\[\['strain', 'stress'\]\] for _"
+    ):
+        curvewise.cdist(grouped)
+    shapely, geopandas = pytest.importorskip("shapely"), pytest.importorskip("geopandas")
+    table = geopandas.GeoDataFrame(geometry=[shapely.LineString(P), shapely.LineString(Q)])
+    for call in (curvewise.pdist, curvewise.Index, curvewise.dtw_mean):
+        with pytest.raises(TypeError, match=r"is a GeoDataFrame; give \w+\.geometry, its lines$"):
+            call(table)
+    assert curvewise.pdist(table.geometry).tolist() == [curvewise.dtw(P, Q)]
+
+
+def test_a_dict_of_curves_is_no_curve() -> None:
+    with pytest.raises(TypeError, match=r"list\(P\.values\(\)\) is a list of curves, for cdist$"):
+        curvewise.dtw({"first": P, "second": Q}, P)
