@@ -110,6 +110,16 @@ class Random final : public Choices {
     std::mt19937_64 engine_;
 };
 
+inline std::vector<curvewise::CurveView> views_of(const std::vector<Curve>& curves) {
+    return {curves.begin(), curves.end()};
+}
+
+// Powers of two to multiply x and y by: x may be as large as y is small.
+inline std::vector<std::vector<int>> powers_for_x_and_y() {
+    return {{-1000, -1000}, {-505, -505}, {490, 490}, {1000, 1000},
+            {700, -700},    {0, 900},     {-900, 3}};
+}
+
 inline std::string described(const Curve& P, const Curve& Q) {
     const auto shape = [](const Curve& C) { return static_cast<curvewise::CurveView>(C).shape(); };
     return "P of shape " + shape(P) + ", Q of shape " + shape(Q);

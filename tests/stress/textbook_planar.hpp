@@ -176,7 +176,7 @@ inline Long area_of(const Quad& q, curvewise::Crossing crossing) {
     if (crossing == curvewise::Crossing::rearrange || is_simple(q)) return area_rearranged(q);
     if (const auto first = triangles(q[0], q[1], q[2], q[3])) return *first;
     if (const auto second = triangles(q[1], q[2], q[3], q[0])) return *second;
-    return area_rearranged(q);
+    return area_of_simple(q);
 }
 
 inline double area(const Curve& P, const Curve& Q, const curvewise::AreaOptions& options) {
@@ -221,6 +221,21 @@ struct Measured {
     }
 };
 
+inline Measured measured_by_box_of(const Curve& P, const Curve& curve) {
+    const Box box(points_of(P));
+    return {points_of(curve), box.x, box.y, box.width, box.height};
+}
+
+// In units of the curve's own largest magnitudes.
+inline Measured measured_by_largest(const Curve& curve) {
+    Long largest[2] = {0, 0};
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        for (int c = 0; c < 2; ++c) largest[c] = std::max<Long>(largest[c], std::abs(curve(i, c)));
+    }
+    for (Long& value : largest) value = value > 0 ? value : 1;
+    return {points_of(curve), 0, 0, largest[0], largest[1]};
+}
+
 struct PcmAnswer {
     Long value, S, T;
     Long area_at_best;  // of the offset that was asked about
@@ -228,10 +243,7 @@ struct PcmAnswer {
 
 // By every offset of the grid; and the area at `offset`.
 inline PcmAnswer pcm(const Curve& P, const Curve& Q, std::ptrdiff_t offsets, Long offset) {
-    const Points p = points_of(P);
-    const Box box(p);
-    const Measured a(p, box.x, box.y, box.width, box.height);
-    const Measured b(points_of(Q), box.x, box.y, box.width, box.height);
+    const Measured a = measured_by_box_of(P, P), b = measured_by_box_of(P, Q);
     const bool maps_p = a.lengths.back() <= b.lengths.back() * (1 + 1e-12L);
     const Measured& shorter = maps_p ? a : b;
     const Measured& longer = maps_p ? b : a;
@@ -264,17 +276,7 @@ struct LengthAnswer {
 };
 
 inline LengthAnswer curve_length(const Curve& P, const Curve& Q, curvewise::LengthScale scale) {
-    const auto measured = [](const Curve& curve) {
-        Long largest[2] = {0, 0};
-        for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-            for (int c = 0; c < 2; ++c) {
-                largest[c] = std::max<Long>(largest[c], std::abs(curve(i, c)));
-            }
-        }
-        for (Long& value : largest) value = value > 0 ? value : 1;
-        return Measured(points_of(curve), 0, 0, largest[0], largest[1]);
-    };
-    const Measured p = measured(P), q = measured(Q);
+    const Measured p = measured_by_largest(P), q = measured_by_largest(Q);
     Long sum = 0, condition = 1;
     for (std::ptrdiff_t c = 0; c < 2; ++c) {
         Long mean = 0, mean_abs = 0, low = P(0, c), high = P(0, c);

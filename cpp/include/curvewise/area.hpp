@@ -45,7 +45,7 @@ constexpr auto choice_names(Spacing /*spacing*/) noexcept {
 enum class Crossing {
     rearrange,  ///< two vertices are swapped until it is simple: the paper. Jumps where a
                 ///< quadrilateral turns complex.
-    split       ///< the two triangles at the crossing point. Continuous.
+    split       ///< the two triangles at the crossing point. Does not jump there.
 };
 
 /// The names of the enumerators, in their order.

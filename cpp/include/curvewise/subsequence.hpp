@@ -10,8 +10,7 @@
 /// and open_end finds. Each later one is the best run of what is left of Q: of the pieces between,
 /// before and behind the earlier answers, each of them searched as if it were all of Q. Answers do
 /// not overlap, and their distances never fall. Of equal distances the run that ends first is the
-/// better; Fréchet's with Euclidean ground distances are compared by their squares, fewer of which
-/// are equal after rounding.
+/// better.
 ///
 /// Exact. One sweep of the table, O(n m), that carries along with every value where in Q its path
 /// began; after each answer only those ends behind it are swept again whose paths began before its

@@ -19,6 +19,7 @@
 #include "continuous/boxed_curve.hpp"
 #include "continuous/exact_signs.hpp"
 #include "continuous/least_double.hpp"
+#include "curves/range_scale.hpp"
 
 namespace curvewise::continuous {
 
@@ -29,10 +30,10 @@ enum class FreeSet { closed, open };
 // A radius with what the filters need of it, in units of the scaled curves.
 class Radius {
    public:
-    Radius(double given, double scaled, std::ptrdiff_t dim, FreeSet set) noexcept
+    Radius(double given, const RangeScale& range, std::ptrdiff_t dim, FreeSet set) noexcept
         : given_(given),
-          scaled_(scaled),
-          square_(scaled * scaled),
+          scaled_(range.shrink(given)),
+          square_(scaled_ * scaled_),
           slack_(slack_of(dim)),
           tiny_(tiny_of(dim)),
           holds_below_(square_ * (1.0 - slack_) - tiny_),
@@ -94,6 +95,7 @@ class EdgeFamily {
         : edges_(edges), points_(points), exact_(exact) {}
 
     std::ptrdiff_t vertices() const noexcept { return edges_.size(); }
+    std::ptrdiff_t dim() const noexcept { return edges_.dim(); }
 
     // Whether a vertex is within the radius of point k of the other curve.
     bool vertex_is_free(std::ptrdiff_t vertex, std::ptrdiff_t k, const Radius& radius) const {
@@ -181,11 +183,26 @@ class EdgeFamily {
         }
         return sum;
     }
-    // The least double that is not below the distance of a point of an edge to point k, nor below
-    // `least`; in units of the given curves.
+    // Whether point t of an edge is within the radius of point k. Both terms of a difference h are
+    // right to 2 eps of their magnitudes, which is more than all of h where they nearly cancel.
+    bool point_is_free(std::ptrdiff_t edge, double t, std::ptrdiff_t k,
+                       const Radius& radius) const {
+        const double* const x = edges_.point<Dim>(edge);
+        const double* const y = edges_.point<Dim>(edge + 1);
+        const double* const z = points_.point<Dim>(k);
+        double most = 0.0;
+        for (std::ptrdiff_t c = 0; c < edges_.dim(); ++c) {
+            const double w = z[c] - x[c], v = t * (y[c] - x[c]);
+            const double h = std::abs(w - v) + 0x1p-51 * (std::abs(w) + std::abs(v));
+            most += h * h;
+        }
+        return radius.surely_holds(most) ||
+               radius.holds(exact_.distance_at(edge, t, {k, radius.given()}));
+    }
+    // The least double above `least` that is not below the distance of these, which is above it; in
+    // units of the given curves.
     double distance_at(std::ptrdiff_t edge, double t, std::ptrdiff_t k, double least) const {
         const auto suffices = [&](double x) { return exact_.distance_at(edge, t, {k, x}) <= 0; };
-        if (suffices(least)) return least;
         return least_double(least, std::numeric_limits<double>::infinity(), 1, 1, suffices);
     }
 

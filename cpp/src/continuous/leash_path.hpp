@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "continuous/reachable.hpp"
+#include "curves/range_scale.hpp"
 #include "runtime/poller.hpp"
 
 namespace curvewise::continuous {
@@ -28,50 +29,65 @@ using LeashPath = std::vector<std::array<double, 2>>;
 template <int Dim>
 class LeashMeasure {
    public:
-    LeashMeasure(const Diagram<Dim>& diagram, const Radius& radius, Poller& poller) noexcept
-        : diagram_(diagram), radius_(radius), poller_(poller) {}
+    LeashMeasure(const Diagram<Dim>& diagram, const Radius& radius, const RangeScale& range,
+                 Poller& poller) noexcept
+        : diagram_(diagram), radius_(radius), range_(range), poller_(poller) {}
 
-    // The least double that is not below the radius nor below the leash of any row. Rows that the
-    // radius is too short for are first moved by a unit in the last place, if that helps; except
-    // for those at vertices of both curves, before and behind which walks are on different edges.
-    double longest(LeashPath& matched) const {
-        double longest = radius_.given();
+    // The least double that is not below the radius nor below the leash of any row. Rows that are
+    // longer than all before them are first moved by a unit in the last place, if that helps;
+    // except for those at vertices of both curves, before and behind which walks are on different
+    // edges.
+    double longest(LeashPath& matched) {
         for (std::size_t k = 1; k + 1 < matched.size(); ++k) {
             poller_.spend(64);
             std::array<double, 2>& row = matched[k];
-            if (leash(row, radius_.given()) == radius_.given()) continue;
+            if (holds(row)) continue;
             const std::size_t side = row[0] == std::floor(row[0]) ? 1 : 0;
-            const double given = row[side];
-            if (given == std::floor(given)) {
-                longest = leash(row, longest);
-                continue;
+            std::array<double, 2> nearest = row;
+            double least = leash(row);
+            if (row[side] != std::floor(row[side])) {
+                for (const auto& other : {matched[k - 1], matched[k + 1]}) {
+                    std::array<double, 2> moved = row;
+                    moved[side] = std::nextafter(row[side], other[side]);
+                    const double moved_leash = holds(moved) ? radius_.given() : leash(moved);
+                    if (moved_leash >= least) continue;
+                    nearest = moved;
+                    least = moved_leash;
+                }
             }
-            for (const double other : {matched[k - 1][side], matched[k + 1][side]}) {
-                row[side] = std::nextafter(given, other);
-                if (leash(row, radius_.given()) == radius_.given()) break;
-                row[side] = given;
-            }
-            longest = leash(row, longest);
+            row = nearest;
+            radius_ = Radius(least, range_, diagram_.first_edges().dim(), FreeSet::closed);
         }
-        return longest;
+        return radius_.given();
     }
 
    private:
-    // The least double that is not below the leash of a row, nor below `least`.
-    double leash(const std::array<double, 2>& row, double least) const {
-        return row[0] == std::floor(row[0]) ? leash(diagram_.second_edges(), row[1], row[0], least)
-                                            : leash(diagram_.first_edges(), row[0], row[1], least);
-    }
-    double leash(const EdgeFamily<Dim>& edges, double at, double vertex, double least) const {
+    // The edge that a row is on, the place on it, and the vertex of the other curve.
+    template <class Use>
+    auto with_place(const std::array<double, 2>& row, Use use) const {
+        const bool is_at_first = row[0] == std::floor(row[0]);
+        const EdgeFamily<Dim>& edges =
+            is_at_first ? diagram_.second_edges() : diagram_.first_edges();
+        const double at = row[is_at_first ? 1 : 0];
         const auto edge = std::min(static_cast<std::ptrdiff_t>(at), edges.vertices() - 2);
-        const auto k = static_cast<std::ptrdiff_t>(vertex);
-        const double t = at - static_cast<double>(edge);
-        if (radius_.surely_holds(edges.square_distance_at(edge, t, k))) return least;
-        return edges.distance_at(edge, t, k, least);
+        return use(edges, edge, at - static_cast<double>(edge),
+                   static_cast<std::ptrdiff_t>(row[is_at_first ? 0 : 1]));
+    }
+    bool holds(const std::array<double, 2>& row) const {
+        return with_place(row, [&](const auto& edges, auto edge, double t, auto k) {
+            return edges.point_is_free(edge, t, k, radius_);
+        });
+    }
+    // Of a row that the radius does not hold.
+    double leash(const std::array<double, 2>& row) const {
+        return with_place(row, [&](const auto& edges, auto edge, double t, auto k) {
+            return edges.distance_at(edge, t, k, radius_.given());
+        });
     }
 
     const Diagram<Dim>& diagram_;
-    const Radius& radius_;
+    Radius radius_;  // the longest leash so far
+    const RangeScale& range_;
     Poller& poller_;
 };
 

@@ -137,7 +137,8 @@ class LeashSearch {
     std::pair<double, LeashPath> matching(double distance) {
         const Radius radius = radius_of(distance);
         LeashPath matched = LeashPathTrace<Dim>(diagram_, radius, poller_).parameters();
-        const double longest = LeashMeasure<Dim>(diagram_, radius, poller_).longest(matched);
+        const double longest =
+            LeashMeasure<Dim>(diagram_, radius, range_, poller_).longest(matched);
         return {longest, std::move(matched)};
     }
 
@@ -175,7 +176,7 @@ class LeashSearch {
     }
 
     Radius radius_of(double distance, FreeSet set = FreeSet::closed) const noexcept {
-        return {distance, range_.shrink(distance), p_.dim(), set};
+        return {distance, range_, p_.dim(), set};
     }
 
     // The vertices of either curve that are furthest from the other.

@@ -93,7 +93,7 @@ class SubsequenceSearch {
         std::vector<Subsequence> found;
         while (static_cast<std::ptrdiff_t>(found.size()) < count) {
             const std::ptrdiff_t stop = least_.find(values_);
-            const double distance = restore(values_[stop]);
+            const double distance = range_.restore(values_[stop], degree_);
             if (values_[stop] == infinity || distance > cutoff_) break;
             const auto start = static_cast<std::ptrdiff_t>(origins_[stop]);
             found.push_back({distance, start, stop});
@@ -104,12 +104,16 @@ class SubsequenceSearch {
     }
 
    private:
-    double restore(double value) const noexcept {
-        return range_.restore(squared_ ? std::sqrt(value) : value, degree_);
+    // The distances in the last row of the table of columns from `first` on, and where its paths
+    // began.
+    void sweep_piece(std::ptrdiff_t first, std::ptrdiff_t columns, Row& values, Row& origins) {
+        sweep_table(first, columns, values, origins);
+        if (!squared_) return;
+        // Before any are compared: roots may be equal where squares are not.
+        for (std::ptrdiff_t j = 0; j < columns; ++j) values[j] = std::sqrt(values[j]);
     }
 
-    // The last row of the table of columns from `first` on, and where its paths began.
-    void sweep_piece(std::ptrdiff_t first, std::ptrdiff_t columns, Row& values, Row& origins) {
+    void sweep_table(std::ptrdiff_t first, std::ptrdiff_t columns, Row& values, Row& origins) {
         const std::ptrdiff_t n = curves_.rows();
         values.assign(columns, 0.0);
         origins.assign(columns, 0.0);
@@ -146,7 +150,7 @@ class SubsequenceSearch {
     Poller& poller_;
     warping::SweepMemory memory_;
     warping::SweepProblem problem_;
-    // By the column where a run ends: the value of the best that is left, and where it begins.
+    // By the column where a run ends: the distance of the best that is left, and where it begins.
     // Infinite where no run may end.
     Row values_;
     Row origins_;

@@ -47,8 +47,9 @@ def area(
         What becomes of a quadrilateral that intersects itself; without effect on
         ``spacing="matched"``. "rearrange" (the paper) swaps two
         vertices until it is simple: the value jumps where a quadrilateral turns complex. "split"
-        takes the two triangles at the crossing point: the value changes continuously, which an
-        optimiser likes.
+        takes the two triangles at the crossing point, and does not jump there, which an optimiser
+        likes. With either, "distance" and "x" jump where another segment becomes the longest, and
+        "arc_length" where P's box loses a side.
     squared : bool
         Sum the squares of the areas instead (the paper's section 4, the analogue of
         sum-of-squares); with "matched", those of the pieces.

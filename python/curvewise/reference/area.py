@@ -105,13 +105,16 @@ def _between(A: Array, B: Array) -> Array:
 
 def _measured(quads: Array, crossing: Crossing) -> tuple[Array, Array]:
     """Return quadrilaterals in the order whose area is taken, and the areas."""
-    split_areas = np.full(len(quads), np.nan)
+    if crossing == "rearrange":
+        quads = _rearranged(quads)
+    areas = 0.5 * np.abs(_twice_signed_area(quads))
     if crossing == "split":
         is_complex = ~_is_simple(quads)
-        split_areas[is_complex] = _areas_of_triangles(quads[is_complex])
-    is_split = ~np.isnan(split_areas)
-    quads = np.where(is_split[:, np.newaxis, np.newaxis], quads, _rearranged(quads))
-    return quads, np.where(is_split, split_areas, 0.5 * np.abs(_twice_signed_area(quads)))
+        split_areas = _areas_of_triangles(quads[is_complex])
+        # Where a corner lies on a side but for rounding, one of the triangles has no area, and the
+        # other is the quadrilateral's own.
+        areas[is_complex] = np.where(np.isnan(split_areas), areas[is_complex], split_areas)
+    return quads, areas
 
 
 def _cross(a: Array, b: Array) -> Array:

@@ -73,20 +73,20 @@ def subsequence(
     P, Q, exponent = in_range(P, Q, metric)
     under_root = without_root(metric, P.shape[1]) if measure == "frechet" else metric
     ground = ground_distances(P[:, np.newaxis], Q, under_root, order)
-    pieces = [_best_run(ground, measure, 0, ground.shape[1])]
+    is_square = under_root != metric
+    pieces = [_best_run(ground, measure, is_square, 0, ground.shape[1])]
     answers: list[Subsequence] = []
     while pieces and len(answers) < k:
         best = min(pieces, key=lambda piece: (piece[0], piece[2]))
         value, start, stop, begin, end = best
-        root = np.array(value if under_root == metric else np.sqrt(value))
-        distance = float(times_power_of_two(root, exponent))
+        distance = float(times_power_of_two(np.array(value), exponent))
         if value == np.inf or distance > cutoff:
             break
         answers.append(Subsequence(distance, start, stop))
         pieces.remove(best)
         for left, right in ((begin, start), (stop + 1, end)):
             if right > left:
-                pieces.append(_best_run(ground, measure, left, right))
+                pieces.append(_best_run(ground, measure, is_square, left, right))
     return answers
 
 
@@ -124,12 +124,13 @@ def _all_distances(X: Curves, curves: Curves, measure: str, options: dict[str, A
 
 
 def _best_run(
-    ground: Array, measure: WarpingName, begin: int, end: int
+    ground: Array, measure: WarpingName, is_square: bool, begin: int, end: int
 ) -> tuple[float, int, int, int, int]:
     """Return value, start and stop of the best run of a piece, and the piece.
 
     Row by row, every cell has the value of the best path that begins anywhere in the first row,
     and where it begins. Among equal predecessors: the diagonal, then (i-1, j), then (i, j-1).
+    Where the ground distances are squares, the runs are compared by the roots of their values.
     """
     piece = ground[:, begin:end]
     values = [float(d) for d in piece[0]]
@@ -153,8 +154,9 @@ def _best_run(
                 best = (max(d, best[0]), best[1])
             values.append(best[0])
             starts.append(best[1])
-    stop = int(np.argmin(values))
-    return values[stop], starts[stop], begin + stop, begin, end
+    distances = np.sqrt(values) if is_square else np.array(values)
+    stop = int(np.argmin(distances))
+    return float(distances[stop]), starts[stop], begin + stop, begin, end
 
 
 def _averaged(

@@ -18,10 +18,6 @@ using namespace curvewise;
 using test::Curve;
 using test::Random;
 
-std::vector<CurveView> views_of(const std::vector<Curve>& curves) {
-    return {curves.begin(), curves.end()};
-}
-
 std::vector<Curve> random_curves(Random& random, std::size_t count, std::ptrdiff_t longest) {
     std::vector<Curve> curves;
     while (curves.size() < count) {
@@ -243,6 +239,17 @@ void runs_are_those_of_open_ends() {
     CHECK_THROWS(subsequences(P, P, 0), std::invalid_argument, "k is 0; give a whole number >= 1");
 }
 
+// Also where their squares are not equal: 1 + 2^-52, and 1.
+void of_equal_distances_the_first_run_comes_first() {
+    const Curve P{{0.0, 0.0}}, Q{{3.0, 4.0}, {1.0, 0x1p-26}, {1.0, 0.0}};
+    const std::vector<Subsequence> found = subsequences(P, Q, 3, FrechetOptions{});
+    CHECK_EQUAL(found.size(), std::size_t{3});
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        CHECK_EQUAL(found[k].stop, std::ptrdiff_t{k == 2 ? 0 : k == 1 ? 2 : 1});
+        CHECK_EQUAL(found[k].distance, k == 2 ? 5.0 : 1.0);
+    }
+}
+
 void the_mean_of_points_is_theirs() {
     const Curve zero{{0.0}}, four{{4.0}}, start{{1.0}};
     const DtwMean mean = dtw_mean({zero, four}, {1.0, 3.0}, start);
@@ -293,6 +300,8 @@ int main() {
          {"refusals name the curve", refusals_name_the_curve},
          {"radius neighbors of the index", radius_neighbors_of_the_index},
          {"runs are those of open ends", runs_are_those_of_open_ends},
+         {"of equal distances the first run comes first",
+          of_equal_distances_the_first_run_comes_first},
          {"the mean of points is theirs", the_mean_of_points_is_theirs},
          {"the mean lowers the sum", the_mean_lowers_the_sum}});
 }

@@ -67,7 +67,7 @@ void at_once(std::size_t count, Work work) {
 
 void the_same_values_as_alone() {
     const std::vector<Curve> owned = curves(5);
-    const std::vector<CurveView> views(owned.begin(), owned.end());
+    const std::vector<CurveView> views = views_of(owned);
     for_each_measure([&](const auto& options) {
         const check::Note note(options.measure);
         const Shared shared(views, options);
@@ -81,7 +81,7 @@ void the_same_values_as_alone() {
 // Searches see the index before or after what is added, and nothing between.
 void searches_while_curves_are_added() {
     const std::vector<Curve> owned = curves(12);
-    const std::vector<CurveView> views(owned.begin(), owned.end());
+    const std::vector<CurveView> views = views_of(owned);
     Index index({views[0]}, FrechetOptions{});
     std::vector<double> nearest(3, -1.0);
     at_once(4, [&](std::size_t t) {

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
-#include <variant>
 #include <vector>
 
 #include "check.hpp"
@@ -27,28 +26,6 @@ std::vector<Curve> random_curves(const std::vector<std::ptrdiff_t>& sizes, std::
     std::vector<Curve> curves;
     for (const std::ptrdiff_t n : sizes) curves.push_back(random.curve(n, dim));
     return curves;
-}
-
-std::vector<CurveView> views_of(const std::vector<Curve>& curves) {
-    return {curves.begin(), curves.end()};
-}
-
-double value_of(const CurveView& P, const CurveView& Q, const Measure& measure) {
-    struct Call {
-        const CurveView& P;
-        const CurveView& Q;
-        double operator()(const DtwOptions& options) const { return dtw(P, Q, options); }
-        double operator()(const FrechetOptions& options) const { return frechet(P, Q, options); }
-        double operator()(const AreaOptions& options) const { return area(P, Q, options); }
-        double operator()(const PcmOptions& options) const { return pcm(P, Q, options); }
-        double operator()(const CurveLengthOptions& options) const {
-            return curve_length(P, Q, options);
-        }
-        double operator()(const FrechetContinuousOptions& options) const {
-            return frechet_continuous(P, Q, options);
-        }
-    };
-    return std::visit(Call{P, Q}, measure);
 }
 
 const std::vector<Measure>& measures() {
@@ -78,8 +55,8 @@ void batches_equal_single_calls() {
         const check::Note note("measure " + std::to_string(measure.index()));
         std::vector<double> matrix, rectangle, condensed;
         for (const CurveView& P : X) {
-            for (const CurveView& Q : X) matrix.push_back(value_of(P, Q, measure));
-            for (const CurveView& Q : some) rectangle.push_back(value_of(P, Q, measure));
+            for (const CurveView& Q : X) matrix.push_back(evaluate(measure, P, Q));
+            for (const CurveView& Q : some) rectangle.push_back(evaluate(measure, P, Q));
         }
         if (is_symmetric(measure)) {
             for (std::size_t i = 0; i < k; ++i) {
@@ -114,7 +91,7 @@ void prepared_equals_single_calls() {
         P(0, 0) = 1e9;  // a copy was taken
         std::vector<double> expected, one_by_one;
         for (const CurveView& Q : X) {
-            expected.push_back(value_of(X[2], Q, measure));
+            expected.push_back(evaluate(measure, X[2], Q));
             one_by_one.push_back(prepared(Q));
         }
         CHECK_EQUAL(one_by_one, expected);

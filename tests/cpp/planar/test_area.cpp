@@ -114,6 +114,20 @@ void random_quadrilaterals() {
     CHECK(complex > 300);
 }
 
+// A vertex of Q lies on the line through P, and rounding decides that a quadrilateral is complex:
+// no pair of its sides crosses.
+void splitting_does_not_jump() {
+    constexpr AreaOptions options{Spacing::arc_length, Crossing::split};
+    const Curve P{{0.0, 0.0}, {2.0, 3.0}}, Q{{2.0, 1.0}, {2.0, 3.0}, {2.0, 0.0}, {1.0, 0.0}};
+    for (std::ptrdiff_t i = 0; i < Q.size(); ++i) {
+        for (const double move : {-1e-13, 1e-13}) {
+            Curve moved = Q;
+            moved(i, 1) += move;
+            CHECK_CLOSE(area(P, moved, options), area(P, Q, options), 1e-11);
+        }
+    }
+}
+
 // Vertices of the curve that was refined: those of the quadrilaterals' last side.
 std::vector<double> refined_x(const Curve& P, const Curve& Q, Spacing spacing) {
     const AreaQuads result = area_quads(P, Q, {spacing, Crossing::split});
@@ -282,6 +296,7 @@ int main() {
                        {"values by hand", values_by_hand},
                        {"crossing segments", crossing_segments},
                        {"random quadrilaterals", random_quadrilaterals},
+                       {"splitting does not jump", splitting_does_not_jump},
                        {"refinement by hand", refinement_by_hand},
                        {"roles", roles},
                        {"sums and symmetry", sums_and_symmetry},

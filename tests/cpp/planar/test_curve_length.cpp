@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../../stress/textbook_planar.hpp"
 #include "check.hpp"
 #include "curves.hpp"
 #include "curvewise/curve_length.hpp"
@@ -29,22 +30,6 @@ std::vector<double> residuals_of(const Curve& P, const Curve& Q,
     return residuals;
 }
 
-// After dividing x and y by the curve's own largest magnitudes.
-std::vector<double> relative_arc_lengths(const Curve& curve) {
-    double largest[2] = {0.0, 0.0};
-    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-        for (std::ptrdiff_t c : {0, 1}) largest[c] = std::max(largest[c], std::abs(curve(i, c)));
-    }
-    for (double& value : largest) value = value == 0.0 ? 1e-15 : value;
-    std::vector<double> lengths{0.0};
-    for (std::ptrdiff_t i = 1; i < curve.size(); ++i) {
-        const double dx = (curve(i, 0) - curve(i - 1, 0)) / largest[0];
-        const double dy = (curve(i, 1) - curve(i - 1, 1)) / largest[1];
-        lengths.push_back(lengths.back() + std::sqrt(dx * dx + dy * dy));
-    }
-    return lengths;
-}
-
 double scale_of(const Curve& P, std::ptrdiff_t c, LengthScale scale) {
     const auto n = static_cast<double>(P.size());
     double sum = 0.0, sum_abs = 0.0, low = P(0, c), high = P(0, c);
@@ -59,15 +44,14 @@ double scale_of(const Curve& P, std::ptrdiff_t c, LengthScale scale) {
 }
 
 std::vector<double> step_by_step(const Curve& P, const Curve& Q, LengthScale scale) {
-    const std::vector<double> s = relative_arc_lengths(P), t = relative_arc_lengths(Q);
+    const textbook::Measured p = textbook::measured_by_largest(P);
+    const textbook::Measured q = textbook::measured_by_largest(Q);
     std::vector<double> residuals;
     for (std::ptrdiff_t i = 0; i < P.size(); ++i) {
-        const double at = s[static_cast<std::size_t>(i)] * t.back() / s.back();
-        std::ptrdiff_t k = 0;
-        while (k + 2 < Q.size() && t[static_cast<std::size_t>(k + 1)] < at) ++k;
-        const double start = t[static_cast<std::size_t>(k)];
-        const double length = t[static_cast<std::size_t>(k + 1)] - start;
-        const double h = length > 0.0 ? std::min(1.0, (at - start) / length) : 1.0;
+        const textbook::Long share = p.lengths[static_cast<std::size_t>(i)] / p.lengths.back();
+        const auto [segment, fraction] = q.place(share * q.lengths.back());
+        const auto k = static_cast<std::ptrdiff_t>(segment);
+        const auto h = static_cast<double>(fraction);
         for (const std::ptrdiff_t c : {0, 1}) {
             const double delta = Q(k, c) + h * (Q(k + 1, c) - Q(k, c)) - P(i, c);
             residuals.push_back(std::log(1.0 + std::abs(delta / scale_of(P, c, scale))));
@@ -143,17 +127,11 @@ void ends() {
     }
 }
 
-// The value knows no unit, and x may be as large as y is small.
+// The value knows no unit.
 void magnitudes() {
     Random random(72);
     const Curve P = random.walk(20), Q = random.walk(30);
-    for (const std::vector<int>& k : {std::vector<int>{-1000, -1000},
-                                      {-505, -505},
-                                      {490, 490},
-                                      {1000, 1000},
-                                      {700, -700},
-                                      {0, 900},
-                                      {-900, 3}}) {
+    for (const std::vector<int>& k : test::powers_for_x_and_y()) {
         const check::Note note("x times 2^" + std::to_string(k[0]) + ", y times 2^" +
                                std::to_string(k[1]));
         for (const LengthScale scale : scales) {

@@ -2,22 +2,18 @@
 // it, start again. To the bit, on curves full of segments that are equally long.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <vector>
 
+#include "../../stress/textbook_planar.hpp"
 #include "check.hpp"
 #include "curves.hpp"
-#include "curves/arc_length.hpp"
 #include "planar/refinement.hpp"
 #include "unpolled.hpp"
 
 namespace {
 
 using curvewise::Spacing;
-using curvewise::curves::arc_lengths;
-using curvewise::curves::box_scaled;
-using curvewise::curves::interpolate;
 using curvewise::curves::Point;
 using curvewise::curves::Polyline;
 using curvewise::curves::RangeScale;
@@ -29,55 +25,14 @@ using test::unpolled;
 
 const RangeScale as_they_are(1.0);
 
-Polyline points_of(const Curve& curve) { return polyline(curve, as_they_are, unpolled); }
-
 FacingCurves facing_curves(const Curve& P, const Curve& Q, Spacing spacing) {
     return face(P, Q, as_they_are, spacing, unpolled);
 }
 
-std::vector<double> numbers(const Polyline& curve) {
+template <class Points>
+std::vector<double> numbers(const Points& curve) {
     std::vector<double> result;
-    for (const Point& point : curve) result.insert(result.end(), {point.x, point.y});
-    return result;
-}
-
-double rounded_to_34_bits(double length) {
-    if (length == 0.0) return 0.0;
-    const double unit = std::ldexp(1.0, std::ilogb(length) - 33);
-    return std::nearbyint(length / unit) * unit;
-}
-
-struct Part {
-    double length;
-    std::size_t segment;
-    double start;
-    double width;
-};
-
-// Linear search for the longest part, the first of equals: O(size^2).
-Polyline bisected(const Polyline& curve, std::size_t size, Spacing spacing) {
-    std::vector<Part> parts;
-    for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
-        const double dx = curve[i + 1].x - curve[i].x, dy = curve[i + 1].y - curve[i].y;
-        const double length = spacing == Spacing::x ? std::abs(dx) : std::sqrt(dx * dx + dy * dy);
-        parts.push_back({rounded_to_34_bits(length), i, 0.0, 1.0});
-    }
-    while (parts.size() + 1 < size) {
-        const auto longest =
-            std::max_element(parts.begin(), parts.end(),
-                             [](const Part& a, const Part& b) { return a.length < b.length; });
-        longest->length /= 2.0;
-        longest->width /= 2.0;
-        Part second = *longest;
-        second.start += second.width;
-        parts.insert(longest + 1, second);
-    }
-    Polyline result;
-    for (const Part& part : parts) {
-        const Point &a = curve[part.segment], &b = curve[part.segment + 1];
-        result.push_back({a.x + part.start * (b.x - a.x), a.y + part.start * (b.y - a.y)});
-    }
-    result.push_back(curve.back());
+    for (const auto& point : curve) result.insert(result.end(), {point.x, point.y});
     return result;
 }
 
@@ -88,14 +43,15 @@ void longest_first() {
         const bool lattice = repeat % 2 == 0;
         const Curve P = lattice ? random.lattice_curve(n, 2) : random.walk(n);
         const Curve Q = random.walk(m);
-        const auto size = static_cast<std::size_t>(m);
+        const auto more = static_cast<std::size_t>(m - n);
         const check::Note note("n = " + std::to_string(n) + ", m = " + std::to_string(m));
         for (const Spacing spacing : {Spacing::distance, Spacing::x}) {
             const FacingCurves facing = facing_curves(P, Q, spacing);
             const Polyline& refined = n == m ? facing.A : facing.B;
             const Polyline& untouched = n == m ? facing.B : facing.A;
             CHECK_EQUAL(numbers(untouched), Q.values());
-            CHECK_EQUAL(numbers(refined), numbers(bisected(points_of(P), size, spacing)));
+            CHECK_EQUAL(numbers(refined),
+                        numbers(textbook::bisected(textbook::points_of(P), more, spacing)));
             CHECK_EQUAL(numbers(facing_curves(Q, P, spacing).A), Q.values());
         }
     }
@@ -110,30 +66,11 @@ void no_length() {
     }
 }
 
-// After scaling by P's box.
-std::vector<double> relative_lengths(const Curve& curve, const Curve& P) {
-    std::vector<double> lengths =
-        box_scaled_arc_lengths(curve, curvewise::curves::Box(P), unpolled);
-    const double length = lengths.back();
-    for (double& u : lengths) u /= length;
-    return lengths;
-}
-
-Point place(const Polyline& curve, const std::vector<double>& lengths, double u) {
-    const auto after = std::upper_bound(lengths.begin(), lengths.end(), u);
-    if (after == lengths.end()) return curve.back();
-    const auto k = static_cast<std::size_t>(after - lengths.begin());
-    return interpolate(curve[k - 1], curve[k],
-                       (u - lengths[k - 1]) / (lengths[k] - lengths[k - 1]));
-}
-
-void check_places(const Polyline& facing, const Polyline& curve, const std::vector<double>& lengths,
-                  const std::vector<double>& all) {
-    CHECK_EQUAL(facing.size(), all.size());
-    for (std::size_t k = 0; k < std::min(facing.size(), all.size()); ++k) {
-        const Point expected = place(curve, lengths, all[k]);
-        CHECK(std::abs(facing[k].x - expected.x) < 1e-12);
-        CHECK(std::abs(facing[k].y - expected.y) < 1e-12);
+void check_close(const Polyline& facing, const textbook::Points& expected) {
+    CHECK_EQUAL(facing.size(), expected.size());
+    for (std::size_t k = 0; k < std::min(facing.size(), expected.size()); ++k) {
+        CHECK(std::abs(facing[k].x - expected[k].x) < 1e-12);
+        CHECK(std::abs(facing[k].y - expected[k].y) < 1e-12);
     }
 }
 
@@ -144,15 +81,10 @@ void at_every_vertex() {
         const Curve P = random.walk(2 + random.index(30));
         const Curve Q =
             repeat % 3 == 0 ? random.lattice_curve(40, 2) : random.walk(2 + random.index(30));
-        const std::vector<double> along_p = relative_lengths(P, P);
-        const std::vector<double> along_q = relative_lengths(Q, P);
-        if (std::isnan(along_p.back()) || std::isnan(along_q.back())) continue;
-        std::vector<double> all;
-        std::set_union(along_p.begin(), along_p.end(), along_q.begin(), along_q.end(),
-                       std::back_inserter(all));
+        const auto [p, q] = textbook::merged(textbook::points_of(P), textbook::points_of(Q));
         const FacingCurves facing = facing_curves(P, Q, Spacing::arc_length);
-        check_places(facing.A, points_of(P), along_p, all);
-        check_places(facing.B, points_of(Q), along_q, all);
+        check_close(facing.A, p);
+        check_close(facing.B, q);
     }
 }
 

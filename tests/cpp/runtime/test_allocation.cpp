@@ -202,7 +202,7 @@ void nearest() {
     Random random(11);
     std::vector<Curve> curves;
     for (int i = 0; i < 8; ++i) curves.push_back(random.walk(20 + i));
-    const std::vector<CurveView> X(curves.begin(), curves.end());
+    const std::vector<CurveView> X = views_of(curves);
     std::vector<double> distances(3 * X.size());
     std::vector<std::int64_t> places(3 * X.size());
     for_each_measure([&](auto options) {
@@ -268,7 +268,7 @@ void batches() {
     Random random(6);
     std::vector<Curve> curves;
     for (int i = 0; i < 6; ++i) curves.push_back(random.walk(10 + i));
-    const std::vector<CurveView> X(curves.begin(), curves.end());
+    const std::vector<CurveView> X = views_of(curves);
     std::vector<double> out(X.size() * X.size());
     for (const std::ptrdiff_t workers : {1, 3}) {
         const std::string with = ", " + std::to_string(workers) + " workers";

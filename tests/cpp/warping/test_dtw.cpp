@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "all_paths.hpp"
 #include "check.hpp"
 #include "curves.hpp"
 #include "curvewise/dtw.hpp"
@@ -92,18 +93,8 @@ void values_by_hand() {
 }
 
 void check_against_all_paths(const Curve& P, const Curve& Q, const DtwOptions& options) {
-    const oracle::Rules rules = rules_of(options);
-    const double expected = oracle::AllPaths(P, Q, rules).cheapest();
-    const Alignment alignment = dtw_path(P, Q, options);
-    if (!oracle::is_exact(options.ground)) {
-        CHECK_CLOSE(dtw(P, Q, options), expected, 1e-12);
-        CHECK_CLOSE(oracle::path_cost(alignment.path, P, Q, rules), expected, 1e-12);
-    } else {
-        CHECK_EQUAL(dtw(P, Q, options), expected);
-        CHECK_EQUAL(oracle::path_cost(alignment.path, P, Q, rules), expected);
-    }
-    CHECK_EQUAL(alignment.distance, dtw(P, Q, options));
-    CHECK(oracle::is_path(alignment.path, P, Q, rules));
+    oracle::check_against_all_paths(P, Q, rules_of(options), dtw(P, Q, options),
+                                    dtw_path(P, Q, options));
 }
 
 void check_all_options(const Curve& P, const Curve& Q) {
@@ -127,17 +118,7 @@ void check_all_options(const Curve& P, const Curve& Q) {
     }
 }
 
-void smallest_of_all_paths() {
-    Random random(11);
-    for (const std::ptrdiff_t n : {1, 2, 3, 4, 5}) {
-        for (const std::ptrdiff_t m : {1, 2, 3, 4, 5, 6}) {
-            for (const std::ptrdiff_t dim : {1, 2, 3, 5}) {
-                check_all_options(random.curve(n, dim), random.curve(m, dim));
-                check_all_options(random.lattice_curve(n, dim), random.lattice_curve(m, dim));
-            }
-        }
-    }
-}
+void smallest_of_all_paths() { oracle::for_short_pairs(11, check_all_options); }
 
 // Among equal predecessors: diagonal, then (i-1, j), then (i, j-1).
 void ties_in_a_path() {

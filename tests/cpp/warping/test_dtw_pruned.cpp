@@ -13,6 +13,7 @@
 #include "curves/range_scale.hpp"
 #include "hard_curves.hpp"
 #include "oracle.hpp"
+#include "swept_pair.hpp"
 #include "unpolled.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/dtw_pruned.hpp"
@@ -23,12 +24,12 @@
 
 namespace {
 
+using curvewise::GroundDistance;
 using curvewise::Metric;
 using curvewise::curves::RangeScale;
 using curvewise::kernels::Recurrence;
 using curvewise::runtime::Poller;
 using curvewise::warping::available_levels;
-using curvewise::warping::Band;
 using curvewise::warping::DtwPruningOptions;
 using curvewise::warping::DtwPruningRecord;
 using curvewise::warping::Level;
@@ -36,10 +37,10 @@ using curvewise::warping::PackedCurve;
 using curvewise::warping::Path;
 using curvewise::warping::PointOrder;
 using curvewise::warping::Row;
-using curvewise::warping::SweepMemory;
 using curvewise::warping::SweepProblem;
 using test::Curve;
 using test::Random;
+using test::SweptPair;
 using test::unpolled;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -91,27 +92,16 @@ std::string described(const test::Pair& pair, const Setup& setup) {
 class Comparison {
    public:
     Comparison(const test::Pair& pair, const Setup& setup)
-        : setup_(setup),
-          rows_(pair.P, RangeScale(1.0), PointOrder::forward, unpolled),
-          columns_(pair.Q, RangeScale(1.0), PointOrder::reversed, unpolled) {}
+        : setup_(setup), curves_(pair.P, pair.Q) {}
 
-    void run() const {
+    void run() {
         for (const Level& level : available_levels()) {
             const check::Note note(level.name);
-            Poller poller(nullptr);
-            SweepMemory memory;
-            const SweepProblem problem{
-                *level.kernels,
-                {rows_, columns_},
-                setup_.recurrence,
-                curvewise::warping::canonical_cost({setup_.metric}, {rows_, columns_}),
-                2.0,
-                Band(rows_.size(), columns_.size(), setup_.window),
-                false,
-                setup_.workers,
-                poller,
-                memory,
-                1};
+            SweepProblem problem =
+                curves_.problem(level, setup_.recurrence, GroundDistance{setup_.metric});
+            problem.columns = curves_.band(setup_.window);
+            problem.workers = setup_.workers;
+            problem.cells_per_worker = 1;
             compare(problem);
         }
     }
@@ -120,8 +110,8 @@ class Comparison {
     void compare(const SweepProblem& problem) const {
         const Path full = find_path(problem, setup_.options.open_end);
         const Row& bottom = last_row(problem);
-        CHECK_EQUAL(bottom[setup_.options.open_end ? bottom.argmin() : columns_.size() - 1],
-                    full.value);
+        const std::ptrdiff_t last = problem.curves.columns() - 1;
+        CHECK_EQUAL(bottom[setup_.options.open_end ? bottom.argmin() : last], full.value);
         DtwPruningRecord record;
         const std::optional<double> value = dtw_pruned(problem, setup_.options, record);
         if (!value) return check::fail({__FILE__, __LINE__, "dtw_pruned"}, "returns nothing");
@@ -146,8 +136,7 @@ class Comparison {
     }
 
     const Setup& setup_;
-    PackedCurve rows_;
-    PackedCurve columns_;
+    SweptPair curves_;
 };
 
 void compare(const test::Pair& pair, const Setup& setup) {
@@ -229,8 +218,7 @@ void least_distances_are_bounds() {
         const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed, unpolled);
         const curvewise::warping::BoxTree from(p, PointOrder::forward), to(q, PointOrder::reversed);
         std::vector<double> bounds(static_cast<std::size_t>(P.size()), -1.0);
-        Poller poller(nullptr);
-        least_distances(from, to, metric, poller, bounds.data());
+        least_distances(from, to, metric, unpolled, bounds.data());
         curvewise::warping::with_norm(metric, [&](auto norm) {
             using Norm = decltype(norm);
             for (std::ptrdiff_t i = 0; i < P.size(); ++i) {
@@ -252,20 +240,9 @@ void least_distances_are_bounds() {
 void gives_up_where_it_should() {
     Random random(4);
     const auto gives_up = [](const Curve& P, const Curve& Q) {
-        const PackedCurve p(P, RangeScale(1.0), PointOrder::forward, unpolled);
-        const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed, unpolled);
-        Poller poller(nullptr);
-        SweepMemory memory;
-        const SweepProblem problem{*available_levels().front().kernels,
-                                   {p, q},
-                                   Recurrence::dtw_symmetric1,
-                                   curvewise::warping::canonical_cost({}, {p, q}),
-                                   2.0,
-                                   Band(P.size(), Q.size(), std::nullopt),
-                                   false,
-                                   1,
-                                   poller,
-                                   memory};
+        SweptPair curves(P, Q);
+        const SweepProblem problem =
+            curves.problem(available_levels().front(), Recurrence::dtw_symmetric1);
         DtwPruningRecord record;
         return !dtw_pruned(problem, {}, record).has_value();
     };
@@ -283,21 +260,11 @@ void progress_counts_the_table() {
     Random random(5);
     const Curve P = test::loops(14000, 2, 2.0, 0.0, false), Q = test::alike(P, 13000, random);
     curvewise::Control control;
-    const PackedCurve p(P, RangeScale(1.0), PointOrder::forward, unpolled);
-    const PackedCurve q(Q, RangeScale(1.0), PointOrder::reversed, unpolled);
     Poller poller(&control);
     poller.begin(P.size() * Q.size());
-    SweepMemory memory;
-    const SweepProblem problem{*available_levels().back().kernels,
-                               {p, q},
-                               Recurrence::dtw_symmetric1,
-                               curvewise::warping::canonical_cost({}, {p, q}),
-                               2.0,
-                               Band(P.size(), Q.size(), std::nullopt),
-                               false,
-                               1,
-                               poller,
-                               memory};
+    SweptPair curves(P, Q);
+    const SweepProblem problem = curves.problem(
+        available_levels().back(), Recurrence::dtw_symmetric1, GroundDistance{}, poller);
     DtwPruningRecord record;
     CHECK(dtw_pruned(problem, {}, record).has_value());
     poller.poll();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "all_paths.hpp"
 #include "check.hpp"
 #include "curves.hpp"
 #include "curvewise/frechet.hpp"
@@ -60,32 +61,12 @@ void check_against_all_couplings(const Curve& P, const Curve& Q) {
         oracle::Rules rules;
         rules.ground = options.ground;
         rules.largest = true;
-        const double expected = oracle::AllPaths(P, Q, rules).cheapest();
-        const Alignment alignment = frechet_path(P, Q, options);
-        if (!oracle::is_exact(options.ground)) {
-            CHECK_CLOSE(frechet(P, Q, options), expected, 1e-12);
-            CHECK_CLOSE(oracle::path_cost(alignment.path, P, Q, rules), expected, 1e-12);
-        } else {
-            CHECK_EQUAL(frechet(P, Q, options), expected);
-            CHECK_EQUAL(oracle::path_cost(alignment.path, P, Q, rules), expected);
-        }
-        CHECK_EQUAL(alignment.distance, frechet(P, Q, options));
-        CHECK(oracle::is_path(alignment.path, P, Q, rules));
+        oracle::check_against_all_paths(P, Q, rules, frechet(P, Q, options),
+                                        frechet_path(P, Q, options));
     }
 }
 
-void smallest_of_all_couplings() {
-    Random random(21);
-    for (const std::ptrdiff_t n : {1, 2, 3, 4, 5}) {
-        for (const std::ptrdiff_t m : {1, 2, 3, 4, 5, 6}) {
-            for (const std::ptrdiff_t dim : {1, 2, 3, 5}) {
-                check_against_all_couplings(random.curve(n, dim), random.curve(m, dim));
-                check_against_all_couplings(random.lattice_curve(n, dim),
-                                            random.lattice_curve(m, dim));
-            }
-        }
-    }
-}
+void smallest_of_all_couplings() { oracle::for_short_pairs(21, check_against_all_couplings); }
 
 // Among equal predecessors: diagonal, then (i-1, j), then (i, j-1).
 void ties_in_a_path() {

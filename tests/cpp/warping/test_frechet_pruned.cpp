@@ -12,7 +12,7 @@
 #include "check.hpp"
 #include "hard_curves.hpp"
 #include "oracle.hpp"
-#include "unpolled.hpp"
+#include "swept_pair.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/frechet_corridor.hpp"
 #include "warping/frechet_pruned.hpp"
@@ -23,7 +23,7 @@
 namespace {
 
 using curvewise::Metric;
-using curvewise::curves::RangeScale;
+using curvewise::kernels::Cost;
 using curvewise::kernels::Recurrence;
 using curvewise::runtime::Poller;
 using curvewise::warping::available_levels;
@@ -32,11 +32,8 @@ using curvewise::warping::frechet_corridor;
 using curvewise::warping::frechet_pruned;
 using curvewise::warping::Level;
 using curvewise::warping::LiveColumns;
-using curvewise::warping::PackedCurve;
 using curvewise::warping::Path;
-using curvewise::warping::PointOrder;
 using curvewise::warping::PruningRecord;
-using curvewise::warping::SweepMemory;
 using curvewise::warping::SweepProblem;
 using curvewise::warping::SweptColumns;
 using test::alike;
@@ -46,7 +43,7 @@ using test::empty_curve;
 using test::loops;
 using test::Pair;
 using test::Random;
-using test::unpolled;
+using test::SweptPair;
 using test::with_plateaus;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -54,49 +51,30 @@ std::ptrdiff_t pairs = 300;  // in each test
 
 class Comparison {
    public:
-    Comparison(const Curve& P, const Curve& Q)
-        : rows_(P, RangeScale(1.0), PointOrder::forward, unpolled),
-          columns_(Q, RangeScale(1.0), PointOrder::reversed, unpolled) {}
+    Comparison(const Curve& P, const Curve& Q) : curves_(P, Q), dim_(P.dim()) {}
 
-    void run() const {
+    void run() {
         for (const Level& level : available_levels()) {
             const check::Note note(level.name);
             for (const Metric metric : oracle::metrics) {
                 const check::Note metric_note(oracle::name(metric));
-                if (level.kernels->reach(metric, rows_.dim()) != nullptr) compare(level, metric);
+                if (level.kernels->reach(metric, dim_) == nullptr) continue;
+                const SweepProblem problem = problem_of(level, metric);
+                compare_paths(problem, compare_values(problem));
             }
         }
     }
 
-    void run_values(Metric metric) const {
+    void run_values(Metric metric) {
         for (const Level& level : available_levels()) {
             const check::Note note(level.name);
-            with_problem(level, metric, compare_values);
+            compare_values(problem_of(level, metric));
         }
     }
 
    private:
-    void compare(const Level& level, Metric metric) const {
-        with_problem(level, metric, [](const SweepProblem& problem) {
-            compare_paths(problem, compare_values(problem));
-        });
-    }
-
-    template <class Use>
-    void with_problem(const Level& level, Metric metric, Use use) const {
-        Poller poller(nullptr);
-        SweepMemory memory;
-        const SweepProblem problem{*level.kernels,
-                                   {rows_, columns_},
-                                   Recurrence::frechet,
-                                   {metric, false},
-                                   2.0,
-                                   Band(rows_.size(), columns_.size(), std::nullopt),
-                                   false,
-                                   1,
-                                   poller,
-                                   memory};
-        use(problem);
+    SweepProblem problem_of(const Level& level, Metric metric) {
+        return curves_.problem(level, Recurrence::frechet, Cost{metric, false});
     }
 
     static double compare_values(const SweepProblem& problem) {
@@ -134,8 +112,8 @@ class Comparison {
         }
     }
 
-    PackedCurve rows_;
-    PackedCurve columns_;
+    SweptPair curves_;
+    std::ptrdiff_t dim_;
 };
 
 void compare(const Curve& P, const Curve& Q) {
@@ -266,7 +244,7 @@ void kernels_where_there_are_bounds() {
         for (const Metric metric : oracle::metrics) {
             const check::Note note(oracle::name(metric));
             const bool has_bounds = curvewise::warping::has_box_bounds(metric);
-            curvewise::kernels::Cost cost{metric, false};
+            Cost cost{metric, false};
             const bool has_blocks = has_bounds && !curvewise::warping::put_off_root(cost);
             for (const std::ptrdiff_t dim : {1, 2, 3, 4}) {
                 CHECK_EQUAL(level.kernels->least(metric, dim) != nullptr, has_bounds);
@@ -300,23 +278,13 @@ void steps_are_counted_once() {
         for (std::ptrdiff_t j = 0; j < Q.size(); ++j) {
             for (std::ptrdiff_t c = 0; c < 2; ++c) Q(j, c) += P(j * 999 / 949, c);
         }
-        const PackedCurve rows(P, RangeScale(1.0), PointOrder::forward, unpolled);
-        const PackedCurve columns(Q, RangeScale(1.0), PointOrder::reversed, unpolled);
         const std::int64_t cells = P.size() * Q.size();
         curvewise::Control control;
         Poller poller(&control);
         poller.begin(cells);
-        SweepMemory memory;
-        const SweepProblem problem{*available_levels().back().kernels,
-                                   {rows, columns},
-                                   Recurrence::frechet,
-                                   {Metric::sqeuclidean, false},
-                                   2.0,
-                                   Band(P.size(), Q.size(), std::nullopt),
-                                   false,
-                                   1,
-                                   poller,
-                                   memory};
+        SweptPair curves(P, Q);
+        const SweepProblem problem = curves.problem(available_levels().back(), Recurrence::frechet,
+                                                    Cost{Metric::sqeuclidean, false}, poller);
         PruningRecord record;
         const bool is_found = frechet_pruned(problem, {infinity, true, cells}, record).has_value();
         poller.poll();

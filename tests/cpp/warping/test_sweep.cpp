@@ -13,7 +13,7 @@
 #include "../../stress/textbook_warping.hpp"
 #include "check.hpp"
 #include "curves.hpp"
-#include "unpolled.hpp"
+#include "swept_pair.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/ground_distance.hpp"
 #include "warping/path.hpp"
@@ -23,20 +23,17 @@ namespace {
 
 using curvewise::GroundDistance;
 using curvewise::Metric;
-using curvewise::curves::RangeScale;
 using curvewise::kernels::Recurrence;
 using curvewise::warping::available_levels;
 using curvewise::warping::Band;
 using curvewise::warping::Level;
 using curvewise::warping::LiveColumns;
-using curvewise::warping::PackedCurve;
-using curvewise::warping::PointOrder;
 using curvewise::warping::Row;
 using curvewise::warping::SweepProblem;
 using oracle::Path;
 using test::Curve;
 using test::Random;
-using test::unpolled;
+using test::SweptPair;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -61,20 +58,17 @@ class Comparison {
           Q_(Q),
           setup_(setup),
           expected_(textbook::filled(P, Q, setup.rules())),
-          band_(P.size(), Q.size(), setup.window),
-          rows_(P, RangeScale(1.0), PointOrder::forward, unpolled),
-          columns_(Q, RangeScale(1.0), PointOrder::reversed, unpolled),
-          cost_(curvewise::warping::canonical_cost(setup.ground, {rows_, columns_})) {}
+          curves_(P, Q),
+          band_(curves_.band(setup.window)) {}
 
-    void run() const {
+    void run() {
         for (const Level& level : available_levels()) {
             const check::Note note(level.name);
-            curvewise::runtime::Poller poller(nullptr);
-            curvewise::warping::SweepMemory memory;
-            const SweepProblem problem{
-                *level.kernels,  {rows_, columns_}, setup_.recurrence, cost_,  setup_.ground.p,
-                band_,           setup_.open_begin, setup_.workers,    poller, memory,
-                cells_per_worker};
+            SweepProblem problem = curves_.problem(level, setup_.recurrence, setup_.ground);
+            problem.columns = band_;
+            problem.open_begin = setup_.open_begin;
+            problem.workers = setup_.workers;
+            problem.cells_per_worker = cells_per_worker;
             check_bottom(last_row(problem));
             check_table(problem);
             if (setup_.is_exact()) check_narrowed(problem);
@@ -198,10 +192,8 @@ class Comparison {
     const Curve& Q_;
     const Setup& setup_;
     textbook::Table expected_;
+    SweptPair curves_;
     Band band_;
-    PackedCurve rows_;
-    PackedCurve columns_;
-    curvewise::kernels::Cost cost_;
 };
 
 constexpr std::ptrdiff_t dimensions[] = {1, 2, 3, 4, 7};

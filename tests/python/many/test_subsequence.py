@@ -75,6 +75,13 @@ def test_frechet_finds_the_best_of_all_runs():
         assert curvewise.subsequence(P, Q, measure="frechet")[0].distance == best
 
 
+@pytest.mark.parametrize("subsequence", [curvewise.subsequence, reference.nearest.subsequence])
+def test_of_equal_distances_the_first_run_comes_first(subsequence):
+    # Whose squares are not equal: 1 + 2**-52, and 1.
+    found = subsequence([(0, 0)], [(3, 4), (1, 2**-26), (1, 0)], measure="frechet", k=3)
+    assert triples(found) == [(1.0, 1, 1), (1.0, 2, 2), (5.0, 0, 0)]
+
+
 def test_all_of_a_curve_is_used_up():
     found = curvewise.subsequence([0.0], [3, 1, 2, 1], k=10)
     assert triples(found) == [(1.0, 1, 1), (1.0, 3, 3), (2.0, 2, 2), (3.0, 0, 0)]

@@ -160,6 +160,20 @@ def point_at(curve: Array, parameter: float) -> list[Fraction]:
     ]
 
 
+def check_leashes(found: curvewise.Matching, P: Array, Q: Array) -> None:
+    """Check that the leash is nowhere above the distance, as a real number."""
+    rows = found.parameters
+    assert rows[0].tolist() == [0, 0]
+    assert rows[-1].tolist() == [len(P) - 1, len(Q) - 1]
+    assert (np.diff(rows, axis=0) >= 0).all()
+    assert (rows[1:] <= np.floor(rows[:-1]) + 1).all()  # on one edge
+    # On one edge each the leash is longest at an end.
+    for x, y in rows.tolist():
+        p, q = point_at(P, x), point_at(Q, y)
+        square = sum((a - b) ** 2 for a, b in zip(p, q, strict=True))
+        assert square <= Fraction(found.distance) ** 2
+
+
 @pytest.mark.parametrize("module", [curvewise, reference])
 def test_matchings(module: object) -> None:
     rng = np.random.default_rng(3)
@@ -172,19 +186,25 @@ def test_matchings(module: object) -> None:
     for P, Q in [ONE_WAY, *pairs]:
         found = module.frechet_continuous_path(P, Q)  # type: ignore[attr-defined]
         value = frechet_continuous(P, Q)
-        rows = found.parameters
-        assert rows[0].tolist() == [0, 0]
-        assert rows[-1].tolist() == [len(P) - 1, len(Q) - 1]
-        assert (np.diff(rows, axis=0) >= 0).all()
-        assert (rows[1:] <= np.floor(rows[:-1]) + 1).all()  # on one edge
-        # On one edge each the leash is longest at an end.
-        for x, y in rows.tolist():
-            p, q = point_at(P, x), point_at(Q, y)
-            square = sum((a - b) ** 2 for a, b in zip(p, q, strict=True))
-            assert square <= Fraction(found.distance) ** 2
+        check_leashes(found, P, Q)
         assert value <= found.distance <= value * (1 + 1e-14) + 1e-12 * np.abs([*P, *Q]).max()
         over += found.distance > value
     assert module is reference or over <= len(KINDS) * rounds / 8
+
+
+@pytest.mark.parametrize("module", [curvewise, reference])
+def test_matchings_of_an_edge_and_a_computed_point_on_it(module: object) -> None:
+    # The point is beside the edge by less than there is between two parameters.
+    edges = [np.array([(7.9, -48.7), (-36.5, 69.9)])]
+    rng = np.random.default_rng(4)
+    edges += [rng.uniform(-70, 120, (2, 2)).round(1) for _ in range(300)]
+    for k, P in enumerate(edges[: None if module is curvewise else 20]):
+        h = rng.uniform() if k else 0.3
+        Q = np.insert(P, 1, P[0] + h * (P[1] - P[0]), axis=0)
+        for first, second in ((P, Q), (Q, P)):
+            found = module.frechet_continuous_path(first, second)  # type: ignore[attr-defined]
+            check_leashes(found, first, second)
+            assert found.distance <= frechet_continuous(P, Q) + 8 * np.spacing(np.abs(P).max())
 
 
 def test_a_matching_keeps_to_where_the_curves_are_close() -> None:

@@ -312,6 +312,40 @@ def test_area_does_not_depend_on_place_size_or_direction(name: str, crossing: An
         close(curvewise.area(P @ turn + (0.7, 1.9), Q @ turn + (0.7, 1.9), crossing=crossing), area)
 
 
+# A vertex of Q lies on the line through an edge of P: rounding makes quadrilaterals complex.
+JUMPED = [
+    ([(0, 0), (2, 3)], [(2, 1), (2, 3), (2, 0), (1, 0)]),
+    ([(1, 0), (2, 1)], [(5, 2), (5, 4), (3, 3), (0, 2)]),
+    ([(2, 2), (0, 0), (5, 3)], [(1, 2), (5, 3), (5, 5), (2, 5), (3, 5)]),
+    ([(0, 2), (3, 4), (3, 0), (1, 0), (3, 2)], [(2, 2), (3, 0), (0, 2), (1, 1)]),
+]
+
+
+@pytest.mark.parametrize("module", [curvewise, reference])
+@pytest.mark.parametrize(("P", "Q"), JUMPED)
+def test_split_areas_do_not_jump(module: Any, P: Any, Q: Any) -> None:
+    options: Any = {"spacing": "arc_length", "crossing": "split"}
+    area = module.area(P, Q, **options)
+    rng = np.random.default_rng(0)
+    for _ in range(20):
+        p, q = (np.array(C, float) + rng.uniform(-1e-13, 1e-13, np.shape(C)) for C in (P, Q))
+        assert module.area(p, q, **options) == pytest.approx(area, rel=1e-11)
+    # Vertices stay in the order in which they face each other.
+    quads = module.area_quads(P, Q, **options).quads
+    assert np.array_equal(quads[1:, [0, 3]], quads[:-1, [1, 2]])
+
+
+def test_split_areas_jump_where_the_definition_does() -> None:
+    # Another segment is the longest; P's box has a height.
+    P = [(0, 0), (1, 0), (2, 2), (3, 3)]
+    areas = [curvewise.area(P, [(0, 1), (x, 2), (2, 1)], crossing="split") for x in (1 - 1e-9, 1)]
+    assert areas == pytest.approx([3.0, 3.5], rel=1e-8)
+    Q = [(2, 2), (4, 2), (2, 3)]
+    options: Any = {"spacing": "arc_length", "crossing": "split"}
+    areas = [curvewise.area([(0, 0), (2, y)], Q, **options) for y in (0, 1e-9)]
+    assert areas == pytest.approx([5.5224077, 5.0], rel=1e-8)
+
+
 def inserted(rng: np.random.Generator, curve: Array, count: int) -> Array:
     """Return a curve with `count` more vertices, on its segments."""
     for at in rng.integers(1, len(curve), count):

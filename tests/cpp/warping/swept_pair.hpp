@@ -1,0 +1,56 @@
+// For tests of what is behind dtw and frechet: two curves packed as they are, and problems of them.
+#pragma once
+
+#include <optional>
+
+#include "curves.hpp"
+#include "unpolled.hpp"
+#include "warping/dispatch.hpp"
+#include "warping/ground_distance.hpp"
+#include "warping/sweep_problem.hpp"
+
+namespace test {
+
+using curvewise::GroundDistance;
+using curvewise::curves::RangeScale;
+using curvewise::kernels::Cost;
+using curvewise::kernels::Recurrence;
+using curvewise::runtime::Poller;
+using curvewise::warping::Band;
+using curvewise::warping::Level;
+using curvewise::warping::PackedCurve;
+using curvewise::warping::PointOrder;
+using curvewise::warping::SweepMemory;
+using curvewise::warping::SweepProblem;
+
+class SweptPair {
+   public:
+    SweptPair(const Curve& P, const Curve& Q)
+        : p_(P, RangeScale(1.0), PointOrder::forward, unpolled),
+          q_(Q, RangeScale(1.0), PointOrder::reversed, unpolled) {}
+
+    // In one thread and without a window. Valid until the next one, whose memory is the same.
+    SweepProblem problem(const Level& level, Recurrence recurrence, const Cost& cost,
+                         Poller& poller = unpolled) {
+        memory_ = {};
+        return {*level.kernels, {p_, q_}, recurrence, cost, 2.0, band(), false, 1, poller, memory_};
+    }
+    // At the cost by which the library computes a ground distance.
+    SweepProblem problem(const Level& level, Recurrence recurrence,
+                         const GroundDistance& ground = {}, Poller& poller = unpolled) {
+        SweepProblem found = problem(level, recurrence,
+                                     curvewise::warping::canonical_cost(ground, {p_, q_}), poller);
+        found.minkowski_p = ground.p;
+        return found;
+    }
+    Band band(const std::optional<std::ptrdiff_t>& window = std::nullopt) const {
+        return {p_.size(), q_.size(), window};
+    }
+
+   private:
+    PackedCurve p_;
+    PackedCurve q_;
+    SweepMemory memory_;
+};
+
+}  // namespace test
