@@ -1,5 +1,10 @@
 """What the tests share: the golden data, who runs what, and what is said before it begins.
 
+Tests that are marked nightly are left out, unless `-m` names the mark or the command names the test
+("file.py::test"): they take long and seldom find what the others do not (CONTRIBUTING.md lists
+them). The mark takes patterns for the ids of cases; without any it is for all of them. Where they
+are left out, the tests of properties have fewer examples.
+
 The whole suite runs in one process more than there are cores (pytest-xdist). The tests of a file
 stay together, in one process and in their order, so that a fixture of a file is made once; files
 whose tests take seconds each are shared out test by test, and the longest begin first. A run of
@@ -9,6 +14,7 @@ named files or tests is one process, as are `pytest -n 0` and `pytest --pdb`.
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import signal
 from collections.abc import Iterator
@@ -16,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import settings
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = Path(os.environ.get("CURVEWISE_DATA", ROOT.parent / "shared" / "data"))
@@ -23,8 +30,8 @@ DATA = Path(os.environ.get("CURVEWISE_DATA", ROOT.parent / "shared" / "data"))
 # What takes longest, to be begun first: what builds the libraries, then what does without them, so
 # that nobody waits for them. And of those, files whose tests share nothing that is long to make.
 LONGEST_FIRST = (
-    "embedding/test_cpp.py",
     "embedding/test_embed.py::test_fetch_content",
+    "embedding/test_cpp.py",
     "commands/test_selfcheck.py::test_selfcheck_passes_on_this_machine",
     "calibration/",
     "embedding/",
@@ -37,9 +44,32 @@ def place(nodeid: str) -> str:
     return nodeid.removeprefix("tests/python/")
 
 
+def leaves_out_nightly(config: pytest.Config) -> bool:
+    """Return whether the tests that are marked nightly are not asked for."""
+    named = any("::" in argument for argument in config.args)
+    return not named and "nightly" not in config.option.markexpr
+
+
+def is_nightly(item: pytest.Item) -> bool:
+    """Return whether a test, or this case of it, is marked nightly."""
+    return any(
+        not mark.args or any(re.search(case, item.callspec.id) for case in mark.args)
+        for mark in item.iter_markers("nightly")
+    )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Have the tests of properties draw fewer examples by day, if they do not say how many."""
+    settings.register_profile("curvewise", max_examples=40 if leaves_out_nightly(config) else 200)
+    settings.load_profile("curvewise")
+
+
 @pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with what takes longest."""
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out what is for the night, and begin with what takes longest."""
+    if leaves_out_nightly(config):
+        config.hook.pytest_deselected(items=[item for item in items if is_nightly(item)])
+        items[:] = [item for item in items if not is_nightly(item)]
 
     def rank(item: pytest.Item) -> int:
         starts = [i for i, name in enumerate(LONGEST_FIRST) if place(item.nodeid).startswith(name)]
@@ -79,12 +109,11 @@ def pytest_report_header(config: pytest.Config) -> list[str]:
     lines = []
     if config.args == config.getini("testpaths"):
         lines.append(
-            "curvewise: some 5500 tests; they also build the C++ library twice, its own "
-            "tests, and programs that use it"
+            "curvewise: some 5500 tests; they also build the C++ tests, and programs that use "
+            "the library; about 3 minutes on two cores"
         )
-        lines.append(
-            "curvewise: about 5 minutes on two cores; without the builds (-m 'not embed') 3"
-        )
+    if leaves_out_nightly(config):
+        lines.append("curvewise: without the tests for the night, which take long (-m nightly)")
     if not DATA.is_dir():
         lines.append(f"curvewise: no golden data in {DATA} (CURVEWISE_DATA): its tests are skipped")
     missing = [name for name in ("g++", "clang++", "gfortran", "pkg-config") if not found(name)]

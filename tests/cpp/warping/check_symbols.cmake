@@ -1,13 +1,20 @@
-# Fails where two of the object files OBJECTS define the same weak symbol: the linker would then
-# serve one instruction-set level with the other's code. NM lists symbols.
+# Fails where two kernels in the archive LIBRARY, which has one for each of LEVELS, define the same
+# weak symbol: the linker would then serve one instruction-set level with the other's code. NM lists
+# the symbols of an archive file by file, each behind its name.
+execute_process(COMMAND ${NM} ${LIBRARY} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "kernel_set[^\n]*:\n([^\n]+\n)+" kernels "${symbols}")
+list(LENGTH kernels count)
+list(LENGTH LEVELS levels)
+if(NOT count EQUAL levels)
+  message(FATAL_ERROR "${LIBRARY}: ${NM} lists ${count} kernels, of ${levels}")
+endif()
 set(seen)
-foreach(object IN LISTS OBJECTS)
-  execute_process(COMMAND ${NM} ${object} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
-  string(REGEX MATCHALL " [uvVwW] [^\n]+" weak "${symbols}")
-  string(REGEX MATCHALL "[^\n]+" all "${symbols}")
+foreach(kernel IN LISTS kernels)
+  string(REGEX MATCHALL " [uvVwW] [^\n]+" weak "${kernel}")
+  string(REGEX MATCHALL "[^\n]+" all "${kernel}")
   list(LENGTH all count)
   if(count LESS 10)
-    message(FATAL_ERROR "${object}: ${NM} lists only ${count} symbols")
+    message(FATAL_ERROR "${LIBRARY}: ${NM} lists only ${count} symbols of a kernel")
   endif()
   foreach(symbol IN LISTS weak)
     if(symbol IN_LIST seen)

@@ -70,6 +70,7 @@ def quiet_identify(*arguments, **keywords):
         ("nelder-mead", NEAR, 1000),
     ],
 )
+@pytest.mark.nightly("de-.*-(area|pcm|frechet|dtw)", "region-.*-(area|pcm|frechet)")
 def test_known_parameters_are_recovered(measure, method, start, runs):
     found = quiet_identify(model, model(TRUE), BOUNDS, measure=measure, method=method, start=start)
     assert found.converged, found.message
@@ -168,6 +169,7 @@ def test_least_squares_of_a_solver_that_prints_seven_digits():
 
 @pytest.mark.parametrize("measure", ["area", "dtw"])
 @pytest.mark.parametrize("method", ["sdrm+de", "sdrm", "trust-region"])
+@pytest.mark.nightly("de-")
 def test_noise_moves_the_optimum_little(measure, method):
     noisy = with_noise(model(TRUE), 4.0, seed=3)
     found = quiet_identify(model, noisy, BOUNDS, measure=measure, method=method)
@@ -219,6 +221,7 @@ def test_a_landscape_of_steps_ends(method):
 
 
 @pytest.mark.parametrize("method", ["sdrm+de", "sdrm", "trust-region", "nelder-mead"])
+@pytest.mark.nightly("de$")
 def test_a_region_where_simulations_fail_is_left(method):
     def fragile(parameters):
         if parameters["yield"] > 380.0:
@@ -323,6 +326,7 @@ def two_cycles(p):
 
 
 @pytest.mark.parametrize("slopes", ["broyden", "fresh"])
+@pytest.mark.nightly
 def test_one_start_does_not_halt_with_stale_slopes(slopes):
     """Where the region shrank before slopes were renewed, it ended 76 % above the best."""
     truth = {name: value for name, (value, _, _) in SEVEN.items()}

@@ -368,6 +368,7 @@ def script(tmp_path):
     return file
 
 
+@pytest.mark.nightly
 def test_killed_and_resumed_is_as_if_it_had_run_through(tmp_path, script):
     file = tmp_path / "s.db"
     process = started(script, file)

@@ -67,6 +67,7 @@ def test_a_linear_model_has_the_errors_of_least_squares(sigma):
     assert float(said[1]) == pytest.approx(100.0 * move, rel=0.06)  # has two digits
 
 
+@pytest.mark.nightly
 def test_the_bootstrap_of_a_measure_is_near_least_squares():
     """Area and dtw of a noisy parabola: alike in efficiency, never better than least squares."""
     _, covariance, _ = linear_theory(TEST, 0.1)
@@ -252,6 +253,7 @@ def test_draws_that_end_at_a_bound_make_up_no_limit():
     assert low < best - 0.7 * error
 
 
+@pytest.mark.nightly
 def test_residuals_that_go_on_alike_widen_the_intervals():
     """A wrong model: blocks of residuals, not single ones, are what may come differently."""
     smooth = parabola(TRUTH)
@@ -302,6 +304,7 @@ def test_pictures_and_errors():
 # Several measures.
 
 
+@pytest.mark.nightly
 @pytest.mark.filterwarnings("ignore::curvewise.calibration.NoisyTestWarning")
 def test_several_measures_share_their_runs():
     runs = []

@@ -57,6 +57,7 @@ def test_selfcheck_reports_what_it_found(run, monkeypatch, equal, expected):
     assert run("selfcheck") == (expected, "dtw baseline\n", "")
 
 
+@pytest.mark.nightly
 def test_selfcheck_passes_on_this_machine(output):
     out = output("selfcheck")
     assert curvewise.installation.build_info()["active"] in out

@@ -1,16 +1,16 @@
-"""What the tests that embed curvewise share: the C++ library, built once a kind and session.
+"""What the tests that embed curvewise share: the C++ library, at most one build of each kind.
 
-The static library is built together with the C++ tests, as `cmake -DCURVEWISE_BUILD_TESTS=ON` does
-it. The shared one is built inside a project that fetches it (the third way of docs/embedding.md)
-and has other flags: its bits must not depend on them, and `CURVEWISE_INSTALL=ON` installs it from
-there. Both are installed, moved, and their build folders removed, so that what is installed can
-depend on neither. Where pytest-xdist runs several processes, the first that asks builds and the
-others wait.
+The static library is that of the installed package, which is built of these sources and by nature
+far from where it was built. Where the package is not installed, or a source is newer, it is built.
+The shared library is for the nightly run. It is built inside a project that fetches it (the third
+way of docs/embedding.md) and has other flags: its bits must not depend on them, and
+`CURVEWISE_INSTALL=ON` installs it from there. What is built is installed, moved, and its build
+folder removed, so that it can depend on neither. Where pytest-xdist runs several processes, the
+first that asks builds and the others wait.
 """
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 from collections.abc import Callable
@@ -19,21 +19,17 @@ from pathlib import Path
 
 import pytest
 from filelock import FileLock
-from programs import PURELIB, ROOT, build, output, run, tool, write_page
+from programs import OPTIONS, ROOT, build, output, tool, write_page
 
-OPTIONS = [
-    f"-DCMAKE_PREFIX_PATH={PURELIB.as_posix()}",
-    "-DCMAKE_INSTALL_LIBDIR=lib",
-    "-DCURVEWISE_WARNINGS_AS_ERRORS=ON",
-]
+import curvewise
 
 
 @pytest.fixture(scope="session")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
     """Return what gives the folder of the "static" or "shared" library, built if need be.
 
-    It holds ``prefix``, where the library is installed, and ``printed.json``: for "static" what
-    ctest printed and its status, for "shared" what the program of the page printed.
+    It holds ``prefix``, where the library is installed, and ``printed.txt``: what the program of
+    the page printed, where there is one.
     """
     base = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
@@ -58,29 +54,28 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
 @pytest.fixture(scope="session")
 def prefix(built: Callable[[str], Path]) -> Callable[[str], Path]:
     """Return what gives the prefix where the "static" or "shared" C++ library is installed."""
-    return lambda kind: built(kind) / "prefix"
+    installed = Path(curvewise.__file__).parent
+    library = installed / "lib" / "libcurvewise.a"
+    sources = [ROOT / "CMakeLists.txt", *(ROOT / "cpp").rglob("*.*")]
+    is_of_sources = library.is_file() and library.stat().st_mtime > max(
+        source.stat().st_mtime for source in sources
+    )
+    return lambda kind: installed if kind == "static" and is_of_sources else built(kind) / "prefix"
 
 
 def _build(kind: str, work: Path) -> Path:
     """Build and install a library in a folder; return it without what it was built in."""
     work.mkdir()
-    printed, status = _BUILDERS[kind](work)
+    if kind == "static":
+        build(ROOT, work / "build", *OPTIONS)
+    else:
+        _build_shared(work)
     output(tool("cmake"), "--install", work / "build", "--prefix", work / "prefix")
     shutil.rmtree(work / "build")
-    text = json.dumps({"printed": printed, "status": status})
-    (work / "printed.json").write_text(text, encoding="utf-8")
     return work
 
 
-def _build_static(work: Path) -> tuple[str, int]:
-    """Build the library and the C++ tests, and run these."""
-    build(ROOT, work / "build", *OPTIONS, "-DCURVEWISE_BUILD_TESTS=ON")
-    options = ["--output-on-failure", "--no-tests=error", "--parallel", "2"]
-    done = run(tool("ctest"), "--test-dir", work / "build", *options)
-    return done.stdout, done.returncode
-
-
-def _build_shared(work: Path) -> tuple[str, int]:
+def _build_shared(work: Path) -> None:
     """Build and run the page's program in a project of other flags that fetches the library."""
     folder = write_page(work / "tool", "main.cpp", "fetch_content/CMakeLists.txt")
     (work / "curvewise").symlink_to(ROOT)
@@ -92,7 +87,4 @@ def _build_shared(work: Path) -> tuple[str, int]:
         "-DCMAKE_UNITY_BUILD=ON",
     ]
     build(folder, work / "build", *OPTIONS, *options)
-    return output(work / "build" / "tool"), 0
-
-
-_BUILDERS = {"static": _build_static, "shared": _build_shared}
+    (work / "printed.txt").write_text(output(work / "build" / "tool"), encoding="utf-8")

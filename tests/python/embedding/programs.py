@@ -15,7 +15,15 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
 PURELIB = Path(sysconfig.get_path("purelib"))
+OPTIONS = [
+    f"-DCMAKE_PREFIX_PATH={PURELIB.as_posix()}",
+    "-DCMAKE_INSTALL_LIBDIR=lib",
+    "-DCURVEWISE_WARNINGS_AS_ERRORS=ON",
+]
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"]
+
+# The libraries that a test takes: the shared one, which has to be built, at night.
+KINDS = ["static", pytest.param("shared", marks=pytest.mark.nightly)]
 
 # For `pytestmark` of a file whose tests build such programs.
 MARKS = [

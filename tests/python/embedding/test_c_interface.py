@@ -1,21 +1,20 @@
 """The C interface, called from Python by ctypes: every option, and every way to be refused.
 
-The shared library is loaded beside the Python module, which has a copy of its own inside; both
-give the same bits.
+The library is loaded beside the Python module, which has a copy of its own inside; both give the
+same bits. The functions of the static library, which shows none, are compiled into one that does.
 """
 
 from __future__ import annotations
 
 import ctypes
 import math
-import subprocess
 import sys
 from ctypes import POINTER, Structure, byref, c_char, c_double, c_int, c_ssize_t, c_void_p
 from typing import get_args
 
 import numpy as np
 import pytest
-from programs import MARKS
+from programs import KINDS, MARKS, ROOT, compiler, output, run
 
 import curvewise
 from curvewise._options import Metric
@@ -53,10 +52,18 @@ CurveLength = structure("CurveLength", ("scale", c_int))
 Batch = structure("Batch", ("workers", c_ssize_t), ("cutoff", c_double))
 
 
-@pytest.fixture(scope="module")
-def library(prefix) -> ctypes.CDLL:
-    ending = "dylib" if sys.platform == "darwin" else "so"
-    return ctypes.CDLL(str(prefix("shared") / "lib" / f"libcurvewise.{ending}"))
+@pytest.fixture(scope="module", params=KINDS)
+def library(request, prefix, tmp_path_factory) -> ctypes.CDLL:
+    place = prefix(request.param) / "lib"
+    shared = place / f"libcurvewise.{'dylib' if sys.platform == 'darwin' else 'so'}"
+    if request.param == "static":
+        shared = tmp_path_factory.mktemp("c_interface") / "interface.so"
+        source = ROOT / "cpp/src/interface/c_interface.cpp"
+        options = ["-std=c++17", "-shared", "-fPIC", "-DCURVEWISE_SHARED", "-DCURVEWISE_BUILDING"]
+        options += [f"-I{ROOT / 'cpp' / folder}" for folder in ("include", "src")]
+        archive = place / "libcurvewise.a"
+        output(compiler("c++", "g++"), *options, source, archive, "-pthread", "-o", shared)
+    return ctypes.CDLL(str(shared))
 
 
 def view(points: np.ndarray) -> Structure:
@@ -275,7 +282,7 @@ def test_version(library) -> None:
     assert library.curvewise_version().decode() == curvewise.__version__
 
 
-def test_what_is_no_argument_is_a_failure(prefix, library) -> None:
+def test_what_is_no_argument_is_a_failure(library) -> None:
     """CURVEWISE_ISA names a level that no machine has."""
     program = (
         "import ctypes, sys\n"
@@ -286,10 +293,5 @@ def test_what_is_no_argument_is_a_failure(prefix, library) -> None:
         "print(library.curvewise_dtw(curve, curve, None, ctypes.byref(value), error))\n"
         "print(error.value.decode())\n"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", program, library._name],
-        capture_output=True,
-        text=True,
-        env={"CURVEWISE_ISA": "v9"},
-    )
+    done = run(sys.executable, "-c", program, library._name, CURVEWISE_ISA="v9")
     assert done.stdout.startswith(f"{FAILED}\nCURVEWISE_ISA is 'v9'; this machine has baseline")

@@ -1,25 +1,27 @@
-"""The C++ library and its tests, built as a C++ user would build them, warnings as errors."""
+"""The C++ tests, warnings as errors, with the library that the other tests of this folder use."""
 
 from __future__ import annotations
 
-import json
-import os
-import shutil
-
 import pytest
-from programs import ROOT
+from programs import MARKS, OPTIONS, PURELIB, ROOT, build, compiler, output, tool
 
-SOURCES = ("CMakeLists.txt", "cpp/CMakeLists.txt", "tests/cpp/CMakeLists.txt")
-COMPILERS = ("c++", "g++", "clang++", "cl")
+pytestmark = MARKS
 
 
-def test_the_cpp_tests_pass(built) -> None:
-    """Every C++ test, as conftest.py has built and run it."""
-    missing = [name for name in SOURCES if not (ROOT / name).is_file()]
-    if missing:
-        pytest.skip(f"not a source tree: no {missing[0]}")
-    if "CXX" not in os.environ and not any(map(shutil.which, COMPILERS)):
-        pytest.skip(f"no C++ compiler: none of {', '.join(COMPILERS)}, and CXX is not set")
-    done = json.loads((built("static") / "printed.json").read_text(encoding="utf-8"))
-    assert done["status"] == 0, done["printed"]
-    assert "100% tests passed" in done["printed"]
+# ctest's options: without the tests that have its label nightly, and with these alone.
+TESTS = ["--label-exclude", pytest.param("--label-regex", marks=pytest.mark.nightly)]
+
+
+@pytest.mark.parametrize("option", TESTS)
+def test_the_cpp_tests_pass(option, prefix, tmp_path) -> None:
+    compiler("c++", "g++", "clang++")
+    build(
+        ROOT,
+        tmp_path,
+        *OPTIONS,
+        f"-DCMAKE_PREFIX_PATH={PURELIB.as_posix()};{prefix('static')}",
+        "-DCURVEWISE_BUILD_TESTS=ON",
+        "-DCURVEWISE_TEST_INSTALLED=ON",
+    )
+    options = [option, "nightly", "--output-on-failure", "--no-tests=error", "--parallel", "2"]
+    output(tool("ctest"), "--test-dir", tmp_path, *options)

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from programs import (
+    KINDS,
     MARKS,
     ROOT,
     WARNINGS,
@@ -46,7 +47,7 @@ def loop(n: int, height: float) -> np.ndarray:
 P, Q = loop(129, 0.5), loop(65, 0.375)
 
 
-@pytest.fixture(scope="module", params=["static", "shared"])
+@pytest.fixture(scope="module", params=KINDS)
 def examples(request: pytest.FixtureRequest, prefix, tmp_path_factory) -> Path:
     """Return the folder of the examples, built by CMake with a library that has been moved."""
     folder = tmp_path_factory.mktemp("examples")
@@ -226,6 +227,7 @@ def test_eigen_caller_under_the_address_sanitizer(cxx, flag, prefix, tmp_path) -
     assert numbers(output(program)) == EIGEN_VALUES
 
 
+@pytest.mark.nightly
 @pytest.mark.skipif(sys.platform != "linux", reason="reads ELF symbols with nm")
 def test_the_shared_library_shows_its_interface_alone(prefix) -> None:
     shared = prefix("shared")
@@ -255,10 +257,11 @@ def test_the_shared_library_shows_its_interface_alone(prefix) -> None:
 
 
 @pytest.mark.parametrize("cxx", ["g++", "clang++"])
+@pytest.mark.nightly
 def test_headers_compile_fast(cxx, prefix, tmp_path) -> None:
     """Without a warning, each by itself (by one compiler: it is about our own includes)."""
     compiler(cxx)
-    installed = prefix("shared") / "include"
+    installed = prefix("static") / "include"
     include = [f"-I{installed}", "-isystem", str(eigen() / "include/eigen3")]
     command = [cxx, "-std=c++17", *WARNINGS, *include, "-fsyntax-only", "-x", "c++"]
     headers = sorted((installed / "curvewise").glob("*.h*")) if cxx == "g++" else []

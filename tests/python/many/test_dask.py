@@ -220,6 +220,7 @@ def client() -> Iterator[Client]:
         yield client
 
 
+@pytest.mark.nightly
 def test_a_cluster(client: Client) -> None:
     XA, XB = walks(12, longest=80), walks(9, seed=1, longest=80)
     for measure, options in CASES:
@@ -255,6 +256,7 @@ if sys.argv[1] == "stay":
 
 @pytest.mark.skipif(os.name != "posix", reason="os.kill sends SIGINT on POSIX systems only")
 @pytest.mark.parametrize(("then", "output"), [("leave", ""), ("stay", "idle\n")])
+@pytest.mark.nightly("stay")
 def test_ctrl_c_ends_the_blocks_that_have_begun(then: str, output: str) -> None:
     """The process ends, too, which waits for its threads."""
     run = subprocess.run(
@@ -276,6 +278,7 @@ def test_cancelling_ends_the_blocks_that_have_begun(client: Client) -> None:
     assert np.array_equal(found, curvewise.cdist(few))
 
 
+@pytest.mark.nightly
 def test_a_worker_killed_in_the_middle_loses_nothing(client: Client, tmp_path: Path) -> None:
     curves = walks(20)
     # 25 blocks of 16 pairs, a sixth of a second each: some are done, one is half done.

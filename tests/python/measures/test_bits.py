@@ -171,6 +171,7 @@ def differences(pair: Pair) -> list[str]:
     ("family", "chunk"),
     [(name, chunk) for name, (_, count) in FAMILIES.items() for chunk in range(count // CHUNK)],
 )
+@pytest.mark.nightly("bands|[1-9]$")  # by day a tenth, of every family that is not slow
 def test_distance_path_and_table_equal_the_reference(family: str, chunk: int) -> None:
     found = [(str(pair), names) for pair in pairs(family, chunk) if (names := differences(pair))]
     assert not found

@@ -121,7 +121,7 @@ curves = st.lists(st.tuples(coordinates, coordinates), min_size=1, max_size=10).
 )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(deadline=None)
 @given(curves, curves, st.integers(-900, 900), st.integers(0, 3))
 def test_what_changes_nothing(P: Array, Q: Array, exponent: int, halvings: int) -> None:
     value = frechet_continuous(P, Q)
@@ -140,7 +140,7 @@ def test_what_changes_nothing(P: Array, Q: Array, exponent: int, halvings: int) 
     assert frechet_continuous(divided, P) == 0.0
 
 
-@settings(max_examples=200, deadline=None)
+@settings(deadline=None)
 @given(curves, curves)
 def test_between_the_discrete_distance_and_an_edge_less(P: Array, Q: Array) -> None:
     edges = [np.hypot(*np.diff(C, axis=0).T) for C in (P, Q)]

@@ -101,6 +101,7 @@ def all_pairs(request: pytest.FixtureRequest) -> list[Pair]:
     return measured
 
 
+@pytest.mark.nightly("random")
 def test_matched_area_equals_the_reference(all_pairs: list[Pair]) -> None:
     compare_areas(all_pairs[:30], {"spacing": "matched"})  # the reference fills a table for each
 

@@ -20,7 +20,7 @@ from curvewise._options import Metric
 
 Array = npt.NDArray[np.float64]
 
-PROFILE = settings(derandomize=True, deadline=None, max_examples=150)
+PROFILE = settings(derandomize=True, deadline=None)
 
 METRICS = st.sampled_from(get_args(Metric))
 NORMS = st.sampled_from(["euclidean", "sqeuclidean", "cityblock", "chebyshev"])

@@ -23,6 +23,7 @@ RUNS = {
 
 @pytest.mark.skipif(sys.platform != "linux", reason="limits of the address space, and of files")
 @pytest.mark.parametrize("name", RUNS)
+@pytest.mark.nightly
 def test_nothing_is_lost(name):
     script, *options = RUNS[name]
     command = [sys.executable, str(SCRIPTS / script), *options]

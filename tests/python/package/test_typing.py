@@ -7,11 +7,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import curvewise
 
 USER_FILE = Path(__file__).resolve().parents[2] / "typing" / "every_public_function.py"
 
 
+@pytest.mark.nightly
 def test_mypy_strict_accepts_every_public_function(tmp_path: Path) -> None:
     checked = subprocess.run(
         [

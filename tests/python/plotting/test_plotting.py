@@ -452,6 +452,7 @@ def test_pictures_name_the_files(tmp_path):
 
 
 @pytest.mark.parametrize("format", ["png", "svg", "pdf"])
+@pytest.mark.nightly("svg|pdf")
 def test_figures_save_without_pyplot(format, tmp_path):
     code = f"""
 import sys

@@ -337,6 +337,7 @@ while os.path.getsize({folder!r} + "/begun") > int(open({folder!r} + "/allowed")
 
 
 @posix
+@pytest.mark.nightly
 def test_a_study_that_is_interrupted_and_killed_ends_with_the_same_bits(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
