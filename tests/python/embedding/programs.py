@@ -79,16 +79,15 @@ def numbers(text: str) -> dict[str, float]:
     return {name: float(value) for name, value in re.findall(r"^(\w+) +(\S+)$", text, re.M)}
 
 
+def configure(source: Path, folder: Path, *options: str) -> list[str]:
+    """Return the command that configures a CMake project for ninja: there may be no make."""
+    ninja = f"-DCMAKE_MAKE_PROGRAM={Path(tool('ninja')).as_posix()}"
+    return [tool("cmake"), "-G=Ninja", ninja, *options, f"-S={source}", f"-B={folder}"]
+
+
 def build(source: Path, folder: Path, *options: str, target: str = "all") -> None:
     """Configure a CMake project and build it, or a target of it, with ninja."""
-    output(
-        tool("cmake"),
-        "-G=Ninja",
-        f"-DCMAKE_MAKE_PROGRAM={Path(tool('ninja')).as_posix()}",
-        *options,
-        f"-S={source}",
-        f"-B={folder}",
-    )
+    output(*configure(source, folder, *options))
     output(tool("cmake"), "--build", folder, "--target", target)
 
 

@@ -19,7 +19,7 @@ def test_the_cpp_tests_pass(option, prefix, tmp_path) -> None:
         ROOT,
         tmp_path,
         *OPTIONS,
-        f"-DCMAKE_PREFIX_PATH={PURELIB.as_posix()};{prefix('static')}",
+        f"-DCMAKE_PREFIX_PATH={prefix('static')};{PURELIB.as_posix()}",  # that one first
         "-DCURVEWISE_BUILD_TESTS=ON",
         "-DCURVEWISE_TEST_INSTALLED=ON",
     )

@@ -22,6 +22,7 @@ from programs import (
     WARNINGS,
     build,
     compiler,
+    configure,
     library_path,
     numbers,
     output,
@@ -64,8 +65,7 @@ def test_find_package_refuses_another_major_version(prefix, tmp_path) -> None:
     folder = write_page(tmp_path / "tool", "main.cpp", "find_package/CMakeLists.txt")
     project = folder / "CMakeLists.txt"
     project.write_text(project.read_text().replace("curvewise 0.1", "curvewise 1.0"))
-    place = f"-DCMAKE_PREFIX_PATH={prefix('static')}"
-    done = run(tool("cmake"), place, f"-S={folder}", f"-B={tmp_path}")
+    done = run(*configure(folder, tmp_path, f"-DCMAKE_PREFIX_PATH={prefix('static')}"))
     assert done.returncode != 0
     assert "compatible with requested version" in done.stdout
 
@@ -135,7 +135,8 @@ def test_wheel(wheel, tmp_path) -> None:
         tmp_path / "tool", "main.cpp", "find_package/CMakeLists.txt", "wheel.sh", "wheel_by_hand.sh"
     )
     tools = [Path(sys.executable).parent, Path(tool("cmake")).parent]
-    environment = {"PATH": os.pathsep.join(map(str, [*tools, os.environ["PATH"]]))}
+    path = os.pathsep.join(map(str, [*tools, os.environ["PATH"]]))
+    environment = {"PATH": path, "CMAKE_GENERATOR": "Ninja"}  # there may be no make
     output("sh", "-e", "wheel.sh", cwd=folder, **environment)
     assert_tool_right(output(folder / "build" / "tool"))
     output("sh", "-e", "wheel_by_hand.sh", cwd=folder, **environment)
