@@ -5,6 +5,7 @@
 
 namespace curvewise::bindings {
 
+void bind_materials(pybind11::module_& module);  // points of material
 void bind_measures(pybind11::module_& module);   // of one pair
 void bind_nearest(pybind11::module_& module);    // Index
 void bind_pairwise(pybind11::module_& module);   // cdist, pdist and Prepared

@@ -18,6 +18,7 @@ PYBIND11_MODULE(_core, module, pybind11::mod_gil_not_used()) {
     curvewise::bindings::bind_pointwise(module);
     curvewise::bindings::bind_pairwise(module);
     curvewise::bindings::bind_nearest(module);
+    curvewise::bindings::bind_materials(module);
     module.def("build_info", [] {
         const curvewise::BuildInfo info = curvewise::build_info();
         pybind11::dict result;

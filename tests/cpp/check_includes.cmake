@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.21)
 set(floors
   "include/curvewise"
   "src/runtime src/warping/kernels"
-  "src/curves"
+  "src/curves src/materials"
   "src/pairwise"
   "src/continuous src/planar src/warping"
   "src/nearest"

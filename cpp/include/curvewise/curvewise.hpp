@@ -8,6 +8,7 @@
 #include "curvewise/curve.hpp"
 #include "curvewise/dtw_mean.hpp"
 #include "curvewise/gradient.hpp"
+#include "curvewise/materials.hpp"
 #include "curvewise/measure.hpp"  // and all measures
 #include "curvewise/nearest.hpp"
 #include "curvewise/options.hpp"

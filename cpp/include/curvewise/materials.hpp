@@ -1,0 +1,116 @@
+/// \file
+/// Points of material: the stress along a path of strain, and its derivatives by every parameter,
+/// for models whose parameters are identified from loops. Uniaxial, driven by strain, independent
+/// of its rate, unloaded at the start; the strain runs monotonically from each value to the next.
+///
+/// ChabocheVoce: back stresses X_k and a yield stress that grows or shrinks,
+///
+///     |s - sum X_k| <= yield + Q (1 - exp(-b p)),    dX_k = C_k de_p - gamma_k X_k dp
+///
+/// (Chaboche, Int. J. Plasticity 2, 1986; factors of 2/3 and 3/2 absorbed into the constants). In
+/// one direction of flow everything is a closed form of the plastic strain p; a step is one
+/// equation for p, which a safeguarded Newton iteration solves: exact however long the step is.
+///
+/// YoshidaUemori: a yield surface of constant size that moves inside a bounding surface, which
+/// moves and grows, except while its centre stays within the stagnation surface (Yoshida & Uemori,
+/// Int. J. Plasticity 18, 2002; uniaxial, with the constants of *MAT_125 of LS-DYNA). What has no
+/// closed form is integrated to a stated tolerance.
+///
+/// Either with a constant modulus or with one that decays with the plastic strain (Yoshida, Uemori
+/// & Fujiwara, Int. J. Plasticity 18, 2002), ds = E(p) de_e with E(p) = E - (E - Ea)(1 - exp(-xi
+/// p)).
+///
+/// Slopes are the derivatives of what is computed, by dual numbers in the same pass; where a step
+/// just reaches the yield surface there is a kink, and they are those of one side.
+///
+/// Time O(n) (k/8 times that for slopes by k parameters), memory O(1). Throws std::invalid_argument
+/// for strains and parameters that are not finite or make no sense, naming them; Stopped. Safe from
+/// any number of threads.
+///
+///     curvewise::ChabocheVoce steel;                       // two back stresses
+///     const double parameters[] = {200e3, 300, -50, 8, 80e3, 400, 5e3, 20};
+///     std::vector<double> stress(strain.size()), slopes(8 * strain.size());
+///     curvewise::material_stress(steel, parameters, strain.data(), strain.size(), stress.data(),
+///                                slopes.data());
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "curvewise/control.hpp"
+#include "curvewise/export.h"
+#include "curvewise/options.hpp"
+
+namespace curvewise {
+
+/// What Young's modulus does while plastic strain accumulates.
+enum class Modulus {
+    constant,  ///< parameter E
+    decaying   ///< parameters E, Ea (its limit) and xi (the rate)
+};
+
+/// The names of the enumerators, in their order.
+constexpr auto choice_names(Modulus /*modulus*/) noexcept {
+    return names_up_to<Modulus::decaying>("constant", "decaying");
+}
+
+/// How the bounding surface grows with the plastic strain p.
+enum class BoundGrowth {
+    saturating,  ///< dR = K (RSAT - R) dp
+    power        ///< R = RSAT ((C1 + p)^C2 - C1^C2): two parameters more
+};
+
+/// The names of the enumerators, in their order.
+constexpr auto choice_names(BoundGrowth /*growth*/) noexcept {
+    return names_up_to<BoundGrowth::power>("saturating", "power");
+}
+
+/// Parameters, in order: E (Ea, xi), yield, Q, b, then C1, gamma1, C2, gamma2, ...
+struct ChabocheVoce {
+    int backstresses = 2;  ///< 0 to 99
+    Modulus modulus = Modulus::constant;
+};
+
+/// Parameters, in order: E (Ea, xi), CB, Y, C, K, RSAT, SB, H (C1, C2).
+struct YoshidaUemori {
+    BoundGrowth growth = BoundGrowth::saturating;
+    Modulus modulus = Modulus::constant;
+    /// The error that the integration may make, relative to CB. 1e-12 to 1e-3.
+    double rtol = 1e-9;
+};
+
+/// Calls visit(name, value) for each option.
+template <class Visit>
+void visit_options(ChabocheVoce& material, Visit&& visit) {
+    visit("backstresses", material.backstresses);
+    visit("modulus", material.modulus);
+}
+template <class Visit>
+void visit_options(YoshidaUemori& material, Visit&& visit) {
+    visit("growth", material.growth);
+    visit("modulus", material.modulus);
+    visit("rtol", material.rtol);
+}
+
+/// One number that a material is given. Units of stress are those of the caller.
+struct MaterialParameter {
+    std::string name;
+    std::string unit;  ///< "stress" or "-"
+    std::string meaning;
+};
+
+/// The parameters of a material, in the order of material_stress().
+CURVEWISE_EXPORT std::vector<MaterialParameter> material_parameters(const ChabocheVoce& material);
+CURVEWISE_EXPORT std::vector<MaterialParameter> material_parameters(const YoshidaUemori& material);
+
+/// Writes the stress at each of n strains; and, unless null, to slopes[i * k + j] the derivative of
+/// stress i by parameter j, n rows of one number for each of the k parameters.
+CURVEWISE_EXPORT void material_stress(const ChabocheVoce& material, const double* parameters,
+                                      const double* strain, std::ptrdiff_t n, double* stress,
+                                      double* slopes = nullptr, Control* control = nullptr);
+CURVEWISE_EXPORT void material_stress(const YoshidaUemori& material, const double* parameters,
+                                      const double* strain, std::ptrdiff_t n, double* stress,
+                                      double* slopes = nullptr, Control* control = nullptr);
+
+}  // namespace curvewise

@@ -1,0 +1,45 @@
+// The Chaboche-Voce material: its parameters, what they may be, and the walk along a path.
+#include "materials/chaboche_voce.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "curvewise/materials.hpp"
+
+namespace curvewise {
+
+std::vector<MaterialParameter> material_parameters(const ChabocheVoce& material) {
+    if (material.backstresses < 0 || material.backstresses > 99) {
+        throw std::invalid_argument("backstresses is " + std::to_string(material.backstresses) +
+                                    "; give a whole number from 0 to 99");
+    }
+    std::vector<MaterialParameter> parameters = materials::modulus_parameters(material.modulus);
+    parameters.push_back({"yield", "stress", "initial yield stress"});
+    parameters.push_back(
+        {"Q", "stress", "what the yield stress grows by, or shrinks where negative"});
+    parameters.push_back({"b", "-", "rate of that with the plastic strain"});
+    for (int k = 1; k <= material.backstresses; ++k) {
+        const std::string number = std::to_string(k);
+        parameters.push_back({"C" + number, "stress", "initial modulus of back stress " + number});
+        parameters.push_back({"gamma" + number, "-", "its recall; it saturates at C / gamma"});
+    }
+    return parameters;
+}
+
+void material_stress(const ChabocheVoce& material, const double* parameters, const double* strain,
+                     std::ptrdiff_t n, double* stress, double* slopes, Control* control) {
+    const materials::Parameters checked(material_parameters(material), parameters);
+    materials::check_modulus(checked, material.modulus);
+    const std::size_t yield = materials::place_of_yield(material.modulus);
+    checked.above_zero(yield);
+    for (std::size_t i = yield + 2; i < checked.count(); ++i) checked.at_least_zero(i);
+    if (checked[yield] + checked[yield + 1] <= 0.0) {
+        checked.refuse(yield + 1, "a yield stress of " + materials::text_of(checked[yield]) +
+                                      " would soften to nothing; give Q > -yield");
+    }
+    materials::integrate<materials::ChabocheVocePoint>(material, checked, strain, n, stress, slopes,
+                                                       control);
+}
+
+}  // namespace curvewise

@@ -1,0 +1,113 @@
+// Dual numbers: a value with its derivatives in N directions, carried through every operation
+// (forward differentiation; Griewank & Walther, "Evaluating Derivatives", 2008, chapter 3). Code
+// that is written for a Number computes with double or with Dual; the values are the same bits.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+namespace curvewise::materials {
+
+template <int N>
+struct Dual {
+    double value = 0.0;
+    std::array<double, N> slopes{};
+
+    Dual() = default;
+    Dual(double number) noexcept : value(number) {}  // NOLINT(google-explicit-constructor)
+
+    // f(x), where f' is known at x.
+    Dual mapped(double f, double derivative) const noexcept {
+        Dual result(f);
+        for (int i = 0; i < N; ++i) result.slopes[i] = derivative * slopes[i];
+        return result;
+    }
+
+    Dual operator-() const noexcept { return mapped(-value, -1.0); }
+    Dual& operator+=(const Dual& other) noexcept {
+        value += other.value;
+        for (int i = 0; i < N; ++i) slopes[i] += other.slopes[i];
+        return *this;
+    }
+    Dual& operator-=(const Dual& other) noexcept {
+        value -= other.value;
+        for (int i = 0; i < N; ++i) slopes[i] -= other.slopes[i];
+        return *this;
+    }
+    friend Dual operator+(Dual a, const Dual& b) noexcept { return a += b; }
+    friend Dual operator-(Dual a, const Dual& b) noexcept { return a -= b; }
+    friend Dual operator+(Dual a, double b) noexcept {
+        a.value += b;
+        return a;
+    }
+    friend Dual operator+(double a, const Dual& b) noexcept { return b + a; }
+    friend Dual operator-(Dual a, double b) noexcept {
+        a.value -= b;
+        return a;
+    }
+    friend Dual operator-(double a, const Dual& b) noexcept { return b.mapped(a - b.value, -1.0); }
+    friend Dual operator*(const Dual& a, double b) noexcept { return a.mapped(a.value * b, b); }
+    friend Dual operator*(double a, const Dual& b) noexcept { return b.mapped(a * b.value, a); }
+    friend Dual operator*(const Dual& a, const Dual& b) noexcept {
+        Dual result(a.value * b.value);
+        for (int i = 0; i < N; ++i) {
+            result.slopes[i] = a.slopes[i] * b.value + b.slopes[i] * a.value;
+        }
+        return result;
+    }
+    friend Dual operator/(const Dual& a, double b) noexcept {
+        return a.mapped(a.value / b, 1.0 / b);
+    }
+    friend Dual operator/(const Dual& a, const Dual& b) noexcept {
+        const double quotient = a.value / b.value, inverse = 1.0 / b.value;
+        Dual result(quotient);
+        for (int i = 0; i < N; ++i) {
+            result.slopes[i] = (a.slopes[i] - quotient * b.slopes[i]) * inverse;
+        }
+        return result;
+    }
+};
+
+inline double value_of(double number) noexcept { return number; }
+template <int N>
+double value_of(const Dual<N>& number) noexcept {
+    return number.value;
+}
+
+using std::exp;
+using std::log;
+using std::pow;
+
+template <int N>
+Dual<N> exp(const Dual<N>& x) noexcept {
+    const double f = std::exp(x.value);
+    return x.mapped(f, f);
+}
+template <int N>
+Dual<N> log(const Dual<N>& x) noexcept {
+    return x.mapped(std::log(x.value), 1.0 / x.value);
+}
+// x^y for x >= 0; where x is 0, its own share of the derivative is that of y >= 1.
+template <int N>
+Dual<N> pow(const Dual<N>& x, const Dual<N>& y) noexcept {
+    const double f = std::pow(x.value, y.value);
+    const double by_x = y.value * std::pow(x.value, y.value - 1.0);
+    const double by_y = x.value > 0.0 ? f * std::log(x.value) : 0.0;
+    Dual<N> result(f);
+    for (int i = 0; i < N; ++i) result.slopes[i] = by_x * x.slopes[i] + by_y * y.slopes[i];
+    return result;
+}
+
+// (1 - exp(-z)) / z, which is 1 at 0; z >= 0.
+inline double saturation(double z) noexcept { return z == 0.0 ? 1.0 : -std::expm1(-z) / z; }
+template <int N>
+Dual<N> saturation(const Dual<N>& z) noexcept {
+    const double x = z.value, f = saturation(x);
+    // (exp(-x) - f) / x cancels near 0: there the series, the sum of -k (-x)^(k-1) / (k+1)!.
+    if (x > 0.3) return z.mapped(f, (std::exp(-x) - f) / x);
+    double derivative = 0.0, factorial = 6227020800.0;  // 13!
+    for (int k = 12; k >= 1; factorial /= k + 1, --k) derivative = derivative * -x - k / factorial;
+    return z.mapped(f, derivative);
+}
+
+}  // namespace curvewise::materials

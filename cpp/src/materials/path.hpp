@@ -1,0 +1,131 @@
+// What all points of material share: the checks of their strains and parameters, the walk along the
+// path of strain, Young's modulus, and the passes that slopes need: eight directions at a time, as
+// many as two or four vector registers hold.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "curvewise/materials.hpp"
+#include "materials/dual.hpp"
+#include "runtime/poller.hpp"
+
+namespace curvewise::materials {
+
+inline std::string text_of(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", value);
+    return text.data();
+}
+
+// Named access to the parameters of a material, and its complaints about them.
+class Parameters {
+   public:
+    Parameters(std::vector<MaterialParameter> names, const double* values)
+        : names_(std::move(names)), values_(values) {
+        for (std::size_t i = 0; i < names_.size(); ++i) {
+            if (!std::isfinite(values_[i])) refuse(i, "give a finite number");
+        }
+    }
+    std::size_t count() const noexcept { return names_.size(); }
+    double operator[](std::size_t i) const noexcept { return values_[i]; }
+    const double* values() const noexcept { return values_; }
+
+    void at_least_zero(std::size_t i) const {
+        if (values_[i] < 0.0) refuse(i, "it must be at least 0");
+    }
+    void above_zero(std::size_t i) const {
+        if (values_[i] <= 0.0) refuse(i, "it must be above 0");
+    }
+    // "Y = 300: it must be ..."
+    [[noreturn]] void refuse(std::size_t i, const std::string& why) const {
+        throw std::invalid_argument(names_[i].name + " is " + text_of(values_[i]) + "; " + why);
+    }
+
+   private:
+    std::vector<MaterialParameter> names_;
+    const double* values_;
+};
+
+// E, Ea and xi, the first one or three parameters of every material.
+std::vector<MaterialParameter> modulus_parameters(Modulus modulus);
+void check_modulus(const Parameters& parameters, Modulus modulus);
+
+// Young's modulus after the plastic strain p.
+template <class Number>
+struct YoungsModulus {
+    YoungsModulus(const Number* parameters, Modulus modulus)
+        : is_constant(modulus == Modulus::constant), initial(parameters[0]) {
+        if (is_constant) return;
+        limit = parameters[1];
+        rate = parameters[2];
+    }
+    Number after(const Number& p) const {
+        if (is_constant) return initial;
+        return limit + (initial - limit) * exp(-(rate * p));
+    }
+
+    // The same without slopes.
+    YoungsModulus<double> plain() const {
+        const double values[] = {value_of(initial), value_of(limit), value_of(rate)};
+        return {values, is_constant ? Modulus::constant : Modulus::decaying};
+    }
+
+    bool is_constant;
+    Number initial;
+    Number limit{};
+    Number rate{};
+};
+
+// Throws where a strain is no strain: not finite, or beyond 100 (10,000 %).
+void check_strains(const double* strain, std::ptrdiff_t n);
+
+// Walks a point along the path: Point(material, parameters, count) is the unloaded state and
+// advance(increment of strain) returns the stress behind it.
+template <class Point, class Number, class Material, class Visit>
+void walk(const Material& material, const Number* parameters, std::size_t count,
+          const double* strain, std::ptrdiff_t n, runtime::Poller& poller, Visit visit) {
+    Point point(material, parameters, count);
+    double last = 0.0;
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        poller.spend(64);
+        visit(i, point.advance(strain[i] - last));
+        last = strain[i];
+    }
+}
+
+// Writes the stresses and, unless null, their slopes by all parameters, by a Point<Number>.
+template <template <class> class Point, class Material>
+void integrate(const Material& material, const Parameters& parameters, const double* strain,
+               std::ptrdiff_t n, double* stress, double* slopes, Control* control) {
+    check_strains(strain, n);
+    runtime::Poller poller(control);
+    const std::size_t count = parameters.count();
+    if (slopes == nullptr) {
+        walk<Point<double>>(material, parameters.values(), count, strain, n, poller,
+                            [&](std::ptrdiff_t i, double found) { stress[i] = found; });
+        return;
+    }
+    constexpr std::size_t directions = 8;
+    using Number = Dual<static_cast<int>(directions)>;
+    for (std::size_t first = 0; first < count; first += directions) {
+        const std::size_t width = std::min(directions, count - first);
+        std::vector<Number> seeded(parameters.values(), parameters.values() + count);
+        for (std::size_t i = 0; i < width; ++i) seeded[first + i].slopes[i] = 1.0;
+        walk<Point<Number>>(material, seeded.data(), count, strain, n, poller,
+                            [&](std::ptrdiff_t i, const Number& found) {
+                                stress[i] = found.value;
+                                std::copy_n(found.slopes.begin(), width,
+                                            slopes + static_cast<std::size_t>(i) * count + first);
+                            });
+    }
+}
+
+}  // namespace curvewise::materials

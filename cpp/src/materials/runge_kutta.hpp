@@ -1,0 +1,98 @@
+// One step of the method of Dormand & Prince of order 8 with the error estimates of orders 5 and 3
+// (DOP853: Hairer, Norsett & Wanner, "Solving Ordinary Differential Equations I", 1993, II.10,
+// whose coefficients these are), for a state of M numbers that does not depend on time. Twelve
+// evaluations.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "materials/dual.hpp"
+
+namespace curvewise::materials {
+
+constexpr std::size_t stages = 12;
+
+// Rows of the tableau, without the zeros above the diagonal; the last is that of the result.
+inline constexpr double tableau[stages][stages] = {
+    {0.05260015195876773},
+    {0.0197250569845379, 0.0591751709536137},
+    {0.02958758547680685, 0.0, 0.08876275643042054},
+    {0.2413651341592667, 0.0, -0.8845494793282861, 0.924834003261792},
+    {0.037037037037037035, 0.0, 0.0, 0.17082860872947386, 0.12546768756682242},
+    {0.037109375, 0.0, 0.0, 0.17025221101954405, 0.06021653898045596, -0.017578125},
+    {0.03709200011850479, 0.0, 0.0, 0.17038392571223998, 0.10726203044637328, -0.015319437748624402,
+     0.008273789163814023},
+    {0.6241109587160757, 0.0, 0.0, -3.3608926294469414, -0.868219346841726, 27.59209969944671,
+     20.154067550477894, -43.48988418106996},
+    {0.47766253643826434, 0.0, 0.0, -2.4881146199716677, -0.590290826836843, 21.230051448181193,
+     15.279233632882423, -33.28821096898486, -0.020331201708508627},
+    {-0.9371424300859873, 0.0, 0.0, 5.186372428844064, 1.0914373489967295, -8.149787010746927,
+     -18.52006565999696, 22.739487099350505, 2.4936055526796523, -3.0467644718982196},
+    {2.273310147516538, 0.0, 0.0, -10.53449546673725, -2.0008720582248625, -17.9589318631188,
+     27.94888452941996, -2.8589982771350235, -8.87285693353063, 12.360567175794303,
+     0.6433927460157636},
+    {0.054293734116568765, 0.0, 0.0, 0.0, 0.0, 4.450312892752409, 1.8915178993145003,
+     -5.801203960010585, 0.3111643669578199, -0.1521609496625161, 0.20136540080403034,
+     0.04471061572777259},
+};
+inline constexpr double error_of_order_5[stages] = {0.01312004499419488,
+                                                    0.0,
+                                                    0.0,
+                                                    0.0,
+                                                    0.0,
+                                                    -1.2251564463762044,
+                                                    -0.4957589496572502,
+                                                    1.6643771824549864,
+                                                    -0.35032884874997366,
+                                                    0.3341791187130175,
+                                                    0.08192320648511571,
+                                                    -0.022355307863886294};
+inline constexpr double error_of_order_3[stages] = {-0.18980075407240762,
+                                                    0.0,
+                                                    0.0,
+                                                    0.0,
+                                                    0.0,
+                                                    4.450312892752409,
+                                                    1.8915178993145003,
+                                                    -5.801203960010585,
+                                                    -0.4226823213237919,
+                                                    -0.1521609496625161,
+                                                    0.20136540080403034,
+                                                    0.02265179219836082};
+
+template <class Number, std::size_t M>
+struct Step {
+    std::array<Number, M> end;
+    std::array<double, M> error;  // estimates of the size of each component's
+};
+
+// From `start` by `length`; rates(state) are the derivatives.
+template <class Number, std::size_t M, class Rates>
+Step<Number, M> runge_kutta_step(const std::array<Number, M>& start, double length, Rates rates) {
+    std::array<std::array<Number, M>, stages> slopes;
+    slopes[0] = rates(start);
+    Step<Number, M> step;
+    for (std::size_t stage = 1; stage <= stages; ++stage) {
+        step.end = start;
+        for (std::size_t k = 0; k < stage; ++k) {
+            const double weight = tableau[stage - 1][k];
+            if (weight == 0.0) continue;
+            for (std::size_t c = 0; c < M; ++c) step.end[c] += (length * weight) * slopes[k][c];
+        }
+        if (stage < stages) slopes[stage] = rates(step.end);
+    }
+    for (std::size_t c = 0; c < M; ++c) {
+        double fifth = 0.0, third = 0.0;
+        for (std::size_t k = 0; k < stages; ++k) {
+            fifth += error_of_order_5[k] * value_of(slopes[k][c]);
+            third += error_of_order_3[k] * value_of(slopes[k][c]);
+        }
+        const double size = std::sqrt(fifth * fifth + 0.01 * third * third);
+        step.error[c] = size == 0.0 ? 0.0 : std::abs(length) * fifth * fifth / size;
+    }
+    return step;
+}
+
+}  // namespace curvewise::materials

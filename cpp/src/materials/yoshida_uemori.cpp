@@ -1,0 +1,53 @@
+// The Yoshida-Uemori material: its parameters, what they may be, and the walk along a path.
+#include "materials/yoshida_uemori.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "curvewise/materials.hpp"
+
+namespace curvewise {
+
+std::vector<MaterialParameter> material_parameters(const YoshidaUemori& material) {
+    std::vector<MaterialParameter> parameters = materials::modulus_parameters(material.modulus);
+    parameters.push_back({"CB", "stress", "initial size of the bounding surface"});
+    parameters.push_back({"Y", "stress", "size of the yield surface"});
+    parameters.push_back({"C", "-", "rate of the yield surface's motion"});
+    parameters.push_back({"K", "-", "rate of the bounding surface's motion and growth"});
+    parameters.push_back({"RSAT", "stress", "what the bounding surface grows by"});
+    parameters.push_back({"SB", "stress", "what its centre moves by at most"});
+    parameters.push_back({"H", "-", "share of growth in the stagnation surface's motion, 0 to 1"});
+    if (material.growth == BoundGrowth::power) {
+        parameters[parameters.size() - 3].meaning = "factor of the bounding surface's growth";
+        parameters.push_back({"C1", "-", "plastic strain at which the power law of growth begins"});
+        parameters.push_back({"C2", "-", "its exponent"});
+    }
+    return parameters;
+}
+
+void material_stress(const YoshidaUemori& material, const double* parameters, const double* strain,
+                     std::ptrdiff_t n, double* stress, double* slopes, Control* control) {
+    const materials::Parameters checked(material_parameters(material), parameters);
+    materials::check_modulus(checked, material.modulus);
+    const std::size_t CB = material.modulus == Modulus::constant ? 1 : 3;
+    const std::size_t Y = CB + 1, C = CB + 2, H = CB + 6;
+    checked.above_zero(Y);
+    checked.above_zero(C);
+    for (std::size_t i = C + 1; i < checked.count(); ++i) checked.at_least_zero(i);
+    if (checked[CB] <= checked[Y]) {
+        checked.refuse(CB, "the bounding surface must enclose the yield surface; give CB > Y");
+    }
+    if (checked[H] > 1.0) checked.refuse(H, "it is a share; give 0 to 1");
+    if (material.growth == BoundGrowth::power && checked[H + 1] == 0.0) {
+        checked.refuse(H + 1, "it must be above 0");
+    }
+    if (!(material.rtol >= 1e-12 && material.rtol <= 1e-3)) {
+        throw std::invalid_argument("rtol is " + materials::text_of(material.rtol) +
+                                    "; give a number from 1e-12 to 1e-3");
+    }
+    materials::integrate<materials::YoshidaUemoriPoint>(material, checked, strain, n, stress,
+                                                        slopes, control);
+}
+
+}  // namespace curvewise

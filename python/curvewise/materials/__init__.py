@@ -1,0 +1,14 @@
+"""Points of material: the stress along a path of strain, compiled, with exact slopes.
+
+Uniaxial, driven by strain, independent of rate: what a model must be to be fitted to loops of
+tension and compression in seconds. ``material.driven_by(loops)`` is a model for
+`curvewise.calibration.identify`.
+"""
+
+from __future__ import annotations
+
+from .chaboche_voce import ChabocheVoce
+from .material import DrivenModel, Material, Parameter
+from .yoshida_uemori import YoshidaUemori
+
+__all__ = ["ChabocheVoce", "DrivenModel", "Material", "Parameter", "YoshidaUemori"]

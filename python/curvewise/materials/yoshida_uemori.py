@@ -1,0 +1,61 @@
+"""Yoshida and Uemori's two surfaces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from .._core import yoshida_uemori_parameters, yoshida_uemori_stress
+from .material import Material
+
+__all__ = ["YoshidaUemori"]
+
+
+@dataclass(frozen=True)
+class YoshidaUemori(Material):
+    r"""Yoshida and Uemori's model of cyclic loading of sheet steel, with LS-DYNA's names.
+
+    A yield surface of the constant size Y moves inside a bounding surface, which moves and grows;
+    while its centre stays within the stagnation surface, it does not grow. Uniaxial, as `*MAT_125`
+    of LS-DYNA writes it. In one direction of flow, with the stress :math:`Y + \theta + \beta`:
+
+    .. math::
+
+        d\theta = C \left(a - \operatorname{sgn}(\theta) \sqrt{a |\theta|}\right) dp, \quad
+        a = CB + R - Y, \qquad d\beta = K (SB - \beta) \, dp
+
+    Parameters
+    ----------
+    growth : {"saturating", "power"}, default "saturating"
+        Of the bounding surface: :math:`dR = K (RSAT - R) \, dp`, or
+        :math:`R = RSAT \left((C_1 + p)^{C_2} - C_1^{C_2}\right)` with parameters C1 and C2, as in
+        the paper's section 3.3.
+    modulus : {"constant", "decaying"}, default "constant"
+        "decaying": :math:`d\sigma = E(p) \, d\varepsilon_e` with
+        :math:`E(p) = E - (E - E_a)(1 - e^{-\xi p})`, with parameters Ea and xi.
+    rtol : float, default 1e-9
+        The error that the integration may make, relative to CB; 1e-12 to 1e-3.
+
+    References
+    ----------
+    F. Yoshida, T. Uemori, "A model of large-strain cyclic plasticity describing the Bauschinger
+    effect and workhardening stagnation", International Journal of Plasticity 18 (2002) 661-686.
+
+    Examples
+    --------
+    >>> from curvewise.materials import YoshidaUemori
+    >>> steel = YoshidaUemori()
+    >>> steel.names
+    ('E', 'CB', 'Y', 'C', 'K', 'RSAT', 'SB', 'H')
+    >>> constants = dict(zip(steel.names, (200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4)))
+    >>> steel.stress([0.001, 0.03, -0.03], constants).round(2)
+    array([ 200.  ,  496.03, -540.07])
+    """
+
+    growth: Literal["saturating", "power"] = "saturating"
+    modulus: Literal["constant", "decaying"] = "constant"
+    rtol: float = 1e-9
+
+    @property
+    def _compiled(self) -> tuple[Any, Any]:
+        return yoshida_uemori_parameters, yoshida_uemori_stress

@@ -1,0 +1,182 @@
+// Points of material: against a textbook's integration, slopes against differences, limits that are
+// known, and what is refused.
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "curvewise/materials.hpp"
+#include "materials/random_materials.hpp"
+#include "materials/textbook.hpp"
+
+namespace {
+
+using curvewise::ChabocheVoce;
+using curvewise::material_stress;
+using curvewise::Modulus;
+using curvewise::YoshidaUemori;
+
+template <class Material>
+std::vector<double> stress_of(const Material& material, const std::vector<double>& parameters,
+                              const std::vector<double>& strain) {
+    std::vector<double> stress(strain.size());
+    material_stress(material, parameters.data(), strain.data(),
+                    static_cast<std::ptrdiff_t>(strain.size()), stress.data());
+    return stress;
+}
+
+template <class Textbook, class Material>
+void check_random(const Material& material, int sets) {
+    test::Generator generator(20261122);
+    for (int set = 0; set < sets; ++set) {
+        const std::vector<double> parameters = test::random_parameters(generator, material);
+        for (const std::vector<double>& strain : test::five_loops(60)) {
+            const auto found = stress_of(material, parameters, strain);
+            const auto fine =
+                textbook::stress<Textbook>(material, parameters.data(), strain, 20000);
+            double largest = 0.0;
+            for (const double value : fine) largest = std::max(largest, std::abs(value));
+            for (std::size_t i = 0; i < fine.size(); ++i) {
+                CHECK(std::abs(found[i] - fine[i]) <= 1e-8 * largest);
+            }
+        }
+    }
+}
+
+void test_against_a_textbook() {
+    for (const Modulus modulus : {Modulus::constant, Modulus::decaying}) {
+        for (const int backstresses : {0, 1, 2, 5}) {
+            check_random<textbook::ChabocheVoce>(ChabocheVoce{backstresses, modulus}, 2);
+        }
+        for (const auto growth :
+             {curvewise::BoundGrowth::saturating, curvewise::BoundGrowth::power}) {
+            YoshidaUemori material;
+            material.growth = growth;
+            material.modulus = modulus;
+            check_random<textbook::YoshidaUemori>(material, 2);
+        }
+    }
+}
+
+// Slopes by differences that are right to some 1e-8; in quadruple precision: tests/stress.
+template <class Material>
+void check_slopes(const Material& material) {
+    test::Generator generator(7);
+    const std::vector<double> parameters = test::random_parameters(generator, material);
+    const std::vector<double> strain = test::loop({0.031, -0.029, 0.027}, 97);
+    const std::size_t n = strain.size(), k = parameters.size();
+    std::vector<double> stress(n), slopes(n * k);
+    material_stress(material, parameters.data(), strain.data(), static_cast<std::ptrdiff_t>(n),
+                    stress.data(), slopes.data());
+    CHECK_EQUAL(stress, stress_of(material, parameters, strain));
+    for (std::size_t j = 0; j < k; ++j) {
+        std::vector<double> above = parameters, below = parameters;
+        const double step = 1e-5 * std::abs(parameters[j]);
+        above[j] += step;
+        below[j] -= step;
+        const auto high = stress_of(material, above, strain);
+        const auto low = stress_of(material, below, strain);
+        double largest = 0.0;
+        for (std::size_t i = 0; i < n; ++i) {
+            largest = std::max(largest, std::abs(high[i] - low[i]) / (2 * step));
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            CHECK(std::abs(slopes[i * k + j] - (high[i] - low[i]) / (2 * step)) <= 1e-4 * largest);
+        }
+    }
+}
+
+void test_slopes() {
+    check_slopes(ChabocheVoce{});
+    check_slopes(ChabocheVoce{3, Modulus::decaying});  // twelve parameters: two passes
+    YoshidaUemori material;
+    material.rtol = 1e-12;
+    check_slopes(material);
+    material.growth = curvewise::BoundGrowth::power;
+    material.modulus = Modulus::decaying;
+    check_slopes(material);
+}
+
+void test_known_values() {
+    // Elastic; ideal plasticity; the same path in fewer steps; a path and its mirror image.
+    const std::vector<double> ideal{200e3, 300.0, 0.0, 0.0};
+    const auto cut = stress_of(ChabocheVoce{0}, ideal, {0.001, 0.01, 0.0095, -0.01});
+    const double expected[] = {200.0, 300.0, 200.0, -300.0};
+    for (std::size_t i = 0; i < cut.size(); ++i) CHECK_CLOSE(cut[i], expected[i], 1e-14);
+    const std::vector<double> steel{200e3, 300.0, -50.0, 8.0, 80e3, 400.0, 5e3, 20.0};
+    const auto coarse = stress_of(ChabocheVoce{}, steel, {0.02, -0.02});
+    const auto fine = stress_of(ChabocheVoce{}, steel, test::loop({0.02, -0.02}, 1000));
+    CHECK_CLOSE(coarse.back(), fine.back(), 1e-13);
+    for (const double E : {1e-3, 1e12}) {  // far from any metal
+        const auto found = stress_of(ChabocheVoce{}, {E, 300.0, 0, 0, 80e3, 400.0, 5e3, 20.0}, {1});
+        CHECK(found[0] > 0.0 && found[0] < 1000.0);
+    }
+    const std::vector<double> sheet{200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4};
+    for (const double strain : {0.01, 0.05}) {
+        const double up = stress_of(YoshidaUemori{}, sheet, {strain}).front();
+        CHECK_CLOSE(stress_of(YoshidaUemori{}, sheet, {-strain}).front(), -up, 1e-15);
+    }
+    // Far out, all is saturated: CB + RSAT + SB.
+    CHECK_CLOSE(stress_of(YoshidaUemori{}, sheet, {50.0}).front(), 690.0, 1e-7);
+    CHECK(stress_of(ChabocheVoce{}, steel, {}).empty());
+}
+
+void test_a_decaying_modulus() {
+    // That does not decay is a constant one; unloading is as steep as the modulus is then.
+    const std::vector<double> same{200e3, 200e3, 30.0, 300.0, 50.0, 8.0, 80e3, 400.0};
+    const std::vector<double> constant{200e3, 300.0, 50.0, 8.0, 80e3, 400.0};
+    const auto strain = test::loop({0.02, -0.02}, 50);
+    const auto found = stress_of(ChabocheVoce{1, Modulus::decaying}, same, strain);
+    const auto expected = stress_of(ChabocheVoce{1}, constant, strain);
+    for (std::size_t i = 0; i < strain.size(); ++i) CHECK_CLOSE(found[i], expected[i], 1e-12);
+
+    const std::vector<double> decaying{200e3, 160e3, 1e4, 300.0, 0.0, 0.0};
+    const auto unloaded = stress_of(ChabocheVoce{0, Modulus::decaying}, decaying, {0.02, 0.0195});
+    CHECK_CLOSE(unloaded[0] - unloaded[1], 80.0, 1e-9);
+}
+
+void test_refusals() {
+    const std::vector<double> steel{200e3, 300.0, -50.0, 8.0, 80e3, 400.0, 5e3, 20.0};
+    const auto with = [&](std::size_t place, double value) {
+        std::vector<double> changed = steel;
+        changed[place] = value;
+        return changed;
+    };
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using Refused = std::invalid_argument;
+    const ChabocheVoce two;
+    CHECK_THROWS(stress_of(two, steel, {0.0, nan}), Refused,
+                 "strain[1] is nan; strains must be finite");
+    CHECK_THROWS(stress_of(two, steel, {200.0}), Refused,
+                 "strain[0] is 200; give strains, 0.01 for 1 %, of at most 100");
+    CHECK_THROWS(stress_of(two, with(5, nan), {0.0}), Refused,
+                 "gamma1 is nan; give a finite number");
+    CHECK_THROWS(stress_of(two, with(0, 0.0), {0.0}), Refused, "E is 0; it must be above 0");
+    CHECK_THROWS(stress_of(two, with(4, -1.0), {0.0}), Refused, "C1 is -1; it must be at least 0");
+    CHECK_THROWS(stress_of(two, with(2, -300.0), {0.0}), Refused,
+                 "Q is -300; a yield stress of 300 would soften to nothing; give Q > -yield");
+    CHECK_THROWS(stress_of(ChabocheVoce{-1}, steel, {0.0}), Refused,
+                 "backstresses is -1; give a whole number from 0 to 99");
+    const YoshidaUemori sheet;
+    CHECK_THROWS(stress_of(sheet, {200e3, 300.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4}, {0.0}),
+                 Refused,
+                 "CB is 300; the bounding surface must enclose the yield surface; give CB > Y");
+    CHECK_THROWS(stress_of(sheet, {200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 1.5}, {0.0}),
+                 Refused, "H is 1.5; it is a share; give 0 to 1");
+    YoshidaUemori loose;
+    loose.rtol = 0.5;
+    CHECK_THROWS(stress_of(loose, {200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4}, {0.0}),
+                 Refused, "rtol is 0.5; give a number from 1e-12 to 1e-3");
+}
+
+}  // namespace
+
+int main() {
+    return check::run({{"against a textbook", test_against_a_textbook},
+                       {"slopes", test_slopes},
+                       {"known values", test_known_values},
+                       {"a decaying modulus", test_a_decaying_modulus},
+                       {"refusals", test_refusals}});
+}

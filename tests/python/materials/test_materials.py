@@ -1,0 +1,120 @@
+"""Points of material from Python: values, slopes, models for identify, and what is refused."""
+
+from __future__ import annotations
+
+import pickle
+
+import numpy as np
+import pytest
+
+import curvewise
+from curvewise.calibration import identify
+from curvewise.materials import ChabocheVoce, YoshidaUemori
+
+STEEL = {"E": 200e3, "yield": 300.0, "Q": -50.0, "b": 8.0, "C1": 80e3, "gamma1": 400.0}
+STEEL |= {"C2": 5e3, "gamma2": 20.0}
+SHEET = {"E": 200e3, "CB": 420.0, "Y": 300.0, "C": 300.0, "K": 12.0, "RSAT": 150.0, "SB": 120.0}
+SHEET |= {"H": 0.4}
+DECAY = {"Ea": 160e3, "xi": 30.0}
+POWER = {"C1": 0.01, "C2": 0.3}
+MATERIALS = [
+    (ChabocheVoce(), STEEL),
+    (ChabocheVoce(modulus="decaying"), STEEL | DECAY),
+    (YoshidaUemori(), SHEET),
+    (YoshidaUemori(growth="power", modulus="decaying"), SHEET | DECAY | POWER),
+]
+each_material = pytest.mark.parametrize(("material", "constants"), MATERIALS)
+
+
+def path(*turns: float, points: int = 53) -> np.ndarray:
+    """Return strains from 0 to turn to turn, so many on each way."""
+    ways = zip((0.0, *turns), turns, strict=False)
+    return np.concatenate([np.linspace(a, b, points + 1)[1:] for a, b in ways])
+
+
+STRAIN = path(0.031, -0.029, 0.027)  # none of them where yielding begins: there is a kink
+
+
+def test_chaboche_without_voce_is_the_model_of_the_datasets() -> None:
+    constants = STEEL | {"Q": 0.0, "b": 0.0}
+    expected = curvewise.datasets.kinematic_hardening(
+        STRAIN, backstresses=((80e3, 400.0), (5e3, 20.0))
+    )
+    np.testing.assert_allclose(ChabocheVoce().stress(STRAIN, constants), expected, rtol=1e-12)
+
+
+def test_values_saturate_where_the_theory_says() -> None:
+    # Far out: yield + Q + C1/gamma1 + C2/gamma2, and CB + RSAT + SB.
+    chaboche = ChabocheVoce().stress([5.0], STEEL)
+    np.testing.assert_allclose(chaboche, 300 - 50 + 200 + 250, rtol=1e-12)
+    np.testing.assert_allclose(YoshidaUemori().stress([5.0], SHEET), 690, rtol=1e-9)
+
+
+@each_material
+def test_slopes_are_those_of_the_stress(material, constants) -> None:
+    stress, slopes = material.stress_and_slopes(STRAIN, constants)
+    np.testing.assert_array_equal(stress, material.stress(STRAIN, constants))
+    assert slopes.shape == (len(STRAIN), len(material.names))
+    for name, slope in zip(material.names, slopes.T, strict=True):
+        step = 1e-5 * constants[name]
+        above, below = ({**constants, name: constants[name] + side * step} for side in (1, -1))
+        change = material.stress(STRAIN, above) - material.stress(STRAIN, below)
+        difference = change / (2 * step)
+        np.testing.assert_allclose(slope, difference, atol=1e-3 * abs(difference).max())
+
+
+@each_material
+def test_a_path_may_be_subdivided_and_mirrored(material, constants) -> None:
+    stress = material.stress(STRAIN, constants)
+    fine = material.stress(path(0.031, -0.029, 0.027, points=530), constants)[9::10]
+    np.testing.assert_allclose(stress, fine, atol=1e-7)
+    np.testing.assert_array_equal(material.stress(-STRAIN, constants), -stress)
+
+
+@each_material
+def test_any_layout_of_strains(material, constants) -> None:
+    expected = material.stress(STRAIN, constants)
+    wide = np.repeat(STRAIN, 2)
+    for strain in (wide[::2], STRAIN.astype(">f8"), list(STRAIN), STRAIN[::-1].copy()[::-1]):
+        np.testing.assert_array_equal(material.stress(strain, constants), expected)
+
+
+@each_material
+def test_every_parameter_is_named_with_its_unit(material, constants) -> None:
+    assert set(material.names) == set(constants)
+    assert {parameter.unit for parameter in material.parameters} <= {"stress", "-"}
+    assert all(parameter.meaning for parameter in material.parameters)
+
+
+def test_a_material_driven_by_loops_is_a_model() -> None:
+    material = ChabocheVoce(backstresses=1)
+    truth = {name: STEEL[name] for name in material.names} | {"Q": 0.0, "b": 1.0}
+    loop = np.column_stack((STRAIN, material.stress(STRAIN, truth)))
+    model = pickle.loads(pickle.dumps(material.driven_by([loop, loop[:40]])))
+    curves = model(truth)
+    np.testing.assert_array_equal(curves[0], loop)
+    assert [curve.shape for curve in curves] == [(159, 2), (40, 2)]
+    assert [slopes.shape for slopes in model.jacobian(truth)] == [(159, 2, 6), (40, 2, 6)]
+    bounds = truth | {"yield": (200.0, 400.0), "C1": (20e3, 120e3), "gamma1": (100.0, 700.0)}
+    found = identify(material.driven_by(loop), loop, bounds, progress=False)
+    assert found.parameters == pytest.approx(truth, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: ChabocheVoce().stress([[0.0]], STEEL), r"strain has shape \(1, 1\)"),
+        (lambda: ChabocheVoce().stress([0.0, np.nan], STEEL), r"strain\[1\] is nan"),
+        (lambda: ChabocheVoce().stress([3.0, 200.0], STEEL), r"strain\[1\] is 200; give strains"),
+        (lambda: ChabocheVoce().stress([0.0], STEEL | {"Q": -300.0}), "Q is -300; a yield stress"),
+        (lambda: ChabocheVoce().stress([0.0], STEEL | {"E": 0.0}), "E is 0; it must be above 0"),
+        (lambda: ChabocheVoce().stress([0.0], STEEL | {"gama1": 1.0}), "no parameter 'gama1'; did"),
+        (lambda: ChabocheVoce(1).stress([0.0], {"E": 1.0}), "needs yield, Q, b, C1, gamma1"),
+        (lambda: YoshidaUemori().stress([0.0], SHEET | {"CB": 300.0}), "CB is 300; the bounding"),
+        (lambda: ChabocheVoce(modulus="other").names, "unknown modulus 'other'; choose from"),
+        (lambda: ChabocheVoce(-1).names, "backstresses is -1"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(call, message) -> None:
+    with pytest.raises(ValueError, match=message):
+        call()
