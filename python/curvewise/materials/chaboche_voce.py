@@ -47,7 +47,7 @@ class ChabocheVoce(Material):
     ('E', 'yield', 'Q', 'b', 'C1', 'gamma1')
     >>> constants = dict(zip(steel.names, (200e3, 300.0, -50.0, 8.0, 80e3, 400.0)))
     >>> steel.stress([0.001, 0.02, 0.018, -0.02], constants).round(2)
-    array([ 200.  ,  492.17,   92.17, -478.74])
+    array([ 200.  ,  493.28,   93.28, -482.81])
     """
 
     backstresses: int = 2

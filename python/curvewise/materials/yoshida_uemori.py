@@ -49,7 +49,7 @@ class YoshidaUemori(Material):
     ('E', 'CB', 'Y', 'C', 'K', 'RSAT', 'SB', 'H')
     >>> constants = dict(zip(steel.names, (200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4)))
     >>> steel.stress([0.001, 0.03, -0.03], constants).round(2)
-    array([ 200.  ,  496.03, -540.07])
+    array([ 200.  ,  485.77, -536.89])
     """
 
     growth: Literal["saturating", "power"] = "saturating"
