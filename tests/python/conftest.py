@@ -110,7 +110,7 @@ def pytest_report_header(config: pytest.Config) -> list[str]:
     if config.args == config.getini("testpaths"):
         lines.append(
             "curvewise: some 5500 tests; they also build the C++ tests, and programs that use "
-            "the library; about 3 minutes on two cores"
+            "the library; about 4 minutes on two cores"
         )
     if leaves_out_nightly(config):
         lines.append("curvewise: without the tests for the night, which take long (-m nightly)")

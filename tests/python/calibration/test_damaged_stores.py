@@ -94,13 +94,14 @@ def test_another_byte_is_noticed_or_does_not_matter(whole, tmp_path):
     content, expected = whole
     rng = random.Random(25)
     used = [i for i, byte in enumerate(content) if byte]  # most of a small store is empty
-    places = [*rng.sample(used, 160), *rng.sample(range(len(content)), 60)]
+    # tests/faults/stores.py tries five times as many.
+    places = [*rng.sample(used, 60), *rng.sample(range(len(content)), 20)]
     noticed = 0
     for place in places:
         damaged = bytearray(content)
         damaged[place] ^= rng.randrange(1, 256)
         noticed += bool(told(tmp_path / "s.db", damaged, expected))
-    assert 150 < noticed < len(places)
+    assert 0.6 * len(places) < noticed < len(places)
 
 
 def test_a_store_that_is_cut_off_is_noticed(whole, tmp_path):
