@@ -30,4 +30,10 @@ void check_strains(const double* strain, std::ptrdiff_t n) {
     }
 }
 
+void refuse_stress(std::ptrdiff_t i, double stress) {
+    throw std::invalid_argument("with these parameters the stress at strain[" + std::to_string(i) +
+                                "] is " + text_of(stress) +
+                                "; give values nearer to those of a metal");
+}
+
 }  // namespace curvewise::materials

@@ -87,6 +87,9 @@ struct YoungsModulus {
 // Throws where a strain is no strain: not finite, or beyond 100 (10,000 %).
 void check_strains(const double* strain, std::ptrdiff_t n);
 
+// Throws: parameters beyond all metals, whose products overflow.
+[[noreturn]] void refuse_stress(std::ptrdiff_t i, double stress);
+
 // Walks a point along the path: Point(material, parameters, count) is the unloaded state and
 // advance(increment of strain) returns the stress behind it.
 template <class Point, class Number, class Material, class Visit>
@@ -96,7 +99,9 @@ void walk(const Material& material, const Number* parameters, std::size_t count,
     double last = 0.0;
     for (std::ptrdiff_t i = 0; i < n; ++i) {
         poller.spend(64);
-        visit(i, point.advance(strain[i] - last));
+        const Number stress = point.advance(strain[i] - last);
+        if (!std::isfinite(value_of(stress))) refuse_stress(i, value_of(stress));
+        visit(i, stress);
         last = strain[i];
     }
 }

@@ -142,11 +142,16 @@ class Integration {
         found[by_] = Number(1.0);
         return found;
     }
-    Step<Number, 3> step(double length) const {
+    Step<Number, 3> step(double length) {
+        if (--steps_left_ < 0) {
+            throw std::invalid_argument(
+                "with these parameters the Yoshida-Uemori equations are too steep to integrate; "
+                "give values nearer to those of a metal");
+        }
         return runge_kutta_step(state_, length, [this](const auto& state) { return rates(state); });
     }
     // A step of this length, or of a shorter one whose error is small enough.
-    std::pair<State<Number>, double> accepted(double length) const {
+    std::pair<State<Number>, double> accepted(double length) {
         const double E = value_of(constants_.modulus.initial), CB = value_of(constants_.CB);
         while (true) {
             const Step<Number, 3> found = step(length);
@@ -161,7 +166,7 @@ class Integration {
         return value_of(end[what]) > value_of(value);
     }
     // The state less than `length` further, where a component has a value that it passes there.
-    State<Number> landed(double length, std::size_t what, const Number& value) const {
+    State<Number> landed(double length, std::size_t what, const Number& value) {
         const double aim = value_of(value), begin = value_of(state_[what]);
         double low = 0.0, high = length;
         double at = length * (aim - begin) / (value_of(step(length).end[what]) - begin);
@@ -197,6 +202,7 @@ class Integration {
     State<Number> state_;
     Number target_;
     std::size_t by_ = T, last_by_ = T;
+    int steps_left_ = 10000;  // a metal's take one to ten
 };
 
 template <class Number>

@@ -17,7 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 from .._names import did_you_mean
-from ..curves.inputs import Array
+from ..curves.inputs import Array, as_curve
+from ..curves.several_curves import as_points, curve_list
 
 __all__ = ["DrivenModel", "Material", "Parameter"]
 
@@ -113,12 +114,24 @@ class Material(ABC):
         -------
         DrivenModel
             A callable of a dict of parameters; `jacobian` has the slopes.
+
+        Raises
+        ------
+        ValueError
+            A test has other than two columns.
         """
-        curves = [experiments] if np.ndim(experiments[0]) == 1 else experiments
-        return DrivenModel(self, tuple(np.asarray(curve, dtype=float)[:, 0] for curve in curves))
+        strains = []
+        for i, experiment in enumerate(curve_list(experiments)):
+            points = as_points(experiment, f"experiments[{i}]")
+            if points.shape[1] != 2:
+                raise ValueError(
+                    f"experiments[{i}] has shape {points.shape}; give strain and stress, (n, 2)"
+                )
+            strains.append(points[:, 0].copy())
+        return DrivenModel(self, tuple(strains))
 
     def _call(self, strain: npt.ArrayLike, parameters: Mapping[str, float], slopes: bool) -> Any:
-        path = np.ascontiguousarray(strain, dtype=np.float64)
+        path = as_curve(strain, "strain")
         if path.ndim != 1:
             raise ValueError(f"strain has shape {path.shape}; give one value per point, shape (n,)")
         return self._compiled[1](asdict(self), self._values(parameters), path, slopes)

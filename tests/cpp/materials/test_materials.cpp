@@ -171,6 +171,53 @@ void test_refusals() {
                  Refused, "rtol is 0.5; give a number from 1e-12 to 1e-3");
 }
 
+// Parameters of any size end soon, in finite stresses or in a refusal that speaks of them.
+void test_parameters_of_no_metal() {
+    test::Generator generator(3);
+    const std::vector<double> strain{0.001, 0.05, 1e-300, -0.05, 3.0, -99.0, 0.01};
+    const auto draw = [&](double decades) {
+        return generator() % 7 == 0 ? 0.0 : test::log_between(generator, 1 / decades, decades);
+    };
+    int refused = 0;
+    for (int i = 0; i < 1200; ++i) {
+        const auto modulus = static_cast<Modulus>(i % 2);
+        const double decades = i % 3 == 0 ? 1e2 : i % 3 == 1 ? 1e8 : 1e300;
+        try {
+            std::vector<double> parameters, stress;
+            if (i % 4 < 2) {
+                const ChabocheVoce material{2, modulus};
+                parameters.resize(material_parameters(material).size());
+                for (double& value : parameters) value = draw(decades);
+                stress = stress_of(material, parameters, strain);
+            } else {
+                YoshidaUemori material;
+                material.modulus = modulus;
+                material.growth = static_cast<curvewise::BoundGrowth>(i / 4 % 2);
+                parameters.resize(material_parameters(material).size());
+                for (double& value : parameters) value = draw(decades);
+                const std::size_t CB = modulus == Modulus::constant ? 1 : 3;
+                parameters[CB] += 2 * parameters[CB + 1];
+                parameters[CB + 6] = test::between(generator, 0.0, 1.0);
+                stress = stress_of(material, parameters, strain);
+            }
+            for (const double value : stress) CHECK(std::isfinite(value));
+        } catch (const std::invalid_argument& refusal) {
+            CHECK(!std::string(refusal.what()).empty());
+            ++refused;
+        }
+    }
+    CHECK(refused > 100);
+    CHECK(refused < 1000);
+    // Found by such a search: steps without end.
+    YoshidaUemori steep;
+    steep.growth = curvewise::BoundGrowth::power;
+    CHECK_THROWS(stress_of(steep, {99.0, 400.0, 300.0, 0.35, 15.0, 1e300, 1.1, 0.5, 2.4, 51.0},
+                           {0.05, -99.0}),
+                 std::invalid_argument,
+                 "with these parameters the Yoshida-Uemori equations are too steep to integrate; "
+                 "give values nearer to those of a metal");
+}
+
 }  // namespace
 
 int main() {
@@ -178,5 +225,6 @@ int main() {
                        {"slopes", test_slopes},
                        {"known values", test_known_values},
                        {"a decaying modulus", test_a_decaying_modulus},
-                       {"refusals", test_refusals}});
+                       {"refusals", test_refusals},
+                       {"parameters of no metal", test_parameters_of_no_metal}});
 }

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pickle
 
 import numpy as np
+import pandas
 import pytest
 
 import curvewise
@@ -98,6 +99,18 @@ def test_a_material_driven_by_loops_is_a_model() -> None:
     bounds = truth | {"yield": (200.0, 400.0), "C1": (20e3, 120e3), "gamma1": (100.0, 700.0)}
     found = identify(material.driven_by(loop), loop, bounds, progress=False)
     assert found.parameters == pytest.approx(truth, rel=2e-3)
+
+
+def test_loops_of_any_kind_drive_a_material() -> None:
+    strain, stress = [0.0, 0.01, -0.01], [0.0, 300.0, -300.0]
+    table = pandas.DataFrame({"strain": strain, "stress": stress})
+    for loop in (table, table.to_numpy(), table.to_numpy().tolist(), [table]):
+        assert [path.tolist() for path in ChabocheVoce().driven_by(loop).strains] == [strain]
+    masked = np.ma.array(strain, mask=[0, 1, 0])
+    with pytest.raises(TypeError, match="strain is a masked array"):
+        ChabocheVoce().stress(masked, STEEL)
+    with pytest.raises(ValueError, match=r"experiments\[1\] has shape \(3, 3\); give strain and"):
+        ChabocheVoce().driven_by([table, np.zeros((3, 3))])
 
 
 @pytest.mark.parametrize(
