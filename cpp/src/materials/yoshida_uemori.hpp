@@ -108,14 +108,15 @@ class Integration {
         if (value_of(branch_.contact()) == 0.0) branch_.begin_growth();
         double length = never;
         while (true) {
+            const std::size_t last_by = by_;
             by_ = value_of(state_[U]) < 0.0 ? U : value_of(state_[U]) < 0.5 ? T : STRAIN;
+            if (by_ != last_by) length = never;
             const double left = by_ == U ? -value_of(state_[U])
                                 : by_ == T
                                     ? 1.0 / value_of(constants_.C)  // u rises by no more than 1/2
                                     : value_of(target_) - value_of(state_[STRAIN]);
             const auto [step, taken] = accepted(std::min(length, left));
-            length = by_ == last_by_ ? 2.0 * taken : never;
-            last_by_ = by_;
+            length = 2.0 * taken;
             const bool touches = !branch_.is_growing() && passes(step, P, branch_.contact());
             const State<Number> next = touches ? landed(taken, P, branch_.contact()) : step;
             if (by_ == STRAIN && taken == left && !touches) {
@@ -201,7 +202,7 @@ class Integration {
     const Constants<Number>& constants_;
     State<Number> state_;
     Number target_;
-    std::size_t by_ = T, last_by_ = T;
+    std::size_t by_ = T;      // what a step goes along
     int steps_left_ = 10000;  // a metal's take one to ten
 };
 
