@@ -3,7 +3,7 @@
 Tests that are marked nightly are left out, unless `-m` names the mark or the command names the test
 ("file.py::test"): they take long and seldom find what the others do not (CONTRIBUTING.md lists
 them). The mark takes patterns for the ids of cases; without any it is for all of them. Where they
-are left out, the tests of properties have fewer examples.
+are left out, the tests of properties have fewer examples, and those of random curves fewer rounds.
 
 The whole suite runs in one process more than there are cores (pytest-xdist). The tests of a file
 stay together, in one process and in their order, so that a fixture of a file is made once; files
@@ -17,7 +17,7 @@ import os
 import re
 import shutil
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +35,7 @@ LONGEST_FIRST = (
     "commands/test_selfcheck.py::test_selfcheck_passes_on_this_machine",
     "calibration/",
     "embedding/",
+    "plotting/",
 )
 TEST_BY_TEST = ("embedding/test_embed.py", "package/test_docs.py", LONGEST_FIRST[2])
 
@@ -133,6 +134,12 @@ def ctrl_c_is_heard() -> Iterator[None]:
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture(scope="session")
+def rounds(pytestconfig: pytest.Config) -> Callable[[int], int]:
+    """Return how many of so many random cases a test tries: by day a fifth, as of properties."""
+    return lambda count: -(-count // 5) if leaves_out_nightly(pytestconfig) else count
 
 
 @pytest.fixture(scope="session")

@@ -144,7 +144,8 @@ def test_a_case_that_fails_leaves_the_others():
 
 
 def test_cases_in_a_store_run_once(tmp_path):
-    keywords = {"bounds": BOUNDS, "store": SimulationStore(tmp_path / "s.db", version="1"), **QUIET}
+    store = SimulationStore(tmp_path / "s.db", version="1")
+    keywords = {"bounds": BOUNDS, "store": store, "max_runs": 12, **QUIET}
     first = identify(three_cases(), **keywords)
     again = identify(three_cases(), **keywords)
     assert first.runs == 2 * first.evaluations  # two models
@@ -152,7 +153,7 @@ def test_cases_in_a_store_run_once(tmp_path):
     assert_same(first, again)
     other = [*three_cases()[:2], Case("strength", tension, 500.0, response=strength, sigma=1.0)]
     identify(other, **keywords)
-    with keywords["store"] as store:
+    with store:
         one, two = store.searches().values()
     assert one.settings["cases"] != two.settings["cases"]
 
@@ -231,7 +232,8 @@ def test_ordered_fixed_and_tied_parameters(method):
         "gamma1": Tied(lambda p: p["C1"] / 200.0),
     }
     truth = {"E": 200e3, "C1": 80e3, "C2": 5e3, "gamma1": 400.0}
-    found = identify(model, two_backstresses(truth), bounds, method=method, progress=False)
+    keywords = {"measure": "dtw", "method": method, "progress": False}
+    found = identify(model, two_backstresses(truth), bounds, **keywords)
     assert all(run["C1"] > run["C2"] for run in runs)
     assert all(run["E"] == 200e3 and run["gamma1"] == run["C1"] / 200.0 for run in runs)
     assert found.parameters == pytest.approx(truth, rel=0.01)

@@ -90,12 +90,12 @@ def told(file, content, expected):
     return sentences
 
 
-def test_another_byte_is_noticed_or_does_not_matter(whole, tmp_path):
+def test_another_byte_is_noticed_or_does_not_matter(whole, tmp_path, rounds):
     content, expected = whole
     rng = random.Random(25)
     used = [i for i, byte in enumerate(content) if byte]  # most of a small store is empty
-    # tests/faults/stores.py tries five times as many.
-    places = [*rng.sample(used, 60), *rng.sample(range(len(content)), 20)]
+    # tests/faults/stores.py tries five times as many as the night.
+    places = [*rng.sample(used, rounds(60)), *rng.sample(range(len(content)), rounds(20))]
     noticed = 0
     for place in places:
         damaged = bytearray(content)

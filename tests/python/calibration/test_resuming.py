@@ -62,6 +62,7 @@ def keywords_of(method):
 
 @pytest.mark.parametrize("workers", [1, 2])
 @pytest.mark.parametrize("method", ["sdrm+de", "trust-region", "least-squares", "nelder-mead"])
+@pytest.mark.nightly("(de|squares|mead)-2")
 def test_a_finished_search_is_replayed_from_its_store(tmp_path, method, workers):
     store = SimulationStore(tmp_path / "s.db", version="1")
     keywords = {"store": store, **keywords_of(method)}
@@ -218,7 +219,7 @@ def processes_left(group):
 @pytest.mark.skipif(os.name != "posix", reason="sends SIGINT to a process group")
 @pytest.mark.parametrize("workers", [1, 2])
 @pytest.mark.parametrize("target", ["process", "group"])
-@pytest.mark.nightly("process-1", "group-2")
+@pytest.mark.nightly("process-1", "group")
 def test_interrupted_and_resumed_is_as_if_it_had_run_through(tmp_path, workers, target):
     process, file = started(tmp_path, workers, 15, stderr=subprocess.PIPE)
     (os.kill if target == "process" else os.killpg)(process.pid, signal.SIGINT)

@@ -135,6 +135,7 @@ SEARCH = "identify(model, [(0.0, 0.0), (1.0, 5.0)], {'E': (0.0, 10.0)}, workers=
 
 @posix
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
+@pytest.mark.nightly("9")
 def test_no_solver_outlives_an_identification(tmp_path: Path, how: signal.Signals) -> None:
     pipe = Pipe(tmp_path)
     with interrupted(tmp_path, parent_and_child(pipe), SEARCH) as process:
@@ -148,6 +149,7 @@ def test_no_solver_outlives_an_identification(tmp_path: Path, how: signal.Signal
 
 @posix
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.nightly("15")
 def test_nor_one_that_was_started_in_the_background(tmp_path: Path, how: signal.Signals) -> None:
     """There, SIGINT is ignored."""
     pipe = Pipe(tmp_path)

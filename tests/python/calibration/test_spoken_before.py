@@ -158,10 +158,10 @@ def test_every_number_of_the_progress_has_a_name(monkeypatch, capsys, tmp_path):
     store = SimulationStore(tmp_path / "s.db", version="1")
     identify(model, model(TRUE), BOUNDS, store=store, max_runs=6)
     first = capsys.readouterr().err
-    identify(model, model(TRUE), BOUNDS, store=store)
+    identify(model, model(TRUE), BOUNDS, store=store, max_runs=9)
     again = capsys.readouterr().err
     line = re.compile(
-        r"(trust-region: )?\d\d:\d\d, \d+( of at most 6)? runs(, \d+ of them from the store)?"
+        r"(trust-region: )?\d\d:\d\d, \d+( of at most [69])? runs(, \d+ of them from the store)?"
         r"(, best value [\d.e+-]+)?(, waiting for \d+ runs?|, choosing the next run)? *"
     )
     for text in (first, again):
@@ -170,7 +170,9 @@ def test_every_number_of_the_progress_has_a_name(monkeypatch, capsys, tmp_path):
     assert "0 of at most 6 runs, waiting for 4 runs" in first
     assert ", choosing the next run" in first
     assert re.search(r"6 of at most 6 runs, best value [\d.e+-]+ *\n$", first)
-    assert re.search(r"\d runs, 6 of them from the store, best value [\d.e+-]+ *\n$", again)
+    assert re.search(
+        r"9 of at most 9 runs, 6 of them from the store, best value [\d.e+-]+ *\n$", again
+    )
 
 
 def test_a_notebook_has_one_line_and_no_warning():

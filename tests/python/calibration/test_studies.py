@@ -30,6 +30,11 @@ def odd_loops():
     return [*loops(TRUE)[:2], loops({"a": 4.0, "b": 1.0})[2]]
 
 
+@pytest.fixture(scope="module")
+def odd_checked():
+    return cross_validate(loops, odd_loops(), BOUNDS, **QUIET)
+
+
 def test_every_loop_is_left_out_once():
     checked = cross_validate(loops, loops(TRUE), BOUNDS, measure="dtw", **QUIET)
     assert [fold.left_out for fold in checked.folds] == [0, 1, 2]
@@ -40,10 +45,9 @@ def test_every_loop_is_left_out_once():
         assert len(fold.identification.experiments) == 2
 
 
-def test_a_loop_of_another_material_is_predicted_badly():
+def test_a_loop_of_another_material_is_predicted_badly(odd_checked):
     experiments = odd_loops()
-    checked = cross_validate(loops, experiments, BOUNDS, **QUIET)
-    odd = checked.folds[2]
+    odd = odd_checked.folds[2]
     assert odd.parameters["a"] == pytest.approx(2.0, rel=1e-3)
     assert odd.value > 100 * odd.others
     assert odd.value == curvewise.compare(experiments[2], odd.simulation)["area"]
@@ -79,9 +83,8 @@ def test_a_left_out_loop_that_fails_is_nan():
     assert "nan" in str(checked)
 
 
-def test_summary_is_a_table():
-    checked = cross_validate(loops, odd_loops(), BOUNDS, **QUIET)
-    rows = [row.split() for row in str(checked).splitlines()]
+def test_summary_is_a_table(odd_checked):
+    rows = [row.split() for row in str(odd_checked).splitlines()]
     assert rows[0] == ["left", "out", "a", "b", "area", "others"]
     assert [row[:2] for row in rows[1:4]] == [["loop", "0"], ["loop", "1"], ["loop", "2"]]
     assert [row[0] for row in rows[4:]] == ["mean", "std"]
@@ -92,10 +95,11 @@ def test_summary_is_a_table():
 
 def test_the_folds_are_searches_of_one_store(tmp_path):
     store = SimulationStore(tmp_path / "s.db", version="1")
-    first = cross_validate(loops, odd_loops(), BOUNDS, store=store, **QUIET)
+    keywords = {"store": store, "measure": "dtw", **QUIET}
+    first = cross_validate(loops, odd_loops(), BOUNDS, **keywords)
     with store:
         assert len(store.searches()) == 3
-    again = cross_validate(loops, odd_loops(), BOUNDS, store=store, **QUIET)
+    again = cross_validate(loops, odd_loops(), BOUNDS, **keywords)
     assert sum(fold.identification.runs for fold in again.folds) == 0
     assert str(again) == str(first)
 

@@ -155,14 +155,15 @@ def test_time_is_not_compared_with_strain_without_a_word(run, output, files):
     ("name", "magic"),
     [("out.png", PNG), ("out.pdf", b"%PDF"), ("out.svg", b"<?xml"), ("no_ending", PNG)],
 )
+@pytest.mark.nightly("pdf|svg")
 def test_compare_writes_the_picture_it_was_asked_for(output, files, name, magic):
-    out = output("compare", *files, "--plot", name)
+    out = output("compare", *files, "--measures", "dtw", "--plot", name)
     assert out.endswith(f"\npicture: {name}\n")
     assert Path(name).read_bytes().startswith(magic)
 
 
 def test_a_picture_does_not_disturb_the_json(compared, files):
-    assert compared(*files, "--plot", "out.png")["n"] == [40, 30]
+    assert compared(*files, "--measures", "dtw", "--plot", "out.png")["n"] == [40, 30]
     assert os.path.getsize("out.png") > 10_000
 
 
@@ -195,7 +196,7 @@ def test_a_file_that_ends_in_an_error_while_it_is_read_is_named(run, files):
 
 @pytest.mark.parametrize("name", ["no_such_folder/out.png", "."])
 def test_a_picture_that_cannot_be_written(run, files, name):
-    assert_failed(run("compare", *files, "--plot", name), name)
+    assert_failed(run("compare", *files, "--measures", "dtw", "--plot", name), name)
 
 
 def test_an_unknown_kind_of_picture(run, files):
@@ -211,6 +212,7 @@ def test_an_unknown_kind_of_picture(run, files):
         ("resslab_cyclic_2pct.csv", "resslab_random_protocol.csv"),
     ],
 )
+@pytest.mark.nightly("resslab")
 def test_real_loops(output, data_dir, tmp_path, first, second):
     pair = [str(data_dir / "loops" / name) for name in (first, second)]
     picture = tmp_path / "out.png"

@@ -128,7 +128,7 @@ MEASURES: list[tuple[str, dict[str, Any]]] = [
 PRESET_NAMES = ["scaled", "raw"]
 
 
-@settings(derandomize=True, deadline=None, max_examples=400)
+@settings(derandomize=True, deadline=None)
 @given(st.sampled_from(MEASURES), st.sampled_from(PRESET_NAMES), PLANAR, PLANAR, FACTORS, FACTORS)
 def test_the_largest_is_never_below_the_mean(
     measure: tuple[str, dict[str, Any]], preset: str, P: Array, Q: Array, x: float, y: float

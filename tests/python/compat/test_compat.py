@@ -218,7 +218,7 @@ curves_in_the_plane = st.lists(
 ).map(lambda points: np.array(points, dtype=float))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(deadline=None)
 @given(curves_in_the_plane, curves_in_the_plane)
 def test_area_equals_loops_over_its_definition(exp: Array, num: Array) -> None:
     area = similaritymeasures.area_between_two_curves(exp, num)
@@ -286,14 +286,14 @@ def random_curve(kind: str, n: int, random: np.random.Generator) -> Array:
         *("float32", "further columns", "walk"),
     ],
 )
-def test_the_bits_of_that_package(kind: str) -> None:
+def test_the_bits_of_that_package(kind: str, rounds: Callable[[int], int]) -> None:
     theirs = pytest.importorskip(
         "similaritymeasures", reason="no similaritymeasures: pip install similaritymeasures==1.5.0"
     )
     if theirs.__version__ != similaritymeasures.__version__:
         pytest.skip(f"similaritymeasures is {theirs.__version__}, the numbers are those of 1.5.0")
     random = np.random.default_rng(len(kind))
-    for i in range(150):
+    for i in range(rounds(150)):
         exp, num = (random_curve(kind, n, random) for n in random.integers(2, 40, 2))
         values = [bits(similaritymeasures, exp, num, with_pcm=i % 10 == 0)]
         values.append(bits(theirs, exp, num, with_pcm=i % 10 == 0))

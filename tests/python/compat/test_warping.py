@@ -65,7 +65,7 @@ def curve_pairs(draw: st.DrawFn) -> tuple[Array, Array]:
     return np.array(exp, dtype=float), np.array(num, dtype=float)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(deadline=None)
 @given(curve_pairs(), st.sampled_from(sorted(DISTANCES)))
 def test_dtw_equals_loops_over_its_definition(curves: tuple[Array, Array], metric: str) -> None:
     costs = costs_by_loops(*curves, DISTANCES[metric])
@@ -74,7 +74,7 @@ def test_dtw_equals_loops_over_its_definition(curves: tuple[Array, Array], metri
     assert r == d[-1, -1]
 
 
-@settings(max_examples=150, deadline=None)
+@settings(deadline=None)
 @given(curve_pairs(), st.sampled_from([1, 2, 3, 7.5, np.inf, 0.5]))
 def test_frechet_dist_equals_loops_over_its_definition(
     curves: tuple[Array, Array], p: float

@@ -50,7 +50,7 @@ def test_curves_without_turns() -> None:
     assert curves.turning_points([0, 1, 1, 1, 0]).dtype == np.int64
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None)
 @given(st.lists(st.integers(-20, 20), min_size=2, max_size=40), st.floats(0.05, 0.9))
 def test_branches_are_reversals_that_count(x: list[int], reversal: float) -> None:
     turns = curves.turning_points(x, reversal=reversal).tolist()

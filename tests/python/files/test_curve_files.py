@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import re
+import subprocess
 import sys
+import warnings
 import zipfile
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -14,7 +18,7 @@ import pytest
 import scipy.io
 
 from curvewise import read_curve
-from curvewise.files import mat_curves
+from curvewise.files import mat_curves, mat_process
 from curvewise.files.column_choice import TimeColumnWarning
 
 POINTS = [[0.0, 0.0], [0.001, 199.5], [-0.0005, -1e-05]]
@@ -94,6 +98,7 @@ def test_a_damaged_workbook_is_one_sentence(book: Path, damaged, why: str) -> No
 
 
 @pytest.mark.parametrize("keep", [0, 100, 200, 250, 300])
+@pytest.mark.nightly("100|250|300")
 def test_a_damaged_mat_file_is_one_sentence(tmp_path: Path, keep: int) -> None:
     file = tmp_path / "test.mat"
     scipy.io.savemat(file, {"x": np.arange(9.0), "y": np.arange(9.0)})
@@ -115,6 +120,20 @@ def test_a_mat_file_that_crashes_its_reader_does_not_end_this_process(
         read_curve(file)
 
 
+@pytest.fixture
+def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have whole .mat files read by mat_process.py without half a second for a process."""
+
+    def run(command: list[str], **_: object) -> subprocess.CompletedProcess[bytes]:
+        output = io.TextIOWrapper(io.BytesIO())
+        with contextlib.redirect_stdout(output), warnings.catch_warnings():
+            mat_process.main(command[-1])
+        return subprocess.CompletedProcess(command, 0, output.buffer.getvalue())
+
+    monkeypatch.setattr(mat_curves, "subprocess", SimpleNamespace(run=run))
+
+
+@pytest.mark.usefixtures("in_this_process")
 def test_variables_matrices_and_structures_of_matlab(tmp_path: Path) -> None:
     file = tmp_path / "test.mat"
     strain, stress = np.array(POINTS).T
@@ -143,14 +162,19 @@ def test_matlab_files_that_cannot_be_read(tmp_path: Path) -> None:
     file.write_text("strain,stress\n0,0\n" * 100)
     with pytest.raises(ValueError, match=r"not a \.mat file that scipy reads"):
         read_curve(file)
+    with pytest.raises(FileNotFoundError):
+        read_curve(tmp_path / "none.mat")
+
+
+@pytest.mark.usefixtures("in_this_process")
+def test_matlab_files_without_a_curve(tmp_path: Path) -> None:
+    file = tmp_path / "test.mat"
     scipy.io.savemat(file, {"name": "test 7"})
     with pytest.raises(ValueError, match="holds no real arrays"):
         read_curve(file)
     scipy.io.savemat(file, {"x": np.array([1.0, np.nan])})
     with pytest.raises(ValueError, match=r"x\(2\) is nan; curves must be finite"):
         read_curve(file)
-    with pytest.raises(FileNotFoundError):
-        read_curve(tmp_path / "none.mat")
 
 
 def test_factors_change_units(tmp_path: Path) -> None:

@@ -9,15 +9,15 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import dask.array
 import numpy as np
 import pytest
-from distributed import Client, LocalCluster
 
 import curvewise
-import curvewise.dask
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 Curves = list[np.ndarray[Any, np.dtype[np.float64]]]
 CASES: list[tuple[str, dict[str, Any]]] = [
@@ -65,6 +65,8 @@ def begun(folder: Path) -> dict[int, set[str]]:
 def test_blocks_have_the_bits_of_the_local_matrix(
     measure: str, options: dict[str, Any], block: int | None
 ) -> None:
+    import dask.array
+
     XA, XB = walks(10), walks(7, seed=1)
     for curves in ((XA,), (XA, XB), (XA, XA)):
         local = curvewise.cdist(*curves, measure=measure, **options)
@@ -207,6 +209,8 @@ def test_what_only_the_local_cdist_has(name: str) -> None:
 @pytest.fixture
 def client() -> Iterator[Client]:
     """Two worker processes of one thread each, which a nanny starts again when they end."""
+    from distributed import Client, LocalCluster
+
     with (
         LocalCluster(
             n_workers=2,
@@ -239,7 +243,7 @@ import curvewise.dask
 signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in the background
 walks = [np.random.default_rng(k).normal(size=(300_000, 2)).cumsum(axis=0) for k in range(4)]
 lazy = curvewise.dask.cdist(walks, block=1, metric="minkowski", p=3)  # minutes a block
-threading.Timer(1.0, os.kill, [os.getpid(), signal.SIGINT]).start()
+threading.Timer(0.5, os.kill, [os.getpid(), signal.SIGINT]).start()
 try:
     lazy.compute(scheduler="threads", num_workers=2)
 except KeyboardInterrupt:
@@ -265,6 +269,7 @@ def test_ctrl_c_ends_the_blocks_that_have_begun(then: str, output: str) -> None:
     assert run.stdout == "interrupted\n" + output
 
 
+@pytest.mark.nightly
 def test_cancelling_ends_the_blocks_that_have_begun(client: Client) -> None:
     long = [np.random.default_rng(k).normal(size=(300_000, 2)).cumsum(axis=0) for k in range(2)]
     future = client.compute(curvewise.dask.cdist(long, block=1, metric="minkowski", p=3))
@@ -302,6 +307,8 @@ def test_a_worker_killed_in_the_middle_loses_nothing(client: Client, tmp_path: P
 @pytest.mark.parametrize(("measure", "options"), [("dtw", {"window": 30}), ("area", {})])
 @pytest.mark.parametrize("block", [1, 3, 50])
 def test_neighbours_are_those_of_one_index(measure, options, block):
+    import dask
+
     random = np.random.default_rng(4)
     curves = [random.normal(size=(n, 2)).cumsum(axis=0) for n in random.integers(10, 30, 14)]
     curves[9] = curves[2]  # equal distances, in different blocks

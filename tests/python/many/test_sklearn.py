@@ -1,4 +1,7 @@
-"""The nearest-neighbour classifier against scikit-learn's own, and its checks of estimators."""
+"""The nearest-neighbour classifier against scikit-learn's own, and its checks of estimators.
+
+scikit-learn is imported where it is used: every process of a run collects this file, one runs it.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +9,8 @@ import pickle
 
 import numpy as np
 import pytest
-from sklearn.base import clone
-from sklearn.model_selection import GridSearchCV, cross_val_score
-from sklearn.neighbors import KNeighborsClassifier
-from sklearn.utils.estimator_checks import check_estimator
 
 import curvewise
-from curvewise.sklearn import CurveKNeighborsClassifier
 
 
 def labelled(count: int, seed: int = 0) -> tuple[list[np.ndarray], np.ndarray]:
@@ -27,9 +25,13 @@ def labelled(count: int, seed: int = 0) -> tuple[list[np.ndarray], np.ndarray]:
 @pytest.mark.parametrize("weights", ["uniform", "distance"])
 @pytest.mark.parametrize("n_neighbors", [1, 4, 9])
 def test_votes_as_scikit_learn_does(weights, n_neighbors):
+    from sklearn.neighbors import KNeighborsClassifier
+
     (known, y), (new, _) = labelled(40), labelled(20, seed=1)
     new[3] = known[5]  # at distance 0
-    ours = CurveKNeighborsClassifier(n_neighbors, options={"window": 9}, weights=weights)
+    ours = curvewise.sklearn.CurveKNeighborsClassifier(
+        n_neighbors, options={"window": 9}, weights=weights
+    )
     theirs = KNeighborsClassifier(n_neighbors, metric="precomputed", weights=weights)
     ours.fit(known, y)
     theirs.fit(curvewise.cdist(known, window=9), y)
@@ -41,8 +43,11 @@ def test_votes_as_scikit_learn_does(weights, n_neighbors):
 
 
 def test_cross_validation_clones_and_pickles():
+    from sklearn.base import clone
+    from sklearn.model_selection import GridSearchCV, cross_val_score
+
     curves, y = labelled(30)
-    classifier = CurveKNeighborsClassifier(1, measure="frechet", workers=2)
+    classifier = curvewise.sklearn.CurveKNeighborsClassifier(1, measure="frechet", workers=2)
     assert cross_val_score(classifier, curves, y, cv=3).mean() > 0.5
     search = GridSearchCV(classifier, {"n_neighbors": [1, 3], "measure": ["dtw", "area"]}, cv=2)
     assert set(search.fit(curves, y).best_params_) == {"n_neighbors", "measure"}
@@ -54,17 +59,19 @@ def test_cross_validation_clones_and_pickles():
 def test_arrays_and_lists_of_curves_alike():
     stack = np.random.default_rng(2).normal(size=(12, 15, 1))
     y = np.arange(12) % 2
-    expected = CurveKNeighborsClassifier(3).fit(stack, y).predict(stack + 0.5)
+    expected = curvewise.sklearn.CurveKNeighborsClassifier(3).fit(stack, y).predict(stack + 0.5)
     for X in (stack[:, :, 0], list(stack), [curve[:, 0] for curve in stack]):
-        classifier = CurveKNeighborsClassifier(3).fit(X, y)
+        classifier = curvewise.sklearn.CurveKNeighborsClassifier(3).fit(X, y)
         np.testing.assert_array_equal(classifier.predict([c + 0.5 for c in X]), expected)
 
 
 def test_passes_the_checks_of_estimators():
     """All but one: scikit-learn takes a list of rows for a table, and curves differ in length."""
+    from sklearn.utils.estimator_checks import check_estimator
+
     reason = "a list of curves that was fitted says nothing of the length of those to come"
     results = check_estimator(
-        CurveKNeighborsClassifier(3),
+        curvewise.sklearn.CurveKNeighborsClassifier(3),
         expected_failed_checks={"check_classifiers_train": reason},
         on_skip=None,
     )
@@ -74,10 +81,10 @@ def test_passes_the_checks_of_estimators():
 def test_errors():
     curves, y = labelled(6)
     with pytest.raises(ValueError, match="unknown weights 'heavy'"):
-        CurveKNeighborsClassifier(weights="heavy").fit(curves, y)
+        curvewise.sklearn.CurveKNeighborsClassifier(weights="heavy").fit(curves, y)
     with pytest.raises(ValueError, match="y has 5 classes for the 6 curves of X"):
-        CurveKNeighborsClassifier().fit(curves, y[:5])
+        curvewise.sklearn.CurveKNeighborsClassifier().fit(curves, y[:5])
     with pytest.raises(ValueError, match="n_neighbors is 7; give a whole number from 1 to 6"):
-        CurveKNeighborsClassifier(7).fit(curves, y).predict(curves)
+        curvewise.sklearn.CurveKNeighborsClassifier(7).fit(curves, y).predict(curves)
     with pytest.raises(ValueError, match="unknown measure 'far'"):
-        CurveKNeighborsClassifier(measure="far").fit(curves, y)
+        curvewise.sklearn.CurveKNeighborsClassifier(measure="far").fit(curves, y)

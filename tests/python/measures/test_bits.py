@@ -171,7 +171,7 @@ def differences(pair: Pair) -> list[str]:
     ("family", "chunk"),
     [(name, chunk) for name, (_, count) in FAMILIES.items() for chunk in range(count // CHUNK)],
 )
-@pytest.mark.nightly("bands|[1-9]$")  # by day a tenth, of every family that is not slow
+@pytest.mark.nightly("bands|[1-9]$|10$")  # by day the first of every family that is not slow
 def test_distance_path_and_table_equal_the_reference(family: str, chunk: int) -> None:
     found = [(str(pair), names) for pair in pairs(family, chunk) if (names := differences(pair))]
     assert not found
@@ -230,8 +230,10 @@ def cost_along(pair: Pair, path: npt.NDArray[np.int64]) -> float:
 
 
 @pytest.mark.parametrize("family", ["walks", "grids", "edges", "bands"])
-def test_the_path_attains_the_distance_to_the_bit(family: str) -> None:
-    chunks = range(min(6, FAMILIES[family][1] // CHUNK))
+def test_the_path_attains_the_distance_to_the_bit(
+    family: str, rounds: Callable[[int], int]
+) -> None:
+    chunks = range(rounds(min(6, FAMILIES[family][1] // CHUNK)))
     for pair in (pair for chunk in chunks for pair in pairs(family, chunk)):
         coupling = curvewise.frechet_path(pair.P, pair.Q, **pair.ground)
         assert path_faults(pair, coupling.path, {}) == [], pair
@@ -242,10 +244,10 @@ def test_the_path_attains_the_distance_to_the_bit(family: str) -> None:
 
 
 @pytest.mark.parametrize("family", ["walks", "extremes"])
-def test_minkowski_agrees_to_rounding(family: str) -> None:
+def test_minkowski_agrees_to_rounding(family: str, rounds: Callable[[int], int]) -> None:
     orders = tuple({"metric": "minkowski", "p": p} for p in (3, 1.5, 7.25))
     draw, _ = FAMILIES[family]
-    for number in range(60):
+    for number in range(rounds(60)):
         rng = np.random.default_rng([100, number])
         pair = draw(rng)
         P, Q, ground, warping = pair.P, pair.Q, orders[rng.integers(3)], pair.warping

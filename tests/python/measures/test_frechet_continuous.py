@@ -8,6 +8,7 @@ benchmarks/speed/frechet_continuous.py does the same with 20,000 pairs.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from fractions import Fraction
 
 import numpy as np
@@ -60,9 +61,9 @@ KINDS = ["grid", "line", "repeated", "spikes", "decimals", "far away", "normal"]
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_the_value_is_the_real_number_rounded_up(kind: str) -> None:
+def test_the_value_is_the_real_number_rounded_up(kind: str, rounds: Callable[[int], int]) -> None:
     rng = np.random.default_rng(len(kind))
-    for _ in range(150):
+    for _ in range(rounds(150)):
         d = int(rng.integers(1, 5))
         P, Q = (random_curve(rng, kind, int(rng.integers(1, 13)), d) for _ in range(2))
         low, value = frechet_continuous(P, Q, bounds=True)
@@ -84,9 +85,9 @@ def test_the_value_is_the_real_number_rounded_up(kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_value_and_bounds_of_the_reference(kind: str) -> None:
+def test_value_and_bounds_of_the_reference(kind: str, rounds: Callable[[int], int]) -> None:
     rng = np.random.default_rng(7 + len(kind))
-    for _ in range(8):
+    for _ in range(rounds(10)):
         P, Q = (random_curve(rng, kind, int(rng.integers(1, 7)), 2) for _ in range(2))
         expected = reference.frechet_continuous(P, Q, bounds=True)
         assert frechet_continuous(P, Q, bounds=True) == expected
@@ -175,13 +176,13 @@ def check_leashes(found: curvewise.Matching, P: Array, Q: Array) -> None:
 
 
 @pytest.mark.parametrize("module", [curvewise, reference])
-def test_matchings(module: object) -> None:
+def test_matchings(module: object, rounds: Callable[[int], int]) -> None:
     rng = np.random.default_rng(3)
-    rounds = 25 if module is curvewise else 3
+    of_each = rounds(25 if module is curvewise else 3)
     over = 0
     pairs = [
         tuple(random_curve(rng, kind, int(rng.integers(1, 9)), 2) for _ in range(2))
-        for kind in KINDS * rounds
+        for kind in KINDS * of_each
     ]
     for P, Q in [ONE_WAY, *pairs]:
         found = module.frechet_continuous_path(P, Q)  # type: ignore[attr-defined]
@@ -189,15 +190,17 @@ def test_matchings(module: object) -> None:
         check_leashes(found, P, Q)
         assert value <= found.distance <= value * (1 + 1e-14) + 1e-12 * np.abs([*P, *Q]).max()
         over += found.distance > value
-    assert module is reference or over <= len(KINDS) * rounds / 8
+    assert module is reference or over <= len(KINDS) * of_each / 8
 
 
 @pytest.mark.parametrize("module", [curvewise, reference])
-def test_matchings_of_an_edge_and_a_computed_point_on_it(module: object) -> None:
+def test_matchings_of_an_edge_and_a_computed_point_on_it(
+    module: object, rounds: Callable[[int], int]
+) -> None:
     # The point is beside the edge by less than there is between two parameters.
     edges = [np.array([(7.9, -48.7), (-36.5, 69.9)])]
     rng = np.random.default_rng(4)
-    edges += [rng.uniform(-70, 120, (2, 2)).round(1) for _ in range(300)]
+    edges += [rng.uniform(-70, 120, (2, 2)).round(1) for _ in range(rounds(300))]
     for k, P in enumerate(edges[: None if module is curvewise else 20]):
         h = rng.uniform() if k else 0.3
         Q = np.insert(P, 1, P[0] + h * (P[1] - P[0]), axis=0)

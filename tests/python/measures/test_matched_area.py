@@ -5,6 +5,7 @@ That it equals the reference is tested with the other spacings, in test_planar.p
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from curvewise import reference
 
 Array = npt.NDArray[np.float64]
 
-PROFILE = settings(derandomize=True, deadline=None, max_examples=80)
+PROFILE = settings(derandomize=True, deadline=None)
 EIGHTHS = st.integers(-512, 512).map(lambda k: k / 8)
 POWERS_OF_TWO = st.integers(-40, 40).map(lambda k: 2.0**k)
 POINTS = st.lists(st.tuples(EIGHTHS, EIGHTHS) | st.tuples(st.just(1.0), st.just(-2.0)), min_size=2)
@@ -111,8 +112,10 @@ def test_a_simulation_that_ends_early_is_not_like_its_test() -> None:
     assert matched(test, test[:2]) > 2 * raised
 
 
-def test_it_does_not_depend_on_further_vertices_on_the_segments() -> None:
-    for seed in range(60):
+def test_it_does_not_depend_on_further_vertices_on_the_segments(
+    rounds: Callable[[int], int],
+) -> None:
+    for seed in range(rounds(60)):
         rng = np.random.default_rng([5, seed])
         P, Q = (rng.normal(size=(n, 2)).cumsum(axis=0) for n in rng.integers(2, 40, 2))
         area = matched(P, Q)

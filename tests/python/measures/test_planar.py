@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import itertools
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -94,14 +95,14 @@ def loop_pairs(loops: dict[str, Array]) -> list[Pair]:
 
 
 @pytest.fixture(scope="session", params=["random", "measured"])
-def all_pairs(request: pytest.FixtureRequest) -> list[Pair]:
+def all_pairs(request: pytest.FixtureRequest, rounds: Callable[[int], int]) -> list[Pair]:
     if request.param == "random":  # does not need the data
-        return PAIRS
+        return PAIRS[: rounds(len(PAIRS))]
     measured: list[Pair] = request.getfixturevalue("loop_pairs")
     return measured
 
 
-@pytest.mark.nightly("random")
+@pytest.mark.nightly
 def test_matched_area_equals_the_reference(all_pairs: list[Pair]) -> None:
     compare_areas(all_pairs[:30], {"spacing": "matched"})  # the reference fills a table for each
 
@@ -145,8 +146,8 @@ def test_pcm_match_equals_the_reference(all_pairs: list[Pair]) -> None:
         np.testing.assert_array_less(np.abs(found.points - expected.points) / largest, 1e-10)
 
 
-def test_continuous_pcm_equals_the_reference() -> None:
-    for P, Q in PAIRS[:24]:
+def test_continuous_pcm_equals_the_reference(rounds: Callable[[int], int]) -> None:
+    for P, Q in PAIRS[: rounds(24)]:
         found = curvewise.pcm_match(P, Q, offsets="continuous")
         expected = reference.pcm_match(P, Q, offsets="continuous")
         assert found.value == curvewise.pcm(P, Q, offsets="continuous")
@@ -244,14 +245,16 @@ def check_pieces(loop: Array, count: int) -> None:
 
 
 @pytest.mark.parametrize("name", list(synthetic_loops()))
-def test_a_piece_of_a_synthetic_loop_maps_onto_it(name: str) -> None:
-    check_pieces(synthetic_loops()[name], count=60)
+def test_a_piece_of_a_synthetic_loop_maps_onto_it(name: str, rounds: Callable[[int], int]) -> None:
+    check_pieces(synthetic_loops()[name], count=rounds(60))
 
 
 @pytest.mark.parametrize("name", LOOPS)
-def test_a_piece_of_a_measured_loop_maps_onto_it(loops: dict[str, Array], name: str) -> None:
-    check_pieces(loops[name], count=4)
-    check_pieces(loops[name][:: 1 + len(loops[name]) // 1200], count=30)
+def test_a_piece_of_a_measured_loop_maps_onto_it(
+    loops: dict[str, Array], name: str, rounds: Callable[[int], int]
+) -> None:
+    check_pieces(loops[name], count=rounds(4))
+    check_pieces(loops[name][:: 1 + len(loops[name]) // 1200], count=rounds(30))
 
 
 def test_continuous_pcm_is_never_above_the_grid(all_pairs: list[Pair]) -> None:

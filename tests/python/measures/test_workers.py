@@ -30,13 +30,17 @@ def pair() -> tuple[Any, Any]:
     return rng.normal(size=(n, 2)).cumsum(0), rng.integers(-9, 9, (m, 2)).astype(float)
 
 
-@pytest.fixture(scope="module")
-def expected(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a file with what the reference gives for each case."""
+@pytest.fixture(scope="module", params=["one thread", "reference"])
+def expected(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a file with what the reference, or one thread of this process, gives for each case.
+
+    On so many cells the reference takes seconds; test_bits.py holds one thread to it on fewer.
+    """
     P, Q = pair()
+    module = reference if request.param == "reference" else curvewise
     arrays = {}
     for i, (measure, options) in enumerate(CASES):
-        alignment = getattr(reference, f"{measure}_path")(P, Q, **options)
+        alignment = getattr(module, f"{measure}_path")(P, Q, **options)
         arrays[f"distance{i}"], arrays[f"path{i}"] = alignment.distance, alignment.path
     file = tmp_path_factory.mktemp("workers") / "expected.npz"
     np.savez(file, **arrays)
@@ -44,7 +48,7 @@ def expected(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def differences(file: str) -> list[str]:
-    """Return what differs from the reference, at this process's level."""
+    """Return what differs from what is expected, at this process's level."""
     P, Q = pair()
     expected = np.load(file)
     found = []
@@ -59,6 +63,7 @@ def differences(file: str) -> list[str]:
 
 
 @pytest.mark.parametrize("level", curvewise.installation.build_info()["instruction_sets"])
+@pytest.mark.nightly("reference")
 def test_workers_change_no_bit_at_any_level(level: str, expected: Path) -> None:
     done = subprocess.run(
         [sys.executable, __file__, str(expected)],

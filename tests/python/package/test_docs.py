@@ -52,7 +52,9 @@ def has_code(page: Path) -> bool:
 @pytest.mark.parametrize(
     "page", [page for page in [ROOT / "README.md", *PAGES] if has_code(page)], ids=name_of
 )
-@pytest.mark.nightly("several_tests|inverse_analysis|many_curves|solvers")
+@pytest.mark.nightly(
+    "several_tests|inverse_analysis|many_curves|solvers|reports|study|identify_a_material"
+)
 def test_the_code_of_a_page_runs(
     page: Path,
     tmp_path: Path,

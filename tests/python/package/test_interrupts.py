@@ -91,7 +91,7 @@ def test_ctrl_c_ends_a_long_call(name):
 def test_a_handler_that_raises_nothing_does_not_end_the_call():
     heard: list[int] = []
     before = signal.signal(signal.SIGUSR1, lambda number, frame: heard.append(number))
-    P, Q = random_walk(25_000), random_walk(25_000, seed=1)
+    P, Q = random_walk(18_000), random_walk(18_000, seed=1)
     timer = threading.Timer(0.1, os.kill, [os.getpid(), signal.SIGUSR1])
     timer.start()
     try:
@@ -219,7 +219,7 @@ def test_calls_on_other_threads_do_not_take_the_signal():
     code = """
 import os, signal, threading, time
 import numpy as np, curvewise
-P = np.random.default_rng(0).normal(size=(30_000, 2)).cumsum(axis=0)
+P = np.random.default_rng(0).normal(size=(20_000, 2)).cumsum(axis=0)
 values = []
 thread = threading.Thread(target=lambda: values.append(curvewise.dtw(P, P[::-1])))
 thread.start()

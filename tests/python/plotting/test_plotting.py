@@ -407,13 +407,14 @@ def test_every_value_is_printed(dim, measures):
     ],
     ids=["dp780", "resslab", "series", "space"],
 )
+@pytest.mark.nightly("resslab")
 def test_no_texts_overlap(pair, data_dir, monkeypatch):
     if isinstance(pair[0], str):
         files = (data_dir / "loops" / f"{name}.csv" for name in pair)
         pair = [np.loadtxt(file, delimiter=",", skiprows=1) for file in files]
     figure = curvewise.compare(*pair).plot()
     canvas = FigureCanvasAgg(figure)
-    canvas.draw()
+    figure.draw_without_rendering()  # the layout settles
     texts, draw = [], Text.draw
     monkeypatch.setattr(Text, "draw", lambda text, *args: texts.append(text) or draw(text, *args))
     canvas.draw()

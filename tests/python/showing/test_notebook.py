@@ -32,6 +32,7 @@ def found():
     return identify(line, line({"a": 2.0}), measure="sum_of_squares", **KEYWORDS)
 
 
+@pytest.fixture(scope="module")
 def results(found):
     return [
         curvewise.compare(P, Q, measures=["area"]),
@@ -45,8 +46,8 @@ def results(found):
     ]
 
 
-def test_notebooks_show_a_table_and_a_picture(found):
-    for result in results(found):
+def test_notebooks_show_a_table_and_a_picture(results):
+    for result in results:
         shown = result._repr_html_()
         assert shown.startswith("<table>")
         (data,) = re.findall(
@@ -56,9 +57,9 @@ def test_notebooks_show_a_table_and_a_picture(found):
         assert len(shown) < 400_000
 
 
-def test_without_matplotlib_the_table_stands_alone(found, monkeypatch):
+def test_without_matplotlib_the_table_stands_alone(results, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    for result in results(found):
+    for result in results:
         shown = result._repr_html_()
         assert shown.startswith("<table>")
         assert "<img" not in shown
@@ -82,7 +83,7 @@ def test_a_table_is_the_same_as_text_and_in_a_notebook():
     assert Table([], ["measure", "value"]).text() == "measure  value"
 
 
-def test_terminals_show_no_coordinates(found):
+def test_terminals_show_no_coordinates(results):
     two = [line({"a": 2.0}), line({"a": 2.1})]
     folds = cross_validate(lambda p: [line(p)] * 2, two, measure="sum_of_squares", **KEYWORDS)
     others = [
@@ -93,7 +94,7 @@ def test_terminals_show_no_coordinates(found):
         folds,
         curvewise.compare(P, Q).deviations["area"],
     ]
-    for result in [*results(found), *others]:
+    for result in [*results, *others]:
         assert "array(" not in repr(result)
         assert "object at 0x" not in repr(result)
         assert len(repr(result)) < 500
