@@ -21,7 +21,7 @@ using namespace curvewise;
 using test::Curve;
 using test::Random;
 
-constexpr std::ptrdiff_t points = std::ptrdiff_t{1} << 18;
+constexpr std::ptrdiff_t points = std::ptrdiff_t{1} << 17;
 
 using Call = std::function<void(Control*)>;
 

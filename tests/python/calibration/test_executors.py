@@ -22,7 +22,9 @@ def deadly(parameters):
 
 @pytest.fixture(scope="module")
 def dask_executor():
-    distributed = pytest.importorskip("distributed")
+    distributed = pytest.importorskip(
+        "distributed", reason='no dask: pip install "curvewise[dask]"'
+    )
     with (
         distributed.LocalCluster(
             n_workers=1, threads_per_worker=2, processes=False, dashboard_address=":0"

@@ -208,7 +208,10 @@ def test_eigen_caller(examples) -> None:
     assert numbers(output(examples / "eigen_caller")) == EIGEN_VALUES
 
 
-@pytest.mark.parametrize("flag", ["-march=native", "-mavx512f -mfma", "-mno-avx"])
+@pytest.mark.parametrize(
+    "flag",
+    ["-march=native", "-mavx512f -mfma", pytest.param("-mno-avx", marks=pytest.mark.nightly)],
+)
 @pytest.mark.parametrize("cxx", ["g++", "clang++"])
 def test_eigen_caller_under_the_address_sanitizer(cxx, flag, prefix, tmp_path) -> None:
     # Eigen asks for -mfma where there is AVX-512.

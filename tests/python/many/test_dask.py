@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,11 @@ import curvewise
 
 if TYPE_CHECKING:
     from distributed import Client
+
+# Test by test: a file that is skipped whole would not be in the list of what was skipped.
+pytestmark = pytest.mark.skipif(
+    find_spec("distributed") is None, reason='no dask: pip install "curvewise[dask]"'
+)
 
 Curves = list[np.ndarray[Any, np.dtype[np.float64]]]
 CASES: list[tuple[str, dict[str, Any]]] = [

@@ -237,6 +237,7 @@ def test_no_queries_and_no_curves():
 
 
 def test_graphs_are_what_scikit_learn_makes_of_the_table():
+    pytest.importorskip("sklearn", reason='no scikit-learn: pip install "curvewise[sklearn]"')
     from sklearn.cluster import DBSCAN
     from sklearn.neighbors import NearestNeighbors
 

@@ -6,11 +6,17 @@ scikit-learn is imported where it is used: every process of a run collects this 
 from __future__ import annotations
 
 import pickle
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
 
 import curvewise
+
+# Test by test: a file that is skipped whole would not be in the list of what was skipped.
+pytestmark = pytest.mark.skipif(
+    find_spec("sklearn") is None, reason='no scikit-learn: pip install "curvewise[sklearn]"'
+)
 
 
 def labelled(count: int, seed: int = 0) -> tuple[list[np.ndarray], np.ndarray]:
