@@ -86,7 +86,7 @@ class CubeModel:
     def __init__(self, paths: Sequence[Array], folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         template = folder / "cubes.inp"
-        self.deck = deck(paths)
+        self.deck = deck(paths, [(f"MATERIAL_{k}", _placeholders(k)) for k in _LAYERS])
         template.write_text(self.deck)
         self._solver = CommandModel(
             template,
@@ -121,28 +121,32 @@ def _table(rows: Iterable[tuple[float, float]]) -> str:
     return "\n".join(f"{stress:.8g},{strain:.8g}" for stress, strain in rows)
 
 
-def deck(paths: Sequence[Array]) -> str:
-    """Return the input deck, with placeholders for the material."""
+def _placeholders(k: int) -> list[str]:
+    """Return the material of a layer, with placeholders."""
+    return [
+        f"*MATERIAL,NAME=MATERIAL_{k}",
+        "*ELASTIC",
+        f"<<E_{k}:.8g>>,{POISSON}",
+        "*PLASTIC,HARDENING=COMBINED",
+        f"<<kinematic_{k}>>",
+        "*CYCLIC HARDENING",
+        f"<<isotropic_{k}>>",
+    ]
+
+
+def deck(paths: Sequence[Array], materials: Sequence[tuple[str, Sequence[str]]]) -> str:
+    """Return the input deck: of each test a layer of each material, given by name and lines."""
     corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
     corners += [(x, y, 1) for x, y, _ in corners]
     lines = ["*NODE"]
     for test, (i, xyz) in itertools.product(range(len(paths)), enumerate(corners, 1)):
         lines.append(f"{8 * test + i},{','.join(map(str, xyz))}")
-    for k in _LAYERS:
+    for k, (material, made_of) in enumerate(materials):
         lines.append(f"*ELEMENT,TYPE=C3D8,ELSET=LAYER_{k}")
         for test in range(len(paths)):
             nodes = ",".join(str(8 * test + i) for i in range(1, 9))
-            lines.append(f"{len(_LAYERS) * test + k + 1},{nodes}")
-        lines += [
-            f"*MATERIAL,NAME=MATERIAL_{k}",
-            "*ELASTIC",
-            f"<<E_{k}:.8g>>,{POISSON}",
-            "*PLASTIC,HARDENING=COMBINED",
-            f"<<kinematic_{k}>>",
-            "*CYCLIC HARDENING",
-            f"<<isotropic_{k}>>",
-            f"*SOLID SECTION,ELSET=LAYER_{k},MATERIAL=MATERIAL_{k}",
-        ]
+            lines.append(f"{len(materials) * test + k + 1},{nodes}")
+        lines += [*made_of, f"*SOLID SECTION,ELSET=LAYER_{k},MATERIAL={material}"]
     increments = max(map(len, paths)) - 1
     loads, output = [], []
     for test, path in enumerate(paths):

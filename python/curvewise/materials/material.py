@@ -7,6 +7,7 @@ by k parameters k / 8 times that.
 
 from __future__ import annotations
 
+import datetime
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -19,8 +20,12 @@ import numpy.typing as npt
 from .._names import did_you_mean
 from ..curves.inputs import Array, as_curve
 from ..curves.several_curves import as_points, curve_list
+from ..solvers.cards import CardContent, card_text
 
 __all__ = ["DrivenModel", "Material", "Parameter"]
+
+# Cycles that a card of CalculiX follows where nobody says which: they grow to 3 %.
+_CYCLES = (np.array([0.005, -0.005, 0.01, -0.01, 0.02, -0.02, 0.03, -0.03]),)
 
 
 class Parameter(NamedTuple):
@@ -130,6 +135,106 @@ class Material(ABC):
             strains.append(points[:, 0].copy())
         return DrivenModel(self, tuple(strains))
 
+    def card(
+        self,
+        parameters: Mapping[str, float],
+        solver: str,
+        *,
+        name: str = "material",
+        units: str = "MPa",
+        poisson: float = 0.3,
+        intervals: Mapping[str, tuple[float, float]] | None = None,
+        date: str | None = None,
+        along: Any = None,
+    ) -> str:
+        """Return the material card of a solver, with these parameters.
+
+        Parameters
+        ----------
+        parameters : mapping of str to float
+            A number for each of `names`, such as what `identify` has found.
+        solver : {"abaqus", "ansys", "ls-dyna", "calculix", "mfront", "code_aster"}
+        name : str, default "material"
+            Of the material: a letter, then letters, digits and underscores.
+        units : str, default "MPa"
+            In which the stresses among the parameters are. It is written, nothing is converted.
+        poisson : float, default 0.3
+            Poisson's ratio, between -1 and 0.5: uniaxial tests do not tell it.
+        intervals : mapping of str to (low, high), optional
+            Written beside the parameters, such as the `intervals` of an `Uncertainty`.
+        date : str, optional
+            Of the fit; today's by default.
+        along : array_like of shape (n,), or sequence of such, optional
+            Strains on which a card of "calculix" shall follow the material, such as the `strains`
+            of a `DrivenModel`; by default cycles that grow to ±3 %. No other solver needs it.
+
+        Returns
+        -------
+        str
+            Comments with parameters, units, date, intervals and the manual's section, and the
+            solver's keywords. Numbers have the digits that give the same double when read; where a
+            field is too short for them, a comment says which were rounded.
+
+        Raises
+        ------
+        ValueError
+            The solver has no such model, or none with these numbers; the message says what to do.
+            Or an argument or a parameter makes no sense.
+        ImportError
+            CalculiX, and scipy is not installed.
+
+        Notes
+        -----
+        "calculix": where a back stress has recall (gamma), the card is an overlay of several
+        elements, which follows the material along the paths `along` within the share of the loop's
+        height that it states: some 0.3 % for one loop.
+
+        Examples
+        --------
+        >>> from curvewise.materials import ChabocheVoce
+        >>> steel = ChabocheVoce(backstresses=1)
+        >>> constants = dict(zip(steel.names, (200e3, 300.0, -50.0, 8.0, 80e3, 400.0)))
+        >>> card = steel.card(constants, "abaqus", name="DP780")
+        >>> print(card[card.index("*MATERIAL") :])
+        *MATERIAL, NAME=DP780
+        *ELASTIC
+        200000.0, 0.3
+        *PLASTIC, HARDENING=COMBINED, DATA TYPE=PARAMETERS, NUMBER BACKSTRESSES=1
+        300.0, 80000.0, 400.0
+        *CYCLIC HARDENING, PARAMETERS
+        300.0, -50.0, 8.0
+        <BLANKLINE>
+        """
+        numbers = dict(zip(self.names, self._values(parameters).tolist(), strict=True))
+        self.stress([0.0, 1e-3], numbers)  # refuses parameters that make no sense
+        if not -1.0 < poisson < 0.5:
+            raise ValueError(f"poisson is {poisson}; give a ratio between -1 and 0.5")
+        if not units.isprintable() or not units.strip():
+            raise ValueError(f"units is {units!r}; name the unit of stress, such as 'MPa'")
+        if wrong := [parameter for parameter in intervals or {} if parameter not in numbers]:
+            raise ValueError(
+                f"intervals has {wrong[0]!r}{did_you_mean(wrong, numbers)} (the parameters: "
+                f"{', '.join(numbers)})"
+            )
+        content = CardContent(
+            model=type(self).__name__,
+            described=repr(self),
+            options=asdict(self),
+            parameters=numbers,
+            units={p.name: units if p.unit == "stress" else p.unit for p in self.parameters},
+            meanings={p.name: p.meaning for p in self.parameters},
+            name=name,
+            date=date or datetime.date.today().isoformat(),
+            poisson=float(poisson),
+            intervals={
+                parameter: (float(low), float(high))
+                for parameter, (low, high) in (intervals or {}).items()
+            },
+            along=_CYCLES if along is None else _paths(along),
+            stress=lambda strain: self.stress(strain, numbers),
+        )
+        return card_text(content, solver)
+
     def _call(self, strain: npt.ArrayLike, parameters: Mapping[str, float], slopes: bool) -> Any:
         path = as_curve(strain, "strain")
         if path.ndim != 1:
@@ -178,3 +283,16 @@ class DrivenModel:
             slopes = self.material.stress_and_slopes(strain, parameters)[1]
             found.append(np.stack((np.zeros_like(slopes), slopes), axis=1))
         return found
+
+
+def _paths(along: Any) -> tuple[Array, ...]:
+    """Return the paths of strain in `along`, one or several."""
+    one = np.ndim(along[0]) == 0 if len(along) else True
+    paths = tuple(as_curve(path, "along") for path in ([along] if one else along))
+    for path in paths:
+        if path.ndim != 1 or np.ptp(path) == 0.0:
+            raise ValueError(
+                f"along has a path of shape {path.shape}; give strains that change, shape (n,), or "
+                "several such"
+            )
+    return paths

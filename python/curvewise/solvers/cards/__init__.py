@@ -1,0 +1,115 @@
+"""Material cards: a material's numbers as the lines that a solver reads.
+
+One record a solver (`FORMATS`): what it calls the models, and what it does not have. What is read
+back are the cards of Abaqus and CalculiX, whose files have the same keywords.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+
+from ..._names import did_you_mean
+from . import abaqus, ansys, calculix, code_aster, ls_dyna, mfront
+from .content import CardContent, SolverCard, TabulatedLayer
+from .keyword_file import blocks_of, materials_of
+
+__all__ = ["FORMATS", "CardContent", "SolverCard", "TabulatedLayer", "card_text", "read_card"]
+
+FORMATS = {
+    form.solver: form
+    for form in (
+        abaqus.FORMAT,
+        ansys.FORMAT,
+        ls_dyna.FORMAT,
+        calculix.FORMAT,
+        mfront.FORMAT,
+        code_aster.FORMAT,
+    )
+}
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,69}")
+
+
+def card_text(content: CardContent, solver: str) -> str:
+    """Return the card of a material for a solver; the errors are `Material.card`'s."""
+    if solver not in FORMATS:
+        raise ValueError(
+            f"solver is {solver!r}; give one of {', '.join(map(repr, FORMATS))}"
+            f"{did_you_mean([solver], FORMATS)}"
+        )
+    if not _NAME.fullmatch(content.name):
+        raise ValueError(
+            f"name is {content.name!r}; all solvers take a letter, and then up to 69 letters, "
+            "digits and underscores"
+        )
+    return FORMATS[solver].text(content)
+
+
+def read_card(path: str | os.PathLike[str], *, name: str | None = None) -> SolverCard:
+    """Read a material card of Abaqus or CalculiX.
+
+    Parameters
+    ----------
+    path : path-like
+        A card that :meth:`curvewise.materials.Material.card` has written; of Abaqus any input file
+        with combined hardening by parameters.
+    name : str, optional
+        The material, needed where a file of Abaqus has several.
+
+    Returns
+    -------
+    SolverCard
+        Its parameters are the doubles that were written.
+
+    Raises
+    ------
+    ValueError
+        There is no such material, or one without these keywords; or the numbers of a card of
+        CalculiX are not those that its comments state.
+    OSError
+        The file cannot be read.
+
+    Notes
+    -----
+    Linear in the size of the file. Abaqus' numbers are those of its data lines. CalculiX's tables
+    do not tell the parameters; they stand in the comments, and the sum of the moduli is held
+    against them.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> from curvewise.materials import ChabocheVoce
+    >>> from curvewise.solvers import read_card
+    >>> steel = ChabocheVoce(backstresses=1)
+    >>> constants = dict(zip(steel.names, (200e3, 300.0, -50.0, 8.0, 80e3, 400.0)))
+    >>> file = pathlib.Path(tempfile.mkdtemp(), "steel.inp")
+    >>> _ = file.write_text(steel.card(constants, "abaqus"))
+    >>> read_card(file).parameters == constants
+    True
+    """
+    blocks, comments = blocks_of(path)
+    materials = materials_of(blocks)
+    combined = {
+        material: found
+        for material, found in materials.items()
+        if any(block.options.get("HARDENING", "").upper() == "COMBINED" for block in found)
+    }
+    by_parameters = {
+        material: found
+        for material, found in combined.items()
+        if any(block.options.get("DATATYPE", "").upper() == "PARAMETERS" for block in found)
+    }
+    try:
+        if combined and not by_parameters:
+            return calculix.card_of(combined, comments)
+        if name is None and len(by_parameters) == 1:
+            name = next(iter(by_parameters))
+        if name not in by_parameters:
+            known = ", ".join(by_parameters) or "none"
+            raise ValueError(
+                f"materials with combined hardening by parameters: {known}; "
+                f"{'give one as name' if name is None else f'none is called {name!r}'}"
+            )
+        return abaqus.card_of(name, by_parameters[name])
+    except ValueError as error:
+        raise ValueError(f"{os.fspath(path)}: {error}") from None

@@ -1,0 +1,213 @@
+"""What a material card is made of, whatever the solver, and the comments at its top.
+
+Numbers are printed with the digits that give the same double when they are read: Python's shortest
+(repr). Solvers whose fields end after so many characters get the same double in fewer characters
+where it can be written so, and a rounded one, named in a comment, where it cannot.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from ...curves.inputs import Array
+
+__all__ = ["CardContent", "CardFormat", "SolverCard", "TabulatedLayer", "as_field"]
+
+
+@dataclass(frozen=True)
+class CardContent:
+    """A material with its numbers, and what is known of them.
+
+    Attributes
+    ----------
+    model : str
+        "ChabocheVoce" or "YoshidaUemori".
+    described : str
+        The material with its options, as Python prints it.
+    options : mapping of str to object
+        The material's options.
+    parameters : dict of str to float
+        In the material's order.
+    units : dict of str to str
+        Of each parameter, "-" for none.
+    meanings : dict of str to str
+        Of each parameter.
+    name, date : str
+        Of the material; of the fit.
+    poisson : float
+        Poisson's ratio, which no uniaxial test tells.
+    intervals : mapping of str to (low, high)
+        Of the parameters that have one.
+    along : sequence of ndarray
+        Paths of strain on which the card shall follow the material.
+    stress : callable
+        The material's stress along a path of strain.
+    """
+
+    model: str
+    described: str
+    options: Mapping[str, object]
+    parameters: dict[str, float]
+    units: Mapping[str, str]
+    meanings: Mapping[str, str]
+    name: str
+    date: str
+    poisson: float
+    intervals: Mapping[str, tuple[float, float]]
+    along: Sequence[Array]
+    stress: Callable[[Array], Array]
+
+    @property
+    def backstresses(self) -> list[tuple[float, float]]:
+        """C and gamma of each of Chaboche's back stresses."""
+        count = sum(name.startswith("gamma") for name in self.parameters)
+        p = self.parameters
+        return [(p[f"C{k}"], p[f"gamma{k}"]) for k in range(1, count + 1)]
+
+
+@dataclass(frozen=True)
+class TabulatedLayer:
+    """One material of CalculiX: an element of its own, where a card has several.
+
+    Attributes
+    ----------
+    name : str
+    modulus, poisson : float
+    kinematic : tuple of (stress, plastic strain)
+        The curve of kinematic hardening.
+    isotropic : tuple of (stress, plastic strain)
+        The yield stress.
+    """
+
+    name: str
+    modulus: float
+    poisson: float
+    kinematic: tuple[tuple[float, float], ...]
+    isotropic: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class SolverCard:
+    """A material card as `read_card` has read it.
+
+    Attributes
+    ----------
+    solver : str
+        "abaqus" or "calculix".
+    name : str
+        Of the material.
+    parameters : dict of str to float
+        Names as those of :class:`curvewise.materials.ChabocheVoce`. Of CalculiX's cards, those that
+        the comments state: its tables follow from them.
+    poisson : float
+        Poisson's ratio.
+    layers : tuple of TabulatedLayer
+        The tables of CalculiX's materials, empty for Abaqus.
+    """
+
+    solver: str
+    name: str
+    parameters: dict[str, float]
+    poisson: float
+    layers: tuple[TabulatedLayer, ...] = ()
+
+
+@dataclass(frozen=True)
+class CardFormat:
+    """How one solver's cards are written, and read where that is possible.
+
+    Attributes
+    ----------
+    solver : str
+        As `card` takes it.
+    title : str
+        As the solver's makers write it.
+    comment : str
+        What a line of comment begins with.
+    sources : mapping of str to str
+        Where the manual has the keywords, for each model that the solver has.
+    write : callable
+        From the content to the lines below the comments; a ValueError where this model with these
+        numbers cannot be written.
+    lacks : mapping of str to str
+        Of each model that the solver does not have, what to do.
+    decaying : frozenset of str
+        Models whose modulus can decay.
+    width : int or None
+        Characters of a field, where they are limited.
+    """
+
+    solver: str
+    title: str
+    comment: str
+    sources: Mapping[str, str]
+    write: Callable[[CardContent], list[str]]
+    lacks: Mapping[str, str]
+    decaying: frozenset[str] = frozenset()
+    width: int | None = None
+
+    def text(self, content: CardContent) -> str:
+        """Return the card, or raise a ValueError that says what the solver does not have."""
+        if content.model not in self.sources:
+            raise ValueError(f"{self.title} has no {content.model}; {self.lacks[content.model]}")
+        if content.options["modulus"] == "decaying" and content.model not in self.decaying:
+            raise ValueError(
+                f"{self.title} has no {content.model} whose modulus decays with plastic strain; "
+                'fit with modulus="constant" (LS-DYNA has it for YoshidaUemori)'
+            )
+        body = self.write(content)
+        head = [f"{self.comment} {line}" for line in self._head(content)]
+        return "\n".join([*head, *body, ""])
+
+    def _head(self, content: CardContent) -> list[str]:
+        lines = [
+            f"curvewise card for {self.title}: {content.name}",
+            f"{content.described}, fitted {content.date}",
+            f"source: {self.sources[content.model]}",
+        ]
+        for name, value in content.parameters.items():
+            interval = content.intervals.get(name)
+            within = f" ({interval[0]!r} to {interval[1]!r})" if interval else ""
+            unit = content.units[name]
+            lines.append(
+                f"{name} = {value!r}{'' if unit == '-' else ' ' + unit}{within}: "
+                f"{content.meanings[name]}"
+            )
+        lines.append(f"Poisson's ratio {content.poisson!r} is given, not fitted")
+        if self.width:
+            written = content.parameters | {"Poisson's ratio": content.poisson}
+            rounded = [name for name, value in written.items() if _is_lost(value, self.width)]
+            if rounded:
+                lines.append(f"rounded to fields of {self.width} characters: {', '.join(rounded)}")
+        return lines
+
+
+def as_field(value: float, width: int) -> str:
+    """Return a number in at most so many characters: the same double wherever one can be written.
+
+    Parameters
+    ----------
+    value : float
+        Finite.
+    width : int
+        At least 10.
+    """
+    texts = [repr(float(value))]
+    for digits in range(17, 0, -1):
+        texts += [f"{value:.{digits}g}", f"{value:.{digits - 1}e}", f"{value:.{digits}f}"]
+    texts += [_shortened(text) for text in texts]
+    fitting = [text for text in texts if len(text) <= width]
+    return min(fitting, key=lambda text: abs(float(text) - value))
+
+
+def _is_lost(value: float, width: int) -> bool:
+    """Return whether a field of this width cannot hold the double."""
+    return float(as_field(value, width)) != value
+
+
+def _shortened(text: str) -> str:
+    """Return a number without the zeros and the sign that it does not need."""
+    text = re.sub(r"e([-+])0*(?=\d)", lambda sign: "e" + sign[1].replace("+", ""), text)
+    return re.sub(r"^(-?)0\.(?=\d)", r"\1.", text)

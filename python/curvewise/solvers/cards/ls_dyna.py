@@ -1,0 +1,108 @@
+"""LS-DYNA: *MAT_125 for Yoshida and Uemori, *MAT_103 for Chaboche with up to two back stresses.
+
+*MAT_125 has the parameters themselves: SC1 = SC2 = C, E(p) = E - (E - EA) (1 - exp(-COE p)), and
+IOPT = 1 for R = RSAT ((C1 + p)^C2 - C1^C2); its anisotropy R = 1 is von Mises. *MAT_103 has the
+stress SIGY + QR1 (1 - exp(-CR1 p)) + QX1 (1 - exp(-CX1 p)) + QX2 (...) in tension, so QX = C /
+gamma and CX = gamma, whose quotient is rounded, and a back stress without recall has none. Cards
+have the long format, 20 columns a field: the "+" behind the keyword asks for it, whatever the deck.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from .content import CardContent, CardFormat, as_field
+
+__all__ = ["FORMAT"]
+
+_WIDTH = 20
+
+
+def _write(content: CardContent) -> list[str]:
+    return (_yoshida if content.model == "YoshidaUemori" else _chaboche)(content)
+
+
+def _yoshida(content: CardContent) -> list[str]:
+    p = content.parameters
+    first: list[str | float] = ["1", "&density", p["E"], content.poisson, 1.0, "0", "0"]
+    decays, power = content.options["modulus"] == "decaying", content.options["growth"] == "power"
+    return [
+        *_title("KINEMATIC_HARDENING_TRANSVERSELY_ANISOTROPIC", content),
+        *_card("MID RO E PR R HCLID OPT", first),
+        *_card(
+            "CB Y SC1 K RSAT SB H SC2",
+            [p["CB"], p["Y"], p["C"], p["K"], p["RSAT"], p["SB"], p["H"], p["C"]],
+        ),
+        *_card(
+            "EA COE IOPT C1 C2",
+            [
+                p["Ea"] if decays else 0.0,
+                p["xi"] if decays else 0.0,
+                "1" if power else "0",
+                p["C1"] if power else 0.0,
+                p["C2"] if power else 0.0,
+            ],
+        ),
+    ]
+
+
+def _chaboche(content: CardContent) -> list[str]:
+    p, backstresses = content.parameters, content.backstresses
+    if len(backstresses) > 2:
+        raise ValueError(
+            f"LS-DYNA's *MAT_103 has up to two back stresses, not {len(backstresses)}; fit with "
+            "backstresses=2"
+        )
+    terms = [0.0, 0.0, 0.0, 0.0]
+    for k, (C, gamma) in enumerate(backstresses):
+        if C != 0.0 and gamma == 0.0:
+            raise ValueError(
+                f"LS-DYNA's *MAT_103 has no back stress without recall, and gamma{k + 1} is 0; fit "
+                "with bounds above 0 for it"
+            )
+        terms[2 * k : 2 * k + 2] = [C / gamma if C else 0.0, gamma]
+    return [
+        "$ QX = C / gamma, which is rounded, and CX = gamma",
+        *_title("ANISOTROPIC_VISCOPLASTIC", content),
+        *_card(
+            "MID RO E PR SIGY FLAG LCSS ALPHA",
+            ["1", "&density", p["E"], content.poisson, p["yield"], "0", "0", 0.0],
+        ),
+        *_card("QR1 CR1 QR2 CR2 QX1 CX1 QX2 CX2", [p["Q"], p["b"], 0.0, 0.0, *terms]),
+        *_card("VK VM R00 R45 R90 L M N", [0.0, 0.0]),
+        *_card("AOPT FAIL NUMINT MACF", [0.0, 0.0, 0.0, "1"]),
+        *_card("XP YP ZP A1 A2 A3", [0.0] * 6),
+        *_card("V1 V2 V3 D1 D2 D3 BETA", [0.0] * 7),
+    ]
+
+
+def _title(keyword: str, content: CardContent) -> list[str]:
+    return [
+        "$ the density: *PARAMETER with R density, or write it in the place of &density",
+        f"*MAT_{keyword}_TITLE+",
+        content.name,
+    ]
+
+
+def _card(names: str, fields: Sequence[str | float]) -> list[str]:
+    """Return a line of fields in columns of 20, below their names; what is not given is blank."""
+    texts = [field if isinstance(field, str) else as_field(field, _WIDTH) for field in fields]
+    head = "".join(name.rjust(_WIDTH) for name in names.split())
+    return ["$#" + head[2:], "".join(text.rjust(_WIDTH) for text in texts)]
+
+
+FORMAT = CardFormat(
+    solver="ls-dyna",
+    title="LS-DYNA",
+    comment="$",
+    sources={
+        "YoshidaUemori": "LS-DYNA Keyword User's Manual, Volume II, "
+        "*MAT_KINEMATIC_HARDENING_TRANSVERSELY_ANISOTROPIC (*MAT_125)",
+        "ChabocheVoce": "LS-DYNA Keyword User's Manual, Volume II, *MAT_ANISOTROPIC_VISCOPLASTIC "
+        "(*MAT_103)",
+    },
+    write=_write,
+    lacks={},
+    decaying=frozenset({"YoshidaUemori"}),
+    width=_WIDTH,
+)

@@ -1,0 +1,53 @@
+"""MFront: the brick StandardElastoViscoPlasticity.
+
+Its rules: X = 2/3 C a with da = d(eps_p) - D a dp for Armstrong and Frederick, without recall
+Prager; Voce's radius R = Rinf + (R0 - Rinf) exp(-b p). The yield stress is a rule of its own
+("Linear" without slope), and radii of several rules add up, so that Q stands as it is.
+"""
+
+from __future__ import annotations
+
+from .content import CardContent, CardFormat
+
+__all__ = ["FORMAT"]
+
+
+def _write(content: CardContent) -> list[str]:
+    p = content.parameters
+    rules = [
+        f'isotropic_hardening : "Linear" {{R0 : {p["yield"]!r}}}',
+        f'isotropic_hardening : "Voce" {{R0 : 0.0, Rinf : {p["Q"]!r}, b : {p["b"]!r}}}',
+    ]
+    for C, gamma in content.backstresses:
+        rules.append(
+            f'kinematic_hardening : "Armstrong-Frederick" {{C : {C!r}, D : {gamma!r}}}'
+            if gamma
+            else f'kinematic_hardening : "Prager" {{C : {C!r}}}'
+        )
+    elastic = f"young_modulus : {p['E']!r}, poisson_ratio : {content.poisson!r}"
+    return [
+        "@DSL Implicit;",
+        f"@Behaviour {content.name};",
+        "@Epsilon 1.e-14;",
+        "@Theta 1;",
+        "@Brick StandardElastoViscoPlasticity{",
+        f'  stress_potential : "Hooke" {{{elastic}}},',
+        '  inelastic_flow : "Plastic" {',
+        '    criterion : "Mises",',
+        *(f"    {rule}{',' if i < len(rules) else ''}" for i, rule in enumerate(rules, 1)),
+        "  }",
+        "};",
+    ]
+
+
+FORMAT = CardFormat(
+    solver="mfront",
+    title="MFront",
+    comment="//",
+    sources={
+        "ChabocheVoce": "TFEL/MFront, Description of the StandardElastoViscoPlasticity brick: "
+        "Linear, Voce, Prager, Armstrong-Frederick"
+    },
+    write=_write,
+    lacks={"YoshidaUemori": "its brick has no bounding surface; LS-DYNA has it as *MAT_125"},
+)
