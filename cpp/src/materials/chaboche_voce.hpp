@@ -27,10 +27,17 @@ inline std::size_t place_of_yield(Modulus modulus) { return modulus == Modulus::
 template <class Number>
 struct Term {
     Number start, amplitude, rate;
-
-    Number rise(const Number& p) const { return amplitude * p * saturation(rate * p); }
-    Number steepness(const Number& p) const { return amplitude * exp(-(rate * p)); }
 };
+
+// What the stress has risen by, and its derivative by p: one exponential a term.
+struct Rise {
+    double height = 0.0, steepness = 0.0;
+};
+
+inline Rise rise_of(const Term<double>& term, double p) {
+    const double z = term.rate * p, share = saturation(z);
+    return {term.amplitude * p * share, term.amplitude * (1.0 - z * share)};
+}
 
 template <class Number>
 struct Flow {
@@ -38,48 +45,56 @@ struct Flow {
     YoungsModulus<Number> modulus;
     Number p0{};  // the plastic strain before it
 
-    Number rise(const Number& p) const {
-        Number sum(0.0);
-        for (const Term<Number>& term : terms) sum += term.rise(p);
-        return sum;
-    }
-    Number steepness(const Number& p) const {
-        Number sum(0.0);
-        for (const Term<Number>& term : terms) sum += term.steepness(p);
-        return sum;
-    }
-    // The strain behind the yield point, and its derivative.
+    // The strain behind the yield point, where the modulus decays.
     Number strain(const Number& p) const {
-        if (modulus.is_constant) return p + rise(p) / modulus.initial;
         double largest_rate = value_of(modulus.rate);
         for (const Term<Number>& term : terms) {
             largest_rate = std::max(largest_rate, value_of(term.rate));
         }
         return p + integral_of_decays(p, largest_rate, [this](const Number& s) {
-                   return steepness(s) / modulus.after(p0 + s);
+                   Number steepness(0.0);
+                   for (const Term<Number>& term : terms) {
+                       steepness += term.amplitude * exp(-(term.rate * s));
+                   }
+                   return steepness / modulus.after(p0 + s);
                });
     }
-    Number slope(const Number& p) const { return 1.0 + steepness(p) / modulus.after(p0 + p); }
 };
 
-// The root of flow.strain(p) = target > 0. R alone can fall, by `fall` at most.
+// The strain behind the yield point, and its derivative.
+inline Rise strain_of(const Flow<double>& flow, double p) {
+    Rise sum;
+    for (const Term<double>& term : flow.terms) {
+        const Rise rise = rise_of(term, p);
+        sum.height += rise.height;
+        sum.steepness += rise.steepness;
+    }
+    const double slope = 1.0 + sum.steepness / flow.modulus.after(flow.p0 + p);
+    return {flow.modulus.is_constant ? p + sum.height / flow.modulus.initial : flow.strain(p),
+            slope};
+}
+
+// The root of the flow's strain = target > 0, nearly: Newton's next iterate is it to rounding. R
+// alone can fall, by `fall` at most.
 inline double plastic_strain(const Flow<double>& flow, double target, double fall) {
     const YoungsModulus<double>& modulus = flow.modulus;
     const double softest =
         modulus.is_constant ? modulus.initial : std::min(modulus.initial, modulus.limit);
     double low = 0.0, high = target + fall / softest;
-    double p = target / std::max(1.0, flow.slope(0.0));
+    double steepness = 0.0;
+    for (const Term<double>& term : flow.terms) steepness += term.amplitude;
+    double p = target / std::max(1.0, 1.0 + steepness / modulus.after(flow.p0));
     constexpr int most_iterations = 200;  // 60 halvings would do
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
-        const double excess = flow.strain(p) - target;
+        const auto [strain, slope] = strain_of(flow, p);
+        const double excess = strain - target;
         (excess > 0.0 ? high : low) = p;
-        const double slope = flow.slope(p);
-        double next = p - excess / slope;
-        if (!(slope > 0.0 && next > low && next < high)) next = 0.5 * (low + high);
-        // Newton's next iterate is as good again as this one's step is short.
-        const bool is_found = std::abs(next - p) <= 1e-9 * p;
-        p = next;
-        if (is_found) break;
+        const double next = p - excess / slope;
+        // The error of the next iterate is some multiple of the square of this step. Asked before
+        // the bounds are, one of which the root itself may be.
+        const bool is_near = slope > 0.0 && std::abs(next - p) <= 1e-6 * p;
+        p = is_near || (slope > 0.0 && next > low && next < high) ? next : 0.5 * (low + high);
+        if (is_near) break;
     }
     return p;
 }
@@ -92,7 +107,8 @@ class ChabocheVocePoint {
           constants_(parameters + place_of_yield(material.modulus), parameters + count),
           state_((constants_.size() - 1) / 2, Number(0.0)),
           flow_{std::vector<Term<Number>>(state_.size()), modulus_},
-          plain_{std::vector<Term<double>>(state_.size()), modulus_.plain()} {}
+          plain_{std::vector<Term<double>>(state_.size()), modulus_.plain()},
+          rises_(state_.size()) {}
 
     // The stress after a further increment of strain.
     Number advance(double increment) {
@@ -120,16 +136,27 @@ class ChabocheVocePoint {
         }
         plain_.p0 = value_of(p_);
         const double fall = std::max(0.0, value_of(state_[0]) - value_of(constants_[1]));
-        Number p = plastic_strain(plain_, value_of(strain), fall);
-        p += (strain - flow_.strain(p)) / plain_.slope(value_of(p));
+        const double p = plastic_strain(plain_, value_of(strain), fall);
 
+        // Newton's last step, of which the derivatives are those of the implicit function; what it
+        // moves p by is so little that the rest is linear in it.
+        Number risen(0.0);
+        for (std::size_t k = 0; k < state_.size(); ++k) {
+            const Term<Number>& term = flow_.terms[k];
+            rises_[k] = term.amplitude * p * saturation(term.rate * p);
+            risen += rises_[k];
+        }
+        const Number reached =
+            modulus_.is_constant ? p + risen / modulus_.initial : flow_.strain(Number(p));
+        const Number rest = (strain - reached) / strain_of(plain_, p).steepness;
         Number stress = constants_[0];
         for (std::size_t k = 0; k < state_.size(); ++k) {
-            const Number after = flow_.terms[k].start + flow_.terms[k].rise(p);
+            const Number after =
+                flow_.terms[k].start + rises_[k] + rise_of(plain_.terms[k], p).steepness * rest;
             state_[k] = k == 0 ? after : n * after;
             stress += after;
         }
-        p_ += p;
+        p_ += p + rest;
         return n * stress;
     }
 
@@ -138,6 +165,7 @@ class ChabocheVocePoint {
     std::vector<Number> state_;      // R, X1, X2, ...
     Flow<Number> flow_;
     Flow<double> plain_;
+    std::vector<Number> rises_;
     Number stress_{}, p_{};
 };
 

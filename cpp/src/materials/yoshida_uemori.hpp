@@ -18,8 +18,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "curvewise/materials.hpp"
 #include "materials/path.hpp"
@@ -46,7 +51,7 @@ struct Constants {
     BoundGrowth growth;
     double rtol;
     YoungsModulus<Number> modulus;
-    Number CB, Y, C, K, RSAT, SB, H, C1, C2;
+    Number CB, Y, C, K, RSAT, SB, H, C1{}, C2{};
 };
 
 // What is known of one direction of flow: closed forms of the plastic strain p since it began.
@@ -56,162 +61,209 @@ class Branch {
     // Where R is `R`, c is `centre`, the plastic strain p0, and R grows from p = `contact` on.
     Branch(const Constants<Number>& constants, const Number& R, const Number& centre,
            const Number& p0, const Number& contact)
-        : k_(constants), R_(R), centre_(centre), p0_(p0), contact_(contact) {}
+        : k_(constants), R_(R), centre_left_(k_.SB - centre), p0_(p0), contact_(contact) {}
 
-    void begin_growth() { is_growing_ = true; }
+    void begin_growth() {
+        is_growing_ = true;
+        if (k_.growth == BoundGrowth::saturating) {
+            R_left_ = (k_.RSAT - R_) * exp(k_.K * contact_);
+        } else {
+            R_ = R_ - k_.RSAT * pow(k_.C1 + p0_ + contact_, k_.C2);
+        }
+    }
     bool is_growing() const { return is_growing_; }
     const Number& contact() const { return contact_; }
 
-    Number centre(const Number& p) const { return k_.SB - (k_.SB - centre_) * exp(-(k_.K * p)); }
-    // R, and its derivative.
-    std::array<Number, 2> R(const Number& p) const {
-        if (!is_growing_) return {R_, Number(0.0)};
+    // The bounding surface's centre and R, with their derivatives.
+    struct Bound {
+        Number centre, centre_slope, R, R_slope;
+    };
+    Bound bound(const Number& p) const {
+        const Number decay = exp(-(k_.K * p)), left = centre_left_ * decay;
+        if (!is_growing_) return {k_.SB - left, k_.K * left, R_, Number(0.0)};
         if (k_.growth == BoundGrowth::saturating) {
-            const Number left = (k_.RSAT - R_) * exp(-(k_.K * (p - contact_)));
-            return {k_.RSAT - left, k_.K * left};
+            const Number R_left = R_left_ * decay;
+            return {k_.SB - left, k_.K * left, k_.RSAT - R_left, k_.K * R_left};
         }
-        const Number base = k_.C1 + p0_ + p, begun = k_.C1 + p0_ + contact_;
-        const Number power = k_.RSAT * pow(base, k_.C2);
-        return {R_ + power - k_.RSAT * pow(begun, k_.C2), k_.C2 * power / base};
+        const Number base = k_.C1 + p0_ + p, power = k_.RSAT * pow(base, k_.C2);
+        return {k_.SB - left, k_.K * left, R_ + power, k_.C2 * power / base};
     }
     // The derivatives of the state by T, where u has the sign `sign`: continued smoothly beyond 0,
     // so that rounding cannot turn the slopes of |u| there.
     State<Number> rates(const State<Number>& state, double sign) const {
         const Number &u = state[U], &p = state[P];
-        const auto [R, R_slope] = this->R(p);
-        const Number size = k_.CB + R - k_.Y;
-        const Number speed = sign * u;
-        const Number pull = k_.C * (1.0 - u);
-        const Number steepness = pull * size + k_.K * (k_.SB - centre(p));
-        return {0.5 * pull - 0.5 * (R_slope / size) * u * speed, speed,
-                speed * (1.0 + steepness / k_.modulus.after(p0_ + p))};
+        const Bound found = bound(p);
+        const Number size = k_.CB + found.R - k_.Y, speed = sign * u, pull = k_.C * (1.0 - u);
+        const Number steepness = pull * size + found.centre_slope;
+        const Number u_rate =
+            is_growing_ ? 0.5 * (pull - found.R_slope / size * (u * speed)) : 0.5 * pull;
+        return {u_rate, speed, speed + speed * (steepness / k_.modulus.after(p0_ + p))};
     }
 
    private:
     const Constants<Number>& k_;
-    Number R_, centre_, p0_, contact_;
+    Number R_, centre_left_, p0_, contact_;
+    Number R_left_{};
     bool is_growing_ = false;
 };
 
-// Integrates one branch from the yield point to a strain behind it.
-template <class Number>
-class Integration {
-   public:
-    Integration(Branch<Number>& branch, const Constants<Number>& constants, const Number& u,
-                const Number& target)
-        : branch_(branch),
-          constants_(constants),
-          state_{u, Number(0.0), Number(0.0)},
-          target_(target) {}
+// One step of the integration, and what happens at its end: a component has a value there, and R
+// may begin to grow.
+struct Leg {
+    static constexpr std::size_t T = 3;  // beside U, P and STRAIN
+    static constexpr std::size_t nowhere = 4;
 
-    State<Number> run() {
+    std::size_t by;  // what the step goes along
+    double length;
+    std::size_t ends_at;
+};
+
+// The state and the branch that it goes along, one leg after another.
+template <class Number>
+class Walk {
+   public:
+    Walk(Branch<Number>& branch, const Number& u, const Number& target)
+        : branch_(branch), state_{u, Number(0.0), Number(0.0)}, target_(target) {
         if (value_of(branch_.contact()) == 0.0) branch_.begin_growth();
-        double length = never;
-        while (true) {
-            const std::size_t last_by = by_;
-            by_ = value_of(state_[U]) < 0.0 ? U : value_of(state_[U]) < 0.5 ? T : STRAIN;
-            if (by_ != last_by) length = never;
-            const double left = by_ == U ? -value_of(state_[U])
-                                : by_ == T
-                                    ? 1.0 / value_of(constants_.C)  // u rises by no more than 1/2
-                                    : value_of(target_) - value_of(state_[STRAIN]);
-            const auto [step, taken] = accepted(std::min(length, left));
-            length = 2.0 * taken;
-            const bool touches = !branch_.is_growing() && passes(step, P, branch_.contact());
-            const State<Number> next = touches ? landed(taken, P, branch_.contact()) : step;
-            if (by_ == STRAIN && taken == left && !touches) {
-                return settled(next, STRAIN, target_);
-            }
-            if (passes(next, STRAIN, target_)) return landed(taken, STRAIN, target_);
-            state_ = by_ == U && taken == left && !touches ? settled(next, U, Number(0.0)) : next;
-            if (touches) branch_.begin_growth();
-        }
+    }
+    const State<Number>& state() const { return state_; }
+    const Branch<Number>& branch() const { return branch_; }
+
+    State<Number> rates(const State<Number>& state, std::size_t by) const {
+        State<Number> found = branch_.rates(state, sign(by));
+        if (by == Leg::T) return found;
+        const Number time = 1.0 / found[by];
+        for (Number& rate : found) rate = rate * time;
+        found[by] = Number(1.0);
+        return found;
+    }
+    Step<Number, 3> step(std::size_t by, double length) const {
+        return runge_kutta_step(state_, length,
+                                [&](const auto& state) { return rates(state, by); });
+    }
+    // Goes along a leg, of which `end` is the step.
+    void go(const Leg& leg, const State<Number>& end) {
+        state_ = end;
+        if (leg.ends_at != Leg::nowhere) settle(leg.ends_at, sign(leg.by));
+        if (leg.ends_at == P) branch_.begin_growth();
     }
 
    private:
-    static constexpr std::size_t T = 3;  // beside U, P and STRAIN
+    static double sign(std::size_t by) { return by == U ? -1.0 : 1.0; }
+    // Moves the state along the flow by the little that a component differs from its value: in the
+    // value (by the midpoint rule, to the third power of the little) as in the slopes.
+    void settle(std::size_t what, double sign) {
+        const Number value = what == P ? branch_.contact() : what == U ? Number(0.0) : target_;
+        const State<Number> rate = branch_.rates(state_, sign);
+        const Number time = (value - state_[what]) / rate[what];
+        State<Number> middle = state_;
+        for (std::size_t c = 0; c < middle.size(); ++c) middle[c] += 0.5 * (rate[c] * time);
+        const State<Number> rate_there = branch_.rates(middle, sign);
+        for (std::size_t c = 0; c < state_.size(); ++c) state_[c] += rate_there[c] * time;
+        state_[what] = value;
+    }
+
+    Branch<Number>& branch_;
+    State<Number> state_;
+    Number target_;
+};
+
+// Finds the legs from the yield point to a strain behind it.
+class Integration {
+   public:
+    Integration(Branch<double>& branch, const Constants<double>& constants, double u, double target)
+        : walk_(branch, u, target), constants_(constants), target_(target) {}
+
+    // Appends them; returns the state at their end.
+    State<double> run(std::vector<Leg>& legs) {
+        double length = never;
+        for (std::size_t last_by = Leg::T; last_strain() < target_; last_by = legs.back().by) {
+            const double u = walk_.state()[U];
+            const std::size_t by = u < 0.0 ? U : u < 0.5 ? Leg::T : STRAIN;
+            if (by != last_by) length = never;
+            const double left = by == U        ? -u
+                                : by == Leg::T ? 1.0 / constants_.C  // u rises by no more than 1/2
+                                               : target_ - last_strain();
+            auto [end, taken] = accepted(by, std::min(length, left));
+            length = 2.0 * taken;
+            Leg leg{by, taken, by != Leg::T && taken == left ? by : Leg::nowhere};
+            const Branch<double>& branch = walk_.branch();
+            if (!branch.is_growing() && end[P] > branch.contact()) {
+                std::tie(leg, end) = landed(leg, end, P, branch.contact());
+            }
+            if (leg.ends_at != STRAIN && end[STRAIN] > target_) {
+                std::tie(leg, end) = landed(leg, end, STRAIN, target_);
+            }
+            walk_.go(leg, end);
+            legs.push_back(leg);
+        }
+        return walk_.state();
+    }
+
+   private:
     // A path has hundreds of steps, and what a parameter hardly moves has slopes with the larger
     // errors.
     static constexpr double share_of_a_step = 1e-3;
 
-    double sign() const { return by_ == U ? -1.0 : 1.0; }
-    State<Number> rates(const State<Number>& state) const {
-        State<Number> found = branch_.rates(state, sign());
-        if (by_ == T) return found;
-        const Number speed = found[by_];
-        for (Number& rate : found) rate = rate / speed;
-        found[by_] = Number(1.0);
-        return found;
-    }
-    Step<Number, 3> step(double length) {
+    double last_strain() const { return walk_.state()[STRAIN]; }
+    Step<double, 3> step(std::size_t by, double length) {
         if (--steps_left_ < 0) {
             throw std::invalid_argument(
                 "with these parameters the Yoshida-Uemori equations are too steep to integrate; "
                 "give values nearer to those of a metal");
         }
-        return runge_kutta_step(state_, length, [this](const auto& state) { return rates(state); });
+        return walk_.step(by, length);
     }
     // A step of this length, or of a shorter one whose error is small enough.
-    std::pair<State<Number>, double> accepted(double length) {
-        const double E = value_of(constants_.modulus.initial), CB = value_of(constants_.CB);
+    std::pair<State<double>, double> accepted(std::size_t by, double length) {
+        const double in_strain = constants_.modulus.initial / constants_.CB;
         while (true) {
-            const Step<Number, 3> found = step(length);
-            const double error =
-                std::max({found.error[U], E / CB * found.error[P], E / CB * found.error[STRAIN]}) /
-                (share_of_a_step * constants_.rtol);
+            const Step<double, 3> found = step(by, length);
+            const double error = std::max({found.error[U], in_strain * found.error[P],
+                                           in_strain * found.error[STRAIN]}) /
+                                 (share_of_a_step * constants_.rtol);
             if (error <= 1.0) return {found.end, length};
             length *= std::max(0.2, 0.9 * std::pow(error, -1.0 / 8.0));  // nan: 0.2
         }
     }
-    static bool passes(const State<Number>& end, std::size_t what, const Number& value) {
-        return value_of(end[what]) > value_of(value);
-    }
-    // The state less than `length` further, where a component has a value that it passes there.
-    State<Number> landed(double length, std::size_t what, const Number& value) {
-        const double aim = value_of(value), begin = value_of(state_[what]);
-        double low = 0.0, high = length;
-        double at = length * (aim - begin) / (value_of(step(length).end[what]) - begin);
-        State<Number> end = state_;
+    // The leg shortened to where a component has a value that it passes there.
+    std::pair<Leg, State<double>> landed(const Leg& leg, State<double> end, std::size_t what,
+                                         double aim) {
+        const double begin = walk_.state()[what];
+        double low = 0.0, high = leg.length;
+        double at = leg.length * (aim - begin) / (end[what] - begin);
         constexpr int most_iterations = 60;
         for (int iteration = 0; iteration < most_iterations; ++iteration) {
-            end = step(at).end;
-            const double excess = value_of(end[what]) - aim;
+            end = step(leg.by, at).end;
+            const double excess = end[what] - aim;
             (excess > 0.0 ? high : low) = at;
-            double next = at - excess / value_of(rates(end)[what]);
+            double next = at - excess / walk_.rates(end, leg.by)[what];
             if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-            // What is left is less than rounding where the flow is followed: settled() does.
+            // What is left is less than rounding where the flow is followed: Walk::go does.
             if (std::abs(next - at) <= 1e-6 * at) break;
             at = next;
         }
-        return settled(end, what, value);
-    }
-    // The state moved along the flow by the little that a component differs from its value: in the
-    // value (by the midpoint rule, to the third power of the little) as in the slopes.
-    State<Number> settled(State<Number> state, std::size_t what, const Number& value) const {
-        const State<Number> rate = branch_.rates(state, sign());
-        const Number time = (value - state[what]) / rate[what];
-        State<Number> middle = state;
-        for (std::size_t c = 0; c < state.size(); ++c) middle[c] += 0.5 * (rate[c] * time);
-        const State<Number> rate_there = branch_.rates(middle, sign());
-        for (std::size_t c = 0; c < state.size(); ++c) state[c] += rate_there[c] * time;
-        state[what] = value;
-        return state;
+        return {{leg.by, at, what}, end};
     }
 
-    Branch<Number>& branch_;
-    const Constants<Number>& constants_;
-    State<Number> state_;
-    Number target_;
-    std::size_t by_ = T;      // what a step goes along
+    Walk<double> walk_;
+    const Constants<double>& constants_;
+    double target_;
     int steps_left_ = 10000;  // a metal's take one to ten
 };
 
 template <class Number>
+std::vector<double> values_of(const Number* numbers, std::size_t count) {
+    std::vector<double> values(count);
+    for (std::size_t i = 0; i < count; ++i) values[i] = value_of(numbers[i]);
+    return values;
+}
+
+template <class Number>
 class YoshidaUemoriPoint {
    public:
-    YoshidaUemoriPoint(const YoshidaUemori& material, const Number* parameters,
-                       std::size_t /*count*/)
-        : k_(material, parameters) {}
+    YoshidaUemoriPoint(const YoshidaUemori& material, const Number* parameters, std::size_t count)
+        : k_(material, parameters), plain_(material, values_of(parameters, count).data()) {}
 
     // The stress after a further increment of strain.
     Number advance(double increment) {
@@ -228,10 +280,25 @@ class YoshidaUemoriPoint {
     // The stress after plastic flow in the direction n, by `strain` behind the yield point.
     Number flow(double n, const Number& strain) {
         const Number bound = stagnation_size_ + n * stagnation_centre_;
-        Branch<Number> branch(k_, R_, n * centre_, p_, contact(n, bound));
-        const State<Number> end = Integration<Number>(branch, k_, n * u_, strain).run();
-
-        const Number centre = branch.centre(end[P]), R = branch.R(end[P])[0];
+        const Number reached = contact(n, bound);
+        Branch<double> plain(plain_, value_of(R_), n * value_of(centre_), value_of(p_),
+                             value_of(reached));
+        legs_.clear();
+        const State<double> found =
+            Integration(plain, plain_, n * value_of(u_), value_of(strain)).run(legs_);
+        if constexpr (std::is_same_v<Number, double>) {
+            return flowed(n, bound, found, plain);
+        } else {
+            Branch<Number> branch(k_, R_, n * centre_, p_, reached);
+            Walk<Number> walk(branch, n * u_, strain);
+            for (const Leg& leg : legs_) walk.go(leg, walk.step(leg.by, leg.length).end);
+            return flowed(n, bound, walk.state(), branch);
+        }
+    }
+    // The stress at the end of a branch, from which the next step begins.
+    Number flowed(double n, const Number& bound, const State<Number>& end,
+                  const Branch<Number>& branch) {
+        const auto [centre, centre_slope, R, R_slope] = branch.bound(end[P]);
         touched_ = branch.is_growing() ? n : n == touched_ ? n : 0.0;
         if (branch.is_growing()) {
             // The stagnation surface is pushed along: H of the way it grows, the rest it moves.
@@ -258,6 +325,8 @@ class YoshidaUemoriPoint {
     }
 
     Constants<Number> k_;
+    Constants<double> plain_;
+    std::vector<Leg> legs_;  // of the last step that flowed
     Number stress_{}, p_{}, R_{}, u_{}, centre_{};
     Number stagnation_size_{}, stagnation_centre_{};
     double touched_ = 0.0;  // the direction in which the stagnation surface was pushed last

@@ -8,6 +8,7 @@ hysteresis loops using inverse analysis", Int. J. Material Forming (2018). scipy
 needed: ``pip install "curvewise[calibration]"``.
 """
 
+from .._bounds import Below, Log, Tied
 from . import methods
 from .answers.identification import Identification
 from .answers.several_measures import SeveralMeasures
@@ -22,7 +23,7 @@ from .objective.criterion import MEASURES, Criterion
 from .objective.noisy_tests import NoisyTestWarning
 from .objective.objective import Objective, Score
 from .problem.evaluations import Progress
-from .problem.space import Below, Log, Tied, WideBoundsWarning
+from .problem.space import WideBoundsWarning
 from .records.database import StoreError
 from .records.store import SimulationStore
 from .records.stored_run import StoredRun

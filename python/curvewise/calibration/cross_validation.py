@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from .._bounds import Bounds
 from ..curves.inputs import Array
 from ..curves.several_curves import as_points, curve_list
 from ..showing.result import Table, Tabular
@@ -26,7 +27,7 @@ from .objective.criterion import Criterion, Measure, criterion_of
 from .objective.noisy_tests import warn_of_noise
 from .objective.objective import Objective
 from .problem.selection import Selection
-from .problem.space import Bounds, Space
+from .problem.space import Space
 from .records.store import SimulationStore
 
 __all__ = ["CrossValidation", "Fold", "cross_validate"]

@@ -11,6 +11,7 @@ from concurrent.futures import Executor
 from inspect import signature
 from typing import Any
 
+from .._bounds import Bounds
 from .answers.ended_search import identification_of
 from .answers.identification import Identification
 from .methods import method_of
@@ -24,7 +25,7 @@ from .objective.objective import Objective
 from .problem.evaluations import Progress
 from .problem.problem import Problem, models_of
 from .problem.selection import Selection
-from .problem.space import Bounds, Space
+from .problem.space import Space
 from .records.store import StoreOrPath
 
 __all__ = ["identify"]

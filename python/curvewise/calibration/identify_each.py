@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from .._bounds import Bounds
 from .answers.ended_search import identification_of
 from .answers.identification import Identification
 from .answers.several_measures import SeveralMeasures
@@ -30,7 +31,7 @@ from .objective.criterion import Measure
 from .objective.noisy_tests import warn_of_noise
 from .objective.objective import objectives_of
 from .problem.problem import Problem, models_of
-from .problem.space import Bounds, Space
+from .problem.space import Space
 from .records.store import SimulationStore, StoreOrPath
 from .surfaces.nearby_runs import Run
 

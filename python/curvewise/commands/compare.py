@@ -6,21 +6,16 @@ import argparse
 import contextlib
 import json
 import math
-import shlex
-import sys
-import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, get_args
 
 from .._options import Crossing, Preset, Spacing, Window
 from ..comparing.comparison import Comparison, compare
-from ..curves.inputs import Array
-from ..files.column_choice import TimeColumnWarning
-from ..files.curve_files import read_named_columns
 from ..files.number_tables import Reading
 from ..measures import curve_length_residuals, normalize
 from ..measures.registry import MEASURES, PRESETS
+from .reading import add_factors, add_reading, add_sheet, read_file, warnings_printed
 from .shown import print_table, require_matplotlib, write_picture
 
 __all__ = ["add_compare"]
@@ -75,12 +70,7 @@ def add_compare(commands: Any) -> None:
 
 def _add_columns(command: argparse.ArgumentParser) -> None:
     """Add what is said of each file: its columns, their units, the sheet of a workbook."""
-    command.add_argument(
-        "--columns",
-        nargs="+",
-        metavar="COLUMN",
-        help="names from the header, or numbers from 1; by default the first two",
-    )
+    add_reading(command)
     command.add_argument(
         "--columns-b",
         nargs="+",
@@ -88,37 +78,11 @@ def _add_columns(command: argparse.ArgumentParser) -> None:
         help="those of B, where they are others than those of A",
     )
     command.add_argument(
-        "--decimal",
-        choices=[".", ","],
-        help="the decimal sign of numbers that are text; by default told from the numbers",
-    )
-    command.add_argument(
         "--decimal-b", choices=[".", ","], help="that of B, where it is another than that of A"
     )
-    command.add_argument(
-        "--until",
-        metavar="TEXT",
-        help="a curve ends before the first row of its file that contains TEXT below the first "
-        "numbers: statistics, or a second table",
-    )
-    command.add_argument(
-        "--skip-invalid",
-        action="store_true",
-        help="leave out rows that are not made of numbers, and say how many",
-    )
     for file in "AB":
-        command.add_argument(
-            f"--factors-{file.lower()}",
-            nargs="+",
-            type=float,
-            metavar="F",
-            help=f"what the columns of {file} are multiplied by, to change units: 0.01 1e-6",
-        )
-        command.add_argument(
-            f"--sheet-{file.lower()}",
-            metavar="SHEET",
-            help=f"of the workbook {file}: its name, or its number from 1; by default the first",
-        )
+        add_factors(command, f"-{file.lower()}", f" of {file}")
+        add_sheet(command, f"-{file.lower()}", f" {file}")
 
 
 def _window(text: str) -> Window:
@@ -145,14 +109,14 @@ def _compare(arguments: argparse.Namespace) -> int:
         for sheet, decimal in zip(sheets, decimals, strict=True)
     ]
     factors = [arguments.factors_a, arguments.factors_b]
-    with _warnings_printed():
-        curves, names = zip(*map(_read, files, columns, readings, factors), strict=True)
+    with warnings_printed():
+        curves, names = zip(*map(read_file, files, columns, readings, factors), strict=True)
     options: dict[str, dict[str, Any]] = {}
     for measure, option in (("area", "spacing"), ("area", "crossing"), ("dtw", "window")):
         if (value := getattr(arguments, option)) is not None:
             options.setdefault(measure, {})[option] = value
     try:
-        with _warnings_printed():
+        with warnings_printed():
             comparison = compare(
                 *curves, preset=arguments.preset, measures=arguments.measures, options=options
             )
@@ -173,29 +137,6 @@ def _compare(arguments: argparse.Namespace) -> int:
         if not arguments.json:
             print(f"\npicture: {arguments.plot}")
     return 0
-
-
-@contextlib.contextmanager
-def _warnings_printed() -> Iterator[None]:
-    """Print what is warned of, once each, where no error says more."""
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always", UserWarning)
-        yield
-    for words in dict.fromkeys(str(warning.message) for warning in said):
-        print("curvewise:", words, file=sys.stderr)
-
-
-def _read(
-    file: str, columns: list[str] | None, reading: Reading, factors: list[float] | None
-) -> tuple[Array, list[str]]:
-    """Read the columns of a file; refuse to guess them where the first of several is time."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", TimeColumnWarning)
-        try:
-            return read_named_columns(file, columns, reading, factors=factors)
-        except TimeColumnWarning as guessed:
-            wanted = shlex.join(guessed.wanted)
-            raise ValueError(f"{guessed.found}; name those wanted: --columns {wanted}") from None
 
 
 def _columns_in_words(names: list[str], factors: list[float] | None) -> str:

@@ -16,9 +16,14 @@ from .._options import real_number
 from .arc_length import points_at
 from .checks import Turns, branch_slices, check_column, checked_curve
 from .inputs import Array, CurveLike
+from .isotonic import ascending
 from .named_curve import renamed
 
 __all__ = ["Along", "resample", "trim"]
+
+# A column that turns back by no more than this share of its way along a branch is noisy; as much is
+# what turning_points passes over, unless it is told otherwise.
+_NOISE = 0.1
 
 Along = Literal["arc_length"] | int | npt.NDArray[np.float64] | Sequence[float]
 """What measures places along a curve: "arc_length", a column's index, or n values (a time)."""
@@ -61,8 +66,8 @@ def resample(
     ------
     TypeError, ValueError
         No curve of at least two finite points; `count` below 2, or not one per branch; `turns`
-        that do not ascend; no such column; values to space by that turn back, or that do not
-        change at all within a branch.
+        that do not ascend; no such column; values to space by that turn back by more than a tenth
+        of a branch, or that do not change at all within it.
 
     Notes
     -----
@@ -82,9 +87,9 @@ def resample(
     branches = branch_slices(turns, len(points))
     pieces = []
     for k, (branch, number) in enumerate(zip(branches, _counts(count, len(branches)), strict=True)):
-        places = _places(points, by, branch, f"branch {k}")
+        places, there = _places(points, by, branch, f"branch {k}")
         at = np.linspace(places[0], places[-1], number)
-        piece = points_at(points[branch], at, places)
+        piece = points_at(there, at, places)
         piece[0], piece[-1] = points[branch][[0, -1]]
         pieces.append(piece if k == 0 else piece[1:])
     return renamed(curve, np.concatenate(pieces))
@@ -168,27 +173,30 @@ def _values(points: Array, by: int | npt.NDArray[np.float64] | Sequence[float]) 
     return values
 
 
-def _places(points: Array, by: Along, branch: slice, name: str) -> Array:
-    """Return ascending values along a branch."""
+def _places(points: Array, by: Along, branch: slice, name: str) -> tuple[Array, Array]:
+    """Return ascending values along a branch, and the points that have them."""
+    there = points[branch]
     if isinstance(by, str):
         if by != "arc_length":
             raise ValueError(f"unknown by {by!r}; choose 'arc_length', a column or values")
         extent = np.ptp(points, axis=0)
-        steps = np.diff(points[branch] / np.where(extent > 0.0, extent, 1.0), axis=0)
+        steps = np.diff(there / np.where(extent > 0.0, extent, 1.0), axis=0)
         places = np.concatenate(([0.0], np.cumsum(np.sqrt((steps**2).sum(axis=1)))))
     else:
         places = _values(points, by)[branch]
         if places[-1] < places[0]:
             places = -places
-        back = np.flatnonzero(np.diff(places) < 0.0)
-        if back.size:
+        back = np.maximum.accumulate(places) - places
+        if back.max() > _NOISE * (places[-1] - places[0]):
             raise ValueError(
-                f"what to space by turns back in {name}, after point {branch.start + back[0]}; "
-                "give all turns, smooth it first, or use by='arc_length'"
+                f"what to space by turns back in {name}, by {back.max():.3g} before point "
+                f"{branch.start + int(back.argmax())}; give all turns, or use by='arc_length'"
             )
+        if back.any():
+            places, there = ascending(places, there)
     if not places[-1] > places[0]:
         raise ValueError(f"what to space by is constant in {name}")
-    return places
+    return places, there
 
 
 def _first_place(x: Array, value: float, begin: float, name: str) -> float:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from .._bounds import Bounds, Log
 from .._core import chaboche_voce_parameters, chaboche_voce_stress
 from .material import Material
+from .readings import Span
 
 __all__ = ["ChabocheVoce"]
 
@@ -56,3 +58,26 @@ class ChabocheVoce(Material):
     @property
     def _compiled(self) -> tuple[Any, Any]:
         return chaboche_voce_parameters, chaboche_voce_stress
+
+    def _hardening_bounds(self, span: Span) -> Bounds:
+        # Of back stresses that are steep at first little yield stress is left; much of it may be
+        # lost by softening.
+        bounds: dict[str, Any] = {
+            "yield": Log(0.05 * span.lowest_yield, 1.2 * span.highest_yield),
+            "Q": (-0.6 * span.lowest_yield, 1.5 * span.stress),
+            "b": Log(0.1 / span.path, 200.0 / span.path),
+        }
+        # The rates are shared out, the first the fastest, so that back stresses do not change
+        # places: from what saturates within a thousandth of a branch to what is nearly a line.
+        slowest, fastest = 0.02 / span.longest_branch, 2000.0 / span.shortest_branch
+        for k in range(self.backstresses):
+            first, last = (1.0 - (k + f) / self.backstresses for f in (1.15, -0.15))
+            low, high = (
+                slowest * (fastest / slowest) ** min(max(place, 0.0), 1.0)
+                for place in (first, last)
+            )
+            bounds[f"gamma{k + 1}"] = Log(low, high)
+            # The back stress saturates at C / gamma, and rises by C times a branch if it does not.
+            softest, stiffest = (max(rate, 1.0 / span.longest_branch) for rate in (low, high))
+            bounds[f"C{k + 1}"] = Log(0.01 * span.stress * softest, 2.0 * span.stress * stiffest)
+        return bounds

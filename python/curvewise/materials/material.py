@@ -17,10 +17,12 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from .._bounds import Bounds, Log
 from .._names import did_you_mean
 from ..curves.inputs import Array, as_curve
-from ..curves.several_curves import as_points, curve_list
+from ..curves.several_curves import curve_list
 from ..solvers.cards import CardContent, card_text
+from .readings import Reading, Span, reading_of, strain_and_stress
 
 __all__ = ["DrivenModel", "Material", "Parameter"]
 
@@ -125,15 +127,54 @@ class Material(ABC):
         ValueError
             A test has other than two columns.
         """
-        strains = []
-        for i, experiment in enumerate(curve_list(experiments)):
-            points = as_points(experiment, f"experiments[{i}]")
-            if points.shape[1] != 2:
-                raise ValueError(
-                    f"experiments[{i}] has shape {points.shape}; give strain and stress, (n, 2)"
-                )
-            strains.append(points[:, 0].copy())
+        strains = [
+            strain_and_stress(experiment, f"experiments[{i}]")[:, 0].copy()
+            for i, experiment in enumerate(curve_list(experiments))
+        ]
         return DrivenModel(self, tuple(strains))
+
+    def bounds_from(self, experiments: Any) -> Bounds:
+        """Return bounds for `identify`, laid around what the tests say by themselves.
+
+        Modulus, yield stress, and the stresses and plastic strains that are reached (`readings`);
+        the rest follows from these: what hardens within a hundredth of a branch or hardly at all
+        within all of the test, up to twice the stress. :class:`Log` where that is more than a
+        decade. Wide on purpose: a parameter that ends at one of them is not determined by the
+        tests.
+
+        Parameters
+        ----------
+        experiments : array_like of shape (n, 2), or sequence of such
+            Strain [-] and stress of each test, from the unloaded state.
+
+        Returns
+        -------
+        dict of str to (low, high), Log or Below
+            In the order of `names`.
+
+        Raises
+        ------
+        ValueError
+            A test has other than two columns, strains in per cent, or is elastic.
+        """
+        readings = [
+            reading_of(experiment, f"experiments[{i}]")
+            for i, experiment in enumerate(curve_list(experiments))
+        ]
+        found = {**self._modulus_bounds(readings), **self._hardening_bounds(Span.of(readings))}
+        return {name: found[name] for name in self.names}
+
+    @abstractmethod
+    def _hardening_bounds(self, span: Span) -> Bounds:
+        """Return the bounds of all parameters except for those of the modulus."""
+
+    def _modulus_bounds(self, readings: Sequence[Reading]) -> Bounds:
+        moduli = [modulus for reading in readings for modulus in reading.moduli]
+        around = (0.5 * min(moduli), 2.0 * max(moduli))
+        if "Ea" not in self.names:
+            return {"E": around}
+        path = max(reading.path for reading in readings)
+        return {"E": around, "Ea": (0.3 * min(moduli), around[1]), "xi": Log(1 / path, 1000 / path)}
 
     def card(
         self,

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from .._bounds import Below, Bounds, Log
 from .._core import yoshida_uemori_parameters, yoshida_uemori_stress
 from .material import Material
+from .readings import Span
 
 __all__ = ["YoshidaUemori"]
 
@@ -59,3 +61,18 @@ class YoshidaUemori(Material):
     @property
     def _compiled(self) -> tuple[Any, Any]:
         return yoshida_uemori_parameters, yoshida_uemori_stress
+
+    def _hardening_bounds(self, span: Span) -> Bounds:
+        bounds: dict[str, Any] = {
+            "CB": (0.3 * span.lowest_yield, 1.5 * span.stress),
+            "Y": Below("CB", 0.15 * span.lowest_yield, 1.2 * span.highest_yield),
+            "C": Log(1.0 / span.longest_branch, 1000.0 / span.shortest_branch),
+            "K": Log(0.05 / span.longest_branch, 50.0 / span.shortest_branch),
+            "RSAT": (0.0, 2.0 * span.stress),
+            "SB": (0.0, 1.5 * span.stress),
+            "H": (0.0, 1.0),
+        }
+        if self.growth == "power":
+            bounds["C1"] = Log(1e-3 * span.path, span.path)
+            bounds["C2"] = (0.02, 1.0)
+        return bounds

@@ -105,7 +105,7 @@ def test_equal_curves_sampled_otherwise_become_equal() -> None:
         ({"count": 1}, ValueError, "count is 1; a branch needs at least 2"),
         ({"count": 2.5}, TypeError, "count is 2.5; give a whole number"),
         ({"count": [3, 3]}, ValueError, r"count has shape \(2,\); there are 1 branches"),
-        ({"count": 5, "by": 0}, ValueError, "turns back in branch 0, after point 1;"),
+        ({"count": 5, "by": 0}, ValueError, "turns back in branch 0, by 1 before point 2;"),
         ({"count": 5, "by": 2}, ValueError, "column is 2; the curve has columns 0 to 1"),
         ({"count": 5, "by": "time"}, ValueError, "unknown by 'time'"),
         ({"count": 5, "by": [1, 2]}, ValueError, r"by has shape \(2,\); give one value for each"),

@@ -9,18 +9,18 @@ searched for on a logarithmic scale, stay below another one, be fixed, or follow
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
+from ..._bounds import Below, Bounds, Log, Tied
 from ...curves.foreign_curves import warn
 from ...curves.inputs import Array
 from ..models.identity import fingerprint
 from ..records.evaluation import Point
 
-__all__ = ["Below", "Bounds", "Log", "Space", "Tied", "WideBoundsWarning"]
+__all__ = ["Space", "WideBoundsWarning"]
 
 # Columns of the table of evaluations, beside the parameters.
 _RESERVED = ("evaluation", "value", "failed", "seconds", "message")
@@ -33,25 +33,6 @@ _DECADE = 10.0
 
 # A parameter this near to a bound, as a fraction of the range, is said to be at the bound.
 _AT_BOUND = 1e-3
-
-
-@dataclass(frozen=True)
-class Log:
-    """Bounds of a parameter that is searched for on a logarithmic scale.
-
-    Parameters
-    ----------
-    low, high : float
-        Above 0.
-
-    Examples
-    --------
-    >>> from curvewise.calibration import Log
-    >>> bounds = {"viscosity": Log(1e-2, 1e4)}
-    """
-
-    low: float
-    high: float
 
 
 class WideBoundsWarning(UserWarning):
@@ -67,51 +48,6 @@ class WideBoundsWarning(UserWarning):
     >>> with warnings.catch_warnings():
     ...     warnings.simplefilter("ignore", WideBoundsWarning)  # and identify(...) here
     """
-
-
-@dataclass(frozen=True)
-class Below:
-    """Bounds of a parameter that stays below another one, at every run.
-
-    Of two back stresses, say, which could change places: C1 > C2.
-
-    Parameters
-    ----------
-    other : str
-        A parameter with bounds of its own, listed before this one.
-    low, high : float
-        The bounds beside that.
-
-    Examples
-    --------
-    >>> from curvewise.calibration import Below
-    >>> bounds = {"C1": (1e3, 300e3), "C2": Below("C1", 1e3, 300e3)}
-    """
-
-    other: str
-    low: float
-    high: float
-
-
-@dataclass(frozen=True)
-class Tied:
-    """A parameter that follows from the others.
-
-    Parameters
-    ----------
-    function : callable
-        Of the dict of parameters listed before it.
-
-    Examples
-    --------
-    >>> from curvewise.calibration import Tied
-    >>> bounds = {"E": (150e3, 230e3), "G": Tied(lambda p: p["E"] / 2.6)}
-    """
-
-    function: Callable[[dict[str, float]], float]
-
-
-Bounds: TypeAlias = Mapping[str, "tuple[float, float] | float | Log | Below | Tied"]
 
 
 class Space:

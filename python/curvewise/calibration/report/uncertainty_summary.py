@@ -12,13 +12,14 @@ from typing import Any
 
 import numpy as np
 
+from ..._bounds import Below, Log
 from ...curves.inputs import Array
 from ...curves.named_curve import NamedCurve
 from ..objective.cases import Case, Cases
 from ..objective.criterion import Criterion
 from ..objective.objective import Objective
 from ..problem.problem import Problem
-from ..problem.space import Below, Log, Space
+from ..problem.space import Space
 from ..records.search_record import SearchRecord, text_of
 from ..surfaces.surfaces import Responses, Surfaces
 from ..uncertainty.sensitivity import Optimum

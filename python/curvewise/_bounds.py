@@ -1,0 +1,73 @@
+"""Where a parameter may be: what `identify` is given, and what a material reads off its tests."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TypeAlias
+
+__all__ = ["Below", "Bounds", "Log", "Tied"]
+
+
+@dataclass(frozen=True)
+class Log:
+    """Bounds of a parameter that is searched for on a logarithmic scale.
+
+    Parameters
+    ----------
+    low, high : float
+        Above 0.
+
+    Examples
+    --------
+    >>> from curvewise.calibration import Log
+    >>> bounds = {"viscosity": Log(1e-2, 1e4)}
+    """
+
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Below:
+    """Bounds of a parameter that stays below another one, at every run.
+
+    Of two back stresses, say, which could change places: C1 > C2.
+
+    Parameters
+    ----------
+    other : str
+        A parameter with bounds of its own, listed before this one.
+    low, high : float
+        The bounds beside that.
+
+    Examples
+    --------
+    >>> from curvewise.calibration import Below
+    >>> bounds = {"C1": (1e3, 300e3), "C2": Below("C1", 1e3, 300e3)}
+    """
+
+    other: str
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Tied:
+    """A parameter that follows from the others.
+
+    Parameters
+    ----------
+    function : callable
+        Of the dict of parameters listed before it.
+
+    Examples
+    --------
+    >>> from curvewise.calibration import Tied
+    >>> bounds = {"E": (150e3, 230e3), "G": Tied(lambda p: p["E"] / 2.6)}
+    """
+
+    function: Callable[[dict[str, float]], float]
+
+
+Bounds: TypeAlias = Mapping[str, "tuple[float, float] | float | Log | Below | Tied"]

@@ -1,0 +1,131 @@
+"""``curvewise fit TEST…``: from files of strain and stress to parameters, a report, a card."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..curves.inputs import Array
+from ..files.number_tables import Reading
+from ..solvers.cards import FORMATS
+from .reading import add_factors, add_reading, add_sheet, read_file, warnings_printed
+from .shown import require_matplotlib
+
+if TYPE_CHECKING:
+    from ..materials import Material
+
+__all__ = ["add_fit"]
+
+# What a name of a column says of strains that are in per cent.
+_PER_CENT = ("%", "percent", "per cent")
+
+
+def add_fit(commands: Any) -> None:
+    """Add the command to those of argparse."""
+    command = commands.add_parser(
+        "fit",
+        help="fit a material to tests: parameters with intervals, a report, a card",
+        description="Fit a material to measured strain and stress: loops, single tension tests, "
+        "raw records of a machine. Writes parameters.csv, report.html, fit.png and, if asked for, "
+        "material cards. No solver is needed.",
+    )
+    command.set_defaults(run=_fit)
+    command.add_argument(
+        "tests", nargs="+", metavar="TEST", help="a file with strain and stress, one point per line"
+    )
+    add_reading(command)
+    add_factors(command)
+    add_sheet(command)
+    command.add_argument(
+        "--material",
+        choices=list(_MATERIALS),
+        default="chaboche-voce",
+        help="chaboche-voce (default): back stresses and isotropic hardening or softening; "
+        "yoshida-uemori: two surfaces, for sheet steel",
+    )
+    command.add_argument(
+        "--backstresses", type=int, default=2, metavar="N", help="of chaboche-voce; 2 by default"
+    )
+    command.add_argument(
+        "--modulus",
+        choices=["constant", "decaying"],
+        default="constant",
+        help="whether Young's modulus decays with the plastic strain",
+    )
+    command.add_argument(
+        "--measure", default="sum_of_squares", help="what is minimised; sum_of_squares by default"
+    )
+    command.add_argument(
+        "--card",
+        nargs="+",
+        default=[],
+        choices=list(FORMATS),
+        help="write a material card for each of these solvers",
+    )
+    command.add_argument("--name", default="material", help="of the material, in the card")
+    command.add_argument("--units", default="MPa", help="of the stresses, in the card")
+    command.add_argument("--seed", type=int, default=0, help="of the search")
+    command.add_argument(
+        "--output",
+        metavar="DIR",
+        default="fit",
+        help="the folder for what is written; by default fit",
+    )
+
+
+def _chaboche_voce(arguments: argparse.Namespace) -> Material:
+    from ..materials import ChabocheVoce
+
+    return ChabocheVoce(arguments.backstresses, arguments.modulus)
+
+
+def _yoshida_uemori(arguments: argparse.Namespace) -> Material:
+    from ..materials import YoshidaUemori
+
+    return YoshidaUemori(modulus=arguments.modulus)
+
+
+_MATERIALS: dict[str, Callable[[argparse.Namespace], Material]] = {
+    "chaboche-voce": _chaboche_voce,
+    "yoshida-uemori": _yoshida_uemori,
+}
+
+
+def _fit(arguments: argparse.Namespace) -> int:
+    from ..fitting import fit_material
+
+    require_matplotlib()
+    material = _MATERIALS[arguments.material](arguments)
+    reading = Reading(arguments.sheet, arguments.decimal, arguments.until, arguments.skip_invalid)
+    with warnings_printed():
+        tests = [_test(file, arguments, reading) for file in arguments.tests]
+    fit = fit_material(
+        tests,
+        material,
+        measure=arguments.measure,
+        seed=arguments.seed,
+        progress=sys.stderr.isatty(),
+    )
+    print(fit)
+    names = [Path(file).name for file in arguments.tests]
+    written = fit.write(arguments.output, names=names)
+    for solver in arguments.card:
+        card = Path(arguments.output, f"card_{solver}.txt")
+        card.write_text(fit.card(solver, name=arguments.name, units=arguments.units), "utf-8")
+        written.append(card)
+    print("\nwritten:", ", ".join(map(str, written)))
+    return 0
+
+
+def _test(file: str, arguments: argparse.Namespace, reading: Reading) -> Array:
+    """Read a test; ask about strains whose column says that they are in per cent."""
+    test, names = read_file(file, arguments.columns, reading, arguments.factors)
+    if arguments.factors is None and any(sign in names[0].lower() for sign in _PER_CENT):
+        raise ValueError(
+            f"{file}: the strain is in column {names[0]!r}, which seems to be in per cent; give "
+            "--factors 0.01 1, or --factors 1 1 if it is not"
+        )
+    return test

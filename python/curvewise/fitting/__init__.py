@@ -1,0 +1,10 @@
+"""From measured loops to the parameters of a material: read, searched, and written down.
+
+What ``curvewise fit`` does, as a function: :func:`fit_material`.
+"""
+
+from __future__ import annotations
+
+from .material_fit import MaterialFit, fit_material
+
+__all__ = ["MaterialFit", "fit_material"]

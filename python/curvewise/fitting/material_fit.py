@@ -1,0 +1,203 @@
+"""A material fitted to tests, without a solver: bounds read off them, a search, intervals, files.
+
+Each test is thinned to some hundred points, its turns among them, and drives the point of material
+(`curvewise.materials`), whose exact slopes the search uses. Seconds for one core; what it costs is
+the search of `curvewise.calibration.identify`.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from .._bounds import Bounds
+from ..calibration import Criterion, Identification, Uncertainty, identify
+from ..curves.inputs import Array
+from ..curves.several_curves import curve_list
+from ..materials import Material
+from ..materials.readings import thinned
+
+__all__ = ["MaterialFit", "fit_material"]
+
+_COLUMNS = ("parameter", "unit", "value", "interval_low", "interval_high", "determined", "meaning")
+
+# The simulation has the strains of the test, though these turn back.
+_POINT_BY_POINT: dict[str, dict[str, Any]] = {"sum_of_squares": {"abscissa": "points"}}
+
+
+@dataclass(frozen=True, eq=False)
+class MaterialFit:
+    """A material with the parameters that fit its tests best.
+
+    Attributes
+    ----------
+    material : Material
+    tests : tuple of ndarray
+        As they were compared: strain and stress, thinned.
+    found : Identification
+    uncertainty : Uncertainty
+    """
+
+    material: Material
+    tests: tuple[Array, ...] = field(repr=False)
+    found: Identification
+    uncertainty: Uncertainty
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The parameters that were found."""
+        return self.found.parameters
+
+    def __str__(self) -> str:
+        return f"{self.found}\n\n{self.uncertainty}"
+
+    def card(self, solver: str, *, name: str = "material", units: str = "MPa") -> str:
+        """Return the material card of a solver, with the intervals as comments.
+
+        Parameters
+        ----------
+        solver, name, units
+            As for :meth:`curvewise.materials.Material.card`.
+
+        Raises
+        ------
+        ValueError
+            The solver has no such material.
+        """
+        return self.material.card(
+            self.parameters,
+            solver,
+            name=name,
+            units=units,
+            intervals=self.uncertainty.intervals,
+            along=[test[:, 0] for test in self.tests],
+        )
+
+    def write(self, folder: str | os.PathLike[str], *, names: Sequence[str] = ()) -> list[Path]:
+        """Write parameters.csv, report.html and fit.png into a folder, which is made.
+
+        Parameters
+        ----------
+        folder : path-like
+            For the files; those of an earlier fit are replaced.
+        names : sequence of str, optional
+            What the tests are called.
+
+        Returns
+        -------
+        list of Path
+            What was written.
+        """
+        folder = Path(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        table, report, picture = (
+            folder / name for name in ("parameters.csv", "report.html", "fit.png")
+        )
+        with table.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, _COLUMNS, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(self._rows())
+        self.found.report(report, uncertainty=self.uncertainty)
+        figure = self.found.plot()
+        for ax, name in zip(figure.axes, names, strict=False):  # the loops come first
+            ax.set_title(name)
+        figure.savefig(picture, dpi=120)
+        return [table, report, picture]
+
+    def _rows(self) -> list[dict[str, Any]]:
+        rows = []
+        for name, unit, meaning in self.material.parameters:
+            low, high = map(float, self.uncertainty.intervals[name])
+            known = {"parameter": name, "unit": unit, "meaning": meaning}
+            rows.append(
+                known
+                | {
+                    "value": repr(self.parameters[name]),
+                    "interval_low": low,
+                    "interval_high": high,
+                    "determined": bool(self.uncertainty.determined[name]),
+                }
+            )
+        return rows
+
+
+def fit_material(
+    tests: Any,
+    material: Material,
+    *,
+    measure: str = "sum_of_squares",
+    bounds: Bounds | None = None,
+    points: int = 300,
+    seed: int = 0,
+    max_runs: int | None = None,
+    progress: bool = True,
+) -> MaterialFit:
+    """Fit a material to tests that are driven by strain.
+
+    Parameters
+    ----------
+    tests : array_like of shape (n, 2), or sequence of such
+        Strain [-] and stress of each test, from the unloaded state: loops, single tension tests,
+        raw records of a machine.
+    material : Material
+        Such as ``ChabocheVoce(backstresses=2)``.
+    measure : str, default "sum_of_squares"
+        What is minimised: any measure that `identify` takes. The simulated stress is at the
+        strains of the test, so that squares of its difference apply.
+    bounds : mapping, optional
+        As for `identify`; by default what ``material.bounds_from(tests)`` reads off the tests.
+    points : int, default 300
+        About how many points of each test are compared; tests that have fewer stay as they are.
+    seed : int, default 0
+        Of the search.
+    max_runs : int, optional
+        The most parameter sets to try.
+    progress : bool, default True
+        Show a bar (tqdm).
+
+    Returns
+    -------
+    MaterialFit
+        The parameters, their intervals, and what writes them down.
+
+    Raises
+    ------
+    ValueError
+        A test is none of strain and stress, has strains in per cent, or is elastic.
+    ImportError
+        scipy or tqdm is missing: ``pip install "curvewise[calibration]"``.
+
+    Notes
+    -----
+    Seconds. What the tests do not determine is said, and is not to be used beyond their strains.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from curvewise.fitting import fit_material
+    >>> from curvewise.materials import ChabocheVoce
+    >>> steel = ChabocheVoce(backstresses=1)
+    >>> turns = [0.0, 0.02, -0.02, 0.02]
+    >>> strain = np.interp(np.arange(121) / 40, range(4), turns)
+    >>> made_of = dict(zip(steel.names, (200e3, 300.0, -50.0, 8.0, 80e3, 400.0)))
+    >>> loop = np.column_stack((strain, steel.stress(strain, made_of)))
+    >>> fit = fit_material(loop, steel, progress=False)
+    >>> {name: round(value, 1) for name, value in fit.parameters.items()}
+    {'E': 200000.0, 'yield': 300.0, 'Q': -50.0, 'b': 8.0, 'C1': 80000.0, 'gamma1': 400.0}
+    """
+    given = curve_list(tests)
+    compared = tuple(thinned(test, f"tests[{i}]", points) for i, test in enumerate(given))
+    found = identify(
+        material.driven_by(compared),
+        list(compared),
+        material.bounds_from(given) if bounds is None else bounds,
+        measure=Criterion(measure, **_POINT_BY_POINT.get(measure, {})),
+        seed=seed,
+        max_runs=max_runs,
+        progress=progress,
+    )
+    return MaterialFit(material, compared, found, found.uncertainty())

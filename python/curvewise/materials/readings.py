@@ -1,0 +1,191 @@
+"""What a loop says by itself: modulus, offset yield stress, stresses and plastic strains reached.
+
+Read off so that bounds can be laid around it, not as results: the modulus by a straight line
+through what is unloaded after the first turn (through the first loading, where nothing is
+unloaded), the yield stress where the first loading leaves this line by an offset. O(n) time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..curves.checks import branch_slices
+from ..curves.inputs import Array
+from ..curves.isotonic import isotonic
+from ..curves.resampling import resample
+from ..curves.several_curves import as_points
+from ..curves.turns import turning_points
+
+__all__ = ["Reading", "Span", "reading_of", "strain_and_stress", "thinned"]
+
+# Of the stress at a turn: unloading between these is nearly straight, on the machine too.
+_UNLOADED = (0.05, 0.75)
+# Of the largest stress: where the first loading is nearly straight.
+_LOADED = (0.05, 0.3)
+_FEW = 3  # points for a line
+_OFFSET = 0.002  # of plastic strain, or a quarter of what the first loading reaches
+_MOST_STRAIN = 0.5  # beyond it a column of strains is in per cent
+
+
+class Reading(NamedTuple):
+    """What was read off one test.
+
+    Attributes
+    ----------
+    moduli : tuple of float
+        Of the first loading and of unloading after each turn, as far as these are straight.
+    yield_stress : float
+        At an offset of 0.2 %, or of a quarter of the first loading's plastic strain if that is
+        less.
+    stress : float
+        The largest, in tension or compression.
+    branch, path : float
+        Plastic strain: the most in one direction, and all of it, in every direction.
+    """
+
+    moduli: tuple[float, ...]
+    yield_stress: float
+    stress: float
+    branch: float
+    path: float
+
+
+class Span(NamedTuple):
+    """What several tests say together: the least and the largest of what was read off each."""
+
+    lowest_yield: float
+    highest_yield: float
+    stress: float
+    shortest_branch: float
+    longest_branch: float
+    path: float
+
+    @classmethod
+    def of(cls, readings: Sequence[Reading]) -> Span:
+        """Return that of some tests."""
+        _, yields, stresses, branches, paths = zip(*readings, strict=True)
+        return cls(
+            min(yields), max(yields), max(stresses), min(branches), max(branches), max(paths)
+        )
+
+
+def strain_and_stress(experiment: object, name: str) -> Array:
+    """Return a test as an array of strain and stress, shape (n, 2), or say what else it is."""
+    points = as_points(experiment, name)
+    if points.shape[1] != 2:
+        raise ValueError(f"{name} has shape {points.shape}; give strain and stress, (n, 2)")
+    return points
+
+
+def reading_of(experiment: object, name: str) -> Reading:
+    """Return what a test says by itself.
+
+    Parameters
+    ----------
+    experiment : array_like, shape (n, 2)
+        Strain [-] and stress, from the unloaded state.
+    name : str
+        What it is called in errors.
+
+    Raises
+    ------
+    ValueError
+        No strain and stress; strains in per cent; a test that is elastic, or whose stress does not
+        rise with the strain.
+    """
+    points = strain_and_stress(experiment, name)
+    largest = float(np.abs(points[:, 0]).max())
+    if largest > _MOST_STRAIN:
+        raise ValueError(
+            f"{name} has strains of up to {largest:.4g}, which is {100 * largest:.4g} %; divide "
+            "them by 100 if they are in per cent (where they are true, the bounds must be given)"
+        )
+    branches = [points[part] for part in branch_slices(turning_points(points), len(points))]
+    moduli = _moduli([_first_loading(branches[0]), *map(_unloading, branches[1:])])
+    if not moduli:
+        raise ValueError(
+            f"{name} has no straight part, neither where it is first loaded nor where it is "
+            "unloaded; the first column is to be the strain, the second the stress"
+        )
+    plastic = [abs(float(_plastic(branch, max(moduli))[-1])) for branch in branches]
+    if not max(plastic) > 0.01 * np.ptp(points[:, 0]):
+        raise ValueError(f"{name} is elastic: nothing of hardening can be read off it")
+    return Reading(
+        tuple(moduli),
+        _offset_yield(branches[0], moduli[0]),
+        float(np.abs(points[:, 1]).max()),
+        max(plastic),
+        sum(plastic),
+    )
+
+
+def thinned(experiment: object, name: str, points: int = 300) -> Array:
+    """Return a test with about as many points, its turns among them, noise in strain averaged.
+
+    Evenly spaced in each branch along what strain and stress go together, each by its range and
+    without its noise: the knee and the elastic part have their share. A test that has fewer is
+    returned as it is.
+    """
+    test = strain_and_stress(experiment, name)
+    if len(test) <= points:
+        return test
+    turns = turning_points(test)
+    travel = np.zeros(len(test))
+    for part in branch_slices(turns, len(test)):
+        for column in (test / np.ptp(test, axis=0)).T:
+            sign = 1.0 if column[part][-1] >= column[part][0] else -1.0
+            fitted = isotonic(sign * column[part])
+            travel[part] += fitted - fitted[0]
+        travel[part.stop :] = travel[part.stop - 1]
+    return resample(test, max(8, points // (len(turns) + 1)), by=travel, turns=turns)
+
+
+def _plastic(branch: Array, modulus: float) -> Array:
+    """Return the plastic strains of a branch, from its begin on."""
+    found: Array = (branch[:, 0] - branch[0, 0]) - (branch[:, 1] - branch[0, 1]) / modulus
+    return found
+
+
+def _unloading(branch: Array) -> Array:
+    """Return the points of a branch that unload what it begins with."""
+    if branch[0, 1] == 0.0:
+        return branch[:0]
+    return _between(branch, 1.0 - branch[:, 1] / branch[0, 1], *_UNLOADED)
+
+
+def _first_loading(branch: Array) -> Array:
+    """Return the points of the first branch at which it is nearly straight."""
+    stress = np.abs(branch[:, 1])
+    return _between(branch, stress / max(float(stress.max()), np.finfo(float).tiny), *_LOADED)
+
+
+def _between(branch: Array, share: Array, low: float, high: float) -> Array:
+    """Return the points from one share to another; where they are few, from the begin on."""
+    beyond = np.flatnonzero(share > high)
+    first = branch[: int(beyond[0]) if beyond.size else len(branch)]
+    inside: Array = first[share[: len(first)] >= low]
+    return inside if len(inside) >= _FEW else branch[: max(2, len(first))]
+
+
+def _moduli(parts: Sequence[Array]) -> list[float]:
+    """Return the slopes of lines through those parts that have one: strain over stress."""
+    found = []
+    for part in parts:
+        if len(part) < 2:
+            continue
+        strain, stress = (part - part.mean(axis=0)).T
+        compliance = float(strain @ stress) / max(float(stress @ stress), np.finfo(float).tiny)
+        if compliance > 0.0:
+            found.append(1.0 / compliance)
+    return found
+
+
+def _offset_yield(first: Array, modulus: float) -> float:
+    """Return the stress at which the first loading has left its line by the offset."""
+    sign = 1.0 if first[-1, 0] >= first[0, 0] else -1.0
+    plastic = np.maximum.accumulate(sign * _plastic(first, modulus))
+    place = int(np.searchsorted(plastic, min(_OFFSET, 0.25 * plastic[-1])))
+    return float(np.abs(first[: place + 1, 1]).max())

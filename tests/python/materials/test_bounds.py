@@ -1,0 +1,112 @@
+"""What is read off tests, and the bounds around it: they hold what made a loop, or say why not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from curvewise.calibration.problem.space import Space
+from curvewise.materials import ChabocheVoce, YoshidaUemori
+from curvewise.materials.readings import reading_of, thinned
+
+CHABOCHE = ChabocheVoce()
+STEEL = dict(zip(CHABOCHE.names, (200e3, 300.0, -50.0, 8.0, 80e3, 400.0, 5e3, 20.0), strict=True))
+SHEET = dict(
+    zip(YoshidaUemori().names, (200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4), strict=True)
+)
+TESTS = sorted(
+    f"{folder}/{name}"
+    for folder, names in {
+        "loops": ("dp780_tct_3pct", "dp780_tct_6pct", "eddq_tct_3pct", "eddq_tct_5pct"),
+        "cyclic": ("eddq_tc_3pct", "eddq_tc_6pct", "eddq_tc_12pct", "eddq_tension_rd"),
+    }.items()
+    for name in names
+)
+
+
+def loop(material, parameters, *turns: float, points: int = 200) -> np.ndarray:
+    """Return strain and stress from 0 to turn to turn."""
+    strain = np.interp(
+        np.arange(points * len(turns) + 1) / points, range(len(turns) + 1), (0.0, *turns)
+    )
+    return np.column_stack((strain, material.stress(strain, parameters)))
+
+
+@settings(max_examples=20)
+@given(
+    st.floats(100e3, 250e3),
+    st.floats(200.0, 900.0),
+    st.floats(-0.25, 0.4),
+    st.floats(100.0, 900.0),
+)
+def test_bounds_hold_what_made_the_loop(E: float, limit: float, share: float, rate: float) -> None:
+    made_of = STEEL | {"E": E, "yield": limit, "Q": share * limit, "b": 20.0}
+    made_of |= {"C1": 0.5 * limit * rate, "gamma1": rate}
+    test = loop(CHABOCHE, made_of, 0.03, -0.03, 0.03)
+    assert reading_of(test, "test").moduli == pytest.approx((E,) * 3, rel=0.3)
+    bounds = CHABOCHE.bounds_from(test)
+    assert tuple(bounds) == CHABOCHE.names
+    wide = {name: made_of[name] for name in ("E", "yield", "Q", "b", "gamma1", "C1")}
+    space = Space(bounds)
+    for name, value in wide.items():
+        assert 0.0 < space.place(name, value) < 1.0, name
+
+
+@pytest.mark.parametrize("modulus", ["constant", "decaying"])
+@pytest.mark.parametrize("growth", ["saturating", "power"])
+def test_bounds_of_two_surfaces_hold_what_made_the_loop(growth, modulus) -> None:
+    material = YoshidaUemori(growth=growth, modulus=modulus)
+    made_of = SHEET | {"C1": 0.02, "C2": 0.3, "Ea": 160e3, "xi": 30.0}
+    made_of = {name: made_of[name] for name in material.names}
+    bounds = material.bounds_from(loop(material, made_of, 0.05, -0.05, 0.05))
+    space = Space(bounds)
+    places = space.unit(made_of)
+    assert (places > 0.0).all()
+    assert (places < 1.0).all()
+
+
+def test_several_tests_widen_the_bounds() -> None:
+    short, long = (loop(CHABOCHE, STEEL, end, -end) for end in (0.01, 0.05))
+    alone, both = (CHABOCHE.bounds_from(tests) for tests in ([short], [short, long]))
+    assert both["gamma1"].low < alone["gamma1"].low
+    assert both["yield"].low <= alone["yield"].low
+
+
+@pytest.mark.parametrize(
+    ("test", "message"),
+    [
+        (loop(CHABOCHE, STEEL, 0.02, -0.02) * (100, 1), "strains of up to 2, which is 200 %"),
+        (loop(CHABOCHE, STEEL, 0.001), r"experiments\[0\] is elastic"),
+        (loop(CHABOCHE, STEEL, 0.02, -0.02) * (1, -1), "has no straight part"),
+        (np.zeros((9, 3)), r"experiments\[0\] has shape \(9, 3\)"),
+    ],
+)
+def test_what_is_no_test_of_a_metal_is_said(test: np.ndarray, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        CHABOCHE.bounds_from(test)
+
+
+def test_a_test_is_thinned_to_its_turns_and_its_knees() -> None:
+    test = loop(CHABOCHE, STEEL, 0.03, -0.03, 0.03, points=2000)
+    random = np.random.default_rng(1)
+    noisy = test + random.normal(0.0, 1.0, test.shape) * (2e-5, 2.0)
+    found = thinned(noisy, "test", 300)
+    assert 290 <= len(found) <= 300
+    assert np.abs(found[:, 0]).max() == np.abs(noisy[:, 0]).max()
+    elastic = found[(found[:, 0] < 0.0015) & (np.arange(len(found)) < 100)]
+    assert 15 <= len(elastic) <= 60  # by strain alone they would be 5
+    assert thinned(test[::20], "test", 400) is not None
+
+
+@pytest.mark.parametrize("name", TESTS)
+def test_measured_loops_are_read_as_steel(name: str, data_dir: Path) -> None:
+    test = np.loadtxt(data_dir / f"{name}.csv", delimiter=",")
+    reading = reading_of(test, name)
+    assert all(80e3 < modulus < 320e3 for modulus in reading.moduli)
+    assert 100.0 < reading.yield_stress < reading.stress
+    for material in (CHABOCHE, YoshidaUemori()):
+        Space(material.bounds_from(test))  # which checks them
