@@ -17,12 +17,14 @@ from .identify import identify
 from .identify_each import identify_each
 from .line_plot import LinePlot, line_plot
 from .methods import *  # noqa: F403  # the classes that methods/__init__ lists
+from .methods.ask_tell import Answer, OpenSearch
 from .models.command import CommandModel, SolverError
 from .objective.cases import Case
 from .objective.criterion import MEASURES, Criterion
 from .objective.noisy_tests import NoisyTestWarning
 from .objective.objective import Objective, Score
 from .problem.evaluations import Progress
+from .problem.problem import Problem
 from .problem.space import WideBoundsWarning
 from .records.database import StoreError
 from .records.store import SimulationStore
@@ -33,6 +35,7 @@ from .uncertainty.uncertainty import Uncertainty
 __all__ = [
     *methods.__all__,
     "MEASURES",
+    "Answer",
     "Below",
     "Case",
     "CommandModel",
@@ -44,6 +47,8 @@ __all__ = [
     "Log",
     "NoisyTestWarning",
     "Objective",
+    "OpenSearch",
+    "Problem",
     "Progress",
     "Rescored",
     "Score",

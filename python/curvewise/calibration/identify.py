@@ -65,11 +65,11 @@ def identify(
         What is minimised: see :class:`Criterion`, which has the preset, weights and what else
         there is to say.
     method : str or method, default "auto"
-        "auto", for now the same as "trust-region" (:class:`TrustRegion`: local, from three starts,
-        for expensive models); "least-squares" (:class:`LeastSquares`), "sdrm" (:class:`SDRM`), "de"
-        (:class:`DifferentialEvolution`: global), "sdrm+de" (the second after the first),
-        "nelder-mead" (:class:`NelderMead`). An object of these classes has options of its own:
-        ``method=TrustRegion(starts=5)``.
+        "auto", for now the same as "trust-region" (:class:`TrustRegion`: local, from three to six
+        starts, for expensive models); "least-squares" (:class:`LeastSquares`), "sdrm"
+        (:class:`SDRM`), "de" (:class:`DifferentialEvolution`: global), "sdrm+de" (the second after
+        the first), "nelder-mead" (:class:`NelderMead`). An object of these classes has options of
+        its own: ``method=TrustRegion(starts=5)``.
     store : path-like or SimulationStore, optional
         A file with the curves of every run, by model and parameters. Runs that it holds are
         looked up, whichever search made them; new ones are added at once, so that an interrupted

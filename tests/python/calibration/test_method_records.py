@@ -21,7 +21,7 @@ from curvewise.calibration import (
 )
 from curvewise.calibration.methods import METHODS, method_of, method_with
 from curvewise.calibration.methods.method import Method
-from curvewise.calibration.problem.evaluations import Finish
+from curvewise.calibration.problem.ledger import Finish
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -37,10 +37,10 @@ class Grid(Method, name="grid", keeps_curves=True, needs_squares=False):
     def near_optimum(self):
         return replace(self, step=0.01)
 
-    def minimise(self, evaluations, start, seed):
-        middle = np.full(evaluations.dimensions, 0.5) if start is None else start
+    def course(self, ledger, start, seed):
+        middle = np.full(ledger.dimensions, 0.5) if start is None else start
         steps = self.step * (np.arange(self.points) - self.points // 2)
-        evaluations.evaluated(np.clip(middle + steps[:, np.newaxis], 0.0, 1.0))
+        yield np.clip(middle + steps[:, np.newaxis], 0.0, 1.0)
         return Finish(True, f"{self.points} points")
 
 
@@ -68,7 +68,7 @@ def test_a_forgotten_part_is_an_error():
     class Empty(Method, name="x", keeps_curves=False, needs_squares=False):
         pass
 
-    with pytest.raises(TypeError, match=r"fewest_runs.*minimise.*near_optimum"):
+    with pytest.raises(TypeError, match=r"course.*fewest_runs.*near_optimum"):
         Empty()
 
 

@@ -215,8 +215,11 @@ def test_a_landscape_of_steps_ends(method):
     found = quiet_identify(
         steps, np.column_stack((x, 3.0 * x)), {"a": (0, 3), "b": (0, 3)}, method=method
     )
-    assert found.converged
     assert found.evaluations < 5000
+    if method == "trust-region":  # most of whose starts cannot move
+        assert not found.converged
+        return
+    assert found.converged
     if method in ("de", "sdrm+de"):
         assert found.value == 0.0
 

@@ -19,6 +19,7 @@ from curvewise.calibration import (
     Criterion,
     Log,
     SimulationStore,
+    TrustRegion,
     cross_validate,
     identify,
     identify_each,
@@ -156,9 +157,10 @@ def test_bounds_over_more_than_a_decade(bounds, wide, said):
 def test_every_number_of_the_progress_has_a_name(monkeypatch, capsys, tmp_path):
     monkeypatch.setattr("curvewise.calibration.problem.evaluations._PAUSE", 0.0)
     store = SimulationStore(tmp_path / "s.db", version="1")
-    identify(model, model(TRUE), BOUNDS, store=store, max_runs=6)
+    one = TrustRegion(starts=1)
+    identify(model, model(TRUE), BOUNDS, store=store, method=one, max_runs=6)
     first = capsys.readouterr().err
-    identify(model, model(TRUE), BOUNDS, store=store, max_runs=9)
+    identify(model, model(TRUE), BOUNDS, store=store, method=one, max_runs=9)
     again = capsys.readouterr().err
     line = re.compile(
         r"(trust-region: )?\d\d:\d\d, \d+( of at most [69])? runs(, \d+ of them from the store)?"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -10,22 +11,34 @@ from typing import Any
 import numpy as np
 import pytest
 
-from curvewise.calibration.methods.trust_region import TrustRegion, _descend, _Search, _simplex
-from curvewise.calibration.problem.evaluations import Finish
+from curvewise.calibration.methods.descent import Descent, Rules, SharedResponses, _simplex
+from curvewise.calibration.methods.side_by_side import Part
+from curvewise.calibration.problem.ledger import Finish
 from curvewise.calibration.records.evaluation import Evaluation
 
 REACH = 0.8  # of the region, by every step
-RULES = TrustRegion(initial_range=0.2, maxiter=50)
+RULES = Rules(0.2, diff_step=0.02, tol=1e-3, gain=1e-3, maxiter=50, always_fresh=False)
 
 
-class Scripted:
+class Scripted(Descent):
     """A search whose surfaces promise a gain of 1 each time, and whose runs gain what is listed."""
 
-    centre = np.zeros(2)
-    value = 10.0
+    centre = np.zeros(2)  # type: ignore[assignment]
 
-    def __init__(self, gains: Sequence[float], *, is_fresh: bool = False, valleys: int = 0) -> None:
+    def __init__(
+        self,
+        gains: Sequence[float],
+        rules: Rules = RULES,
+        *,
+        is_fresh: bool = False,
+        valleys: int = 0,
+        known: bool = False,
+    ) -> None:
+        ledger: Any = SimpleNamespace(negligible=0.0)
+        super().__init__(ledger, np.random.default_rng(1), rules, SharedResponses())
         self.gains = list(gains)
+        self.value = 10.0
+        self.known = known
         self.is_fresh = is_fresh
         self.valleys = valleys
         self.looked: list[tuple[float, bool]] = []  # in which regions, with fresh slopes or not
@@ -34,27 +47,36 @@ class Scripted:
         self.looked.append((pytest.approx(radius), self.is_fresh))
         return np.array([0.1 * radius, -REACH * radius]), 1.0 if self.gains else 0.0
 
-    def step(self, candidate: Any) -> float:
+    def step(self, candidate: Any) -> Part[float]:
+        yield from ()
         self.is_fresh = False
+        self._seen.add(0 if self.known else len(self._seen))
         return self.gains.pop(0)
 
-    def renew(self, radius: float) -> None:
+    def renew(self, radius: float) -> Part[None]:
+        yield from ()
         self.is_fresh = True
 
-    def leaves_valley(self, radius: float, least: float) -> bool:
+    def leaves_valley(self, radius: float, least: float) -> Part[bool]:
+        yield from ()
         self.valleys -= 1
         self.is_fresh = False
         return self.valleys >= 0
 
 
-def descended(search: Any, rules: TrustRegion = RULES) -> list[tuple[float, bool]]:
+def finish_of(search: Scripted) -> Finish:
+    with pytest.raises(StopIteration) as end:
+        next(search.descend())
+    finish: Finish = end.value.value
+    return finish
+
+
+def descended(search: Scripted) -> list[tuple[float, bool]]:
     """Return in which regions a search looked for minima, and whether with fresh slopes."""
-    evaluations: Any = SimpleNamespace(negligible=0.0, done=[])
-    finish = _descend(search, evaluations, rules)
+    finish = finish_of(search)
     assert finish.converged
     assert not search.gains
-    looked: list[tuple[float, bool]] = search.looked
-    return looked
+    return search.looked
 
 
 @pytest.mark.parametrize(
@@ -80,19 +102,18 @@ def test_the_region_follows_how_well_gains_are_predicted(is_fresh, gain, factor,
 
 
 def test_fresh_slopes_before_every_step():
-    looked = descended(Scripted([1.0, 0.5, 0.05]), replace(RULES, slopes="fresh"))
+    looked = descended(Scripted([1.0, 0.5, 0.05], replace(RULES, always_fresh=True)))
     assert looked == [(0.2, False), (0.32, True), (0.32, True), (0.128, True)]
 
 
 def test_the_region_is_never_more_than_the_bounds():
-    looked = descended(Scripted([1.0, 1.0]), replace(RULES, initial_range=0.6))
+    looked = descended(Scripted([1.0, 1.0], replace(RULES, first_radius=0.6)))
     assert [radius for radius, _ in looked[:3]] == [0.6, 0.96, 1.0]
 
 
 def test_a_region_below_tol_has_its_slopes_renewed():
-    search: Any = Scripted([-1.0, -1.0, -1.0])
-    evaluations: Any = SimpleNamespace(negligible=0.0, done=[])
-    finish = _descend(search, evaluations, replace(RULES, tol=0.1))
+    search = Scripted([-1.0, -1.0, -1.0], replace(RULES, tol=0.1))
+    finish = finish_of(search)
     assert [radius for radius, _ in search.looked] == [0.2, 0.2, 0.08, 0.15, 0.06, 0.15]
     assert finish == (
         True,
@@ -108,11 +129,10 @@ def test_a_search_that_leaves_a_valley_goes_on():
 
 def test_a_search_that_only_meets_known_runs_ends():
     """Where slopes are of noise alone, each step may lead to where the search has been."""
-    search: Any = Scripted([-1.0] * 200)
-    evaluations: Any = SimpleNamespace(negligible=0.0, done=[None] * 9)
-    finish = _descend(search, evaluations, replace(RULES, maxiter=200))
+    search = Scripted([-1.0] * 200, replace(RULES, maxiter=200), known=True)
+    finish = finish_of(search)
     assert finish == (False, "30 steps in a row led only to runs that were known")
-    assert len(search.looked) == 30
+    assert len(search.looked) == 31
 
 
 SLOPES = np.array([[3.0, 0.0], [-1.0, 2.0], [0.0, 0.5], [4.0, -4.0]])  # of two points' coordinates
@@ -131,9 +151,13 @@ class Known:
         self.earlier_runs = [(p, run_at(p, error)) for p, error in zip(points, wrong, strict=True)]
         self.run = 0
 
-    def evaluated(self, points: Any) -> list[Evaluation]:
-        self.run += len(points)
-        return [run_at(point) for point in points]
+    def drive(self, part: Part[bool]) -> None:
+        runs = None
+        with suppress(StopIteration):
+            while True:
+                points = part.send(runs)  # type: ignore[arg-type]  # None begins a generator
+                self.run += len(points)
+                runs = [run_at(point) for point in points]
 
 
 @pytest.mark.parametrize("wrong", [0.0, 0.5])
@@ -142,8 +166,8 @@ def test_slopes_come_from_earlier_runs_the_nearest_first(wrong):
     steps = [(0.02, 0.0), (-0.02, 0.0), (0.0, 0.02), (0.1, 0.0), (-0.1, 0.0)]
     start = np.array([0.4, 0.3])
     known: Any = Known(start, steps, [0.0, 0.0, 0.0, wrong, -wrong])
-    search = _Search(known, np.random.default_rng(1), RULES, None)
-    search.begin(start, 0.5)
+    search = Descent(known, np.random.default_rng(1), RULES, SharedResponses())
+    known.drive(search.begin(start, known.earlier_runs))
     assert known.run == 1
     np.testing.assert_array_equal(search.centre, [0.4, 0.3])
     near, far = 1.0 / 0.04**2, 1.0 / 0.12**2
@@ -158,29 +182,3 @@ def test_a_simplex_has_a_whole_step_along_every_axis(centre):
         assert np.abs(points - centre) == pytest.approx(0.02 * np.eye(2))
         assert points.min() >= 0.0
         assert points.max() <= 1.0
-
-
-@pytest.mark.parametrize(
-    ("values", "alike"),
-    [([5.0, 5.04, 5.06], 2), ([5.06, 5.0, 4.0], 1), ([9e-4, 0.0, 2e-3], 2), ([1.0, 1.0, 1.0], 3)],
-)
-def test_how_many_starts_end_alike(values, alike, monkeypatch):
-    """Within 1 % of the best, or all but perfect."""
-
-    class Ended:
-        responses = None
-
-        def __init__(self, *_: Any) -> None:
-            self.value = values.pop(0)
-
-        def begin(self, start: Any, radius: float) -> None: ...
-
-    monkeypatch.setattr("curvewise.calibration.methods.trust_region._Search", Ended)
-    monkeypatch.setattr(
-        "curvewise.calibration.methods.trust_region._descend",
-        lambda search, *_: Finish(True, f"ended at {search.value}"),
-    )
-    best = min(values)
-    evaluations: Any = SimpleNamespace(dimensions=2, negligible=1e-6)
-    finish = TrustRegion().minimise(evaluations, None, 1)
-    assert finish.message == f"{alike} of 3 starts within 1 % of the best; ended at {best}"

@@ -345,6 +345,8 @@ class Identification(Result):
     def followed_by(self, later: Identification) -> Identification:
         """Return a later search of the same problem as the continuation of this one."""
         best = later if later.value <= self.value else self
+        # One that only confirms the value has gained nothing, which is no reason for doubt.
+        ending = self if self.converged and later.value >= self.value else later
         count = len(self.history)
         history = np.concatenate([self.history, later.history])
         history["evaluation"] = np.arange(1, len(history) + 1)
@@ -353,8 +355,8 @@ class Identification(Result):
             best,
             history=history.view(np.recarray),
             failures=(*self.failures, *failures),
-            converged=later.converged,
-            message=later.message,
+            converged=ending.converged,
+            message=ending.message,
             runs=self.runs + later.runs,
             runs_with_curves=later.runs_with_curves,
         )

@@ -15,13 +15,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ..._extras import required
 from ...curves.inputs import Array
-from ..problem.evaluations import Evaluations, Finish
+from ..problem.ledger import Course, Finish, Ledger
+from .called_back import Evaluate, course_of
 from .method import Method, check_passed_on, taken_by
 
 __all__ = ["DifferentialEvolution"]
@@ -102,17 +104,19 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
         """Return the same after a search that begins there."""
         return self if self.after is None else replace(self, after=self.after.near_optimum())
 
-    def search(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
-        """Minimise, from the best point of the search before if there is one."""
+    def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
+        """Minimise by generations, from the best point of the search before if there is one."""
         if self.after is not None:
-            self.after.search(evaluations, start, seed)
-            start = evaluations.best_unit
-        return super().search(evaluations, start, seed)
+            yield from self.after.staged(ledger, start, seed)
+            start = ledger.best_unit
+            ledger.begin_stage(self.name, keeps_curves=self.keeps_curves)
+        return (yield from course_of(partial(self._minimised, ledger, start, seed)))
 
-    def minimise(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
-        """Minimise by generations."""
+    def _minimised(
+        self, ledger: Ledger, start: Array | None, seed: int, evaluate: Evaluate
+    ) -> Finish:
         function = required("scipy.optimize").differential_evolution
-        stalled = None if self.stall is None else _Stall(evaluations, *self.stall)
+        stalled = None if self.stall is None else _Stall(ledger, *self.stall)
         # scipy 1.15 renamed `seed`; a Generator means the same under both names.
         seed_name = "rng" if "rng" in taken_by(function) else "seed"
         settings = {
@@ -120,7 +124,7 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
             "popsize": self.popsize,
             "tol": self.tol,
             "maxiter": self.maxiter,
-            "atol": evaluations.negligible,
+            "atol": ledger.negligible,
             "updating": "deferred",
             "polish": False,
             "callback": stalled,
@@ -128,21 +132,11 @@ class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares
             "vectorized": True,
             seed_name: np.random.default_rng(seed),
         }
-        wrong: list[Exception] = []
 
         def values(units: Array) -> Array:
-            try:
-                return evaluations.values(np.atleast_2d(units.T))
-            except (TypeError, ValueError) as error:
-                wrong.append(error)
-                raise
+            return np.array([run.value for run in evaluate(np.atleast_2d(units.T))])
 
-        try:
-            result = function(values, [(0.0, 1.0)] * evaluations.dimensions, **settings)
-        except (RuntimeError, TypeError):
-            if wrong:  # with the model; scipy takes it for a mistake in calling scipy
-                raise wrong[0] from None
-            raise
+        result = function(values, [(0.0, 1.0)] * ledger.dimensions, **settings)
         if stalled is not None and stalled.ended:
             return Finish(True, stalled.message)
         return Finish(bool(result.success), str(result.message))
@@ -161,15 +155,15 @@ class _Stall:
     scipy calls it after every generation.
     """
 
-    def __init__(self, evaluations: Evaluations, improvement: float, generations: int) -> None:
-        self._evaluations = evaluations
+    def __init__(self, ledger: Ledger, improvement: float, generations: int) -> None:
+        self._ledger = ledger
         self._improvement, self._generations = float(improvement), int(generations)
         self._best: list[float] = []
         self.ended = False
 
     def __call__(self, xk: Array, convergence: float) -> bool:
         """Return whether the search ends after this generation."""
-        self._best.append(self._evaluations.best.value)
+        self._best.append(self._ledger.best.value)
         if len(self._best) > self._generations:
             before = self._best[-1 - self._generations]
             self.ended = before - self._best[-1] <= self._improvement * abs(before)

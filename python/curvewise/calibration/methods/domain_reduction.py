@@ -25,7 +25,7 @@ import numpy as np
 
 from ..._extras import required
 from ...curves.inputs import Array
-from ..problem.evaluations import Evaluations, Finish
+from ..problem.ledger import Course, Finish, Ledger
 from ..surfaces.surface_minimum import SurfaceMinimum
 from ..surfaces.surfaces import Responses, regression
 from .method import Method, with_other_defaults
@@ -81,10 +81,10 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
         """Return the same with a small first region."""
         return with_other_defaults(self, initial_range=0.1)
 
-    def minimise(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
+    def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
         """Minimise by successive linear response surfaces."""
         random = np.random.default_rng(seed)
-        k = evaluations.dimensions
+        k = ledger.dimensions
         centre = np.full(k, 0.5) if start is None else start
         size = np.full(k, 1.0 if self.initial_range is None else self.initial_range)
         move = np.zeros(k)
@@ -92,18 +92,18 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
         for _ in range(self.maxiter):
             low, high = np.clip((centre - size / 2, centre + size / 2), 0.0, 1.0)
             points = np.vstack((centre, np.where(_design(k, random) > 0, high, low)))
-            done = evaluations.evaluated(points)
+            done = yield points
             good = [i for i, evaluation in enumerate(done) if not evaluation.failed]
-            target = evaluations.best_unit  # what is left if no plane goes through so few points
+            target = ledger.best_unit  # what is left if no plane goes through so few points
             if len(good) > k:
                 curves = [done[i].simulations or () for i in good]
                 if responses is None:
                     responses = Responses(curves[0])
                     minimum = SurfaceMinimum(
-                        evaluations.objective,
+                        ledger.objective,
                         responses,
                         random,
-                        evaluations.show_activity,
+                        ledger.show_activity,
                     )
                 places = points[good]
                 vectors = np.array([responses.vector(c) for c in curves])
@@ -113,7 +113,7 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
             size = size * self._contraction(last_move, move)
             centre = target
             if size.max() < self.tol:
-                evaluations.evaluated(centre[np.newaxis])
+                yield centre[np.newaxis]
                 return Finish(True, f"all ranges below {self.tol:g} of the bounds")
         return Finish(False, f"maxiter = {self.maxiter} iterations")
 

@@ -11,13 +11,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ..._extras import required
 from ...curves.inputs import Array
-from ..problem.evaluations import Evaluations, Finish
+from ..problem.ledger import Course, Finish, Ledger
+from .called_back import Evaluate, course_of
 from .method import Method, check_passed_on, taken_by
 
 __all__ = ["LeastSquares"]
@@ -83,22 +85,23 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
         """Return the same: it has no region whose size would be known."""
         return self
 
-    def minimise(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
+    def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
         """Minimise from a start, the middle of the bounds if none is given."""
-        k = evaluations.dimensions
-        objective = evaluations.objective
+        return course_of(partial(self._minimised, ledger, start))
+
+    def _minimised(self, ledger: Ledger, start: Array | None, evaluate: Evaluate) -> Finish:
+        k = ledger.dimensions
+        objective = ledger.objective
 
         def residuals(unit: Array) -> Array:
-            (evaluation,) = evaluations.evaluated(unit[np.newaxis])
+            (evaluation,) = evaluate(unit[np.newaxis])
             return objective.residuals(evaluation.simulations)
 
         def jacobian(unit: Array) -> Array:
             # All columns in one batch; backwards at the upper bound.
             steps = np.where(unit + self.diff_step > 1.0, -self.diff_step, self.diff_step)
             units = np.vstack((unit, unit + np.diag(steps)))
-            base, *moved = (
-                objective.residuals(e.simulations) for e in evaluations.evaluated(units)
-            )
+            base, *moved = (objective.residuals(e.simulations) for e in evaluate(units))
             return np.column_stack([(r - base) / h for r, h in zip(moved, steps, strict=True)])
 
         settings = {"x_scale": "jac", "xtol": 1e-9, "ftol": 1e-12, "gtol": 1e-12, **self.options}
@@ -112,5 +115,5 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
             **settings,
         )
         if self.loss != "linear":  # the smallest sum of squares is not what is wanted
-            evaluations.settle(result.x)
+            ledger.settle(result.x)
         return Finish(bool(result.success), str(result.message))

@@ -18,7 +18,9 @@ import numpy as np
 from ..._names import did_you_mean
 from ...curves.inputs import Array
 from ..objective.criterion import LEAST_SQUARES, Measure
-from ..problem.evaluations import Evaluations, Finish
+from ..problem.ledger import Course, Ledger
+from ..problem.problem import Problem
+from .ask_tell import OpenSearch
 
 __all__ = [
     "Method",
@@ -54,8 +56,18 @@ class Method(ABC):
         cls.name, cls.keeps_curves, cls.needs_squares = name, keeps_curves, needs_squares
 
     @abstractmethod
-    def minimise(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
-        """Minimise over the unit cube, from a start if one is given; return how it ended."""
+    def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
+        """Yield batches of points of the unit cube and take their evaluations; return the end.
+
+        Parameters
+        ----------
+        ledger : Ledger
+            What is known so far, and the objective.
+        start : ndarray, shape (k,), or None
+            Where to begin, if that is said.
+        seed : int
+            Of all random numbers.
+        """
 
     @abstractmethod
     def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
@@ -69,10 +81,38 @@ class Method(ABC):
         """Return the same for smaller gains, to go on from its end; None where that is no use."""
         return None
 
-    def search(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
-        """Minimise, with the progress under the method's name and its curves kept if it asks."""
-        evaluations.begin_stage(self.name, keeps_curves=self.keeps_curves)
-        return self.minimise(evaluations, start, seed)
+    def staged(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
+        """Return the course as a stage of a search: under its name, its curves kept if it asks."""
+        ledger.begin_stage(self.name, keeps_curves=self.keeps_curves)
+        return self.course(ledger, start, seed)
+
+    def begin(
+        self,
+        problem: Problem,
+        *,
+        seed: int = 0,
+        start: Mapping[str, float] | None = None,
+        max_runs: int | None = None,
+    ) -> OpenSearch:
+        """Begin a search that is driven from outside, by ``ask`` and ``tell``.
+
+        Parameters
+        ----------
+        problem : Problem
+            Of experiments and bounds; its models, if it has any, are not run.
+        seed, start, max_runs
+            As those of :func:`curvewise.calibration.identify`.
+
+        Raises
+        ------
+        ValueError
+            A start outside of the bounds; a measure that the method does not take.
+        """
+        for measure in problem.objective.measures:
+            self.check(measure)
+        unit = None if start is None else problem.space.unit(start)
+        ledger = Ledger(problem, limit=max_runs)
+        return OpenSearch(self.staged(ledger, unit, seed), ledger)
 
     def check(self, measure: Measure) -> None:
         """Refuse a measure with which the method does not go."""

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 
 from ..._extras import required
 from ..problem.details import details_of
-from ..problem.evaluations import Evaluations, Finish, Progress, SearchEndedError
+from ..problem.evaluations import Evaluations, Progress
+from ..problem.ledger import Finish, Ledger, SearchEndedError
 from ..problem.problem import Problem
 from ..records.recorder import Recorder
 from ..surfaces.nearby_runs import Run
@@ -72,12 +73,32 @@ def run_search(problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()) -
                 earlier_runs=earlier_runs,
             )
             try:
-                finish = plan.method.search(evaluations, start, plan.seed)
+                finish = evaluations.driven(plan.method.staged(evaluations, start, plan.seed))
             except SearchEndedError as end:
                 finish = Finish(False, str(end))
+            finish = _within_bounds(finish, evaluations, problem)
             evaluations.show()
         simulations = evaluations.best_simulations()
     return EndedSearch(evaluations, finish, simulations, simulator.runs, recorder)
+
+
+def _within_bounds(finish: Finish, ledger: Ledger, problem: Problem) -> Finish:
+    """Take back "converged" where bounds stopped the search: the minimum is beyond them.
+
+    A bound of 0 is meant: it is what a modulus or a rate cannot go below.
+    """
+    if not finish.converged:
+        return finish
+    stopped = [
+        f"{name} is at its {side} bound"
+        for name, side in problem.space.at_bounds(
+            problem.space.dictionary(ledger.best.point)
+        ).items()
+        if problem.space.bounds[name][side == "upper"] != 0.0
+    ]
+    if not stopped:
+        return finish
+    return Finish(False, f"{', '.join(stopped)}: widen it if it is not meant ({finish.message})")
 
 
 def _settings(problem: Problem, plan: Plan) -> dict[str, Any]:

@@ -11,13 +11,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ...curves.inputs import Array
-from ..problem.evaluations import Evaluations, Finish
+from ..problem.ledger import Course, Finish, Ledger
 from ..surfaces.nelder_mead import nelder_mead
+from .called_back import Evaluate, course_of
 from .method import Method, check_passed_on
 
 __all__ = ["NelderMead"]
@@ -71,12 +73,17 @@ class NelderMead(Method, name="nelder-mead", keeps_curves=False, needs_squares=F
         """Return the same: its simplex is small already."""
         return self
 
-    def minimise(self, evaluations: Evaluations, start: Array | None, seed: int) -> Finish:
+    def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
         """Minimise from a start, the middle of the bounds if none is given."""
-        k = evaluations.dimensions
-        negligible = evaluations.negligible
+        return course_of(partial(self._minimised, ledger, start, seed))
+
+    def _minimised(
+        self, ledger: Ledger, start: Array | None, seed: int, evaluate: Evaluate
+    ) -> Finish:
+        k = ledger.dimensions
+        negligible = ledger.negligible
         _, converged, message = nelder_mead(
-            evaluations.value,
+            lambda unit: evaluate(unit[np.newaxis])[0].value,
             np.full(k, 0.5) if start is None else start,
             (np.zeros(k), np.ones(k)),
             np.random.default_rng(seed),

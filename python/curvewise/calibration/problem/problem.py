@@ -9,12 +9,15 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
+from inspect import signature
 from operator import itemgetter
 from typing import Any
 
+from ..._bounds import Bounds
 from ..models.identity import model_identity
 from ..models.pool import Model, ModelPool
 from ..objective.cases import Cases
+from ..objective.criterion import Measure, criterion_of
 from ..objective.objective import Objective
 from ..records.store import SimulationStore, StoreOrPath
 from .selection import Selection
@@ -50,9 +53,28 @@ class Problem:
     workers: int = 1
     executor: Executor | None = None
 
+    @classmethod
+    def of(
+        cls, experiments: Any, bounds: Bounds, *, measure: Measure = "area", **options: Any
+    ) -> Problem:
+        """Return a problem whose model runs elsewhere, for a method's ``begin``.
+
+        Parameters
+        ----------
+        experiments, bounds, measure, **options
+            As those of :func:`curvewise.calibration.identify`.
+        """
+        criterion = criterion_of(measure, options, signature(cls.of).parameters)
+        return cls((), itemgetter(0), Objective(experiments, criterion), Space(bounds))
+
     @contextmanager
     def simulator(self) -> Iterator[Simulator]:
         """Start what runs the models, and end it."""
+        if not self.models:
+            raise ValueError(
+                "the problem has no model: its search is driven by ask() and tell() (docs: other "
+                "optimisers)"
+            )
         pool = ModelPool(Dispatch(self.models), self.workers, self.executor)
         opened = nullcontext() if self.store is None else SimulationStore(self.store)
         with pool, opened as store:

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from inspect import signature
 
 import numpy as np
 
@@ -38,6 +39,7 @@ _MOST, _POLISHING = 150, 8  # evaluations with a gradient, and those after thinn
 _SIMPLEX, _POLISHING_SIMPLEX = 40, 5
 _OF_NEGLIGIBLE = 1e-4
 _PLACES = 4  # from which to search elsewhere
+_MEMBERS, _GENERATIONS = 8, 25  # of a population that does, per parameter
 
 
 class SurfaceMinimum:
@@ -65,7 +67,7 @@ class SurfaceMinimum:
         show_activity: Callable[[], None],
         gain: float = _LESS,
     ) -> None:
-        self._random = random
+        self._random, self._gain = random, gain
         # Of squares the root counts, and a step on the surfaces costs little.
         self._negligible = _OF_NEGLIGIBLE * objective.negligible
         self._exact = _Predicted(objective, responses, None, show_activity)
@@ -94,20 +96,24 @@ class SurfaceMinimum:
             What is minimised, where to begin, and the box, (low, high).
         thoroughly : bool
             Whether a simplex search has to confirm what gradients have found on thinned curves:
-            before a search says that there is nothing left to gain. Where no curve is thinned it
-            always does, for gradients alone halt at kinks.
+            before a search says that there is nothing left to gain. It always does where
+            gradients alone promise too little, for they halt at kinks.
         """
         low, high = region
         width = high - low
         start = (centre - low) / np.where(width > 0, width, 1.0)
+        value = self._exact.on(surfaces, region)
         if self._thinned is not None:
             best = self._minimised(self._thinned, surfaces, region, start, thoroughly)
-            value = self._exact.on(surfaces, region)
             if value(best) < value(start):
                 return low + self._polished(surfaces, region, best) * width
-        # Without thinned curves, or where they mislead: noise has a length, which pcm measures.
-        thoroughly = thoroughly or self._thinned is None
-        return low + self._minimised(self._exact, surfaces, region, start, thoroughly) * width
+        elif not thoroughly and self._exact.has_gradient:
+            best = self._minimised(self._exact, surfaces, region, start, thoroughly)
+            if value(best) < (1.0 - self._gain) * value(start):
+                return low + best * width
+        # Where gradients alone have halted, at a kink maybe, or thinned curves mislead: noise has a
+        # length, which pcm measures.
+        return low + self._minimised(self._exact, surfaces, region, start, True) * width
 
     def elsewhere(self, surfaces: Surfaces, region: tuple[Array, Array]) -> Array:
         """Return the lowest of what is found from places that are drawn in the box.
@@ -116,14 +122,33 @@ class SurfaceMinimum:
         """
         low, high = region
         predicted = self._thinned or self._exact
-        found = [
-            self._minimised(predicted, surfaces, region, place, thoroughly=False)
-            for place in self._random.random((_PLACES, low.size))
-        ]
-        best = min(found, key=predicted.on(surfaces, region))
+        function = predicted.on(surfaces, region)
+        if predicted.has_gradient:
+            found = [
+                self._minimised(predicted, surfaces, region, place, thoroughly=False)
+                for place in self._random.random((_PLACES, low.size))
+            ]
+            best = min(found, key=function)
+        else:
+            best = self._over_the_box(function, low.size)
         if self._thinned is not None:
             best = self._polished(surfaces, region, best)
         return low + best * (high - low)
+
+    def _over_the_box(self, function: Callable[[Array], float], k: int) -> Array:
+        """Minimise a function that is flat or stepped in places, over the whole unit cube."""
+        differential_evolution = required("scipy.optimize").differential_evolution
+        # scipy 1.15 renamed `seed`; a Generator means the same under both names.
+        seed = "rng" if "rng" in signature(differential_evolution).parameters else "seed"
+        result = differential_evolution(
+            function,
+            [(0.0, 1.0)] * k,
+            popsize=_MEMBERS,
+            maxiter=_GENERATIONS,
+            polish=False,
+            **{seed: self._random},
+        )
+        return self._simplex(function, np.clip(result.x, 0.0, 1.0), _SIMPLEX)
 
     def value(self, surfaces: Surfaces, point: Array) -> float:
         """Return the objective that surfaces predict at a point, with all points."""

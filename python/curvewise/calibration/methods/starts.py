@@ -1,0 +1,105 @@
+"""Where a search begins, how often, and what it may say of where its starts have ended.
+
+The first start is the middle of the bounds, the others are Latin hypercubes of four points: of four
+in a row each has a quarter of every axis to itself. (A sequence of low discrepancy is no better
+for so few points in so many dimensions, and scipy's takes half a second to import.) As long as
+starts end more than 1 % apart others follow, and every second of these begins beside the best run
+so far, in a smaller region and with slopes of the runs that are there, if they give any, which
+costs one run in the place of k + 1: a hop out of a valley into the next.
+
+M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
+input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245;
+D. J. Wales, J. P. K. Doye, "Global optimization by basin-hopping", J. Phys. Chem. A 101 (1997)
+5111-5116.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ...curves.inputs import Array
+from ..problem.ledger import Finish
+
+__all__ = ["HOP", "End", "are_alike", "finish_of", "hop", "is_flat", "places"]
+
+HOP = 0.25  # how far from the best run a hop leads, along each axis, as a fraction of the bounds
+_QUARTERS = 4
+_DRAWN = (0.1, 0.9)  # where starts are, between the bounds
+_ALIKE = 1.01  # ends within this of the best are alike
+# And so are those whose difference is negligible, or next to nothing beside what was gained: fits
+# to curves of the model itself.
+_PERFECT, _OF_FIRST = 1e3, 1e-4
+_SAME_PLACE = 0.01  # of the bounds' range
+_MAYBE = "the start is a minimum already, or "
+_TRY = 'is flat or stepped here; try another method ("de"), measure or start ('
+
+
+class End(NamedTuple):
+    """How one start ended: from which value, at which and where, and what is said of it."""
+
+    first: float
+    value: float
+    place: Array
+    finish: Finish
+
+
+def places(k: int, random: np.random.Generator) -> Iterator[Array]:
+    """Yield where to start, one after the other: the middle, then evenly over the box."""
+    yield np.full(k, 0.5)
+    low, high = _DRAWN
+    while True:
+        quarters = random.permuted(np.tile(np.arange(_QUARTERS), (k, 1)), axis=1).T
+        yield from low + (high - low) * (quarters + random.random((_QUARTERS, k))) / _QUARTERS
+
+
+def hop(best: Array, random: np.random.Generator) -> Array:
+    """Return a place beside the best run."""
+    return np.clip(best + random.uniform(-HOP, HOP, best.size), 0.0, 1.0)
+
+
+def are_alike(ends: Sequence[End], negligible: float) -> int:
+    """Return how many of some starts have ended as low as the best of them."""
+    best = min(end.value for end in ends)
+    return sum(end.value <= _ALIKE * best + _nothing(ends, negligible) for end in ends)
+
+
+def is_flat(ends: Sequence[End], negligible: float) -> bool:
+    """Return whether the best value is that of several places: of a measure that is flat there.
+
+    One point may decide it, and that point may not depend on the parameters.
+    """
+    best = min(ends, key=lambda end: end.value)
+    if best.value <= _nothing(ends, negligible):
+        return False
+    same = [end.place for end in ends if end.value == best.value]
+    return bool(max(np.abs(place - best.place).max() for place in same) > _SAME_PLACE)
+
+
+def finish_of(ends: Sequence[End], begun: int, negligible: float) -> Finish:
+    """Return what may be said of starts that have ended, of all that were begun."""
+    best = min(ends, key=lambda end: end.value)
+    converged, message = best.finish
+    alike = are_alike(ends, negligible)
+    if begun > 1:
+        others = "" if alike == len(ends) else f", others{_above(ends, best.value)}"
+        message = f"{alike} of {begun} starts within 1 % of the best{others}; {message}"
+    if is_flat(ends, negligible):
+        return Finish(False, f"several places have the best value: the measure {_TRY}{message})")
+    if best.value == best.first and best.value > _nothing(ends, negligible):
+        return Finish(False, f"no step gained anything: {_MAYBE}the measure {_TRY}{message})")
+    return Finish(converged and alike == begun, message)
+
+
+def _nothing(ends: Sequence[End], negligible: float) -> float:
+    return max(_PERFECT * negligible, _OF_FIRST * min(end.first for end in ends))
+
+
+def _above(ends: Sequence[End], best: float) -> str:
+    """Say how far above the best value the highest is."""
+    highest = max(end.value for end in ends)
+    if highest > 10.0 * best:
+        return f" at up to {highest:.3g}"
+    return f" up to {100.0 * (highest / best - 1.0):.2g} % above"

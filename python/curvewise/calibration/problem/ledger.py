@@ -1,0 +1,184 @@
+"""What a search knows: every point of the unit cube that has been evaluated, and the best of them.
+
+A method is a course (`Course`): it yields a batch of points and is given their evaluations, in the
+same order. Between the two somebody runs the models, this package (`evaluations`) or whoever asks
+and tells (`methods.ask_tell`); both write into this ledger, which numbers evaluations in the order
+of the batches, so that nothing a method sees depends on who has run what, or on what came first.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Generator, Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from ...curves.inputs import Array
+from ...curves.several_curves import as_points, curve_list
+from ..models.pool import Outcome
+from ..records.evaluation import Evaluation, Point
+from ..surfaces.nearby_runs import Run
+from .problem import Problem
+
+__all__ = ["Course", "Finish", "Ledger", "SearchEndedError"]
+
+_log = logging.getLogger("curvewise.calibration")
+
+
+class Finish(NamedTuple):
+    """How a search, or a stage of it, ended."""
+
+    converged: bool
+    message: str
+
+
+class SearchEndedError(Exception):
+    """The search is over before its method has converged; the message says why."""
+
+
+Course: TypeAlias = Generator[Array, list[Evaluation], Finish]
+"""Yields points of the unit cube, shape (count, k), that may be run at the same time; is sent their
+evaluations in the same order."""
+
+
+class Ledger:
+    """Every evaluation of a search.
+
+    Parameters
+    ----------
+    problem : Problem
+        What scores simulations and names the parameters.
+    limit : int or None
+        How many parameter sets to evaluate at most.
+    earlier_runs : sequence of (ndarray, Evaluation)
+        Of the same models, by earlier searches, with their places in the unit cube.
+    """
+
+    def __init__(
+        self, problem: Problem, *, limit: int | None, earlier_runs: Sequence[Run] = ()
+    ) -> None:
+        self.earlier_runs = earlier_runs
+        self.objective, self.space = problem.objective, problem.space
+        self._limit = limit
+        self._done: dict[Point, Evaluation] = {}
+        self._units: dict[Point, Array] = {}
+        self._best: Point | None = None
+        self._best_simulations: Any = None
+        self._keeps_curves = False
+        self._log_level = logging.WARNING  # of the first failure; all are kept anyway
+
+    @property
+    def dimensions(self) -> int:
+        """How many parameters there are."""
+        return len(self.space.names)
+
+    @property
+    def negligible(self) -> float:
+        """Differences of the objective below this do not count."""
+        return self.objective.negligible
+
+    @property
+    def done(self) -> list[Evaluation]:
+        """Every evaluation so far, in order."""
+        return list(self._done.values())
+
+    @property
+    def runs_with_curves(self) -> tuple[Run, ...]:
+        """Every evaluation whose curves are known, earlier searches' too, with its place."""
+        own = [(self._units[point], e) for point, e in self._done.items() if e.simulations]
+        return (*self.earlier_runs, *own)
+
+    @property
+    def best(self) -> Evaluation:
+        """The evaluation with the smallest value, the first among equals."""
+        assert self._best is not None
+        return self._done[self._best]
+
+    @property
+    def best_unit(self) -> Array:
+        """Where in the unit cube the best evaluation is."""
+        assert self._best is not None
+        return self._units[self._best]
+
+    def best_simulations(self) -> Any:
+        """Return the simulations at the best point, or None where they have not been kept."""
+        return self._best_simulations
+
+    def settle(self, unit: Array) -> None:
+        """Take a point that was evaluated for the best, where a method has a rule of its own."""
+        self._best = self.space.point(unit)
+        self._best_simulations = self._done[self._best].simulations
+
+    def begin_stage(self, name: str, *, keeps_curves: bool) -> None:
+        """Begin a stage of the search.
+
+        Parameters
+        ----------
+        name : str
+            Shown beside the progress, where there is one.
+        keeps_curves : bool
+            Keep the curves of simulations that succeed.
+        """
+        self._keeps_curves = keeps_curves
+
+    def show_activity(self) -> None:
+        """Show that a search is at work between runs, where somebody looks."""
+
+    def missing(self, units: Array) -> list[Point]:
+        """Return which of a batch of points have to be run, as many as the limit leaves."""
+        points = [self.space.point(unit) for unit in units]
+        for point, unit in zip(points, units, strict=True):
+            self._units.setdefault(point, np.array(unit))
+        new = list(dict.fromkeys(p for p in points if p not in self._done))
+        return new if self._limit is None else new[: self._limit - len(self._done)]
+
+    def judged(self, ahead: int, point: Point, outcome: Outcome) -> Evaluation:
+        """Return the evaluation of a point before which so many are still to be added."""
+        # Its message in full, as the objective would give it for an exception.
+        number = len(self._done) + 1 + ahead
+        simulations = None if outcome.message else outcome.simulations
+        score = self.objective.score(simulations)
+        message = outcome.message or "; ".join(score.failures)
+        if message:
+            _log.log(self._log_level, "evaluation %d failed: %s", number, message)
+            self._log_level = logging.DEBUG
+        curves = None
+        if self._keeps_curves and not message:
+            curves = tuple(as_points(curve, "Q").copy() for curve in curve_list(simulations))
+        return Evaluation(
+            number, point, score.value, bool(message), outcome.seconds, message, curves
+        )
+
+    def add(self, batch: Sequence[tuple[Evaluation, Any]]) -> None:
+        """Write down a batch: evaluations, and the simulations that they are of.
+
+        Raises
+        ------
+        RuntimeError
+            No simulation of the first batch has succeeded.
+        """
+        is_first = not self._done
+        for evaluation, simulations in batch:
+            self._done[evaluation.point] = evaluation
+            if self._best is None or evaluation.value < self.best.value:
+                self._best = evaluation.point
+                self._best_simulations = simulations
+        if is_first and all(e.failed for e, _ in batch):
+            raise RuntimeError(
+                f"no simulation succeeded, of {len(batch)} that the search begins with; "
+                f"the first: {batch[0][0].message}"
+            )
+
+    def known(self, units: Array) -> list[Evaluation]:
+        """Return the evaluations of a batch of points.
+
+        Raises
+        ------
+        SearchEndedError
+            One of them is beyond the limit.
+        """
+        points = [self.space.point(unit) for unit in units]
+        if any(point not in self._done for point in points):
+            raise SearchEndedError(f"max_runs = {self._limit} reached")
+        return [self._done[point] for point in points]
