@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
+from dataclasses import replace
 from inspect import signature
 from typing import Any
 
@@ -65,11 +66,12 @@ def identify(
         What is minimised: see :class:`Criterion`, which has the preset, weights and what else
         there is to say.
     method : str or method, default "auto"
-        "auto", for now the same as "trust-region" (:class:`TrustRegion`: local, from three to six
-        starts, for expensive models); "least-squares" (:class:`LeastSquares`), "sdrm"
-        (:class:`SDRM`), "de" (:class:`DifferentialEvolution`: global), "sdrm+de" (the second after
-        the first), "nelder-mead" (:class:`NelderMead`). An object of these classes has options of
-        its own: ``method=TrustRegion(starts=5)``.
+        "trust-region" (:class:`TrustRegion`: local, from three to six starts, for expensive
+        models), "least-squares" (:class:`LeastSquares`: the same for sums of squares), "auto": the
+        second for "sum_of_squares", else the first; "sdrm" (:class:`SDRM`), "de"
+        (:class:`DifferentialEvolution`: global), "sdrm+de" (the second after the first),
+        "nelder-mead" (:class:`NelderMead`). An object of these classes has options of its own:
+        ``method=TrustRegion(starts=5)``.
     store : path-like or SimulationStore, optional
         A file with the curves of every run, by model and parameters. Runs that it holds are
         looked up, whichever search made them; new ones are added at once, so that an interrupted
@@ -155,6 +157,7 @@ def identify(
         if given := [name for name, is_given in beside.items() if is_given] + list(options):
             raise ValueError(f"{', '.join(given)} given beside cases; give them to each Case")
         objective = cases.objective()
+    plan = replace(plan, method=plan.method.chosen_for(objective))
     for one in objective.measures:
         plan.method.check(one)
     if not isinstance(model, Selection):  # of whose tests cross_validate has warned

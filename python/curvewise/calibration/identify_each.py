@@ -133,19 +133,21 @@ def identify_each(
         known: tuple[Run, ...] = ()
         for name, objective in objectives.items():
             problem = Problem(models, assemble, objective, space, store, workers, executor)
+            chosen = searching.chosen_for(objective)
+            plan = replace(plan, method=chosen)
             if known:  # a start is given from here on: one search a measure
                 begin = _best_known(known, problem)
-                plan = replace(plan, start=begin, method=searching.near_optimum())
+                plan = replace(plan, start=begin, method=chosen.near_optimum())
             found[name] = identification_of(problem, plan, known)
             known = found[name].runs_with_curves
-        if (closer := searching.closer()) is not None:
-            _go_on(found, replace(plan, method=closer), known)
+        _go_on(found, replace(plan, method=searching), known)
     return SeveralMeasures(found)
 
 
 def _go_on(found: dict[str, Identification], plan: Plan, known: tuple[Run, ...]) -> None:
     """Search again by each measure from what all have found, as long as one of them gains."""
-    waiting = list(found)
+    closer = {n: plan.method.chosen_for(f.problem.objective).closer() for n, f in found.items()}
+    waiting = [name for name, method in closer.items() if method is not None]
     for _ in range(_ROUNDS):
         gained = []
         for name in waiting:
@@ -153,7 +155,9 @@ def _go_on(found: dict[str, Identification], plan: Plan, known: tuple[Run, ...])
             left = None if plan.max_runs is None else plan.max_runs - len(before.history)
             if left is not None and left < 1:
                 continue
-            again = replace(plan, start=_best_known(known, before.problem), max_runs=left)
+            begin, method = _best_known(known, before.problem), closer[name]
+            assert method is not None
+            again = replace(plan, method=method, start=begin, max_runs=left)
             after = identification_of(before.problem, again, known)
             known = after.runs_with_curves
             found[name] = before.followed_by(after)

@@ -318,10 +318,16 @@ class DrivenModel:
         ]
 
     def jacobian(self, parameters: Mapping[str, float]) -> list[Array]:
-        """Return for each test the derivatives of its points by every parameter, (n, 2, k)."""
+        """Return for each test the derivatives of its points by every parameter, (n, 2, k).
+
+        In the order in which `parameters` has them.
+        """
+        order = [
+            self.material.names.index(name) for name in parameters if name in self.material.names
+        ]
         found = []
         for strain in self.strains:
-            slopes = self.material.stress_and_slopes(strain, parameters)[1]
+            slopes = self.material.stress_and_slopes(strain, parameters)[1][:, order]
             found.append(np.stack((np.zeros_like(slopes), slopes), axis=1))
         return found
 

@@ -19,7 +19,7 @@ from curvewise.calibration import (
     identify,
     identify_each,
 )
-from curvewise.calibration.methods import METHODS, method_of, method_with
+from curvewise.calibration.methods import METHODS, method_with
 from curvewise.calibration.methods.method import Method
 from curvewise.calibration.problem.ledger import Finish
 
@@ -48,7 +48,7 @@ class Grid(Method, name="grid", keeps_curves=True, needs_squares=False):
 def test_every_record_is_whole(name):
     method = METHODS[name]
     assert type(method)() == replace(method, **({"after": None} if "+" in name else {}))
-    assert str(method) == ("trust-region" if name == "auto" else name)
+    assert str(method) == name
     assert method.fewest_runs(3, has_start=True) <= method.fewest_runs(3, has_start=False)
     assert isinstance(method.near_optimum(), type(method))
     assert isinstance(method.closer(), (type(method), type(None)))
@@ -97,7 +97,6 @@ def test_methods_as_tables():
         popsize=4, after=SDRM()
     )
     assert method_with({"starts": 2}) == TrustRegion(starts=2)
-    assert method_of("auto") == TrustRegion()
 
 
 def test_near_an_optimum_what_has_been_set_stays():
@@ -105,7 +104,8 @@ def test_near_an_optimum_what_has_been_set_stays():
     assert SDRM(initial_range=1.0).near_optimum() == SDRM(initial_range=1.0)
     assert TrustRegion(gain=1e-2).closer() == TrustRegion(gain=1e-2, initial_range=0.3, tol=1e-4)
     assert METHODS["sdrm+de"].near_optimum() == DifferentialEvolution(after=SDRM(initial_range=0.1))
-    for method in (NelderMead(), LeastSquares(), DifferentialEvolution()):
+    assert LeastSquares(starts=5).near_optimum() == LeastSquares(starts=5, initial_range=0.1)
+    for method in (NelderMead(), METHODS["auto"], DifferentialEvolution()):
         assert method.near_optimum() == method
 
 

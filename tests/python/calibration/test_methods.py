@@ -94,12 +94,12 @@ def test_least_squares_recovers_known_parameters():
         lambda p: [model(p), first_branch(p)],
         loops,
         BOUNDS,
-        measure=Criterion("curve_length", weights=[1.0, 2.0]),
+        measure=Criterion("sum_of_squares", abscissa="points", weights=[1.0, 2.0]),
         method="least-squares",
     )
     assert found.converged
-    assert largest_error(found) < 1e-5
-    assert found.evaluations < 80
+    assert largest_error(found) < 1e-4
+    assert found.evaluations < 60
 
 
 def timed(parameters):
@@ -151,21 +151,6 @@ def test_a_model_driven_by_the_tests_own_strains(method):
         quiet_identify(first_branch, noisy, BOUNDS, **keywords)
     with pytest.raises(RuntimeError, match=r"off by .* %.*driven by the experiment's x"):
         quiet_identify(lambda p: model(p)[::-1], noisy, BOUNDS, **keywords)
-
-
-def test_least_squares_of_a_solver_that_prints_seven_digits():
-    """The difference step is heeded: at 1e-9 of the bounds there is nothing but rounding."""
-
-    def printed(parameters):
-        return np.array([[float(f"{v:.6e}") for v in row] for row in first_branch(parameters)])
-
-    keywords = {"experiments": first_branch(TRUE), "measure": "sum_of_squares"}
-    found, lost = (
-        quiet_identify(printed, bounds=BOUNDS, method=LeastSquares(diff_step=step), **keywords)
-        for step in (3e-4, 1e-9)
-    )
-    assert largest_error(found) < 1e-3
-    assert largest_error(lost) > 10 * largest_error(found)
 
 
 @pytest.mark.parametrize("measure", ["area", "dtw"])
@@ -292,6 +277,8 @@ STALL = r"stall is .*give \(improvement, generations\)"
         (TrustRegion, {"diff_step": 0.0}, "diff_step is 0.0; give a fraction of the bounds"),
         (TrustRegion, {"initial_range": 1.5}, "initial_range is 1.5; give a fraction of the"),
         (LeastSquares, {"diff_step": 0}, "diff_step is 0"),
+        (LeastSquares, {"f_scale": 0}, "f_scale is 0; it must be above 0"),
+        (LeastSquares, {"loss": "l1"}, "loss is 'l1'; choose from linear, soft_l1, huber"),
         *(
             (DifferentialEvolution, {"stall": stall}, STALL)
             for stall in (0.001, (0.001,), (1.0, 100), (-0.1, 100), (0.001, 0))

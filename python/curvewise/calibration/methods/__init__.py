@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..._names import did_you_mean
+from .auto import Auto
 from .differential_evolution import DifferentialEvolution
 from .domain_reduction import SDRM
 from .least_squares import LeastSquares
@@ -19,21 +20,19 @@ from .simplex import NelderMead
 from .trust_region import TrustRegion
 
 # What a user needs; the rest of this file is for the package.
-__all__ = ["SDRM", "DifferentialEvolution", "LeastSquares", "NelderMead", "TrustRegion"]
+__all__ = ["SDRM", "Auto", "DifferentialEvolution", "LeastSquares", "NelderMead", "TrustRegion"]
 
 METHODS: dict[str, Method] = {
-    "auto": TrustRegion(),
-    **{
-        str(method): method
-        for method in (
-            TrustRegion(),
-            LeastSquares(),
-            SDRM(),
-            DifferentialEvolution(),
-            DifferentialEvolution(after=SDRM()),
-            NelderMead(),
-        )
-    },
+    str(method): method
+    for method in (
+        Auto(),
+        TrustRegion(),
+        LeastSquares(),
+        SDRM(),
+        DifferentialEvolution(),
+        DifferentialEvolution(after=SDRM()),
+        NelderMead(),
+    )
 }
 
 
@@ -52,7 +51,7 @@ def method_of(method: str | Method) -> Method:
 def method_with(options: Mapping[str, Any]) -> Method:
     """Return the method of a text's table: {"name": "trust-region", "starts": 5}."""
     given = dict(options)
-    method = method_of(given.pop("name", "auto"))
+    method = method_of(given.pop("name", "trust-region"))
     refuse_unknown(method.name, given, options_of(method))
     if isinstance(given.get("after"), Mapping):
         given["after"] = method_with(given["after"])

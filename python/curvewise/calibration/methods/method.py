@@ -18,6 +18,7 @@ import numpy as np
 from ..._names import did_you_mean
 from ...curves.inputs import Array
 from ..objective.criterion import LEAST_SQUARES, Measure
+from ..objective.objective import Objective
 from ..problem.ledger import Course, Ledger
 from ..problem.problem import Problem
 from .ask_tell import OpenSearch
@@ -113,6 +114,10 @@ class Method(ABC):
         unit = None if start is None else problem.space.unit(start)
         ledger = Ledger(problem, limit=max_runs)
         return OpenSearch(self.staged(ledger, unit, seed), ledger)
+
+    def chosen_for(self, objective: Objective) -> Method:
+        """Return the method itself; what stands for several methods returns one of them."""
+        return self
 
     def check(self, measure: Measure) -> None:
         """Refuse a measure with which the method does not go."""

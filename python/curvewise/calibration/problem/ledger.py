@@ -60,6 +60,7 @@ class Ledger:
     ) -> None:
         self.earlier_runs = earlier_runs
         self.objective, self.space = problem.objective, problem.space
+        self.has_slopes, self.slopes = problem.has_slopes, problem.slopes
         self._limit = limit
         self._done: dict[Point, Evaluation] = {}
         self._units: dict[Point, Array] = {}

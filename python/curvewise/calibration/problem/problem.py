@@ -14,6 +14,7 @@ from operator import itemgetter
 from typing import Any
 
 from ..._bounds import Bounds
+from ...curves.inputs import Array
 from ..models.identity import model_identity
 from ..models.pool import Model, ModelPool
 from ..objective.cases import Cases
@@ -22,9 +23,12 @@ from ..objective.objective import Objective
 from ..records.store import SimulationStore, StoreOrPath
 from .selection import Selection
 from .simulator import Assemble, Dispatch, Simulator
+from .slopes import checked_slopes
 from .space import Space
 
 __all__ = ["Problem", "models_of"]
+
+_ONLY_OUTCOME = itemgetter(0)  # of a problem with one model, which simulates every experiment
 
 
 @dataclass(frozen=True)
@@ -65,7 +69,7 @@ class Problem:
             As those of :func:`curvewise.calibration.identify`.
         """
         criterion = criterion_of(measure, options, signature(cls.of).parameters)
-        return cls((), itemgetter(0), Objective(experiments, criterion), Space(bounds))
+        return cls((), _ONLY_OUTCOME, Objective(experiments, criterion), Space(bounds))
 
     @contextmanager
     def simulator(self) -> Iterator[Simulator]:
@@ -79,6 +83,31 @@ class Problem:
         opened = nullcontext() if self.store is None else SimulationStore(self.store)
         with pool, opened as store:
             yield Simulator(pool, self.models, self.assemble, store)
+
+    @property
+    def has_slopes(self) -> bool:
+        """Whether a model says what the derivatives of all its curves are, by its ``jacobian``."""
+        is_one = bool(self.models) and self.assemble is _ONLY_OUTCOME
+        return is_one and callable(getattr(self.models[0], "jacobian", None))
+
+    def slopes(self, unit: Array) -> list[Array] | None:
+        """Return the derivatives of the simulations by the place in the unit cube.
+
+        Of shape (n, d, k), one for every experiment; None where the model has no ``jacobian``.
+        Cost: one call of it, in this process.
+
+        Raises
+        ------
+        ValueError
+            What it returned has not the shape of such derivatives.
+        """
+        if not self.has_slopes:
+            return None
+        jacobian: Any = getattr(self.models[0], "jacobian")  # noqa: B009 (few models have one)
+        rates = self.space.rates(unit)
+        parameters = self.space.dictionary(self.space.point(unit))
+        found = checked_slopes(jacobian(parameters), len(self.objective.experiments), len(rates))
+        return [slopes @ rates for slopes in found]
 
     def identities(self) -> list[str] | None:
         """Return what the models are known by, or None where nobody has said it."""
@@ -95,4 +124,4 @@ def models_of(model: Any) -> tuple[Sequence[Model], Assemble]:
         return model.models, model.assembled
     if isinstance(model, Selection):
         return (model.whole,), model.assembled
-    return (model,), itemgetter(0)  # the outcome of the only model
+    return (model,), _ONLY_OUTCOME

@@ -243,6 +243,19 @@ class Space:
             columns.append(difference / float((ends[0] - ends[1]) @ axis))
         return np.column_stack(columns)
 
+    def rates(self, unit: Array) -> Array:
+        """Return the derivatives of all that a model is called with by the place in the unit cube.
+
+        Shape (p, k), by differences: parameters that are fixed or tied count among the p.
+        """
+        step = 1e-6
+        columns = []
+        for axis in np.eye(len(unit)):
+            ends = np.clip((unit + step * axis, unit - step * axis), 0.0, 1.0)
+            high, low = (list(self.dictionary(self.point(end)).values()) for end in ends)
+            columns.append(np.subtract(high, low) / float((ends[0] - ends[1]) @ axis))
+        return np.column_stack(columns)
+
     def dictionary(self, point: Point) -> dict[str, float]:
         """Return a point as the dict that a model is called with."""
         free = dict(zip(self.names, point, strict=True))

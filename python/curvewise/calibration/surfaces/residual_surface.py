@@ -1,0 +1,80 @@
+"""A surface of residuals through runs: linear in the parameters, and bent as the runs ask for.
+
+Universal kriging, all residuals at once: a linear trend, and a Matérn kernel (5/2) whose length is
+a few times the bounds' range, so that the surface is the least bent of those that pass through the
+runs: of k + 1 the plane, of more one with the curvature that a plane cannot have. Residuals may
+enter as their coordinates in the span of the runs, n numbers in the place of m, so that what a
+surface costs at a point does not grow with the number of residuals. Cost: O(n^3 + n^2 m) for n
+runs of m residuals, O(n^2) for a point.
+
+J. Sacks, W. J. Welch, T. J. Mitchell, H. P. Wynn, "Design and analysis of computer experiments",
+Statistical Science 4 (1989) 409-423; for interpolation in a region of trust S. M. Wild, R. G.
+Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in
+trust-regions", SIAM J. Sci. Comput. 30 (2008) 3197-3219.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...curves.inputs import Array
+
+__all__ = ["ResidualSurface"]
+
+_LENGTH = 4.0  # of the kernel, in distances of the farthest run from the centre
+_NUGGET = 1e-8  # of the kernel: what a solver that prints few digits may be off
+_LEVEL = 1e-8  # the inverse of the variance of the trend's coefficients: none are unlikely
+
+
+class ResidualSurface:
+    """Residuals as a function of a point of the unit cube, through runs.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, k)
+        Where the runs are.
+    residuals : ndarray, shape (n, m)
+    centre : ndarray, shape (k,)
+        About which the trend is written.
+    reduced : bool
+        Whether to return residuals as coordinates that keep lengths and angles alone, in the place
+        of the residuals themselves.
+    """
+
+    def __init__(self, points: Array, residuals: Array, centre: Array, *, reduced: bool) -> None:
+        count, k = points.shape
+        if reduced and count < residuals.shape[1]:
+            residuals = np.asarray(np.linalg.qr(residuals.T, mode="r")).T
+        self._centre = centre
+        self._extent = float(np.linalg.norm(points - centre, axis=1).max()) or 1.0
+        self._places = (points - centre) / self._extent
+        trend = np.column_stack((np.ones(count), self._places))
+        distances = np.linalg.norm(self._places[:, np.newaxis] - self._places, axis=2)
+        # The surface passes through the run at the centre exactly: gains are counted from it.
+        nugget = np.where(np.any(self._places != 0.0, axis=1), _NUGGET, 0.0)
+        system = np.zeros((count + k + 1, count + k + 1))
+        system[:count, :count] = _kernel(distances)[0] + np.diag(nugget)
+        system[:count, count:] = trend
+        system[count:, :count] = trend.T
+        system[count:, count:] = -_LEVEL * np.eye(k + 1)
+        known = np.vstack((residuals, np.zeros((k + 1, residuals.shape[1]))))
+        solved = np.linalg.solve(system, known)
+        self._weights, self._level, self._slopes = np.split(solved, (count, count + 1))
+
+    def __call__(self, point: Array) -> tuple[Array, Array]:
+        """Return the residuals at a point, shape (m,), and their slopes, shape (m, k)."""
+        place = (point - self._centre) / self._extent
+        away = place - self._places
+        kernel, by_distance = _kernel(np.linalg.norm(away, axis=1))
+        residuals = self._level[0] + place @ self._slopes + kernel @ self._weights
+        slopes = self._slopes + (by_distance[:, np.newaxis] * away).T @ self._weights
+        return residuals, slopes.T / self._extent
+
+
+def _kernel(distance: Array) -> tuple[Array, Array]:
+    """Return the kernel at distances, and its derivative divided by the distance."""
+    scaled = np.sqrt(5.0) / _LENGTH * distance
+    decay = np.exp(-scaled)
+    return (1.0 + scaled + scaled**2 / 3.0) * decay, -5.0 / (3.0 * _LENGTH**2) * (
+        1.0 + scaled
+    ) * decay
