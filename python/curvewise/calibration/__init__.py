@@ -13,6 +13,7 @@ from . import methods
 from .answers.identification import Identification
 from .answers.several_measures import SeveralMeasures
 from .cross_validation import CrossValidation, Fold, cross_validate
+from .fronts import Front, front
 from .identify import identify
 from .identify_each import identify_each
 from .line_plot import LinePlot, line_plot
@@ -26,10 +27,12 @@ from .objective.objective import Objective, Score
 from .problem.evaluations import Progress
 from .problem.problem import Problem
 from .problem.space import WideBoundsWarning
+from .profiles import Profile, profile
 from .records.database import StoreError
 from .records.store import SimulationStore
 from .records.stored_run import StoredRun
 from .rescoring import Rescored, rescore
+from .screening import Screening, screening
 from .uncertainty.uncertainty import Uncertainty
 
 __all__ = [
@@ -42,6 +45,7 @@ __all__ = [
     "Criterion",
     "CrossValidation",
     "Fold",
+    "Front",
     "Identification",
     "LinePlot",
     "Log",
@@ -49,9 +53,11 @@ __all__ = [
     "Objective",
     "OpenSearch",
     "Problem",
+    "Profile",
     "Progress",
     "Rescored",
     "Score",
+    "Screening",
     "SeveralMeasures",
     "SimulationStore",
     "SolverError",
@@ -61,8 +67,11 @@ __all__ = [
     "Uncertainty",
     "WideBoundsWarning",
     "cross_validate",
+    "front",
     "identify",
     "identify_each",
     "line_plot",
+    "profile",
     "rescore",
+    "screening",
 ]

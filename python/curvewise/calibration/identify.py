@@ -68,9 +68,10 @@ def identify(
     method : str or method, default "auto"
         "trust-region" (:class:`TrustRegion`: local, from three to six starts, for expensive
         models), "least-squares" (:class:`LeastSquares`: the same for sums of squares), "auto": the
-        second for "sum_of_squares", else the first; "sdrm" (:class:`SDRM`), "de"
-        (:class:`DifferentialEvolution`: global), "sdrm+de" (the second after the first),
-        "nelder-mead" (:class:`NelderMead`). An object of these classes has options of its own:
+        second for "sum_of_squares", else the first; "global" (:class:`Global`, for models of
+        milliseconds); "sdrm" (:class:`SDRM`), "de" (:class:`DifferentialEvolution`), "sdrm+de" (the
+        second after the first), "nelder-mead" (:class:`NelderMead`). An object of these classes has
+        options of its own:
         ``method=TrustRegion(starts=5)``.
     store : path-like or SimulationStore, optional
         A file with the curves of every run, by model and parameters. Runs that it holds are

@@ -11,7 +11,7 @@ import datetime
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from functools import cached_property
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -57,10 +57,10 @@ class Material(ABC):
     def _compiled(self) -> tuple[Any, Any]:
         """The compiled functions of parameters and of stresses."""
 
-    @cached_property
+    @property
     def parameters(self) -> tuple[Parameter, ...]:
         """The parameters in their order, with units and meaning."""
-        return tuple(Parameter(*row) for row in self._compiled[0](asdict(self)))
+        return _parameters_of(self)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -294,6 +294,11 @@ class Material(ABC):
                 f"(its parameters: {', '.join(names)})"
             )
         return np.array([parameters[name] for name in names], dtype=np.float64)
+
+
+@cache  # not within the material: a model that has run must be the same to a store
+def _parameters_of(material: Material) -> tuple[Parameter, ...]:
+    return tuple(Parameter(*row) for row in material._compiled[0](asdict(material)))
 
 
 @dataclass(frozen=True)

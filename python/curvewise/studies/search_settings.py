@@ -17,7 +17,7 @@ from .toml_source import KeyPath, Source
 
 __all__ = ["Comparison", "SearchSettings", "read_search"]
 
-_SAMPLES, _FEWEST_SAMPLES = 1000, 20
+_FEWEST_SAMPLES = 20
 
 
 @dataclass(frozen=True)
@@ -54,10 +54,10 @@ def _measures(value: Any) -> tuple[str, ...]:
     return names
 
 
-def _samples(value: Any) -> int:
-    """Read how often the noise is drawn: true for the usual number, false for not at all."""
+def _samples(value: Any) -> int | None:
+    """Read how often the noise is drawn: true for intervals without draws, false for none."""
     if isinstance(value, bool):
-        return _SAMPLES if value else 0
+        return 0 if value else None
     wanted = f"true, false, or the number of samples, {_FEWEST_SAMPLES} or more"
     return keys.reader(wanted, lambda count: keys.whole(count) >= _FEWEST_SAMPLES, int)(value)
 
@@ -77,7 +77,7 @@ def _store(source: Source, path: KeyPath, value: Any) -> Path:
 class SearchSettings(Comparison):
     """The table [search]: `measures` has its measure, too, and `start` is that of the parameters.
 
-    How often the noise is drawn for the uncertainty is 0 where there is to be none.
+    How often the noise is drawn for the uncertainty is None where there is to be none.
     """
 
     measures: tuple[str, ...] = key(_measures, ())
@@ -88,7 +88,7 @@ class SearchSettings(Comparison):
     workers: int | None = key(_workers)
     store: Path = key_at(_store, Path())
     version: str | None = key(keys.text)
-    uncertainty: int = key(_samples, _SAMPLES)
+    uncertainty: int | None = key(_samples, 0)
     start: Mapping[str, float] = field(default_factory=dict)
 
     @property

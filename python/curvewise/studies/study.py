@@ -176,8 +176,8 @@ class Study(Contents):
         self.results.mkdir(parents=True, exist_ok=True)
         found = self._searched(progress, callback)
         uncertainties = {}
-        if self.search.uncertainty:
-            samples = self.search.uncertainty
+        samples = self.search.uncertainty
+        if samples is not None:
             uncertainties = {n: one.uncertainty(samples=samples) for n, one in found[0].items()}
         results = StudyResult(found[0], uncertainties, found[1])
         write_results(self, results)

@@ -11,6 +11,7 @@ from test_near_names import line
 from curvewise.calibration import (
     SDRM,
     DifferentialEvolution,
+    Global,
     LeastSquares,
     NelderMead,
     Problem,
@@ -35,6 +36,7 @@ EVERY = [
     SDRM(maxiter=6),
     DifferentialEvolution(popsize=3, maxiter=4),
     DifferentialEvolution(popsize=3, maxiter=2, after=SDRM(maxiter=2)),
+    Global(popsize=4, rounds=1),
     NelderMead(restarts=0, options={"maxfev": 30}),
     LeastSquares(),
 ]

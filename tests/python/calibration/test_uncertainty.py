@@ -149,7 +149,7 @@ def test_three_parameters_of_a_loop_are_determined():
     found = identify(hardening, test, THREE, measure="dtw", **QUIET)
     assert found.determined == dict.fromkeys(THREE, True)
     assert "\nconverged: " in str(found)
-    uncertainty = found.uncertainty(samples=30)
+    uncertainty = found.uncertainty()
     assert uncertainty.determined == dict.fromkeys(THREE, True)
     assert "all are determined" in str(uncertainty)
     assert uncertainty.sensitivities.shape == (1, 3)

@@ -131,3 +131,11 @@ def test_loops_of_any_kind_drive_a_material() -> None:
 def test_what_makes_no_sense_is_refused(call, message) -> None:
     with pytest.raises(ValueError, match=message):
         call()
+
+
+def test_a_model_that_has_run_is_the_same_to_a_store() -> None:
+    """Nothing that a run leaves behind is part of what a model is told by."""
+    model = ChabocheVoce(backstresses=1).driven_by([(0.0, 0.0), (0.01, 300.0)])
+    before = pickle.dumps(model)
+    model(dict(zip(model.material.names, (200e3, 300.0, -50.0, 8.0, 80e3, 400.0), strict=True)))
+    assert pickle.dumps(model) == before

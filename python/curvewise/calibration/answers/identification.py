@@ -176,7 +176,7 @@ class Identification(Result):
         *,
         sigma: float | Sequence[float] | None = None,
         level: float = 0.95,
-        samples: int = 1000,
+        samples: int = 0,
         seed: int = 0,
     ) -> Uncertainty:
         """Say how well the tests determine the parameters.
@@ -184,12 +184,14 @@ class Identification(Result):
         Parameters
         ----------
         sigma : float or sequence of float, optional
-            The standard deviation of the noise in y, of all loops or of each. By default the
-            residuals are taken for the noise, in blocks where neighbours are alike.
+            The standard deviation of the noise in y, of all loops or of each, which is white then.
+            By default the residuals are taken for the noise, correlated as they are.
         level : float, default 0.95
             The probability of the intervals.
-        samples : int, default 1000
-            How many times the noise is drawn anew; "sum_of_squares" needs none.
+        samples : int, default 0
+            How many times the noise is drawn anew, at least 20 and better 1000. 0 takes the errors
+            from the sensitivities, at once: exact for sums of squares, near for "area" and "dtw",
+            and a rough guide for other measures.
         seed : int, default 0
             Of the draws.
 
@@ -207,9 +209,12 @@ class Identification(Result):
         Notes
         -----
         Runs of the model: `uncertainty_runs`, which is 0 after "trust-region" and "sdrm". Time:
-        that of `samples` minimisations on the response surfaces, some 20 evaluations of the measure
-        a parameter each. The surfaces are linear: intervals that are a large part of the bounds say
-        "not determined", and no more. Sources: see the module.
+        some 30 evaluations of the measure a parameter; with samples, as many for each of them.
+        Residuals that go on alike from point to point, since the model is wrong, are taken for an
+        autoregression of the first order in each branch, with white noise upon it, and widen the
+        intervals. The surfaces are linear: intervals that are a large part of the bounds say "not
+        determined", and no more. Sources: see the modules of
+        ``curvewise.calibration.uncertainty``.
 
         Examples
         --------

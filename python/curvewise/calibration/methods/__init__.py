@@ -14,13 +14,22 @@ from ..._names import did_you_mean
 from .auto import Auto
 from .differential_evolution import DifferentialEvolution
 from .domain_reduction import SDRM
+from .global_search import Global
 from .least_squares import LeastSquares
 from .method import Method, options_of, refuse_unknown
 from .simplex import NelderMead
 from .trust_region import TrustRegion
 
 # What a user needs; the rest of this file is for the package.
-__all__ = ["SDRM", "Auto", "DifferentialEvolution", "LeastSquares", "NelderMead", "TrustRegion"]
+__all__ = [
+    "SDRM",
+    "Auto",
+    "DifferentialEvolution",
+    "Global",
+    "LeastSquares",
+    "NelderMead",
+    "TrustRegion",
+]
 
 METHODS: dict[str, Method] = {
     str(method): method
@@ -28,6 +37,7 @@ METHODS: dict[str, Method] = {
         Auto(),
         TrustRegion(),
         LeastSquares(),
+        Global(),
         SDRM(),
         DifferentialEvolution(),
         DifferentialEvolution(after=SDRM()),

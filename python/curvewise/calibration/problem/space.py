@@ -189,6 +189,10 @@ class Space:
         """Return where in the unit cube all that a model is called with lies."""
         return self.unit({name: parameters[name] for name in self.names}, "parameters")
 
+    def with_fixed(self, name: str, value: float) -> Space:
+        """Return the same space with a parameter that stays what it is."""
+        return Space({**self._given, name: value})
+
     def place(
         self, name: str, value: float, parameters: Mapping[str, float] | None = None
     ) -> float:

@@ -16,7 +16,7 @@ import numpy as np
 from ..problem.space import Space
 from .noise import noise_of
 from .sensitivity import Optimum, sensitivity_of
-from .spread import linear_covariance
+from .spread import linear_spread
 
 __all__ = ["THE_RULE", "determined", "determined_by"]
 
@@ -55,9 +55,8 @@ def determined_by(optimum: Optimum) -> dict[str, bool]:
     By how far they go unnoticed, and by twice the standard errors of the linear theory.
     """
     space = optimum.problem.space
-    differential = space.differential(optimum.unit)
-    covariance = differential @ linear_covariance(optimum, noise_of(optimum, None)) @ differential.T
-    unnoticed = np.abs(differential) @ sensitivity_of(optimum).reach
-    changes = np.maximum(unnoticed, 2.0 * np.sqrt(np.diag(covariance)))
+    errors = linear_spread(optimum, noise_of(optimum, None), 0.95).errors
+    unnoticed = np.abs(space.differential(optimum.unit)) @ sensitivity_of(optimum).reach
+    changes = np.maximum(unnoticed, 2.0 * errors)
     parameters = space.dictionary(space.point(optimum.unit))
     return determined(space, parameters, changes.tolist())

@@ -1,11 +1,11 @@
 """What the tests determine, as one report: errors, intervals, the weakest direction, what is loose.
 
-The noise is that of the residuals, or of a standard deviation that is given (`noise`); how far the
-parameters would move with other noise is the linear theory of least squares, or a bootstrap on
-response surfaces (`spread`); what the loops do not notice has nothing to do with noise
-(`sensitivity`); `determined` is the verdict on both. Cost: no runs, or 2 k of them where the search
-has left no surfaces; then `samples` minimisations of the measure, of some 30 k evaluations each.
-Sources: see those modules.
+The noise is that of the residuals, or of a deviation that is given (`noise`), correlated as they
+are (`correlation`); how far the parameters would move with other noise is said by sensitivities, or
+by a bootstrap on response surfaces (`spread`); what the loops do not notice has nothing to do with
+noise (`sensitivity`); `determined` is the verdict on both. Cost: no runs, or 2 k of them where the
+search has left no surfaces; some 30 k evaluations of the measure, and with a bootstrap as many for
+each of its `samples`. Sources: see those modules.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from ..problem.tables import digits, parameter_table, per_cent
 from .determined import determined
 from .noise import noise_of
 from .sensitivity import Optimum, sensitivity_of
-from .spread import bootstrapped_spread, linear_spread
+from .spread import ADDED_UP, bootstrapped_spread, linear_spread
 
 if TYPE_CHECKING:
     from ...drawing.picture import Picture
@@ -39,6 +39,8 @@ _Value = TypeVar("_Value")
 _HARMLESS_BIAS = 0.25
 # A value below this part of the bounds' range is 0.
 _ZERO = 1e-6
+# Samples of a bootstrap.
+_FEWEST = 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,8 +56,9 @@ class Uncertainty(Result):
     intervals : dict of str to (low, high)
         In which each parameter lies with the probability `level`.
     bias : dict of str to float
-        By how much noise alone moves each parameter in the mean; 0 for "sum_of_squares". The
-        intervals allow for it as far as that can be done, `parameters` are as identified.
+        By how much noise alone moves each parameter in the mean, as a bootstrap shows it; 0
+        without. The intervals allow for it as far as that can be done, `parameters` are as
+        identified.
     correlations : ndarray, shape (k, k)
         Of the errors of the parameters.
     sensitivities : ndarray, shape (loops, k)
@@ -77,7 +80,7 @@ class Uncertainty(Result):
         "lower" or "upper", for the parameters that are at a bound.
     sigma : ndarray, shape (loops,)
         The standard deviation of the noise, as given or as the residuals have it.
-    level, measure
+    level, samples, measure
         As asked for.
     runs : int
         How many runs of the model it took.
@@ -96,9 +99,16 @@ class Uncertainty(Result):
     at_bounds: dict[str, str]
     sigma: Array = field(repr=False)
     level: float
+    samples: int
     measure: str
     runs: int
     optimum: Optimum = field(repr=False)
+
+    @property
+    def is_rough(self) -> bool:
+        """Whether the errors are those of sums of distances, and the measure is none of these."""
+        measures = self.optimum.problem.objective.measures
+        return not self.samples and any(measure not in ADDED_UP for measure in measures)
 
     @cached_property
     def moved(self) -> tuple[list[Array], list[Array]]:
@@ -136,7 +146,12 @@ class Uncertainty(Result):
         space = self.optimum.problem.space
         table = parameter_table(space, searched, spread=vars(self), with_bounds=False)
         noise = ", ".join(f"{sigma:.3g}" for sigma in self.sigma)
-        lines = [f"measure {self.measure}, noise {noise}, {self.runs} runs of the model"]
+        how = f"{self.samples} draws of it" if self.samples else "sensitivities"
+        lines = [f"measure {self.measure}, noise {noise}, by {how}, {self.runs} runs of the model"]
+        if self.is_rough:
+            lines.append(
+                f"of {self.measure} sensitivities are a rough guide: samples=1000 draws the noise"
+            )
         undetermined = [name for name, good in self.determined.items() if not good]
         lines.append(
             f"not determined: {', '.join(undetermined)}" if undetermined else "all are determined"
@@ -209,13 +224,13 @@ def uncertainty_of(
     """Return the uncertainty of an optimum with its surfaces; see `Identification.uncertainty`."""
     if not 0.0 < level < 1.0:
         raise ValueError(f"level is {level}; it must be between 0 and 1")
-    if samples < 20:
-        raise ValueError(f"samples is {samples}; give at least 20")
+    if samples != 0 and samples < _FEWEST:
+        raise ValueError(f"samples is {samples}; give at least {_FEWEST}, or 0 for no bootstrap")
     space, objective = optimum.problem.space, optimum.problem.objective
     noise = noise_of(optimum, sigma)
     differential = space.differential(optimum.unit)
-    if objective.is_least_squares:
-        spread = linear_spread(optimum, noise, level, differential)
+    if samples == 0:
+        spread = linear_spread(optimum, noise, level)
     else:
         spread = bootstrapped_spread(optimum, noise, level, samples, seed)
     values, directions, reach = sensitivity_of(optimum)
@@ -245,6 +260,7 @@ def uncertainty_of(
         at_bounds=space.at_bounds(parameters),
         sigma=noise.sigma,
         level=level,
+        samples=samples,
         measure=objective.measure,
         runs=runs,
         optimum=optimum,

@@ -1,0 +1,239 @@
+"""The profile of one parameter: how good the best fit is where it is held at another value.
+
+Intervals by sensitivities are those of curves that are linear in the parameters. A profile is not:
+the parameter is held at several values in turn, all others are searched for anew, and the interval
+goes as far as the objective rises by no more than it does, on the linear surfaces, at the ends of
+the interval by sensitivities; so correlated residuals widen it alike. Cost: a search from a nearby
+start for each of `points` values, of some 5 to 30 runs.
+
+D. J. Venzon, S. H. Moolgavkar, "A method for computing profile-likelihood-based confidence
+intervals", Applied Statistics 37 (1988) 87-94.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..curves.inputs import Array
+from ..drawing.profiles import profile_of_a_parameter
+from ..showing.result import Result, Table
+from .answers.ended_search import identification_of
+from .answers.identification import Identification
+from .methods.method import Method
+from .methods.search import Plan
+from .methods.trust_region import TrustRegion
+from .problem.tables import digits
+from .uncertainty.noise import noise_of
+from .uncertainty.spread import rise_at
+from .uncertainty.uncertainty import Uncertainty
+
+if TYPE_CHECKING:
+    from ..drawing.picture import Picture
+
+__all__ = ["Profile", "profile"]
+
+_BEYOND = 1.5  # how far the values go, in half intervals by sensitivities
+
+
+@dataclass(frozen=True, eq=False)
+class Profile(Result):
+    """What `profile` returns.
+
+    Attributes
+    ----------
+    name : str
+        The parameter.
+    values : ndarray, shape (points,)
+        At which it was held, ascending; the optimum is one of them.
+    objective : ndarray, shape (points,)
+        The smallest value of the objective there.
+    parameters : tuple of dict of str to float
+        All parameters there.
+    interval : (float, float)
+        Where the objective has risen by `rise`; the first or last of `values` where it has not.
+    is_open : (bool, bool)
+        Whether the interval goes further than `values` on either side.
+    by_sensitivities : (float, float)
+        The interval of :meth:`Identification.uncertainty`.
+    rise : float
+        Of the objective, at the ends of the interval.
+    level : float
+        As asked for.
+    runs : int
+        How many runs of the model it took.
+    """
+
+    name: str
+    values: Array = field(repr=False)
+    objective: Array = field(repr=False)
+    parameters: tuple[dict[str, float], ...] = field(repr=False)
+    interval: tuple[float, float]
+    is_open: tuple[bool, bool]
+    by_sensitivities: tuple[float, float]
+    rise: float
+    level: float
+    runs: int
+
+    picture_shows = "The smallest objective against the parameter, with both intervals"
+
+    def parts(self) -> Sequence[Table | str]:
+        """Return the profile as a table, and both intervals."""
+        others = [name for name in self.parameters[0] if name != self.name]
+        rows = [
+            [digits(value, 4), f"{lowest:.6g}", *(digits(one[name], 4) for name in others)]
+            for value, lowest, one in zip(self.values, self.objective, self.parameters, strict=True)
+        ]
+        first, last = (digits(end, 4) for end in self.interval)
+        ends = f"{'<' * self.is_open[0]}{first} to {'>' * self.is_open[1]}{last}"
+        linear = " to ".join(digits(end, 4) for end in self.by_sensitivities)
+        said = f"{100.0 * self.level:g} % interval of {self.name}: {ends}"
+        return [
+            Table(rows, [self.name, "objective", *others]),
+            f"{said} (by sensitivities {linear}), {self.runs} runs of the model",
+        ]
+
+    def plot(self) -> Picture:
+        """Return a matplotlib Figure: the objective against the parameter, with both intervals.
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        """
+        return profile_of_a_parameter(
+            self.name, self.values, self.objective, self.rise, self.interval, self.by_sensitivities
+        )
+
+
+def profile(
+    found: Identification,
+    name: str,
+    *,
+    points: int = 7,
+    level: float = 0.95,
+    method: Method | None = None,
+) -> Profile:
+    """Hold a parameter at several values, and search for the others at each.
+
+    Parameters
+    ----------
+    found : Identification
+        What a search has found.
+    name : str
+        A parameter that was searched for.
+    points : int, default 7
+        How many values, the optimum among them; odd, at least 5.
+    level : float, default 0.95
+        The probability of the interval.
+    method : method, optional
+        What searches for the others: by default :class:`TrustRegion` from the values next to them.
+
+    Returns
+    -------
+    Profile
+        Prints as a table, plots itself.
+
+    Raises
+    ------
+    ValueError
+        No such parameter, or the only one; an even number of points; a parameter that another one
+        stays below.
+
+    Notes
+    -----
+    Runs go into the store of the search. D. J. Venzon, S. H. Moolgavkar, Applied Statistics 37
+    (1988) 87-94.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from curvewise.calibration import identify, profile
+    >>> x = np.linspace(0, 1, 50)
+    >>> def curve(p):
+    ...     return np.column_stack((x, p["K"] * x ** p["n"]))
+    >>> test = curve({"K": 2.0, "n": 0.5})
+    >>> test[:, 1] += np.random.default_rng(0).normal(0.0, 0.05, 50)
+    >>> bounds = {"K": (1, 5), "n": (0.1, 1)}
+    >>> found = identify(curve, test, bounds, measure="sum_of_squares", progress=False)
+    >>> low, high = profile(found, "n", points=5).interval
+    >>> low < found.parameters["n"] < high
+    True
+    """
+    space = found.problem.space
+    if name not in space.names or len(space.names) < 2:
+        raise ValueError(f"{name!r} is not one of several parameters: {', '.join(space.names)}")
+    if points < 5 or points % 2 == 0:
+        raise ValueError(f"points is {points}; give an odd number, at least 5")
+    uncertainty = found.uncertainty(level=level)
+    values = _values(found, uncertainty, name, points)
+    search = method or TrustRegion(initial_range=0.05)
+    at_values = [found.parameters] * points
+    lowest, runs = np.full(points, found.value), uncertainty.runs
+    middle = points // 2
+    for i in [*range(middle + 1, points), *range(middle - 1, -1, -1)]:
+        if values[i] == values[middle]:  # at a bound
+            continue
+        near = at_values[i - 1] if i > middle else at_values[i + 1]
+        held = replace(found.problem, space=space.with_fixed(name, float(values[i])))
+        start = {key: near[key] for key in held.space.names}
+        best = identification_of(held, Plan(search, found.seed, start, False, None, None))
+        at_values[i], lowest[i], runs = best.parameters, best.value, runs + best.runs
+    rise = _rise(found, uncertainty, name)
+    sides = [(values[middle::-1], lowest[middle::-1]), (values[middle:], lowest[middle:])]
+    crossings = [_crossing(*side, rise) for side in sides]
+    kept = [i for i in range(points) if i == middle or values[i] != values[middle]]
+    return Profile(
+        name,
+        values[kept],
+        lowest[kept],
+        tuple({key: at_values[i][key] for key in space.names} for i in kept),
+        (crossings[0][0], crossings[1][0]),
+        (crossings[0][1], crossings[1][1]),
+        uncertainty.intervals[name],
+        rise,
+        level,
+        runs,
+    )
+
+
+def _half(uncertainty: Uncertainty, name: str) -> float:
+    """Return half the interval, as it is on the side where no bound cuts it."""
+    best = uncertainty.parameters[name]
+    return max(abs(end - best) for end in uncertainty.intervals[name])
+
+
+def _values(found: Identification, uncertainty: Uncertainty, name: str, points: int) -> Array:
+    """Return at what values the parameter is held, within its bounds."""
+    low, high = found.bounds[name]
+    best, reach = found.parameters[name], _BEYOND * _half(uncertainty, name)
+    below = np.linspace(max(low, best - reach), best, points // 2 + 1)
+    above = np.linspace(best, min(high, best + reach), points // 2 + 1)
+    return np.concatenate((below, above[1:]))
+
+
+def _rise(found: Identification, uncertainty: Uncertainty, name: str) -> float:
+    """Return the rise of the objective at the ends of the interval by sensitivities."""
+    optimum = uncertainty.optimum
+    index = found.problem.space.names.index(name)
+    differential = found.problem.space.differential(optimum.unit)
+    change = _half(uncertainty, name) / abs(float(differential[index, index]))
+    return rise_at(optimum, noise_of(optimum, None), index, change)
+
+
+def _crossing(values: Array, lowest: Array, rise: float) -> tuple[float, bool]:
+    """Return where a side of the profile has risen, and whether it goes on beyond the last value.
+
+    Between values the root of the rise is interpolated, which of a parabola is a line.
+    """
+    roots = np.sqrt(np.maximum(lowest - lowest[0], 0.0))
+    wanted = float(np.sqrt(rise))
+    beyond = np.flatnonzero(roots > wanted)
+    if not beyond.size:
+        return float(values[-1]), True
+    k = int(beyond[0])
+    part = (wanted - roots[k - 1]) / (roots[k] - roots[k - 1])
+    return float(values[k - 1] + part * (values[k] - values[k - 1])), False

@@ -1,0 +1,223 @@
+"""How alike the residuals of neighbouring points are, by restricted likelihood.
+
+A model that is wrong leaves residuals that go on alike from point to point, with the noise of the
+load cell upon them. Both together are taken for an autoregression of the first order, which begins
+anew at every turning point, plus white noise. How far the autoregression reaches and what share of
+the variance is white are known from the residuals only roughly, and a fit takes from them most of
+what reaches furthest; so no best pair is taken, a grid of pairs is, each with the probability that
+the residuals give it. Restricted likelihood allows exactly for the parameters that were fitted.
+Cost: O(n k) for each of `_MODELS`, since the inverse of an autoregression's covariance has three
+diagonals.
+
+H. D. Patterson, R. Thompson, "Recovery of inter-block information when block sizes are unequal",
+Biometrika 58 (1971) 545-554; D. A. Harville, "Bayesian inference for variance components using only
+error contrasts", Biometrika 61 (1974) 383-385 (that it is the likelihood without the parameters).
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..._extras import required
+from ...curves import turning_points
+from ...curves.inputs import Array
+
+__all__ = ["Correlation", "branches_of_tests", "correlation_of", "white"]
+
+# How far an autoregression reaches, in parts of its branch, and the share of white noise.
+_REACHES = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
+_SHARES = (0.003, 0.03, 0.2)
+_MODELS = ((0.0, 1.0), *itertools.product(_REACHES, _SHARES))  # the first is white alone
+_IMPOSSIBLE = 1e-4  # models of a smaller probability are left out
+# White noise alone is believed where no model is more likely by exp(4), as for 1 in 50 draws of
+# white noise (a likelihood ratio of two parameters): its errors are then those of least squares.
+_BETTER = 4.0
+
+
+class Model(NamedTuple):
+    """One model of the noise: its probability, reach, share of white noise, and variance."""
+
+    probability: float
+    reach: float
+    share: float
+    variance: float
+
+
+class Correlation(NamedTuple):
+    """The noise of all points of all tests, each in units of its test's deviation.
+
+    Attributes
+    ----------
+    models : list of Model
+        Whose probabilities add up to 1.
+    branches : list of slice
+        Of the points of all tests, one test after the other.
+    """
+
+    models: list[Model]
+    branches: list[slice]
+
+    def scatter(self, columns: Array, white: float = 1.0, alike: float = 1.0) -> Array:
+        """Return columns' V columns for the covariance V of the noise, in the mean of the models.
+
+        Parameters
+        ----------
+        columns : ndarray, shape (points, k)
+        white, alike : float
+            What white noise and the autoregression are multiplied with.
+        """
+        square = columns.T @ columns
+        total = np.zeros_like(square)
+        for model in self.models:
+            one = white * model.share * square
+            if model.share < 1.0:
+                for branch in self.branches:
+                    part = columns[branch]
+                    rho = _neighbours(model.reach, len(part))
+                    one += alike * (1.0 - model.share) * (part.T @ _correlated(part, rho))
+            total += model.probability * model.variance * one
+        return total
+
+    def draw(self, random: np.random.Generator) -> Array:
+        """Return noise drawn anew, of one of the models."""
+        chances = [model.probability for model in self.models]
+        model = self.models[random.choice(len(chances), p=chances)]
+        count = self.branches[-1].stop
+        noise: Array = math.sqrt(model.share) * random.normal(size=count)
+        if model.share < 1.0:
+            for branch in self.branches:
+                rho = _neighbours(model.reach, branch.stop - branch.start)
+                noise[branch] += math.sqrt(1.0 - model.share) * _autoregression(
+                    random.normal(size=branch.stop - branch.start), rho
+                )
+        return math.sqrt(model.variance) * noise
+
+    @property
+    def independent(self) -> float:
+        """How many independent points would say as much: points by the sum of correlations."""
+        alike = 0.0
+        for model in self.models:
+            for branch in self.branches:
+                count = branch.stop - branch.start
+                together = model.share * count
+                if model.share < 1.0:
+                    rho = _neighbours(model.reach, count)
+                    ones = np.ones((count, 1))
+                    together += (1.0 - model.share) * float(_correlated(ones, rho).sum())
+                alike += model.probability * together
+        return float(self.branches[-1].stop) ** 2 / alike
+
+
+def white(branches: list[slice], variance: float = 1.0) -> Correlation:
+    """Return noise without correlation."""
+    return Correlation([Model(1.0, 0.0, 1.0, variance)], branches)
+
+
+def branches_of_tests(tests: Sequence[Array]) -> list[slice]:
+    """Return the branches between turning points, of all points one test after the other."""
+    branches, first = [], 0
+    for test in tests:
+        turns = [0, len(test)]
+        if test.shape[1] > 1 and np.ptp(test[:, 0]) > 0:
+            turns[1:1] = turning_points(test).tolist()
+        branches += [slice(first + a, first + b) for a, b in itertools.pairwise(turns)]
+        first += len(test)
+    return branches
+
+
+def correlation_of(residuals: Array, slopes: Array, branches: list[slice]) -> Correlation:
+    """Return what the residuals of a fit say of the noise.
+
+    Parameters
+    ----------
+    residuals : ndarray, shape (points,)
+        Of all tests, each in units of its test's deviation.
+    slopes : ndarray, shape (points, k)
+        Of the fitted values, in the same units: what the fit has taken from the residuals.
+    branches : list of slice
+    """
+    basis, values, _ = np.linalg.svd(slopes, full_matrices=False)
+    basis = basis[:, values > 1e-9 * values[0]]
+    left = residuals - basis @ (basis.T @ residuals)
+    square = float(left @ left)
+    if not square > 0.0:  # fitted to the last digit
+        return white(branches)
+    found = [_likelihood(left / math.sqrt(square), basis, branches, *model) for model in _MODELS]
+    logarithms = np.array([logarithm for logarithm, _ in found])
+    if logarithms.max() < logarithms[0] + _BETTER:
+        return white(branches, square * found[0][1])
+    chances = np.exp(logarithms - logarithms.max())
+    chances[chances < _IMPOSSIBLE * chances.sum()] = 0.0
+    chances /= chances.sum()
+    return Correlation(
+        [
+            Model(float(chance), *model, square * variance)
+            for chance, model, (_, variance) in zip(chances, _MODELS, found, strict=True)
+            if chance > 0.0
+        ],
+        branches,
+    )
+
+
+def _likelihood(
+    residuals: Array, basis: Array, branches: list[slice], reach: float, share: float
+) -> tuple[float, float]:
+    """Return the logarithm of the restricted likelihood of a model, and its variance."""
+    freedom = len(residuals) - basis.shape[1]
+    if share == 1.0:
+        square = float(residuals @ residuals)
+        return -0.5 * freedom * math.log(square), square / freedom
+    linalg = required("scipy.linalg")
+    diagonal, beside = np.ones(len(residuals)), np.zeros(len(residuals))
+    logarithm = 0.0
+    for branch in branches:  # T, the inverse of the autoregression's covariance R
+        count = branch.stop - branch.start
+        if count < 2:
+            continue
+        rho = _neighbours(reach, count)
+        new = 1.0 - rho**2
+        diagonal[branch] = (1.0 + rho**2) / new
+        diagonal[[branch.start, branch.stop - 1]] = 1.0 / new
+        beside[branch.start + 1 : branch.stop] = -rho / new
+        logarithm += (count - 1) * math.log(new)
+    # V = a R + b I has the inverse (a I + b T)^-1 T.
+    columns = np.column_stack((residuals, basis))
+    right = diagonal[:, np.newaxis] * columns
+    right[1:] += beside[1:, np.newaxis] * columns[:-1]
+    right[:-1] += beside[1:, np.newaxis] * columns[1:]
+    factor = linalg.cholesky_banded(
+        np.vstack((share * beside, (1.0 - share) + share * diagonal)), check_finite=False
+    )
+    solved = linalg.cho_solve_banded((factor, False), right, check_finite=False)
+    logarithm += 2.0 * float(np.log(factor[1]).sum())
+    of_basis, shared = basis.T @ solved[:, 1:], basis.T @ solved[:, 0]
+    square = float(residuals @ solved[:, 0] - shared @ np.linalg.solve(of_basis, shared))
+    logarithm += float(np.linalg.slogdet(of_basis)[1])
+    return -0.5 * (freedom * math.log(square) + logarithm), square / freedom
+
+
+def _neighbours(reach: float, count: int) -> float:
+    """Return the correlation of neighbours, of a reach in parts of a branch of so many points."""
+    return math.exp(-1.0 / (reach * count)) if reach > 0.0 else 0.0
+
+
+def _autoregression(white_noise: Array, rho: float) -> Array:
+    """Return an autoregression of the deviation 1, of independent draws of the deviation 1."""
+    changes = math.sqrt(1.0 - rho**2) * white_noise
+    changes[0] = white_noise[0]
+    filtered: Array = required("scipy.signal").lfilter([1.0], [1.0, -rho], changes)
+    return filtered
+
+
+def _correlated(columns: Array, rho: float) -> Array:
+    """Return R @ columns with R[i, j] = rho ** |i - j|, by a walk there and a walk back."""
+    lfilter = required("scipy.signal").lfilter
+    there = lfilter([1.0], [1.0, -rho], columns, axis=0)
+    back = lfilter([1.0], [1.0, -rho], columns[::-1], axis=0)[::-1]
+    correlated: Array = there + back - columns
+    return correlated

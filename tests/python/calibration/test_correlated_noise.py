@@ -1,0 +1,163 @@
+"""Residuals that go on alike: the likelihood against dense matrices, and intervals that hold."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy import stats
+
+from curvewise.calibration import Problem, identify
+from curvewise.calibration.surfaces.surfaces import Responses, Surfaces
+from curvewise.calibration.uncertainty.correlation import (
+    Correlation,
+    Model,
+    _likelihood,
+    branches_of_tests,
+    correlation_of,
+    white,
+)
+from curvewise.calibration.uncertainty.noise import noise_of
+from curvewise.calibration.uncertainty.sensitivity import Optimum
+from curvewise.calibration.uncertainty.spread import linear_spread
+
+BRANCHES = [slice(0, 1), slice(1, 14), slice(14, 40)]
+X = np.linspace(0.0, 1.0, 40)
+DESIGN = np.column_stack((np.ones_like(X), X, X**2))
+
+
+def dense(branches, reach, share):
+    """Return the covariance matrix of a model, of the variance 1."""
+    count = branches[-1].stop
+    matrix = np.zeros((count, count))
+    for branch in branches:
+        size = branch.stop - branch.start
+        lags = np.abs(np.subtract.outer(np.arange(size), np.arange(size)))
+        matrix[branch, branch] = np.exp(-lags / (reach * size))
+    return (1.0 - share) * matrix + share * np.eye(count)
+
+
+MODELS = st.tuples(st.floats(0.01, 1.0), st.floats(0.003, 0.9), st.integers(0, 2**32 - 1))
+
+
+@given(MODELS)
+@settings(max_examples=20, deadline=None)
+def test_the_restricted_likelihood_is_that_of_dense_matrices(model):
+    """Of the differences that no parameter can make, whose covariance is K' V K."""
+    reach, share, seed = model
+    residuals = np.random.default_rng(seed).normal(size=40)
+    basis, _ = np.linalg.qr(DESIGN)
+    outside = np.linalg.svd(basis, full_matrices=True)[0][:, 3:]
+    left = residuals - basis @ (basis.T @ residuals)
+    found, variance = _likelihood(left, basis, BRANCHES, reach, share)
+    covariance = outside.T @ dense(BRANCHES, reach, share) @ outside
+    seen = outside.T @ residuals
+    square = seen @ np.linalg.solve(covariance, seen)
+    expected = -0.5 * (37 * math.log(square) + np.linalg.slogdet(covariance)[1])
+    assert found == pytest.approx(expected, rel=1e-9)
+    assert variance == pytest.approx(square / 37, rel=1e-9)
+
+
+@given(MODELS)
+@settings(max_examples=20, deadline=None)
+def test_the_scatter_is_that_of_dense_matrices(model):
+    reach, share, seed = model
+    columns = np.random.default_rng(seed).normal(size=(40, 2))
+    correlation = Correlation(
+        [Model(0.25, reach, share, 4.0), Model(0.75, 0.0, 1.0, 9.0)], BRANCHES
+    )
+    alike = dense(BRANCHES, reach, share) - share * np.eye(40)
+    expected = 0.25 * 4.0 * (3.0 * share * columns.T @ columns + 2.0 * columns.T @ alike @ columns)
+    expected += 0.75 * 9.0 * 3.0 * columns.T @ columns
+    assert correlation.scatter(columns, 3.0, 2.0) == pytest.approx(expected, rel=1e-9)
+    ones = 0.25 * dense(BRANCHES, reach, share).sum() + 0.75 * 40
+    assert correlation.independent == pytest.approx(40**2 / ones, rel=1e-9)
+
+
+def test_draws_have_the_covariance_of_their_model():
+    correlation = Correlation([Model(1.0, 0.3, 0.2, 4.0)], BRANCHES)
+    random = np.random.default_rng(0)
+    drawn = np.array([correlation.draw(random) for _ in range(4000)])
+    assert np.cov(drawn.T) == pytest.approx(4.0 * dense(BRANCHES, 0.3, 0.2), abs=0.45)
+
+
+def test_white_noise_is_white_and_a_wave_is_not():
+    slopes, branches = DESIGN, [slice(0, 40)]
+    noise = [np.random.default_rng(seed).normal(size=40) for seed in range(60)]
+    told = [correlation_of(one, slopes, branches).models[0].share == 1.0 for one in noise]
+    assert np.mean(told) > 0.9
+    wave = correlation_of(np.sin(20.0 * X), slopes, branches)
+    assert all(model.share < 1.0 for model in wave.models)
+    assert sum(model.probability for model in wave.models) == pytest.approx(1.0)
+    assert wave.independent < 12.0
+    assert white(branches).independent == pytest.approx(40.0)
+
+
+def test_residuals_of_nothing_are_white():
+    assert correlation_of(np.zeros(40), DESIGN, [slice(0, 40)]).models == [
+        Model(1.0, 0.0, 1.0, 1.0)
+    ]
+
+
+def test_branches_end_where_the_strain_turns():
+    strain = np.concatenate([np.linspace(0, 1, 10), np.linspace(1, -1, 20)[1:]])
+    loop = np.column_stack((strain, strain))
+    assert branches_of_tests([loop, np.ones((1, 1))]) == [slice(0, 9), slice(9, 29), slice(29, 30)]
+
+
+def parabola(p):
+    return np.column_stack((X, DESIGN @ [p["a"], p["b"], p["c"]]))
+
+
+BOUNDS = {"a": (-10.0, 10.0), "b": (-20.0, 20.0), "c": (-20.0, 20.0)}
+WIDTHS = np.array([20.0, 40.0, 40.0])
+TRUTH = {"a": 1.0, "b": -2.0, "c": 3.0}
+
+
+def test_with_a_wave(seed):
+    """Return a test that no parabola is right for, of another wave for every seed."""
+    random = np.random.default_rng(seed)
+    test = parabola(TRUTH)
+    wave = np.sin(random.uniform(9.0, 14.0) * X + random.uniform(0.0, 2.0 * np.pi))
+    test[:, 1] += 0.5 * wave + random.normal(0.0, 0.05, 40)
+    return test
+
+
+test_with_a_wave.__test__ = False
+
+
+def test_intervals_of_least_squares_hold_the_truth_where_the_model_is_wrong():
+    """Those of white noise hold it in a half to two thirds of the sets."""
+    inside, naive = [], []
+    for seed in range(100):
+        test = test_with_a_wave(seed)
+        best, *_ = np.linalg.lstsq(DESIGN, test[:, 1], rcond=None)
+        problem = Problem.of(test, BOUNDS, measure="sum_of_squares")
+        curve = np.column_stack((X, DESIGN @ best))
+        slopes = np.stack((np.zeros((40, 3)), DESIGN * WIDTHS), axis=1).reshape(80, 3)
+        unit = problem.space.unit(dict(zip(BOUNDS, best, strict=True)))
+        surfaces = Surfaces(unit, curve.ravel(), slopes)
+        optimum = Optimum(problem, unit, Responses([curve]), surfaces)
+        spread = linear_spread(optimum, noise_of(optimum, None), 0.95)
+        inside.append(
+            [a <= t <= b for t, (a, b) in zip(TRUTH.values(), spread.intervals, strict=True)]
+        )
+        residuals = test[:, 1] - curve[:, 1]
+        errors = np.sqrt(residuals @ residuals / 37 * np.diag(np.linalg.inv(DESIGN.T @ DESIGN)))
+        naive.append(np.abs(best - list(TRUTH.values())) <= stats.t(37).ppf(0.975) * errors)
+    assert np.mean(naive, axis=0).max() < 0.85
+    assert np.mean(inside, axis=0).min() >= 0.88
+
+
+@pytest.mark.nightly
+def test_intervals_of_area_hold_the_truth_where_the_model_is_wrong():
+    inside = []
+    for seed in range(12):
+        test = test_with_a_wave(seed)
+        found = identify(parabola, test, BOUNDS, start=TRUTH, progress=False)
+        intervals = found.uncertainty().intervals
+        inside.append([a <= TRUTH[name] <= b for name, (a, b) in intervals.items()])
+    assert np.mean(inside) > 0.9
