@@ -56,6 +56,14 @@ def add_fit(commands: Any) -> None:
         help="whether Young's modulus decays with the plastic strain",
     )
     command.add_argument(
+        "--fix",
+        nargs="+",
+        type=_known,
+        default=[],
+        metavar="NAME=VALUE",
+        help="parameters that are known, such as E=206e3",
+    )
+    command.add_argument(
         "--measure", default="sum_of_squares", help="what is minimised; sum_of_squares by default"
     )
     command.add_argument(
@@ -74,6 +82,15 @@ def add_fit(commands: Any) -> None:
         default="fit",
         help="the folder for what is written; by default fit",
     )
+
+
+def _known(text: str) -> tuple[str, float]:
+    """Read a name and a number."""
+    name, _, number = text.partition("=")
+    try:
+        return name, float(number)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text} is no NAME=VALUE, such as E=206e3") from None
 
 
 def _chaboche_voce(arguments: argparse.Namespace) -> Material:
@@ -106,6 +123,7 @@ def _fit(arguments: argparse.Namespace) -> int:
         tests,
         material,
         measure=arguments.measure,
+        fixed=dict(arguments.fix),
         seed=arguments.seed,
         progress=sys.stderr.isatty(),
     )

@@ -49,6 +49,16 @@ def test_the_card_has_the_parameters(fit: MaterialFit, tmp_path: Path) -> None:
     assert read_card(path).parameters == fit.parameters
 
 
+def test_what_is_known_is_not_searched_for(tmp_path: Path) -> None:
+    fit = fit_material(LOOP, MATERIAL, fixed={"E": 210e3}, progress=False)
+    assert fit.parameters["E"] == 210e3
+    assert "E" not in fit.uncertainty.intervals
+    table = fit.write(tmp_path)[0].read_text(encoding="utf-8")
+    assert "E,stress,210000.0,,,," in table
+    with pytest.raises(ValueError, match="fixed has no parameter of the material: 'e'"):
+        fit_material(LOOP, MATERIAL, fixed={"e": 1.0})
+
+
 def write_test(path: Path, header: str = "strain,stress", factor: float = 1.0) -> str:
     np.savetxt(path, LOOP * (factor, 1.0), delimiter=",", header=header, comments="")
     return str(path)

@@ -135,14 +135,17 @@ class Descent:
         """
         radius = self._rules.first_radius
         near = _determining(start, runs)
-        if near is not None:
+        if near is not None or self._ledger.has_slopes:
             (first,) = yield from self._run(start[np.newaxis])
             if not first.failed:
                 self._take(start, first)
-                assert self._responses.first is not None
-                slopes = near.slopes(self._responses.first, self._rules.diff_step)
-                self._surfaces.slopes = slopes
-                return True
+                if self._takes_exact_slopes():
+                    return True
+                if near is not None:
+                    assert self._responses.first is not None
+                    slopes = near.slopes(self._responses.first, self._rules.diff_step)
+                    self._surfaces.slopes = slopes
+                    return True
         for _ in range(5):
             points = _simplex(start, radius / 2.0, self._random)
             first, *others = yield from self._run(np.vstack((start, points)))
@@ -158,6 +161,8 @@ class Descent:
 
     def renew(self, radius: float) -> Part[None]:
         """Measure the slopes afresh, over a step no larger than the region, down to a limit."""
+        if self._takes_exact_slopes():
+            return
         largest = self._rules.diff_step
         step = max(min(largest, radius), _SMALLEST_STEP * largest)
         points = _simplex(self.centre, step, self._random)
@@ -167,6 +172,16 @@ class Descent:
         if not runs[best].failed and runs[best].value < self.value:
             self._recentre(points[best], runs[best])
         self.is_fresh = True
+
+    def _takes_exact_slopes(self) -> bool:
+        """Take the slopes that the model knows at the best run, if it does: they cost no run."""
+        assert self._responses.first is not None
+        slopes = self._responses.first.slopes(self._ledger.slopes(self.centre))
+        if slopes is None:
+            return False
+        self._surfaces.slopes = slopes
+        self.is_fresh = True
+        return True
 
     def leaves_valley(self, radius: float, least: float) -> Part[bool]:
         """Try other minima of the surfaces, which promise a gain; return whether one is better.
@@ -178,7 +193,7 @@ class Descent:
             promised = self._promised(candidate)
             if promised <= least:
                 return False
-            if (yield from self.step(candidate)) > 0:
+            if (yield from self.step(candidate, learns=True)) > 0:
                 return True
         return False
 
@@ -206,16 +221,22 @@ class Descent:
     def _promised(self, point: Array) -> float:
         return self.value - self._minimum.value(self._surfaces, point)
 
-    def step(self, candidate: Array) -> Part[float]:
-        """Run a candidate, learn from it, move there if it is better; return the gain."""
+    def step(self, candidate: Array, *, learns: bool = False) -> Part[float]:
+        """Run a candidate, learn from it, move there if it is better; return the gain.
+
+        Slopes that the model knows have nothing to learn, unless they are asked to.
+        """
         (run,) = yield from self._run(candidate[np.newaxis])
-        self.is_fresh = False
+        is_exact = self._ledger.has_slopes and self.is_fresh and not learns
+        self.is_fresh = is_exact
         if run.failed:
             return -np.inf
         gained = self.value - run.value
-        self._surfaces.learn(candidate, self._responses.vector(run), recentre=gained > 0)
+        if gained > 0 or not is_exact:
+            self._surfaces.learn(candidate, self._responses.vector(run), recentre=gained > 0)
         if gained > 0:
             self.value = run.value
+            self.is_fresh = self._takes_exact_slopes()
         return gained
 
     def _take(self, point: Array, run: Evaluation) -> None:

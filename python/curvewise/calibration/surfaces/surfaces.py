@@ -45,6 +45,16 @@ class Responses:
         ]
         return np.concatenate([curve.ravel() for curve in curves])
 
+    def slopes(self, by_curve: Sequence[Array] | None) -> Array | None:
+        """Return the derivatives of that vector, shape (coordinates, k).
+
+        Of derivatives of the curves' points, shape (n, d, k); None where there are none, or of
+        other numbers of points.
+        """
+        if by_curve is None or [slopes.shape[:2] for slopes in by_curve] != self.shapes:
+            return None
+        return np.concatenate([slopes.reshape(-1, slopes.shape[2]) for slopes in by_curve])
+
     def curves(self, vector: Array) -> list[Array]:
         """Return the curves that a vector stands for."""
         parts = np.split(vector, self._ends)

@@ -95,7 +95,9 @@ class Sensitivity(NamedTuple):
 
 def design_runs(problem: Problem, unit: Array, runs: Sequence[Run]) -> int:
     """Return how many runs `optimum_surfaces` will make."""
-    return 0 if _nearby(unit, runs) is not None else 2 * len(problem.space.names)
+    if problem.has_slopes or _nearby(unit, runs) is not None:
+        return 0
+    return 2 * len(problem.space.names)
 
 
 def optimum_surfaces(
@@ -104,11 +106,13 @@ def optimum_surfaces(
     simulations: Sequence[Array],
     runs: Sequence[Run],
 ) -> Optimum:
-    """Return the surfaces around an optimum, of runs nearby or of fresh ones."""
+    """Return the surfaces around an optimum: the model's own slopes, or those of runs."""
     responses = Responses(simulations)
     base = responses.vector(simulations)
     near = _nearby(unit, runs)
-    if near is None:
+    if (known := responses.slopes(problem.slopes(unit))) is not None:
+        slopes = known
+    elif near is None:
         slopes = _differences(problem, unit, responses, base)
     else:
         slopes = near.slopes(responses, _STEP)
