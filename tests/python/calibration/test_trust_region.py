@@ -146,6 +146,11 @@ def run_at(point: Any, wrong: float = 0.0) -> Evaluation:
 class Known:
     """Evaluations, of which some are known around a point."""
 
+    has_slopes = False
+
+    def slopes(self, unit):
+        return None
+
     def __init__(self, unit: Any, steps: Any, wrong: Sequence[float]) -> None:
         points = unit + np.array(steps)
         self.earlier_runs = [(p, run_at(p, error)) for p, error in zip(points, wrong, strict=True)]
