@@ -25,7 +25,12 @@ FUNCTIONS = sorted(
 
 @pytest.mark.parametrize("name", ["curvewise", *MODULES])
 def test_examples_run(name: str) -> None:
-    module: ModuleType = importlib.import_module(name)
+    try:
+        module: ModuleType = importlib.import_module(name)
+    except ImportError as error:  # whose words say how to install what it needs
+        if getattr(error.__cause__, "name", None) not in ("dask", "distributed", "sklearn"):
+            raise
+        pytest.skip(str(error))
     assert doctest.testmod(module).failed == 0
 
 
