@@ -4,9 +4,9 @@ Where sbatch works; .ci/slurm makes a cluster of one node of any machine with De
 
     python tests/faults/cluster.py [--runs 50]
 
-The same search four times: here; by `sbatch --wait` as docs/solvers.md has it, while one running job
-is killed and queued anew (what SLURM does where a node fails) and the node drained for a time; by
-submitit, a job for every run; and by sbatch while jobs are cancelled, which are failed runs. Ends
+The same search four times: here; by `sbatch --wait` as docs/solvers.md has it, while one running
+job is killed and queued anew (what SLURM does where a node fails) and the node drained for a time;
+by submitit, a job for every run; and by sbatch while jobs are cancelled, which are failed runs. Ends
 with 1 unless the second and the third have the bits of the first, and the fourth has gone on.
 Minutes: a job takes some 2 s, however short it is.
 """
@@ -45,7 +45,7 @@ BOUNDS = {"E": (100e3, 300e3), "yield": (100.0, 600.0), "H": (500.0, 9000.0)}
 QUEUED = ["sbatch", "--wait", "--output=command.log", "job.sh"]
 
 
-def test_curve() -> np.ndarray:
+def measured() -> np.ndarray:
     """Return what E = 200,000, yield = 310 and H = 3,000 give, with noise."""
     strain = 0.0005 * np.arange(61)
     stress = np.minimum(200e3 * strain, 310.0 + 3e3 * (strain - 310.0 / 200e3))
@@ -59,6 +59,7 @@ def model_of(command: list[str], template: Path, scratch: Path) -> CommandModel:
         template,
         command,
         lambda folder: np.loadtxt(folder / "curve.csv", delimiter=",", skiprows=1),
+        parameters=list(BOUNDS),
         timeout=600,
         scratch=scratch,
     )
@@ -67,7 +68,7 @@ def model_of(command: list[str], template: Path, scratch: Path) -> CommandModel:
 def found_by(model, runs: int, **how) -> Identification:
     """Search for so many runs."""
     return identify(
-        model, test_curve(), BOUNDS, method=TrustRegion(), max_runs=runs, progress=False, **how
+        model, measured(), BOUNDS, method=TrustRegion(), max_runs=runs, progress=False, **how
     )
 
 
@@ -83,6 +84,7 @@ def running() -> list[str]:
 
 
 def say(text: str) -> None:
+    """Print a line with the time."""
     print(f"{time.strftime('%H:%M:%S')}  {text}", flush=True)
 
 
@@ -137,6 +139,7 @@ def by_submitit(model: CommandModel, runs: int, folder: Path) -> Identification:
 
 
 def bits(found: Identification) -> list[str]:
+    """Return the value and the parameters, every bit of them."""
     return [value.hex() for value in (found.value, *found.parameters.values())]
 
 
