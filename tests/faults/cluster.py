@@ -6,8 +6,8 @@ Where sbatch works; .ci/slurm makes a cluster of one node of any machine with De
 
 The same search four times: here; by `sbatch --wait` as docs/solvers.md has it, while one running
 job is killed and queued anew (what SLURM does where a node fails) and the node drained for a time;
-by submitit, a job for every run; and by sbatch while jobs are cancelled, which are failed runs. Ends
-with 1 unless the second and the third have the bits of the first, and the fourth has gone on.
+by submitit, a job for every run; and by sbatch while jobs are cancelled, which are failed runs.
+Ends with 1 unless the second and the third have the bits of the first, and the fourth has gone on.
 Minutes: a job takes some 2 s, however short it is.
 """
 
