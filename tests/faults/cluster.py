@@ -53,12 +53,17 @@ def measured() -> np.ndarray:
     return np.column_stack((strain, stress + noise))
 
 
+def read(folder: Path) -> np.ndarray:
+    """Read the curve that a job has written."""
+    return np.loadtxt(folder / "curve.csv", delimiter=",", skiprows=1)
+
+
 def model_of(command: list[str], template: Path, scratch: Path) -> CommandModel:
     """Return the model that runs the job by a command."""
     return CommandModel(
         template,
         command,
-        lambda folder: np.loadtxt(folder / "curve.csv", delimiter=",", skiprows=1),
+        read,
         parameters=list(BOUNDS),
         timeout=600,
         scratch=scratch,

@@ -31,7 +31,6 @@ DATA = Path(os.environ.get("CURVEWISE_DATA", ROOT.parent / "shared" / "data"))
 # that nobody waits for them. And of those, files whose tests share nothing that is long to make.
 LONGEST_FIRST = (
     "embedding/test_embed.py::test_fetch_content",
-    "embedding/test_cpp.py",
     "commands/test_selfcheck.py::test_selfcheck_passes_on_this_machine",
     "calibration/",
     "embedding/",
@@ -110,8 +109,8 @@ def pytest_report_header(config: pytest.Config) -> list[str]:
     lines = []
     if config.args == config.getini("testpaths"):
         lines.append(
-            "curvewise: some 5500 tests; they also build the C++ tests, and programs that use "
-            "the library; about 4 minutes on two cores"
+            "curvewise: some 5800 tests; they also build programs that use the library; about two "
+            "and a half minutes on two cores"
         )
     if leaves_out_nightly(config):
         lines.append("curvewise: without the tests for the night, which take long (-m nightly)")
