@@ -1,0 +1,106 @@
+"""Every public test, fitted by the defaults of `curvewise fit`, and by scipy from fifty places.
+
+    python fits.py
+
+For each test and material: the deviation (root mean square, MPa), how far the sum of squares is
+above scipy's best of fifty random starts with the same slopes, runs of the model, CPU seconds of
+the fit with its intervals, and what is not determined. Writes results/fits.md. A minute on one
+core; the tests are those of CURVEWISE_DATA.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+import warnings
+
+import numpy as np
+from places import DATA, RESULTS
+from scipy.optimize import least_squares
+
+from curvewise import read_curve
+from curvewise.calibration.problem.space import Space
+from curvewise.fitting import fit_material
+from curvewise.materials import ChabocheVoce, Material, YoshidaUemori
+
+MATERIALS = {"Chaboche–Voce, 2": ChabocheVoce(2), "Yoshida–Uemori": YoshidaUemori()}
+STARTS = 50
+HEADER = (
+    "| test | material | rms, MPa | above scipy's best of 50 | runs | s | not determined |\n"
+    "|---|---|---:|---:|---:|---:|---|\n"
+)
+
+
+def tests() -> dict[str, np.ndarray]:
+    """Return strain and stress of every test, by its file's name."""
+    found = {}
+    for path in sorted([*(DATA / "loops").glob("*.csv"), *(DATA / "cyclic").glob("*.csv")]):
+        if path.stem.startswith("lcf"):
+            found[path.stem] = read_curve(path, ["Strain 1 (%)", "Stress"], factors=[0.01, 1.0])
+        elif path.stem.endswith("example_3"):
+            found[path.stem] = read_curve(path, ["e_true", "Sigma_true"])
+        else:
+            found[path.stem] = read_curve(path)
+    return found
+
+
+def best_by_scipy(material: Material, test: np.ndarray, space: Space) -> float:
+    """Return the smallest sum of squares that scipy finds, MPa²."""
+    strain, stress = test.T
+
+    def residuals(unit: np.ndarray) -> np.ndarray:
+        try:
+            return material.stress(strain, space.dictionary(space.point(unit))) - stress
+        except ValueError:  # softened to nothing, say
+            return np.full(len(stress), 1e4)
+
+    def slopes(unit: np.ndarray) -> np.ndarray:
+        try:
+            by = material.stress_and_slopes(strain, space.dictionary(space.point(unit)))[1]
+        except ValueError:
+            return np.zeros((len(stress), len(space.names)))
+        order = [material.names.index(name) for name in space.names]
+        return by[:, order] @ space.differential(unit)
+
+    random = np.random.default_rng(0)
+    best = np.inf
+    for _ in range(STARTS):
+        begin = random.random(len(space.names))
+        found = least_squares(
+            residuals, begin, slopes, bounds=(0.0, 1.0), x_scale="jac", xtol=1e-9, max_nfev=200
+        )
+        best = min(best, 2.0 * found.cost)
+    return best
+
+
+def main() -> None:
+    warnings.simplefilter("ignore")
+    logging.disable(logging.WARNING)
+    text = HEADER
+    for name, test in tests().items():
+        for label, material in MATERIALS.items():
+            began = time.process_time()
+            fit = fit_material(test, material, progress=False)
+            seconds = time.process_time() - began
+            (compared,) = fit.tests
+            stress = material.stress(compared[:, 0], fit.parameters)
+            squares = float(((stress - compared[:, 1]) ** 2).sum())
+            best = best_by_scipy(material, compared, fit.found.problem.space)
+            bounded = fit.uncertainty.at_bounds
+            loose = [
+                f"{p} ({bounded[p]} bound)" if p in bounded else p
+                for p, good in fit.uncertainty.determined.items()
+                if not good
+            ]
+            row = (
+                f"| {name} | {label} | {np.sqrt(squares / len(stress)):.3g} | "
+                f"{100.0 * (squares / best - 1.0):+.3f} % | {fit.found.evaluations} | "
+                f"{seconds:.1f} | {', '.join(loose) or '–'} |"
+            )
+            print(row, flush=True)
+            text += row + "\n"
+    (RESULTS / "fits.md").write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
