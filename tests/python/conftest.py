@@ -109,8 +109,8 @@ def pytest_report_header(config: pytest.Config) -> list[str]:
     lines = []
     if config.args == config.getini("testpaths"):
         lines.append(
-            "curvewise: some 5800 tests; they also build programs that use the library; about three "
-            "minutes on two cores"
+            "curvewise: some 5800 tests; they also build programs that use the library; about "
+            "three minutes on two cores"
         )
     if leaves_out_nightly(config):
         lines.append("curvewise: without the tests for the night, which take long (-m nightly)")
