@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from curvewise.calibration.methods.descent import Descent, Rules, SharedResponses, _simplex
+from curvewise.calibration.methods.descent import Descent, Rules, SharedResponses
 from curvewise.calibration.methods.side_by_side import Part
+from curvewise.calibration.methods.starts import simplex_around
 from curvewise.calibration.problem.ledger import Finish
 from curvewise.calibration.records.evaluation import Evaluation
 
@@ -183,7 +184,7 @@ def test_slopes_come_from_earlier_runs_the_nearest_first(wrong):
 @pytest.mark.parametrize("centre", [(0.5, 0.5), (0.0, 1.0), (0.01, 0.99), (1.0, 0.0)])
 def test_a_simplex_has_a_whole_step_along_every_axis(centre):
     for seed in range(8):
-        points = _simplex(np.array(centre), 0.02, np.random.default_rng(seed))
+        points = simplex_around(np.array(centre), 0.02, np.random.default_rng(seed))
         assert np.abs(points - centre) == pytest.approx(0.02 * np.eye(2))
         assert points.min() >= 0.0
         assert points.max() <= 1.0

@@ -15,7 +15,7 @@ from ..surfaces.nearby_runs import NearbyRuns, Run, narrowest, runs_near
 from ..surfaces.surface_minimum import SurfaceMinimum
 from ..surfaces.surfaces import Responses, Surfaces
 from .side_by_side import Part
-from .starts import End
+from .starts import End, simplex_around
 
 __all__ = ["Descent", "Rules", "SharedResponses"]
 
@@ -147,7 +147,7 @@ class Descent:
                     self._surfaces.slopes = slopes
                     return True
         for _ in range(5):
-            points = _simplex(start, radius / 2.0, self._random)
+            points = simplex_around(start, radius / 2.0, self._random)
             first, *others = yield from self._run(np.vstack((start, points)))
             if not first.failed:
                 self._take(start, first)
@@ -165,7 +165,7 @@ class Descent:
             return
         largest = self._rules.diff_step
         step = max(min(largest, radius), _SMALLEST_STEP * largest)
-        points = _simplex(self.centre, step, self._random)
+        points = simplex_around(self.centre, step, self._random)
         runs = yield from self._run(points)
         yield from self._fit_simplex(points, runs, step)
         best = min(range(len(runs)), key=lambda i: runs[i].value)
@@ -289,12 +289,3 @@ def _determining(unit: Array, runs: Sequence[Run]) -> NearbyRuns | None:
         return None
     offsets = (near.points - near.points.mean(axis=0)) / near.distances.max()
     return near if narrowest(offsets) >= _FLATTEST * np.sqrt(len(offsets)) else None
-
-
-def _simplex(centre: Array, step: float, random: np.random.Generator) -> Array:
-    """Return a point beside the centre for every axis, inwards where a bound is near."""
-    signs = random.choice((-1.0, 1.0), centre.size)
-    signs = np.where(centre + signs * step > 1.0, -1.0, signs)
-    signs = np.where(centre + signs * step < 0.0, 1.0, signs)
-    points: Array = np.clip(centre + np.diag(signs * step), 0.0, 1.0)
-    return points

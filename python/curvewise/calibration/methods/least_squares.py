@@ -31,7 +31,7 @@ from .method import Method, with_other_defaults
 from .robust_losses import Loss, bend_of, check_loss
 from .side_by_side import Part, side_by_side
 from .squares_descent import SharedRuns, SquaresDescent, SquaresRules
-from .starts import End, are_alike, finish_of, hop, places
+from .starts import End, are_alike, check_regions, finish_of, hop, places
 
 __all__ = ["LeastSquares"]
 
@@ -97,15 +97,9 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
 
     def __post_init__(self) -> None:
         check_loss(self.loss)
-        for name, value in (("initial_range", self.first_radius), ("diff_step", self.diff_step)):
-            if not 0.0 < value <= 1.0:
-                raise ValueError(f"{name} is {value}; give a fraction of the bounds, such as 0.02")
+        check_regions(self.first_radius, self.diff_step, self.starts, self.most_starts)
         if not self.f_scale > 0.0:
             raise ValueError(f"f_scale is {self.f_scale}; it must be above 0")
-        if self.starts < 1:
-            raise ValueError(f"starts is {self.starts}; give at least 1")
-        if self.most_starts < 1:
-            raise ValueError(f"most_starts is {self.most_starts}; give at least 1")
 
     @property
     def first_radius(self) -> float:

@@ -14,7 +14,7 @@ from ..surfaces.bounded_squares import ResidualsAndSlopes, squares_minimum
 from ..surfaces.residual_surface import ResidualSurface
 from .robust_losses import Bend
 from .side_by_side import Part
-from .starts import End
+from .starts import End, simplex_around
 
 __all__ = ["SharedRuns", "SquaresDescent", "SquaresRules"]
 
@@ -199,7 +199,7 @@ class SquaresDescent:
     def course(self, start: Array) -> Part[End | None]:
         """Go down from a start; return how it ended, or None where simulations fail around it."""
         radius = self._rules.first_radius
-        simplex = _simplex(start, radius / 2.0, self._random)
+        simplex = simplex_around(start, radius / 2.0, self._random)
         if self._runs.has_slopes or not self._runs.least_known(start, radius / 2.0):
             yield from self._run(start[np.newaxis])
         if self._best is None:
@@ -285,12 +285,3 @@ class SquaresDescent:
                 is_inside = (point >= 0.0).all() and (point <= 1.0).all()
                 if is_inside and tuple(point) not in self._tried:
                     yield point
-
-
-def _simplex(centre: Array, step: float, random: np.random.Generator) -> Array:
-    """Return a point beside the centre for every axis, inwards where a bound is near."""
-    signs = random.choice((-1.0, 1.0), centre.size)
-    signs = np.where(centre + signs * step > 1.0, -1.0, signs)
-    signs = np.where(centre + signs * step < 0.0, 1.0, signs)
-    points: Array = np.clip(centre + np.diag(signs * step), 0.0, 1.0)
-    return points

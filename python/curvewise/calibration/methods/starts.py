@@ -23,7 +23,17 @@ import numpy as np
 from ...curves.inputs import Array
 from ..problem.ledger import Finish
 
-__all__ = ["HOP", "End", "are_alike", "finish_of", "hop", "is_flat", "places"]
+__all__ = [
+    "HOP",
+    "End",
+    "are_alike",
+    "check_regions",
+    "finish_of",
+    "hop",
+    "is_flat",
+    "places",
+    "simplex_around",
+]
 
 HOP = 0.25  # how far from the best run a hop leads, along each axis, as a fraction of the bounds
 _QUARTERS = 4
@@ -55,6 +65,15 @@ def places(k: int, random: np.random.Generator) -> Iterator[Array]:
         yield from low + (high - low) * (quarters + random.random((_QUARTERS, k))) / _QUARTERS
 
 
+def simplex_around(centre: Array, step: float, random: np.random.Generator) -> Array:
+    """Return a point beside the centre for every axis, inwards where a bound is near."""
+    signs = random.choice((-1.0, 1.0), centre.size)
+    signs = np.where(centre + signs * step > 1.0, -1.0, signs)
+    signs = np.where(centre + signs * step < 0.0, 1.0, signs)
+    points: Array = np.clip(centre + np.diag(signs * step), 0.0, 1.0)
+    return points
+
+
 def hop(best: Array, random: np.random.Generator) -> Array:
     """Return a place beside the best run."""
     return np.clip(best + random.uniform(-HOP, HOP, best.size), 0.0, 1.0)
@@ -64,6 +83,16 @@ def are_alike(ends: Sequence[End], negligible: float) -> int:
     """Return how many of some starts have ended as low as the best of them."""
     best = min(end.value for end in ends)
     return sum(end.value <= _ALIKE * best + _nothing(ends, negligible) for end in ends)
+
+
+def check_regions(first_radius: float, diff_step: float, starts: int, most_starts: int) -> None:
+    """Refuse regions that are no fractions of the bounds, and fewer starts than one."""
+    for name, value in (("initial_range", first_radius), ("diff_step", diff_step)):
+        if not 0.0 < value <= 1.0:
+            raise ValueError(f"{name} is {value}; give a fraction of the bounds, such as 0.02")
+    for name, count in (("starts", starts), ("most_starts", most_starts)):
+        if count < 1:
+            raise ValueError(f"{name} is {count}; give at least 1")
 
 
 def is_flat(ends: Sequence[End], negligible: float) -> bool:

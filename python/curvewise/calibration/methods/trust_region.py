@@ -37,7 +37,7 @@ from ..surfaces.nearby_runs import Run
 from .descent import Descent, Rules, SharedResponses
 from .method import Method, with_other_defaults
 from .side_by_side import Part, side_by_side
-from .starts import HOP, End, are_alike, finish_of, hop, is_flat, places
+from .starts import HOP, End, are_alike, check_regions, finish_of, hop, is_flat, places
 
 __all__ = ["TrustRegion"]
 
@@ -115,13 +115,7 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
             raise ValueError(
                 f"slopes is {self.slopes!r}; choose from {', '.join(get_args(Slopes))}"
             )
-        for name, value in (("initial_range", self.first_radius), ("diff_step", self.diff_step)):
-            if not 0.0 < value <= 1.0:
-                raise ValueError(f"{name} is {value}; give a fraction of the bounds, such as 0.02")
-        if self.starts < 1:
-            raise ValueError(f"starts is {self.starts}; give at least 1")
-        if self.most_starts < 1:
-            raise ValueError(f"most_starts is {self.most_starts}; give at least 1")
+        check_regions(self.first_radius, self.diff_step, self.starts, self.most_starts)
 
     @property
     def first_radius(self) -> float:

@@ -5,7 +5,7 @@ A search runs a problem, and so does what comes after it (the runs of `Identific
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
@@ -87,8 +87,13 @@ class Problem:
     @property
     def has_slopes(self) -> bool:
         """Whether a model says what the derivatives of all its curves are, by its ``jacobian``."""
+        return self._jacobian is not None
+
+    @property
+    def _jacobian(self) -> Callable[[dict[str, float]], Any] | None:
         is_one = bool(self.models) and self.assemble is _ONLY_OUTCOME
-        return is_one and callable(getattr(self.models[0], "jacobian", None))
+        found = getattr(self.models[0], "jacobian", None) if is_one else None
+        return found if callable(found) else None
 
     def slopes(self, unit: Array) -> list[Array] | None:
         """Return the derivatives of the simulations by the place in the unit cube.
@@ -101,9 +106,9 @@ class Problem:
         ValueError
             What it returned has not the shape of such derivatives.
         """
-        if not self.has_slopes:
+        jacobian = self._jacobian
+        if jacobian is None:
             return None
-        jacobian: Any = getattr(self.models[0], "jacobian")  # noqa: B009 (few models have one)
         rates = self.space.rates(unit)
         parameters = self.space.dictionary(self.space.point(unit))
         found = checked_slopes(jacobian(parameters), len(self.objective.experiments), len(rates))

@@ -20,6 +20,7 @@ Applied Mechanics 25 (1958) 529-536.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib import import_module
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -145,7 +146,7 @@ class _Equations:
     def solution(self, chosen: npt.NDArray[np.int64]) -> tuple[Array, float]:
         """Return moduli for the layers chosen, and the largest error of the stress."""
         with extra("calibration", "an overlay for CalculiX needs scipy"):
-            from scipy.optimize import nnls  # type: ignore[import-untyped]
+            nnls = import_module("scipy.optimize").nnls
 
         difference, lateral = self._difference[:, chosen], self._lateral[:, chosen]
         total = np.full((1, len(chosen)), _SUM_WEIGHT)
