@@ -1,5 +1,6 @@
-// The measures of one pair: values, paths, tables, quadrilaterals, matches and residuals. Each
-// takes two arrays and a dict of options.
+// The measures of one pair: values, paths, tables, quadrilaterals, matches and residuals. A value
+// takes two curves as they are given and a tuple of all options, which for short curves is most of
+// the time; the others two arrays and a dict of options.
 #include <memory>
 #include <string>
 #include <utility>
@@ -162,7 +163,12 @@ void bind_measures(py::module_& module) {
         using Options = std::decay_t<decltype(defaults)>;
         const auto value = [](const CurveView& p, const CurveView& q, const Options& options,
                               Control* control) { return evaluate(options, p, q, control); };
-        bind<Options>(module, Options::measure, value, [](double found) { return found; });
+        const py::tuple standard(written(defaults).attr("values")());
+        module.def(Options::measure, [value, standard](const py::object& P, const py::object& Q,
+                                                       const py::tuple& options) {
+            const CurvePair pair(P, Q);
+            return computed(pair.P, pair.Q, read_options<Options>(options, standard), value);
+        });
     });
     bind<AreaOptions>(module, "area_quads", area_quads, to_tuple);
     bind<PcmOptions>(module, "pcm_match", pcm_match, to_tuple);

@@ -7,16 +7,17 @@
 namespace curvewise::bindings {
 namespace {
 
-double entries(const CurveArray& curve) noexcept { return static_cast<double>(curve.size()); }
+double entries(const CurveArray& curve) { return static_cast<double>(curve.size()); }
 
 }  // namespace
 
 void bind_pointwise(py::module_& module) {
     using Measure = double (*)(const CurveView&, const CurveView&, Control*);
     const auto bind = [&](const char* name, Measure measure) {
-        module.def(name, [measure](const CurveArray& P, const CurveArray& Q) {
-            const CurveView a = view(P), b = view(Q);
-            return interruptible(entries(P) + entries(Q), py::none(),
+        module.def(name, [measure](const py::object& P, const py::object& Q) {
+            const CurvePair pair(P, Q);
+            const CurveView a = view(pair.P), b = view(pair.Q);
+            return interruptible(entries(pair.P) + entries(pair.Q), py::none(),
                                  [&](Control* control) { return measure(a, b, control); });
         });
     };

@@ -1,6 +1,36 @@
 #include "numpy_view.hpp"
 
 namespace curvewise::bindings {
+namespace {
+
+CurveArray taken(const py::object& given) {
+    if (CurveArray::check_(given)) return py::reinterpret_borrow<CurveArray>(given);
+    return {};
+}
+
+}  // namespace
+
+CurveArray::CurveArray(const py::object& given) : py::object(given) {
+    if (!check_(given)) throw py::type_error("not a float64 array of one or two dimensions");
+}
+
+bool CurveArray::check_(py::handle given) noexcept {
+    static const PyTypeObject* const type = py::detail::npy_api::get().PyArray_Type_;
+    static const PyObject* const float64 = py::dtype::of<double>().release().ptr();
+    if (Py_TYPE(given.ptr()) != type) return false;
+    const py::detail::PyArray_Proxy& array = *py::detail::array_proxy(given.ptr());
+    const bool is_aligned = (array.flags & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
+    return array.descr == float64 && is_aligned && array.nd >= 1 && array.nd <= 2;
+}
+
+CurvePair::CurvePair(const py::object& given_p, const py::object& given_q)
+    : P(taken(given_p)), Q(taken(given_q)) {
+    if (P && Q) return;
+    const py::object inputs = py::module_::import("curvewise.curves.inputs");
+    const py::tuple curves = inputs.attr("as_curves")(given_p, given_q);
+    P = curves[0].cast<CurveArray>();
+    Q = curves[1].cast<CurveArray>();
+}
 
 CurveView view(const CurveArray& array) {
     constexpr auto item = static_cast<py::ssize_t>(sizeof(double));

@@ -12,10 +12,34 @@ namespace curvewise::bindings {
 
 namespace py = pybind11;
 
-// A float64 array of one or two dimensions, aligned; any strides.
-using CurveArray = py::array_t<double, 0>;
+// A float64 array of one or two dimensions, aligned; any strides. Nothing else is converted to it,
+// and numpy is not asked.
+class CurveArray : public py::object {
+   public:
+    using py::object::object;
+    explicit CurveArray(const py::object& given);
+    static bool check_(py::handle given) noexcept;
+
+    const double* data() const { return reinterpret_cast<const double*>(array().data); }
+    py::ssize_t ndim() const { return array().nd; }
+    const py::ssize_t* shape() const { return array().dimensions; }
+    py::ssize_t shape(int axis) const { return array().dimensions[axis]; }
+    py::ssize_t strides(int axis) const { return array().strides[axis]; }
+    py::ssize_t size() const { return ndim() == 1 ? shape(0) : shape(0) * shape(1); }
+
+   private:
+    const py::detail::PyArray_Proxy& array() const { return *py::detail::array_proxy(ptr()); }
+};
 
 CurveView view(const CurveArray& array);
+
+// Two curves as a user gives them. What is no CurveArray, the package's as_curves() makes one, or
+// refuses.
+struct CurvePair {
+    CurvePair(const py::object& P, const py::object& Q);
+    CurveArray P;
+    CurveArray Q;
+};
 
 // Points as columns make curves, too: x and y of 100 points are two points in 100 dimensions.
 inline bool few_points_of_many_coordinates(const CurveView& P, const CurveView& Q) noexcept {

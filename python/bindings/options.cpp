@@ -103,17 +103,22 @@ double minkowski_order(const py::object& p, Metric metric) {
 }
 
 py::object OptionReader::take(const char* name) {
-    PyObject* key = nullptr;
-    PyObject* value = nullptr;
-    py::ssize_t next = place_;
-    if (PyDict_Next(given_.ptr(), &next, &key, &value) != 0 && PyUnicode_Check(key) &&
-        PyUnicode_CompareWithASCIIString(key, name) == 0) {
-        place_ = next;
-    } else {
-        value = PyDict_GetItemString(given_.ptr(), name);
-    }
+    PyObject* const value = is_tuple_ ? PyTuple_GET_ITEM(given_.ptr(), taken_)
+                                      : PyDict_GetItemString(given_.ptr(), name);
     if (value != nullptr) ++taken_;
     return py::reinterpret_borrow<py::object>(value);
+}
+
+bool are_same_objects(const py::tuple& values, const py::tuple& defaults) {
+    if (values.size() != defaults.size()) {
+        throw py::type_error("there are " + std::to_string(values.size()) + " values for " +
+                             std::to_string(defaults.size()) + " options");
+    }
+    bool same = true;
+    for (py::ssize_t i = 0; i < PyTuple_GET_SIZE(defaults.ptr()); ++i) {
+        same &= PyTuple_GET_ITEM(values.ptr(), i) == PyTuple_GET_ITEM(defaults.ptr(), i);
+    }
+    return same;
 }
 
 void refuse_unknown_option(const char* measure, const py::dict& given, const py::dict& valid) {

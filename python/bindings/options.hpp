@@ -42,11 +42,13 @@ double minkowski_order(const py::object& p, Metric metric);
 // Whether the options are those of a batch, which has workers and a cutoff of its own.
 enum class OptionsOf { pair, batch };
 
-// Reads the options of one measure (see curvewise/options.hpp) from a dict. Fastest where the dict
-// has them in the measure's order.
+// Reads the options of one measure (see curvewise/options.hpp): from a dict, or from a tuple that
+// has the value of every one in the measure's order.
 class OptionReader {
    public:
     OptionReader(const py::dict& given, OptionsOf what) noexcept : given_(given), what_(what) {}
+    explicit OptionReader(const py::tuple& values) noexcept
+        : given_(values), what_(OptionsOf::pair), is_tuple_(true) {}
 
     template <class Enum>
     std::enable_if_t<std::is_enum_v<Enum>> operator()(const char* name, Enum& value) {
@@ -86,8 +88,8 @@ class OptionReader {
         if (p && !p.is_none()) ground.p = minkowski_order(p, ground.metric);
     }
 
-    // Whether the dict has more than what was read.
-    bool has_more() const noexcept { return taken_ < static_cast<py::ssize_t>(given_.size()); }
+    // How many values have been read.
+    py::ssize_t taken() const noexcept { return taken_; }
 
    private:
     // An option's value, or a null object where it is not given.
@@ -102,9 +104,9 @@ class OptionReader {
         refuse_choice(option, given, names.data(), names.size());
     }
 
-    const py::dict& given_;
+    py::handle given_;
     OptionsOf what_;
-    py::ssize_t place_ = 0;  // in the dict, behind the last option that was read in order
+    bool is_tuple_ = false;
     py::ssize_t taken_ = 0;
 };
 
@@ -119,7 +121,9 @@ class OptionWriter {
 
     template <class Enum>
     std::enable_if_t<std::is_enum_v<Enum>> operator()(const char* name, Enum value) {
-        options_[name] = choice_names(value)[static_cast<std::size_t>(value)];
+        // Interned, as what a user writes is: the same object, which needs no look at its letters.
+        const char* const choice = choice_names(value)[static_cast<std::size_t>(value)];
+        options_[name] = py::reinterpret_steal<py::object>(PyUnicode_InternFromString(choice));
     }
     void operator()(const char* name, bool value) { options_[name] = value; }
     void operator()(const char* name, std::ptrdiff_t value, const WholeNumberRange& /*range*/) {
@@ -161,13 +165,27 @@ Options read_options(const py::dict& given, OptionsOf what = OptionsOf::pair) {
     Options options;
     OptionReader reader(given, what);
     visit_options(options, reader);
-    if (reader.has_more()) {
+    if (reader.taken() < static_cast<py::ssize_t>(given.size())) {
         py::dict valid = written(options);
         if (what == OptionsOf::batch) {
             for (const char* own : {"workers", "cutoff"}) valid.attr("pop")(own, py::none());
         }
         refuse_unknown_option(Options::measure, given, valid);
     }
+    return options;
+}
+
+// Throws where there are not as many; whether each is the same object as the other's.
+bool are_same_objects(const py::tuple& values, const py::tuple& defaults);
+
+// From a tuple of the values of all options in the measure's order: what most calls give are the
+// very objects of the tuple of defaults, and then none is read.
+template <class Options>
+Options read_options(const py::tuple& values, const py::tuple& defaults) {
+    Options options;
+    if (are_same_objects(values, defaults)) return options;
+    OptionReader reader(values);
+    visit_options(options, reader);
     return options;
 }
 

@@ -53,6 +53,11 @@ class CurveView {
 
     std::ptrdiff_t size() const noexcept { return n_; }
     std::ptrdiff_t dim() const noexcept { return dim_; }
+    /// The coordinates of all points where they lie side by side, row-major; null elsewhere.
+    const double* row_major() const noexcept {
+        const bool is_row = col_stride_ == 1 || dim_ == 1;
+        return is_row && row_stride_ == dim_ ? data_ : nullptr;
+    }
     bool is_flat() const noexcept { return dim_ == 1 && col_stride_ == 0; }
 
     /// "(5, 2)", or "(5,)" for a flat list.

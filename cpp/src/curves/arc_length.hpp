@@ -11,8 +11,32 @@
 
 namespace curvewise::curves {
 
-// The arc length at every vertex: 0 first, the curve's length last. Throws Stopped where the poller
-// says so.
+// The arc length at every one of `size` vertices: 0 first, the curve's length last. edge(i) leads
+// from vertex i - 1 to i. All throw Stopped where the poller says so.
+template <class Edge>
+std::vector<double> summed_edges(std::ptrdiff_t size, Poller& poller, Edge edge) {
+    std::vector<double> lengths(static_cast<std::size_t>(size));
+    double length = 0.0;
+    poller.in_runs(size - 1, 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = first + 1; i <= end; ++i) {
+            length += norm(edge(i));
+            lengths[static_cast<std::size_t>(i)] = length;
+        }
+    });
+    return lengths;
+}
+
+// The same, given the vertices.
+template <class Vertex>
+std::vector<double> summed_lengths(std::ptrdiff_t size, Poller& poller, Vertex vertex) {
+    Point last = vertex(0);
+    return summed_edges(size, poller, [&](std::ptrdiff_t i) {
+        const Point before = last;
+        last = vertex(i);
+        return last - before;
+    });
+}
+
 std::vector<double> arc_lengths(const Polyline& curve, Poller& poller);
 
 // Those of a curve scaled by a box, by the differences of its own coordinates: where it lies far

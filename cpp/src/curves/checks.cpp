@@ -64,7 +64,8 @@ void for_each(const CurveList& first, const CurveList& second, Check check) {
     }
 }
 
-[[noreturn]] void refuse_not_finite(const CurveView& curve, const std::string& name) {
+// Throws for the first entry, in row-major order, that is not finite.
+void check_finite(const CurveView& curve, const std::string& name) {
     for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
         for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
             const double value = curve(i, c);
@@ -76,24 +77,56 @@ void for_each(const CurveList& first, const CurveList& second, Check check) {
                    "curves must be finite");
         }
     }
-    throw std::invalid_argument(name + " changed while it was read");
+}
+
+// The largest |entry|, and the sum of all entries, which is not finite where one of them is not.
+class Magnitude {
+   public:
+    void add(double value) noexcept {
+        sum_ += value;
+        largest_ = std::max(largest_, std::abs(value));
+    }
+    void add(const Magnitude& other) noexcept {
+        sum_ += other.sum_;
+        largest_ = std::max(largest_, other.largest_);
+    }
+    bool is_finite() const noexcept { return std::isfinite(sum_); }
+    double largest() const noexcept { return largest_; }
+
+   private:
+    double sum_ = 0.0;
+    double largest_ = 0.0;
+};
+
+// Of values side by side.
+Magnitude magnitude(const double* values, std::ptrdiff_t count) noexcept {
+    Magnitude even, odd;  // which do not wait for each other
+    for (std::ptrdiff_t i = 1; i < count; i += 2) {
+        even.add(values[i - 1]);
+        odd.add(values[i]);
+    }
+    if (count % 2 != 0) even.add(values[count - 1]);
+    even.add(odd);
+    return even;
 }
 
 // The largest |entry|; throws for the first one, in row-major order, that is not finite.
 double largest_magnitude(const CurveView& curve, const std::string& name, runtime::Poller& poller) {
-    double largest = 0.0;
-    double poison = 0.0;  // stays 0 while every entry is finite: inf - inf and nan - nan are nan
-    poller.in_runs(curve.size(), curve.dim(), [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-        for (std::ptrdiff_t i = first; i < end; ++i) {
-            for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
-                const double value = curve(i, c);
-                poison += value - value;
-                largest = std::max(largest, std::abs(value));
+    Magnitude all;
+    const double* const row_major = curve.row_major();
+    const std::ptrdiff_t dim = curve.dim();
+    poller.in_runs(curve.size(), dim, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        if (row_major != nullptr) {
+            all.add(magnitude(row_major + first * dim, (end - first) * dim));
+        } else {
+            for (std::ptrdiff_t i = first; i < end; ++i) {
+                for (std::ptrdiff_t c = 0; c < dim; ++c) all.add(curve(i, c));
             }
         }
-        if (poison != 0.0) refuse_not_finite(curve, name);
     });
-    return largest;
+    // A sum of large numbers may be infinite, too.
+    if (!all.is_finite()) check_finite(curve, name);
+    return all.largest();
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "curves/polyline.hpp"
 
+#include <cstring>
+
 namespace curvewise::curves {
 
 namespace {
@@ -18,6 +20,15 @@ Polyline points_of(const CurveView& curve, Poller& poller, MakePoint point) {
 }  // namespace
 
 Polyline polyline(const CurveView& curve, const RangeScale& range, Poller& poller) {
+    static_assert(sizeof(Point) == 2 * sizeof(double), "x and y side by side");
+    if (const double* const all = curve.row_major(); all != nullptr && range.is_identity()) {
+        Polyline points(static_cast<std::size_t>(curve.size()));
+        poller.in_runs(curve.size(), 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+            const auto count = static_cast<std::size_t>(end - first);
+            std::memcpy(points.data() + first, all + 2 * first, count * sizeof(Point));
+        });
+        return points;
+    }
     return points_of(curve, poller, [&](std::ptrdiff_t i) -> Point {
         return {range.shrink(curve(i, 0)), range.shrink(curve(i, 1))};
     });

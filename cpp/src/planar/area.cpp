@@ -107,7 +107,9 @@ class AreaMeasure : public pairwise::LinearMeasure {
                            call.poller,
                            [&](const auto&, auto, auto, double area) { add(std::abs(area)); });
         } else {
-            for_each_quad(P, Q, range, call.poller, [&](const Measured& quad) { add(quad.area); });
+            for_each_quad(P, Q, range, call.poller, [&](const Quad& quad) {
+                add(planar::measured_area(quad, options_.crossing));
+            });
         }
         return range.restore(sum, options_.squared ? 4 : 2);
     }
@@ -141,7 +143,8 @@ class AreaMeasure : public pairwise::LinearMeasure {
             for_each_piece(planar::match(P.checked.curve, Q.checked.curve, range, call.poller),
                            call.poller, visit);
         } else {
-            for_each_quad(P, Q, range, call.poller, add);
+            for_each_quad(P, Q, range, call.poller,
+                          [&](const Quad& quad) { add(measure(quad, options_.crossing)); });
         }
         return result;
     }
@@ -207,7 +210,7 @@ class AreaMeasure : public pairwise::LinearMeasure {
         return RangeScale(std::max(P.checked.largest, Q.checked.largest));
     }
 
-    // Calls visit(measured) for one quadrilateral after the other, in the given range.
+    // Calls visit(quad) for one quadrilateral after the other, in the given range.
     template <class Visit>
     void for_each_quad(const PreparedP& P, const PreparedQ& Q, const RangeScale& range,
                        runtime::Poller& poller, Visit visit) const {
@@ -215,7 +218,7 @@ class AreaMeasure : public pairwise::LinearMeasure {
             planar::face(P.checked.curve, Q.checked.curve, range, options_.spacing, poller);
         for (std::size_t i = 0; i + 1 < curves.A.size(); ++i) {
             poller.poll_in_loop(i);
-            visit(measure(quad_at(curves, i), options_.crossing));
+            visit(quad_at(curves, i));
         }
     }
 

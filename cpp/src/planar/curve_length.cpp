@@ -2,6 +2,7 @@
 #include "curvewise/curve_length.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -19,101 +20,108 @@
 namespace curvewise {
 namespace {
 
-using curves::Polyline;
 using curves::RangeScale;
 using runtime::Poller;
 
+using Largest = std::array<double, 2>;  // |x| and |y|
+
+Largest largest_of_all(const CurveView& curve, Poller& poller) {
+    Largest largest{};
+    poller.in_runs(curve.size(), 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        Largest here = largest;
+        for (std::ptrdiff_t i = first; i < end; ++i) {
+            here[0] = std::max(here[0], std::abs(curve(i, 0)));
+            here[1] = std::max(here[1], std::abs(curve(i, 1)));
+        }
+        largest = here;
+    });
+    return largest;
+}
+
 // The arc lengths after dividing each coordinate by the curve's own largest magnitude.
-std::vector<double> relative_arc_lengths(const CurveView& curve, Poller& poller) {
-    double largest[2] = {0.0, 0.0};
-    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-        poller.poll_in_loop(static_cast<std::size_t>(i));
-        largest[0] = std::max(largest[0], std::abs(curve(i, 0)));
-        largest[1] = std::max(largest[1], std::abs(curve(i, 1)));
-    }
+std::vector<double> relative_arc_lengths(const CurveView& curve, Largest largest, Poller& poller) {
     for (double& value : largest) {
         if (value == 0.0) value = 1e-15;
     }
-    Polyline scaled;
-    scaled.reserve(static_cast<std::size_t>(curve.size()));
-    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-        poller.poll_in_loop(static_cast<std::size_t>(i));
-        scaled.push_back({curve(i, 0) / largest[0], curve(i, 1) / largest[1]});
-    }
-    return curves::arc_lengths(scaled, poller);
+    const auto scaled = [&](std::ptrdiff_t i) -> curves::Point {
+        return {curve(i, 0) / largest[0], curve(i, 1) / largest[1]};
+    };
+    return curves::summed_lengths(curve.size(), poller, scaled);
 }
 
-// A place on a curve: a segment and a fraction of it.
-struct Place {
-    std::size_t segment;
-    double fraction;
-};
-
-// For each point of P, at arc length s, the place on Q at the same fraction of its length.
-std::vector<Place> corresponding_places(const std::vector<double>& s, const std::vector<double>& t,
-                                        Poller& poller) {
+// For each point of P, at arc length s, calls visit(i, segment, fraction) for the place on Q at the
+// same fraction of its length.
+template <class Visit>
+void for_each_place(const std::vector<double>& s, const std::vector<double>& t, Poller& poller,
+                    Visit visit) {
     const double ratio = t.back() / s.back();
-    std::vector<Place> places;
-    places.reserve(s.size());
     curves::ArcPosition position(t);
     for (std::size_t i = 0; i < s.size(); ++i) {
         poller.poll_in_loop(i);
         position.move_to(i + 1 < s.size() ? s[i] * ratio : t.back());
-        places.push_back({position.segment(), position.fraction()});
+        visit(static_cast<std::ptrdiff_t>(i), static_cast<std::ptrdiff_t>(position.segment()),
+              position.fraction());
     }
-    return places;
 }
 
 // One coordinate of both curves, in a range of its own: a quotient has no units, so nothing needs
 // to be scaled back.
-struct Coordinate {
-    std::vector<double> p;
-    std::vector<double> q;
-    const char* name;
-    RangeScale range = RangeScale(1.0);
+class Coordinate {
+   public:
+    Coordinate(const CurveView& P, const CurveView& Q, std::ptrdiff_t c, double largest_p,
+               double largest_q) noexcept
+        : P_(P),
+          Q_(Q),
+          c_(c),
+          range_(RangeScale(std::max(largest_p, largest_q)).is_identity()
+                     ? RangeScale(1.0)
+                     : RangeScale::to_unity(largest_p)),
+          largest_(range_.shrink(largest_p)) {}
 
-    Coordinate(const CurveView& P, const CurveView& Q, std::ptrdiff_t c, Poller& poller)
-        : p(values(P, c, poller)), q(values(Q, c, poller)), name(c == 0 ? "x" : "y") {
-        const double largest = largest_magnitude(p);
-        if (RangeScale(std::max(largest, largest_magnitude(q))).is_identity()) return;
-        range = RangeScale::to_unity(largest);
-        for (double& value : p) value = range.shrink(value);
-        for (double& value : q) value = range.shrink(value);
+    const char* name() const noexcept { return c_ == 0 ? "x" : "y"; }
+    std::ptrdiff_t size() const noexcept { return P_.size(); }
+    double p(std::ptrdiff_t i) const noexcept { return range_.shrink(P_(i, c_)); }
+    double q(std::ptrdiff_t j) const noexcept { return range_.shrink(Q_(j, c_)); }
+    // The largest |p|.
+    double largest() const noexcept { return largest_; }
+    const RangeScale& range() const noexcept { return range_; }
+
+    // Of P's point i and the place on segment k of Q.
+    double residual(std::ptrdiff_t i, std::ptrdiff_t k, double fraction,
+                    double divisor) const noexcept {
+        const double a = q(k), b = q(k + 1);
+        const double at = fraction == 1.0 ? b : a + fraction * (b - a);
+        const double relative = std::abs((at - p(i)) / divisor);
+        return std::log1p(std::isnan(relative) ? std::numeric_limits<double>::infinity()
+                                               : relative);
     }
 
-    static std::vector<double> values(const CurveView& curve, std::ptrdiff_t c, Poller& poller) {
-        std::vector<double> result;
-        result.reserve(static_cast<std::size_t>(curve.size()));
-        for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-            poller.poll_in_loop(result.size());
-            result.push_back(curve(i, c));
-        }
-        return result;
-    }
-    static double largest_magnitude(const std::vector<double>& values) noexcept {
-        double largest = 0.0;
-        for (const double value : values) largest = std::max(largest, std::abs(value));
-        return largest;
-    }
+   private:
+    CurveView P_;
+    CurveView Q_;
+    std::ptrdiff_t c_;
+    RangeScale range_;
+    double largest_;
 };
+
+// The sum of value(p) over P's points.
+template <class Value>
+double sum_over(const Coordinate& x, Poller& poller, Value value) {
+    double sum = 0.0;
+    poller.in_runs(x.size(), 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = first; i < end; ++i) sum += value(x.p(i));
+    });
+    return sum;
+}
 
 // What differences in one coordinate are divided by.
 double coordinate_scale(const Coordinate& x, LengthScale scale, const std::string& what,
                         Poller& poller) {
-    const auto n = static_cast<double>(x.p.size());
-    double low = x.p.front(), high = low, sum = 0.0, sum_abs = 0.0;
-    for (std::size_t i = 0; i < x.p.size(); ++i) {
-        poller.poll_in_loop(i);
-        const double value = x.p[i];
-        low = std::min(low, value);
-        high = std::max(high, value);
-        sum += value;
-        sum_abs += std::abs(value);
-    }
-    const double largest = std::max(std::abs(low), std::abs(high));
-    const std::string name = x.name;
+    const auto n = static_cast<double>(x.size());
+    const double largest = x.largest();
+    const std::string name = x.name();
     if (scale == LengthScale::mean) {
-        const double mean = sum / n;
+        const double mean = sum_over(x, poller, [](double value) { return value; }) / n;
         if (std::abs(mean) > n * std::numeric_limits<double>::epsilon() * largest) return mean;
         throw std::invalid_argument("the mean of " + what + "'s " + name +
                                     " is 0 to rounding; use scale='mean_abs' or scale='range'");
@@ -123,24 +131,18 @@ double coordinate_scale(const Coordinate& x, LengthScale scale, const std::strin
             what + "'s " + name + " is 0 throughout, which leaves nothing to divide by; " +
             "add the same constant to " + name + " of both curves and use scale='mean_abs'");
     }
-    if (scale == LengthScale::mean_abs) return sum_abs / n;
+    if (scale == LengthScale::mean_abs) {
+        return sum_over(x, poller, [](double value) { return std::abs(value); }) / n;
+    }
+    double low = x.p(0), high = low;
+    for (std::ptrdiff_t i = 0; i < x.size(); ++i) {
+        poller.poll_in_loop(static_cast<std::size_t>(i));
+        low = std::min(low, x.p(i));
+        high = std::max(high, x.p(i));
+    }
     if (high > low) return high - low;
     throw std::invalid_argument("the range of " + what + "'s " + name +
                                 " is 0; use scale='mean' or scale='mean_abs'");
-}
-
-// Writes the residuals of one coordinate to out[0], out[2], out[4], ...
-void write_residuals(const Coordinate& x, const std::vector<Place>& places, double divisor,
-                     double* out, Poller& poller) {
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        poller.poll_in_loop(i);
-        const double a = x.q[places[i].segment];
-        const double b = x.q[places[i].segment + 1];
-        const double at = places[i].fraction == 1.0 ? b : a + places[i].fraction * (b - a);
-        const double relative = std::abs((at - x.p[i]) / divisor);
-        out[2 * i] =
-            std::log1p(std::isnan(relative) ? std::numeric_limits<double>::infinity() : relative);
-    }
 }
 
 // The first of the points whose coordinate has the largest magnitude.
@@ -174,10 +176,13 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
    public:
     struct Side {
         Side(const curves::CheckedCurve& curve, Poller& poller)
-            : checked(curve), arc_lengths(relative_arc_lengths(curve.curve, poller)) {
+            : checked(curve),
+              largest(largest_of_all(curve.curve, poller)),
+              arc_lengths(relative_arc_lengths(curve.curve, largest, poller)) {
             curves::check_length(curve.curve, curve.name, CurveLengthOptions::measure, poller);
         }
         curves::CheckedCurve checked;
+        Largest largest;
         std::vector<double> arc_lengths;  // after dividing by its largest |x| and |y|
     };
     using PreparedP = Side;
@@ -191,34 +196,26 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
     // Throws where there is nothing to divide by.
     void check_p(const PreparedP& P, Poller& poller) const {
         for (std::ptrdiff_t c = 0; c < 2; ++c) {
-            const Coordinate x(P.checked.curve, P.checked.curve, c, poller);
-            coordinate_scale(x, options_.scale, P.checked.name, poller);
+            coordinate_scale(coordinate(P, P, c), options_.scale, P.checked.name, poller);
         }
     }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
                       const pairwise::Call<Memory>& call) const {
-        std::vector<double> all(2 * P.arc_lengths.size());
-        residuals(P, Q, all.data(), call);
         double sum = 0.0;
-        call.poller.in_runs(static_cast<std::ptrdiff_t>(all.size()), 1, [&](auto first, auto end) {
-            for (auto i = first; i < end; ++i) {
-                const double r = all[static_cast<std::size_t>(i)];
-                sum += r * r;
-            }
+        for_each_residual(P, Q, call.poller, [&](double x, double y) {
+            sum += x * x;
+            sum += y * y;
         });
         return std::sqrt(sum);
     }
 
     void residuals(const PreparedP& P, const PreparedQ& Q, double* out,
                    const pairwise::Call<Memory>& call) const {
-        const std::vector<Place> places =
-            corresponding_places(P.arc_lengths, Q.arc_lengths, call.poller);
-        for (std::ptrdiff_t c = 0; c < 2; ++c) {
-            const Coordinate x(P.checked.curve, Q.checked.curve, c, call.poller);
-            const double scale = coordinate_scale(x, options_.scale, P.checked.name, call.poller);
-            write_residuals(x, places, scale, out + c, call.poller);
-        }
+        for_each_residual(P, Q, call.poller, [&](double x, double y) {
+            *out++ = x;
+            *out++ = y;
+        });
     }
 
     // The value, and its derivative by Q.
@@ -228,31 +225,48 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
         const CurveView& q = Q.checked.curve;
         std::fill_n(gradient, static_cast<std::size_t>(2 * q.size()), 0.0);
         if (value == 0.0) return value;
-        const std::vector<Place> places =
-            corresponding_places(P.arc_lengths, Q.arc_lengths, call.poller);
         curves::ArcGradient by_arc(Q.arc_lengths);
         for (std::ptrdiff_t c = 0; c < 2; ++c) {
-            const Coordinate x(P.checked.curve, q, c, call.poller);
+            const Coordinate x = coordinate(P, Q, c);
             const double scale = coordinate_scale(x, options_.scale, P.checked.name, call.poller);
-            for (std::size_t i = 0; i < places.size(); ++i) {
-                call.poller.poll_in_loop(i);
-                const auto [k, fraction] = places[i];
-                const double edge = x.q[k + 1] - x.q[k];
-                const double relative = (x.q[k] + fraction * edge - x.p[i]) / std::abs(scale);
+            const auto add = [&](std::ptrdiff_t i, std::ptrdiff_t k, double fraction) {
+                const double edge = x.q(k + 1) - x.q(k);
+                const double relative = (x.q(k) + fraction * edge - x.p(i)) / std::abs(scale);
                 const double residual = std::log1p(std::abs(relative));
                 const double slope = std::copysign(residual, relative) / value /
                                      (1.0 + std::abs(relative)) / std::abs(scale);
-                const std::ptrdiff_t at = 2 * static_cast<std::ptrdiff_t>(k) + c;
-                gradient[at] += x.range.shrink((1.0 - fraction) * slope);
-                gradient[at + 2] += x.range.shrink(fraction * slope);
-                by_arc.add(k, fraction, P.arc_lengths[i] / P.arc_lengths.back(), slope * edge);
-            }
+                gradient[2 * k + c] += x.range().shrink((1.0 - fraction) * slope);
+                gradient[2 * k + c + 2] += x.range().shrink(fraction * slope);
+                by_arc.add(static_cast<std::size_t>(k), fraction,
+                           P.arc_lengths[static_cast<std::size_t>(i)] / P.arc_lengths.back(),
+                           slope * edge);
+            };
+            for_each_place(P.arc_lengths, Q.arc_lengths, call.poller, add);
         }
         add_arc_gradient(q, by_arc, gradient);
         return value;
     }
 
    private:
+    static Coordinate coordinate(const Side& P, const Side& Q, std::ptrdiff_t c) noexcept {
+        const auto at = static_cast<std::size_t>(c);
+        return {P.checked.curve, Q.checked.curve, c, P.largest[at], Q.largest[at]};
+    }
+
+    // Calls visit(x, y) for one point of P after the other.
+    template <class Visit>
+    void for_each_residual(const PreparedP& P, const PreparedQ& Q, Poller& poller,
+                           Visit visit) const {
+        const Coordinate x = coordinate(P, Q, 0), y = coordinate(P, Q, 1);
+        const double by_x = coordinate_scale(x, options_.scale, P.checked.name, poller);
+        const double by_y = coordinate_scale(y, options_.scale, P.checked.name, poller);
+        for_each_place(P.arc_lengths, Q.arc_lengths, poller,
+                       [&](std::ptrdiff_t i, std::ptrdiff_t k, double fraction) {
+                           visit(x.residual(i, k, fraction, by_x),
+                                 y.residual(i, k, fraction, by_y));
+                       });
+    }
+
     CurveLengthOptions options_;
 };
 

@@ -54,6 +54,22 @@ CornerGradient split_gradient(const Quad& quad) noexcept {
 
 }  // namespace
 
+Measured measure_complex(const Quad& quad, Crossing crossing) noexcept {
+    if (crossing == Crossing::split) {
+        const double area = quad.split_area();
+        if (area >= 0.0) return {quad, area, Figure::split_ab_cd};
+        const double other = Quad{quad.b, quad.c, quad.d, quad.a}.split_area();
+        if (other >= 0.0) return {quad, other, Figure::split_bc_da};
+        // A corner lies on a side but for rounding: one of the two triangles has no area, and the
+        // other is the quadrilateral's own.
+        return {quad, quad.area(), Figure::simple};
+    }
+    const Quad first = quad.first_swapped();
+    if (first.is_simple()) return {first, first.area(), Figure::first_swapped};
+    const Quad second = quad.second_swapped();
+    return {second, second.area(), Figure::second_swapped};
+}
+
 CornerGradient signed_area_gradient(const Quad& quad) noexcept {
     const Point u = quad.c - quad.a, v = quad.d - quad.b;  // half their cross product
     return {Point{-0.5 * v.y, 0.5 * v.x}, Point{0.5 * u.y, -0.5 * u.x},

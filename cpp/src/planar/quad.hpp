@@ -64,21 +64,16 @@ struct Measured {
     Figure figure;
 };
 
+Measured measure_complex(const Quad& quad, Crossing crossing) noexcept;
+
 inline Measured measure(const Quad& quad, Crossing crossing) noexcept {
     if (quad.is_simple()) return {quad, quad.area(), Figure::simple};
-    if (crossing == Crossing::split) {
-        const double area = quad.split_area();
-        if (area >= 0.0) return {quad, area, Figure::split_ab_cd};
-        const double other = Quad{quad.b, quad.c, quad.d, quad.a}.split_area();
-        if (other >= 0.0) return {quad, other, Figure::split_bc_da};
-        // A corner lies on a side but for rounding: one of the two triangles has no area, and the
-        // other is the quadrilateral's own.
-        return {quad, quad.area(), Figure::simple};
-    }
-    const Quad first = quad.first_swapped();
-    if (first.is_simple()) return {first, first.area(), Figure::first_swapped};
-    const Quad second = quad.second_swapped();
-    return {second, second.area(), Figure::second_swapped};
+    return measure_complex(quad, crossing);
+}
+
+// Of measure().
+inline double measured_area(const Quad& quad, Crossing crossing) noexcept {
+    return quad.is_simple() ? quad.area() : measure_complex(quad, crossing).area;
 }
 
 // The derivatives of an area by the corners A, B, C, D of the quadrilateral it was measured of.

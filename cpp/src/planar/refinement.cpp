@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "curves/arc_length.hpp"
@@ -11,11 +12,15 @@ namespace curvewise::planar {
 namespace {
 
 // Ties between segments that are equally long but for rounding must not be decided by it: the
-// area would then change under translation.
+// area would then change under translation. Of 53 bits the last 19 go, to nearest, ties to even.
 double rounded_to_34_bits(double length) noexcept {
-    int exponent = 0;
-    const double mantissa = std::frexp(length, &exponent);
-    return std::ldexp(std::nearbyint(std::ldexp(mantissa, 34)), exponent - 34);
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &length, sizeof bits);
+    constexpr std::uint64_t gone = (std::uint64_t{1} << 19) - 1;
+    bits += gone / 2 + ((bits >> 19) & 1);
+    bits &= ~gone;
+    std::memcpy(&length, &bits, sizeof bits);
+    return length;
 }
 
 double segment_length(const curves::Point& edge, Spacing spacing) noexcept {
@@ -30,14 +35,22 @@ struct Part {
     double start;
     double width;
 
-    // Ordered by length, and against the direction of the curve: a heap has the longest part on
-    // top, the first along the curve among equals.
+    // The longest is bisected first, the first along the curve among equals.
     bool operator<(const Part& other) const noexcept {
-        if (length != other.length) return length < other.length;
-        if (segment != other.segment) return segment > other.segment;
-        return start > other.start;
+        if (length != other.length) return length > other.length;
+        if (segment != other.segment) return segment < other.segment;
+        return start < other.start;
     }
 };
+
+// Of a curve without length in what is measured: its first part, again and again.
+std::vector<Cut> cuts_of_no_length(std::size_t count) {
+    std::vector<Cut> cuts;
+    double start = 1.0;
+    for (std::size_t c = 0; c < count; ++c) cuts.emplace_back(0, start /= 2.0);
+    std::reverse(cuts.begin(), cuts.end());
+    return cuts;
+}
 
 std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacing spacing,
                                 Poller& poller) {
@@ -47,23 +60,33 @@ std::vector<Cut> bisection_cuts(const Polyline& curve, std::size_t count, Spacin
         poller.poll_in_loop(i);
         parts.push_back({segment_length(curve[i + 1] - curve[i], spacing), i, 0.0, 1.0});
     }
-    // Heaps and sorts have no other place to poll.
+    // Sorts have no other place to poll.
     std::size_t comparisons = 0;
     const auto less = [&](const auto& a, const auto& b) {
         poller.poll_in_loop(++comparisons);
         return a < b;
     };
-    std::priority_queue<Part, std::vector<Part>, decltype(less)> heap(less, std::move(parts));
+    const std::size_t most = std::min(count, parts.size());  // that may be bisected
+    const auto whole_end = parts.begin() + static_cast<std::ptrdiff_t>(most);
+    if (most < parts.size()) std::nth_element(parts.begin(), whole_end, parts.end(), less);
+    std::sort(parts.begin(), whole_end, less);
+    if (parts.front().length == 0.0) return cuts_of_no_length(count);
+    // Parts are bisected in the order of their lengths, and so the halves come in it too: the
+    // longest part of all is the next whole segment or the next half.
+    std::vector<Part> halves;
+    halves.reserve(2 * count);
     std::vector<Cut> cuts;
     cuts.reserve(count);
-    while (cuts.size() < count) {
-        Part part = heap.top();
-        heap.pop();
+    auto whole = parts.begin();
+    for (std::size_t half = 0; cuts.size() < count;) {
+        const bool is_whole =
+            whole != whole_end && (half == halves.size() || *whole < halves[half]);
+        Part part = is_whole ? *whole++ : halves[half++];
         part.length /= 2.0;
         part.width /= 2.0;
-        heap.push(part);
+        halves.push_back(part);
         part.start += part.width;
-        heap.push(part);
+        halves.push_back(part);
         cuts.emplace_back(part.segment, part.start);
     }
     std::sort(cuts.begin(), cuts.end(), less);

@@ -1,11 +1,34 @@
 #include "warping/packed_curve.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "warping/kernels/strip.hpp"
 
 namespace curvewise::warping {
+namespace {
+
+// The bits of 2 |x|, less one: in the order of |x|, with 0 behind all others.
+std::uint64_t rank(double x) noexcept {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    return 2 * bits - 1;
+}
+
+// Writes count numbers, the first at `to`, the next `step` further; returns the smallest rank.
+template <class Value>
+std::uint64_t write(std::ptrdiff_t count, double* to, std::ptrdiff_t step, Value value) noexcept {
+    std::uint64_t least = rank(0.0);
+    for (std::ptrdiff_t i = 0; i < count; ++i, to += step) {
+        const double x = value(i);
+        least = std::min(least, rank(x));
+        *to = x;
+    }
+    return least;
+}
+
+}  // namespace
 
 PackedCurve::PackedCurve(const CurveView& curve, const RangeScale& range, PointOrder order,
                          Poller& poller)
@@ -13,17 +36,25 @@ PackedCurve::PackedCurve(const CurveView& curve, const RangeScale& range, PointO
       dim_(curve.dim()),
       stride_(AlignedBuffer::rounded(n_ + kernels::padding)),
       storage_(dim_ * stride_) {
+    const double* const row_major = range.is_identity() ? curve.row_major() : nullptr;
+    const std::ptrdiff_t step = order == PointOrder::reversed ? -1 : 1;
+    std::uint64_t least = rank(0.0);
     for (std::ptrdiff_t c = 0; c < dim_; ++c) {
-        double* const to = storage_.data() + c * stride_;
+        double* const begin = storage_.data() + c * stride_;
         poller.in_runs(n_, 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-            for (std::ptrdiff_t i = first; i < end; ++i) {
-                const double x = range.shrink(curve(i, c));
-                squares_are_in_domain_ &= std::abs(x) >= 0x1p-400 || x == 0.0;
-                to[order == PointOrder::reversed ? n_ - 1 - i : i] = x;
-            }
+            double* const to = begin + (step > 0 ? first : n_ - 1 - first);
+            const auto strided = [&](std::ptrdiff_t i) {
+                return range.shrink(curve(first + i, c));
+            };
+            const auto plain = [from = row_major + first * dim_ + c, dim = dim_](std::ptrdiff_t i) {
+                return from[i * dim];
+            };
+            least = std::min(least, row_major != nullptr ? write(end - first, to, step, plain)
+                                                         : write(end - first, to, step, strided));
         });
-        std::fill_n(to + n_, kernels::padding, 0.0);
+        std::fill_n(begin + n_, kernels::padding, 0.0);
     }
+    squares_are_in_domain_ = least >= rank(0x1p-400);
 }
 
 }  // namespace curvewise::warping

@@ -33,9 +33,10 @@ std::ptrdiff_t strip_height(std::ptrdiff_t rows, std::ptrdiff_t workers,
     return (rows + strips - 1) / strips;
 }
 
-// Doubles before and behind the lane arrays, a page: prefetchers run past the end of what one
-// thread sweeps and would take the lines that another is writing (measured: a third of the speed).
-constexpr std::ptrdiff_t gap = 512;
+// Doubles before and behind the lane arrays, a page, where several threads sweep: prefetchers run
+// past the end of what one thread sweeps and would take the lines that another is writing
+// (measured: a third of the speed).
+constexpr std::ptrdiff_t gap_between_threads = 512;
 
 // The lane arrays: values and origins of three diagonals, and the costs of one.
 enum Lanes : std::ptrdiff_t { values = 0, costs = 3, origins = 4, count = 7 };
@@ -70,7 +71,9 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, 
       advance_(plan.problem_->kernels.advance(plan.problem_->recurrence, plan.problem_->cost,
                                               plan.problem_->curves.dim(), plan.output_)),
       fill_(plan.problem_->kernels.fill(plan.problem_->cost)) {
-    memory.lanes.reserve(2 * gap + lane_stride_ * count);
+    const std::ptrdiff_t gap = plan.workers_ > 1 ? gap_between_threads : 0;
+    const bool has_origins = plan.output_ == kernels::Output::origins;
+    memory.lanes.reserve(2 * gap + lane_stride_ * (has_origins ? count : origins));
     memory.columns.resize(static_cast<std::size_t>(2 * plan.height_));
     lanes_ = memory.lanes.data() + gap;
     columns_ = memory.columns.data();
@@ -98,10 +101,15 @@ void StripWalk::enter(std::ptrdiff_t strip) noexcept {
     const std::ptrdiff_t row = strip * plan_->height_;
     strip_.rows = std::min(plan_->height_, plan_->region_.rows - row);
     strip_.p = plan_->problem_->curves.p.data() + plan_->region_.first_row + row;
-    for (std::ptrdiff_t k = 0; k < strip_.rows; ++k) {
-        const ColumnRange range = plan_->columns(row + k);
-        columns_[k] = range.first;
-        columns_[plan_->height_ + k] = range.last;
+    if (!plan_->problem_->columns.is_limited()) {
+        std::fill_n(columns_, strip_.rows, 0);
+        std::fill_n(columns_ + plan_->height_, strip_.rows, strip_.columns - 1);
+    } else {
+        for (std::ptrdiff_t k = 0; k < strip_.rows; ++k) {
+            const ColumnRange range = plan_->columns(row + k);
+            columns_[k] = range.first;
+            columns_[plan_->height_ + k] = range.last;
+        }
     }
     const bool is_dead = narrower_.is_on() && !narrower_.enter(strip_, strip, row, columns_);
     strip_.low_lane = 0;

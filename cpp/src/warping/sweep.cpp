@@ -72,8 +72,9 @@ void sweep_in_turn(StripWalk& walk, std::ptrdiff_t chunk, std::ptrdiff_t weight,
 }
 
 // What the walks of a narrowing sweep, and the strips one by one, have found.
-void gather(const std::vector<StripWalk>& walks, SweptColumns& swept) {
-    for (const StripWalk& walk : walks) swept.cells += walk.narrowed_cells();
+void gather(const StripWalk& first, const std::vector<StripWalk>& others, SweptColumns& swept) {
+    swept.cells += first.narrowed_cells();
+    for (const StripWalk& walk : others) swept.cells += walk.narrowed_cells();
     ColumnRange range{0, -1};
     for (ColumnRange& row : swept.rows) {
         range = {std::max(range.first, row.first), std::max(range.last, row.last)};
@@ -101,19 +102,18 @@ void sweep(const SweepProblem& problem, const Region& region, bool starts_here, 
         edges[0].last = starts_here ? 0 : region.columns - 1;
         problem.columns.swept()->rows.resize(static_cast<std::size_t>(region.rows));
     }
-    const auto workers = static_cast<std::size_t>(plan.workers());
-    std::vector<StripWalk> walks;
-    walks.reserve(workers);
-    std::vector<SweepMemory> memories(workers - 1);
-    walks.emplace_back(plan, starts_here, boundary, problem.memory, edges.data());
+    StripWalk first(plan, starts_here, boundary, problem.memory, edges.data());
+    std::vector<SweepMemory> memories(static_cast<std::size_t>(plan.workers() - 1));
+    std::vector<StripWalk> others;
+    others.reserve(memories.size());
     for (SweepMemory& memory : memories) {
-        walks.emplace_back(plan, starts_here, boundary, memory, edges.data());
+        others.emplace_back(plan, starts_here, boundary, memory, edges.data());
     }
     const std::ptrdiff_t weight = cell_weight(problem);
-    if (workers == 1) {
+    if (others.empty()) {
         const std::ptrdiff_t chunk = chunk_of(problem);
         for (std::ptrdiff_t s = 0; s < plan.strips(); ++s) {
-            if (sweep_strip(walks[0], s, chunk, weight, problem.poller)) throw Stopped();
+            if (sweep_strip(first, s, chunk, weight, problem.poller)) throw Stopped();
             if (is_hopeless(problem, region, boundary)) return skip_rest(problem, plan, s + 1);
         }
     } else {
@@ -121,11 +121,12 @@ void sweep(const SweepProblem& problem, const Region& region, bool starts_here, 
             is_narrowing ? std::min(chunk_of(problem), narrow_chunk) : chunk_of(problem);
         runtime::Pipeline pipeline(plan.strips());
         runtime::run_workers(plan.workers(), problem.poller, [&](std::ptrdiff_t w, Poller& poller) {
-            sweep_in_turn(walks[static_cast<std::size_t>(w)], chunk, weight, pipeline, poller);
+            StripWalk& walk = w == 0 ? first : others[static_cast<std::size_t>(w - 1)];
+            sweep_in_turn(walk, chunk, weight, pipeline, poller);
         });
         problem.poller.throw_if_stopped();
     }
-    if (is_narrowing) gather(walks, *problem.columns.swept());
+    if (is_narrowing) gather(first, others, *problem.columns.swept());
 }
 
 double lone_cell(const SweepProblem& problem, std::ptrdiff_t row, std::ptrdiff_t column) {

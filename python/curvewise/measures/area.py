@@ -112,8 +112,7 @@ def area(
     >>> curvewise.area(*crossed), curvewise.area(*crossed, crossing="split")
     (2.0, 1.0)
     """
-    P, Q = as_curves(P, Q)
-    return compiled_area(P, Q, {"spacing": spacing, "crossing": crossing, "squared": squared})
+    return compiled_area(P, Q, (spacing, crossing, squared))
 
 
 def area_quads(

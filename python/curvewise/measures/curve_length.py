@@ -53,8 +53,7 @@ def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.sca
     >>> round(curvewise.curve_length(P, [(0, 1), (1, 2), (2, 3)]), 6)  # sqrt(3) ln 2
     1.200566
     """
-    P, Q = as_curves(P, Q)
-    return compiled_curve_length(P, Q, {"scale": scale})
+    return compiled_curve_length(P, Q, (scale,))
 
 
 def curve_length_residuals(

@@ -104,19 +104,18 @@ def dtw(
     >>> curvewise.dtw([1, 2], [9, 1, 2, 9], open_begin=True, open_end=True)
     0.0
     """
-    P, Q = as_curves(P, Q)
-    options = {
-        "metric": metric,
-        "p": p,
-        "step_pattern": step_pattern,
-        "window": window,
-        "open_begin": open_begin,
-        "open_end": open_end,
-        "normalize": normalize,
-        "workers": workers,
-        "prune": prune,
-        "cutoff": cutoff,
-    }
+    options = (
+        metric,
+        p,
+        step_pattern,
+        window,
+        open_begin,
+        open_end,
+        normalize,
+        workers,
+        prune,
+        cutoff,
+    )
     return compiled_dtw(P, Q, options)
 
 

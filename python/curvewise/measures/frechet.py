@@ -68,9 +68,7 @@ def frechet(
     >>> curvewise.frechet([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 3)])
     3.0
     """
-    P, Q = as_curves(P, Q)
-    how = {"metric": metric, "p": p, "workers": workers, "prune": prune, "cutoff": cutoff}
-    return compiled_frechet(P, Q, how)
+    return compiled_frechet(P, Q, (metric, p, workers, prune, cutoff))
 
 
 def frechet_info(

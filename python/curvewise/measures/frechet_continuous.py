@@ -90,9 +90,9 @@ def frechet_continuous(
     >>> curvewise.frechet_continuous([(0, 0), (10, 0)], [(0, 0), (7, 0), (3, 0), (10, 0)])
     2.0
     """
-    P, Q = as_curves(P, Q)
-    compute = compiled_frechet_continuous_bounds if bounds else compiled_frechet_continuous
-    return compute(P, Q, {"workers": workers})
+    if not bounds:
+        return compiled_frechet_continuous(P, Q, (workers,))
+    return compiled_frechet_continuous_bounds(*as_curves(P, Q), {"workers": workers})
 
 
 def frechet_continuous_path(

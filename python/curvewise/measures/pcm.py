@@ -65,8 +65,7 @@ def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> fl
     >>> round(curvewise.pcm(loop, loop[1:3], offsets="continuous"), 9)
     0.0
     """
-    P, Q = as_curves(P, Q)
-    return compiled_pcm(P, Q, {"offsets": offsets})
+    return compiled_pcm(P, Q, (offsets,))
 
 
 def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> PcmMatch:

@@ -6,7 +6,7 @@ from .._core import mae as compiled_mae
 from .._core import mse as compiled_mse
 from .._core import normalize as compiled_normalize
 from .._core import sum_of_squares as compiled_sum_of_squares
-from ..curves.inputs import Array, CurveLike, as_curve, as_curves, check_column_names, column_names
+from ..curves.inputs import Array, CurveLike, as_curve, check_column_names, column_names
 
 __all__ = ["mae", "mse", "normalize", "sum_of_squares"]
 
@@ -41,7 +41,6 @@ def sum_of_squares(P: CurveLike, Q: CurveLike) -> float:
     >>> curvewise.sum_of_squares([1, 2, 3], [1, 3, 5])
     5.0
     """
-    P, Q = as_curves(P, Q)
     return compiled_sum_of_squares(P, Q)
 
 
@@ -73,7 +72,6 @@ def mse(P: CurveLike, Q: CurveLike) -> float:
     >>> curvewise.mse([1, 2, 3, 4], [1, 3, 5, 4])
     1.25
     """
-    P, Q = as_curves(P, Q)
     return compiled_mse(P, Q)
 
 
@@ -105,7 +103,6 @@ def mae(P: CurveLike, Q: CurveLike) -> float:
     >>> curvewise.mae([1, 2, 3, 4], [1, 3, 5, 4])
     0.75
     """
-    P, Q = as_curves(P, Q)
     return compiled_mae(P, Q)
 
 

@@ -114,7 +114,7 @@ def test_functions_of_a_measure_take_its_options(function: str) -> None:
     plain = {key: value for key, value in options.items() if key not in NOT_OF_THE_REFERENCE}
     assert keyword_defaults(getattr(reference, function)) == plain
     options = without_bounds(options)
-    if not measure:
+    if not measure or function == measure:
         return
     P = np.array([(0.0, 0.0), (1.0, 2.0), (3.0, 1.0)])
     Q = P + 1.0
@@ -122,6 +122,26 @@ def test_functions_of_a_measure_take_its_options(function: str) -> None:
     assert repr(compiled(P, Q, {})) == repr(compiled(P, Q, options))
     with pytest.raises(TypeError, match=rf"^{measure} has no option 'foo'; it has "):
         compiled(P, Q, {"foo": 1})
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_a_measure_hands_on_its_options_in_their_order(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    function = MEASURES[name].function
+    given = {option: object() for option in _core.measures()[name]}
+    monkeypatch.setitem(
+        function.__globals__, f"compiled_{name}", lambda P, Q, options: ("taken", P, Q, options)
+    )
+    assert function("P", "Q", **given) == ("taken", "P", "Q", tuple(given.values()))
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_a_measure_wants_every_option(name: str) -> None:
+    P = np.array([(0.0, 0.0), (1.0, 2.0), (3.0, 1.0)])
+    count = len(_core.measures()[name])
+    with pytest.raises(TypeError, match=rf"^there are 0 values for {count} options$"):
+        getattr(_core, name)(P, P, ())
 
 
 @pytest.mark.parametrize("function", reference.__all__)
