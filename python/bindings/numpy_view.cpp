@@ -16,11 +16,13 @@ CurveArray::CurveArray(const py::object& given) : py::object(given) {
 
 bool CurveArray::check_(py::handle given) noexcept {
     static const PyTypeObject* const type = py::detail::npy_api::get().PyArray_Type_;
-    static const PyObject* const float64 = py::dtype::of<double>().release().ptr();
     if (Py_TYPE(given.ptr()) != type) return false;
     const py::detail::PyArray_Proxy& array = *py::detail::array_proxy(given.ptr());
+    const py::detail::PyArrayDescr_Proxy& descr = *py::detail::array_descriptor_proxy(array.descr);
+    const bool is_float64 =
+        descr.type_num == py::detail::npy_api::NPY_DOUBLE_ && descr.byteorder == '=';
     const bool is_aligned = (array.flags & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
-    return array.descr == float64 && is_aligned && array.nd >= 1 && array.nd <= 2;
+    return is_float64 && is_aligned && array.nd >= 1 && array.nd <= 2;
 }
 
 CurvePair::CurvePair(const py::object& given_p, const py::object& given_q)

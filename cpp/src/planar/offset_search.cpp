@@ -251,19 +251,94 @@ double grid_offset(double slack, std::ptrdiff_t i, std::ptrdiff_t count) noexcep
     return i == 0 ? 0.0 : slack * (static_cast<double>(i) / static_cast<double>(count - 1));
 }
 
-Offset best_of_grid(const AreaAtOffset& f, double slack, std::ptrdiff_t count) {
-    constexpr std::ptrdiff_t at_once = 16;
-    Offset best{0.0, f.value(0.0)};
-    for (std::ptrdiff_t i = 1; i < count; i += at_once) {
-        std::array<double, at_once> offsets{};
-        for (std::ptrdiff_t o = 0; o < at_once; ++o) {
-            offsets[static_cast<std::size_t>(o)] =
-                grid_offset(slack, std::min(i + o, count - 1), count);
+// The search for the best of a grid, in rounds: of every stretch between two offsets whose areas
+// are known, the middle one, unless none inside can be the best. f is S-Lipschitz: between a and b
+// it is at least (f(a) + f(b) - S (b - a)) / 2.
+class GridSearch {
+   public:
+    GridSearch(const AreaAtOffset& f, double S, double slack, std::ptrdiff_t count)
+        : f_(f), S_(S), slack_(slack), count_(count), areas_(static_cast<std::size_t>(count)) {}
+
+    // `doubt`: what rounding may have made of an area, in areas.
+    Offset best(double doubt) {
+        constexpr std::ptrdiff_t first_ones = 16;
+        const std::ptrdiff_t stride = std::max<std::ptrdiff_t>(1, count_ / (first_ones - 1));
+        for (std::ptrdiff_t i = 0; i < count_; i += stride) wanted_.push_back(i);
+        if (wanted_.back() != count_ - 1) wanted_.push_back(count_ - 1);
+        std::vector<Stretch> open;
+        for (std::size_t k = 1; k < wanted_.size(); ++k)
+            open.push_back({wanted_[k - 1], wanted_[k]});
+        evaluate();
+        while (!open.empty()) {
+            const double most = best_.area + doubt * (1.0 + best_.area);
+            const auto is_done = [&](const Stretch& stretch) { return !may_hold(stretch, most); };
+            open.erase(std::remove_if(open.begin(), open.end(), is_done), open.end());
+            for (std::size_t k = 0, size = open.size(); k < size; ++k) {
+                const std::ptrdiff_t middle = (open[k].first + open[k].last) / 2;
+                wanted_.push_back(middle);
+                open.push_back({middle, open[k].last});
+                open[k].last = middle;
+            }
+            evaluate();
         }
-        const std::array<double, at_once> areas = f.values(offsets);
-        for (std::size_t o = 0; o < at_once; ++o) improve(best, offsets[o], areas[o]);
+        return best_;
     }
-    return best;
+
+   private:
+    struct Stretch {
+        std::ptrdiff_t first;
+        std::ptrdiff_t last;
+    };
+
+    double offset(std::ptrdiff_t i) const noexcept { return grid_offset(slack_, i, count_); }
+    double& area(std::ptrdiff_t i) noexcept { return areas_[static_cast<std::size_t>(i)]; }
+
+    // An offset inside the best one. Not where areas are infinite, or differences of them no
+    // number.
+    bool may_hold(const Stretch& stretch, double most) noexcept {
+        const double width = offset(stretch.last) - offset(stretch.first);
+        if (stretch.last - stretch.first < 2 || !(width > 0.0)) return false;
+        return !(0.5 * (area(stretch.first) + area(stretch.last) - S_ * width) > most);
+    }
+
+    // What is wanted; many at once, as long as there are.
+    void evaluate() {
+        std::size_t done = 0;
+        while (wanted_.size() - done >= 16) done = evaluate<16>(done);
+        while (wanted_.size() - done >= 4) done = evaluate<4>(done);
+        while (wanted_.size() > done) done = evaluate<1>(done);
+        wanted_.clear();
+    }
+
+    template <std::size_t at_once>
+    std::size_t evaluate(std::size_t done) {
+        std::array<double, at_once> offsets{};
+        for (std::size_t o = 0; o < at_once; ++o) offsets[o] = offset(wanted_[done + o]);
+        const std::array<double, at_once> areas = f_.values(offsets);
+        for (std::size_t o = 0; o < at_once; ++o) {
+            area(wanted_[done + o]) = areas[o];
+            improve(best_, offsets[o], areas[o]);
+        }
+        return done + at_once;
+    }
+
+    const AreaAtOffset& f_;
+    double S_;
+    double slack_;
+    std::ptrdiff_t count_;
+    std::vector<double> areas_;
+    std::vector<std::ptrdiff_t> wanted_;
+    Offset best_{0.0, std::numeric_limits<double>::infinity()};
+};
+
+// Rounding: a sum of as many terms as there are vertices, of distances between points whose
+// coordinates are at most those of the box, a distance from it, and the length of a curve.
+Offset best_of_grid(const AreaAtOffset& f, const ArcCurve& shorter, const ArcCurve& longer,
+                    std::ptrdiff_t count) {
+    const double S = shorter.length(), T = longer.length();
+    const auto vertices = static_cast<double>(shorter.points().size() + longer.points().size());
+    const double doubt = 4.0 * (vertices + 64.0) * std::numeric_limits<double>::epsilon();
+    return GridSearch(f, S, slack(shorter, longer), count).best(doubt * (1.0 + S * (2.0 + T)));
 }
 
 // f is S-Lipschitz, and no offset is farther than this from one of the grid.
@@ -281,7 +356,7 @@ struct Interval {
 Offset best_of_grid(const ArcCurve& shorter, const ArcCurve& longer, std::ptrdiff_t count,
                     Poller& poller) {
     const double range = slack(shorter, longer);
-    Offset best = best_of_grid(AreaAtOffset(shorter, longer, poller), range, count);
+    Offset best = best_of_grid(AreaAtOffset(shorter, longer, poller), shorter, longer, count);
     best.tolerance = grid_tolerance(shorter.length(), range, count);
     return best;
 }
@@ -292,7 +367,7 @@ Offset best_of_all(const ArcCurve& shorter, const ArcCurve& longer, Poller& poll
     AreaAtOffset f(shorter, longer, poller);
     const double S = shorter.length();
     const double range = slack(shorter, longer);
-    Offset best = best_of_grid(f, range, count);
+    Offset best = best_of_grid(f, shorter, longer, count);
     std::vector<Interval> open;
     for (std::ptrdiff_t i = count - 1; i > 0; --i) {
         open.push_back({grid_offset(range, i - 1, count), grid_offset(range, i, count)});
