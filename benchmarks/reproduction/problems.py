@@ -1,9 +1,10 @@
 """The paper's problems: their data, models and bounds, read from the golden data where it has them.
 
 Straight lines fitted to ten points (section 3.1); a load–unload cycle with four parameters (3.2);
-five tension–compression loops with nine (3.3), for which the point of yoshida_uemori.py takes the
-place of LS-DYNA. Nothing here optimises. The golden data is not part of the project: it is read
-from `../shared/data` beside it, or from the folder that CURVEWISE_DATA names.
+five tension–compression loops with nine (3.3), for which the uniaxial Yoshida–Uemori point of
+`curvewise.materials` takes the place of LS-DYNA. Nothing here optimises. The golden data is not
+part of the project: it is read from `../shared/data` beside it, or from the folder that
+CURVEWISE_DATA names.
 """
 
 from __future__ import annotations
@@ -19,7 +20,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
-import yoshida_uemori
+
+from curvewise.materials import YoshidaUemori
 
 Array: TypeAlias = npt.NDArray[np.float64]
 Bounds: TypeAlias = dict[str, tuple[float, float]]
@@ -48,6 +50,10 @@ LOADING = np.linspace(0.0, 1.0, 100)
 UNLOADING = np.linspace(1.0, math.log((1.0 + math.e) / 2.0), 50)
 LOAD_UNLOAD_X = np.concatenate((LOADING, UNLOADING))
 LOOPS = range(1, 6)
+
+# The paper's bounding surface grows by a power law; SIGY is its name for the yield surface's size.
+POINT = YoshidaUemori(growth="power")
+YOUNGS_MODULUS = 198.8e3  # MPa; the slope with which the five test loops start
 
 
 def data_dir() -> Path:
@@ -155,7 +161,10 @@ def with_noise(loops: Sequence[Array], deviation: float, seed: int) -> list[Arra
 
 @dataclass(frozen=True)
 class HardeningModel:
-    """The material point driven through the strains of each loop: a model for `identify`."""
+    """The material point driven through the strains of each loop: a model for `identify`.
+
+    Of the parameters of Table 2, stresses in MPa.
+    """
 
     strains: tuple[Array, ...]
 
@@ -166,9 +175,10 @@ class HardeningModel:
 
     def __call__(self, parameters: Mapping[str, float]) -> list[Array]:
         """Return one loop for each strain path."""
+        constants = {"E": YOUNGS_MODULUS, **parameters}
+        constants["Y"] = constants.pop("SIGY")
         return [
-            np.column_stack((strain, yoshida_uemori.response(parameters, strain)))
-            for strain in self.strains
+            np.column_stack((strain, POINT.stress(strain, constants))) for strain in self.strains
         ]
 
 

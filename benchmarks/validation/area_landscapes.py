@@ -3,7 +3,7 @@
 Two problems of Jekel et al. (2018): the load–unload cycle of their Eq. 2, four parameters, with
 noise of both standard deviations that the paper's data and text have, and with outliers of 0.5 (the
 cycle is 1.72 high); and their five hardening loops, nine parameters, with noise of 35 MPa, for
-which the material point of reproduction/yoshida_uemori.py takes the place of LS-DYNA. "matched"
+which the material point of reproduction/problems.py takes the place of LS-DYNA. "matched"
 stands beside the spacing that it replaces, and dtw.
 
 Lines go through the truth (of the loops: through the paper's optimum for area) in random

@@ -1,7 +1,7 @@
 """Where the scripts of this room find what they share: tests, results, and two other rooms' files.
 
-Importing this module makes the files of ../speed (timing) and ../reproduction (problems,
-yoshida_uemori) importable.
+Importing this module makes the files of ../speed (timing) and ../reproduction (problems)
+importable.
 """
 
 from __future__ import annotations

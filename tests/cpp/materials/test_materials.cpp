@@ -163,8 +163,8 @@ void test_refusals() {
     CHECK_THROWS(stress_of(sheet, {200e3, 300.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4}, {0.0}),
                  Refused,
                  "CB is 300; the bounding surface must enclose the yield surface; give CB > Y");
-    CHECK_THROWS(stress_of(sheet, {200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 1.5}, {0.0}),
-                 Refused, "H is 1.5; it is a share; give 0 to 1");
+    CHECK_THROWS(stress_of(sheet, {200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, -0.5}, {0.0}),
+                 Refused, "H is -0.5; it must be at least 0");
     YoshidaUemori loose;
     loose.rtol = 0.5;
     CHECK_THROWS(stress_of(loose, {200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4}, {0.0}),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import pickle
 
 import numpy as np
@@ -49,6 +50,39 @@ def test_values_saturate_where_the_theory_says() -> None:
     chaboche = ChabocheVoce().stress([5.0], STEEL)
     np.testing.assert_allclose(chaboche, 300 - 50 + 200 + 250, rtol=1e-12)
     np.testing.assert_allclose(YoshidaUemori().stress([5.0], SHEET), 690, rtol=1e-9)
+
+
+def test_sheet_is_elastic_until_it_yields_and_at_once_after_a_reversal() -> None:
+    strain = np.array([0.001, 0.0015, 0.05, 0.049, 0.0485])
+    stress = YoshidaUemori().stress(strain, SHEET)
+    np.testing.assert_allclose(stress[:2], 200e3 * strain[:2], rtol=1e-15)
+    np.testing.assert_allclose(np.diff(stress[2:]), 200e3 * np.diff(strain[2:]), rtol=1e-12)
+
+
+@pytest.mark.parametrize("H", [0.0, 0.4, 1.0, 1.2])
+def test_first_loading_ends_at_the_bounding_surface_by_the_power_law(H: float) -> None:
+    constants = SHEET | POWER | {"K": 60.0, "C": 2000.0, "H": H}
+    strain = np.linspace(0.1, 0.5, 50)
+    stress = YoshidaUemori(growth="power").stress(strain, constants)
+    p = strain - stress / 200e3
+    grown = 150.0 * ((0.01 + p) ** 0.3 - 0.01**0.3)
+    moved = 120.0 * -np.expm1(-60.0 * p)
+    # The yield surface's centre stays behind by what the bounding surface's motion leaves it.
+    np.testing.assert_allclose(stress, 420.0 + grown + moved, rtol=5e-4)
+
+
+def test_cycles_without_growth_become_one_odd_loop() -> None:
+    strain = path(*(0.02, -0.02) * 20, 0.02, points=80)
+    loop = YoshidaUemori().stress(strain, SHEET | {"RSAT": 0.0})[-161:]
+    np.testing.assert_allclose(loop[:81], -loop[80:], atol=1e-3)
+
+
+def test_growth_stagnates_the_longer_after_a_reversal_the_larger_H() -> None:
+    ends = [
+        abs(YoshidaUemori().stress([0.06, -0.06], SHEET | {"H": H})[-1])
+        for H in (0.0, 0.5, 1.0, 1.2)
+    ]
+    assert all(first > second + 1.0 for first, second in itertools.pairwise(ends))
 
 
 @each_material
