@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import logging
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -67,6 +69,12 @@ def add_fit(commands: Any) -> None:
         "--measure", default="sum_of_squares", help="what is minimised; sum_of_squares by default"
     )
     command.add_argument(
+        "--cycles",
+        choices=["all", "last"],
+        default="all",
+        help="last: compare the last complete cycle of each test alone, the stabilised one",
+    )
+    command.add_argument(
         "--card",
         nargs="+",
         default=[],
@@ -74,7 +82,9 @@ def add_fit(commands: Any) -> None:
         help="write a material card for each of these solvers",
     )
     command.add_argument("--name", default="material", help="of the material, in the card")
-    command.add_argument("--units", default="MPa", help="of the stresses, in the card")
+    command.add_argument(
+        "--units", default="MPa", help="of the stresses, on axes and in cards; MPa by default"
+    )
     command.add_argument("--seed", type=int, default=0, help="of the search")
     command.add_argument(
         "--output",
@@ -119,23 +129,41 @@ def _fit(arguments: argparse.Namespace) -> int:
     reading = Reading(arguments.sheet, arguments.decimal, arguments.until, arguments.skip_invalid)
     with warnings_printed():
         tests = [_test(file, arguments, reading) for file in arguments.tests]
-    fit = fit_material(
-        tests,
-        material,
-        measure=arguments.measure,
-        fixed=dict(arguments.fix),
-        seed=arguments.seed,
-        progress=sys.stderr.isatty(),
-    )
+    with _failures_unlogged():
+        fit = fit_material(
+            tests,
+            material,
+            measure=arguments.measure,
+            fixed=dict(arguments.fix),
+            cycles=arguments.cycles,
+            seed=arguments.seed,
+            units=arguments.units,
+            progress=sys.stderr.isatty(),
+        )
     print(fit)
+    if failures := fit.found.failures:
+        reason = failures[0][1]
+        print(f"\n{len(failures)} of {fit.found.evaluations} runs failed, the first: {reason}")
     names = [Path(file).name for file in arguments.tests]
     written = fit.write(arguments.output, names=names)
     for solver in arguments.card:
         card = Path(arguments.output, f"card_{solver}.txt")
-        card.write_text(fit.card(solver, name=arguments.name, units=arguments.units), "utf-8")
+        card.write_text(fit.card(solver, name=arguments.name), "utf-8")
         written.append(card)
     print("\nwritten:", ", ".join(map(str, written)))
     return 0
+
+
+@contextmanager
+def _failures_unlogged() -> Iterator[None]:
+    """Keep runs that fail off standard error: some do, at parameters that make no sense."""
+    log = logging.getLogger("curvewise.calibration")
+    level = log.level
+    log.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        log.setLevel(level)
 
 
 def _test(file: str, arguments: argparse.Namespace, reading: Reading) -> Array:

@@ -11,10 +11,11 @@ from __future__ import annotations
 from .resampling import resample, trim
 from .smoothing import smooth
 from .stress_strain import engineering_to_true, shift_to_origin
-from .turns import turning_points
+from .turns import last_cycle, turning_points
 
 __all__ = [
     "engineering_to_true",
+    "last_cycle",
     "resample",
     "shift_to_origin",
     "smooth",

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import datetime
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any, NamedTuple
@@ -109,13 +109,16 @@ class Material(ABC):
         stress, slopes = self._call(strain, parameters, True)
         return stress, slopes
 
-    def driven_by(self, experiments: Any) -> DrivenModel:
+    def driven_by(self, experiments: Any, *, parts: Sequence[slice] | None = None) -> DrivenModel:
         """Return a model for `identify`: this material along the strains of measured loops.
 
         Parameters
         ----------
         experiments : array_like of shape (n, 2), or sequence of such
             Strain and stress of each test.
+        parts : sequence of slice, optional
+            For each test the points that its curve shall have, such as
+            :func:`curvewise.curves.last_cycle`; the whole test drives the material all the same.
 
         Returns
         -------
@@ -131,7 +134,7 @@ class Material(ABC):
             strain_and_stress(experiment, f"experiments[{i}]")[:, 0].copy()
             for i, experiment in enumerate(curve_list(experiments))
         ]
-        return DrivenModel(self, tuple(strains))
+        return DrivenModel(self, tuple(strains), None if parts is None else tuple(parts))
 
     def bounds_from(self, experiments: Any) -> Bounds:
         """Return bounds for `identify`, laid around what the tests say by themselves.
@@ -310,16 +313,19 @@ class DrivenModel:
     material : Material
     strains : tuple of ndarray
         The path of each test.
+    parts : tuple of slice, or None
+        Which of its points the curve of each test has; None for all.
     """
 
     material: Material
     strains: Sequence[Array]
+    parts: Sequence[slice] | None = None
 
     def __call__(self, parameters: Mapping[str, float]) -> list[Array]:
         """Return the curve of each test, shape (n, 2): strain and stress."""
         return [
-            np.column_stack((strain, self.material.stress(strain, parameters)))
-            for strain in self.strains
+            np.column_stack((strain, self.material.stress(strain, parameters)))[part]
+            for strain, part in self._paths()
         ]
 
     def jacobian(self, parameters: Mapping[str, float]) -> list[Array]:
@@ -331,10 +337,14 @@ class DrivenModel:
             self.material.names.index(name) for name in parameters if name in self.material.names
         ]
         found = []
-        for strain in self.strains:
-            slopes = self.material.stress_and_slopes(strain, parameters)[1][:, order]
+        for strain, part in self._paths():
+            slopes = self.material.stress_and_slopes(strain, parameters)[1][part, order]
             found.append(np.stack((np.zeros_like(slopes), slopes), axis=1))
         return found
+
+    def _paths(self) -> Iterator[tuple[Array, slice]]:
+        parts = self.parts or [slice(None)] * len(self.strains)
+        return zip(self.strains, parts, strict=True)
 
 
 def _paths(along: Any) -> tuple[Array, ...]:

@@ -17,9 +17,9 @@ from ..curves.inputs import Array
 from ..curves.isotonic import isotonic
 from ..curves.resampling import resample
 from ..curves.several_curves import as_points
-from ..curves.turns import turning_points
+from ..curves.turns import last_cycle, turning_points
 
-__all__ = ["Reading", "Span", "reading_of", "strain_and_stress", "thinned"]
+__all__ = ["Reading", "Span", "reading_of", "strain_and_stress", "thinned", "thinned_cycle"]
 
 # Of the stress at a turn: unloading between these is nearly straight, on the machine too.
 _UNLOADED = (0.05, 0.75)
@@ -141,6 +141,22 @@ def thinned(experiment: object, name: str, points: int = 300) -> Array:
             travel[part] += fitted - fitted[0]
         travel[part.stop :] = travel[part.stop - 1]
     return resample(test, max(8, points // (len(turns) + 1)), by=travel, turns=turns)
+
+
+def thinned_cycle(experiment: object, name: str, points: int = 300) -> tuple[Array, slice]:
+    """Return a test up to the end of its last complete cycle, and where in it that cycle is.
+
+    Of what comes before the cycle the turns are enough: between two of them the strain runs one
+    way, and a step of a point of material may be as long. The cycle is thinned as `thinned` does.
+    """
+    test = strain_and_stress(experiment, name)
+    try:
+        cycle = last_cycle(test)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
+    history = [0, *(turn for turn in turning_points(test) if turn < cycle.start)]
+    kept = thinned(test[cycle], name, points)
+    return np.concatenate((test[history], kept)), slice(len(history), len(history) + len(kept))
 
 
 def _plastic(branch: Array, modulus: float) -> Array:

@@ -64,6 +64,38 @@ def test_branches_are_reversals_that_count(x: list[int], reversal: float) -> Non
         assert x[b] in (min(x[a : b + 1]), max(x[a : b + 1]))
 
 
+@pytest.mark.parametrize(
+    ("turns", "cycle"),
+    [
+        ([0, 2, -2, 2], (2, 2)),  # it stops at the end of a branch
+        ([0, 2, -2, 2, -2, 1], (-2, -2)),  # the last branch is cut short: the cycle before
+        ([0, 2, -2, 1.7], (2, 1.7)),  # a tenth of the range may be missing
+        ([0, 1, -1, 2, -2, 3], (2, 3)),  # growing
+        ([0, -2, 2, -2], (-2, -2)),
+    ],
+)
+def test_last_complete_cycle(turns: list[float], cycle: tuple[float, float]) -> None:
+    strain = zigzag(turns, 10)
+    found = strain[curves.last_cycle(strain)]
+    assert (found[0], found[-1]) == cycle
+    assert len(found) == 21
+    loop = np.column_stack((np.arange(len(strain)), strain))
+    assert curves.last_cycle(loop, column=1) == curves.last_cycle(strain)
+
+
+@pytest.mark.parametrize(
+    ("turns", "message"),
+    [
+        ([0, 2], "it turns 0 times, and"),
+        ([0, 2, -2], "it turns 1 time, and"),
+        ([0, 2, -2, 1], "it turns 2 times, and after two turns it never comes back to the first"),
+    ],
+)
+def test_a_curve_without_a_complete_cycle(turns: list[float], message: str) -> None:
+    with pytest.raises(ValueError, match=f"no complete cycle: {message}"):
+        curves.last_cycle(zigzag(turns, 10))
+
+
 def test_resampled_branches_keep_their_ends() -> None:
     turns = curves.turning_points(TEST)
     result = curves.resample(TEST, [11, 21, 31], turns=turns)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import logging
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -54,9 +56,51 @@ def test_what_is_known_is_not_searched_for(tmp_path: Path) -> None:
     assert fit.parameters["E"] == 210e3
     assert "E" not in fit.uncertainty.intervals
     table = fit.write(tmp_path)[0].read_text(encoding="utf-8")
-    assert "E,stress,210000.0,,,," in table
+    assert "E,MPa,210000.0,,,," in table
     with pytest.raises(ValueError, match="fixed has no parameter of the material: 'e'"):
         fit_material(LOOP, MATERIAL, fixed={"e": 1.0})
+
+
+def cyclic_softening(cycles: int, points: int) -> np.ndarray:
+    """Return a test of many cycles, of which the last is stable and the first is not."""
+    turns = [0.0, *(0.01, -0.01) * cycles, 0.01]
+    strain = np.interp(np.arange(points * (len(turns) - 1) + 1) / points, range(len(turns)), turns)
+    return np.column_stack((strain, MATERIAL.stress(strain, MADE_OF)))
+
+
+@pytest.mark.parametrize("points", [10, 400])  # as they are; thinned
+def test_the_last_cycle_alone_is_compared_after_all_of_the_history(points: int) -> None:
+    test = cyclic_softening(4, points)
+    fixed = {name: MADE_OF[name] for name in ("Q", "b", "E")}
+    fit = fit_material(
+        [test, test], MATERIAL, cycles="last", fixed=fixed, max_runs=60, progress=False
+    )
+    for compared in fit.tests:
+        np.testing.assert_array_equal(compared[[0, -1]], test[[-2 * points - 1, -1]])
+        assert len(compared) == 21 if points == 10 else 250 < len(compared) < 320
+    # Without its history the cycle would be that of a material that has not softened.
+    # Thinning cuts off what is between two points of the knee.
+    np.testing.assert_allclose(fit.found.simulations[1], fit.tests[1], atol=1.0)
+    assert fit.parameters == pytest.approx(MADE_OF, rel=1e-3)
+    assert fit.model.jacobian(MADE_OF)[1].shape == (len(fit.tests[1]), 2, len(MADE_OF))
+
+
+def test_a_test_without_a_cycle_has_no_last_one() -> None:
+    with pytest.raises(
+        ValueError, match=r"tests\[1\]: the curve has no complete cycle: it turns 1"
+    ):
+        fit_material([LOOP, LOOP[:80]], MATERIAL, cycles="last")
+    with pytest.raises(ValueError, match="cycles is 'first'; give 'all' or 'last'"):
+        fit_material(LOOP, MATERIAL, cycles="first")  # type: ignore[arg-type]
+
+
+def test_a_modulus_that_is_not_that_of_unloading_is_spoken_of(fit: MaterialFit) -> None:
+    assert not fit.remark
+    ratio = replace(fit, modulus_read=1.5 * fit.parameters["E"])
+    assert "E = 2" in ratio.remark
+    assert "is 33 % below 3" in str(ratio)
+    known = fit_material(LOOP, MATERIAL, fixed={"E": 150e3}, max_runs=20, progress=False)
+    assert not known.remark  # whoever gives it knows
 
 
 def write_test(path: Path, header: str = "strain,stress", factor: float = 1.0) -> str:
@@ -70,8 +114,23 @@ def test_the_command_goes_from_a_file_to_a_card(tmp_path: Path, capsys) -> None:
     output = tmp_path / "out"
     assert main([*command, "--card", "abaqus", "--output", str(output)]) == 0
     assert "card_abaqus.txt" in capsys.readouterr().out
+    assert "stress [MPa]" in (output / "report.html").read_text(encoding="utf-8")
     found = read_card(output / "card_abaqus.txt").parameters
     assert found["C1"] == pytest.approx(80e3, rel=0.05)
+
+
+def test_runs_that_fail_are_counted_and_not_logged(tmp_path: Path, caplog, capsys) -> None:
+    test = cyclic_softening(1, 40) * (1.0, 0.5)  # so much softening that some runs have no stress
+    np.savetxt(tmp_path / "loop.csv", test, delimiter=",", header="strain,stress", comments="")
+    log = logging.getLogger("curvewise.calibration")
+    level = log.level
+    command = ["fit", str(tmp_path / "loop.csv"), "--cycles", "last"]
+    assert main([*command, "--output", str(tmp_path / "out")]) == 0
+    printed = capsys.readouterr()
+    assert "runs failed, the first: ValueError: Q is -" in printed.out
+    assert "failed" not in printed.err
+    assert not caplog.records
+    assert log.level == level
 
 
 @pytest.mark.parametrize(
