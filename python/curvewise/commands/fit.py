@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import logging
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..curves.inputs import Array
 from ..files.number_tables import Reading
+from ..materials import MATERIALS
 from ..solvers.cards import FORMATS
 from .reading import add_factors, add_reading, add_sheet, read_file, warnings_printed
-from .shown import require_matplotlib
-
-if TYPE_CHECKING:
-    from ..materials import Material
+from .shown import failures_unlogged, require_matplotlib
 
 __all__ = ["add_fit"]
 
@@ -43,7 +39,7 @@ def add_fit(commands: Any) -> None:
     add_sheet(command)
     command.add_argument(
         "--material",
-        choices=list(_MATERIALS),
+        choices=list(MATERIALS),
         default="chaboche-voce",
         help="chaboche-voce (default): back stresses and isotropic hardening or softening; "
         "yoshida-uemori: two surfaces, for sheet steel",
@@ -103,33 +99,17 @@ def _known(text: str) -> tuple[str, float]:
         raise argparse.ArgumentTypeError(f"{text} is no NAME=VALUE, such as E=206e3") from None
 
 
-def _chaboche_voce(arguments: argparse.Namespace) -> Material:
-    from ..materials import ChabocheVoce
-
-    return ChabocheVoce(arguments.backstresses, arguments.modulus)
-
-
-def _yoshida_uemori(arguments: argparse.Namespace) -> Material:
-    from ..materials import YoshidaUemori
-
-    return YoshidaUemori(modulus=arguments.modulus)
-
-
-_MATERIALS: dict[str, Callable[[argparse.Namespace], Material]] = {
-    "chaboche-voce": _chaboche_voce,
-    "yoshida-uemori": _yoshida_uemori,
-}
-
-
 def _fit(arguments: argparse.Namespace) -> int:
     from ..fitting import fit_material
 
     require_matplotlib()
-    material = _MATERIALS[arguments.material](arguments)
+    kind = MATERIALS[arguments.material]
+    given = vars(arguments)
+    material = kind(**{one.name: given[one.name] for one in fields(kind) if one.name in given})
     reading = Reading(arguments.sheet, arguments.decimal, arguments.until, arguments.skip_invalid)
     with warnings_printed():
         tests = [_test(file, arguments, reading) for file in arguments.tests]
-    with _failures_unlogged():
+    with failures_unlogged():
         fit = fit_material(
             tests,
             material,
@@ -141,29 +121,11 @@ def _fit(arguments: argparse.Namespace) -> int:
             progress=sys.stderr.isatty(),
         )
     print(fit)
-    if failures := fit.found.failures:
-        reason = failures[0][1]
-        print(f"\n{len(failures)} of {fit.found.evaluations} runs failed, the first: {reason}")
     names = [Path(file).name for file in arguments.tests]
     written = fit.write(arguments.output, names=names)
-    for solver in arguments.card:
-        card = Path(arguments.output, f"card_{solver}.txt")
-        card.write_text(fit.card(solver, name=arguments.name), "utf-8")
-        written.append(card)
+    written += fit.write_cards(arguments.output, arguments.card, name=arguments.name)
     print("\nwritten:", ", ".join(map(str, written)))
     return 0
-
-
-@contextmanager
-def _failures_unlogged() -> Iterator[None]:
-    """Keep runs that fail off standard error: some do, at parameters that make no sense."""
-    log = logging.getLogger("curvewise.calibration")
-    level = log.level
-    log.setLevel(logging.ERROR)
-    try:
-        yield
-    finally:
-        log.setLevel(level)
 
 
 def _test(file: str, arguments: argparse.Namespace, reading: Reading) -> Array:

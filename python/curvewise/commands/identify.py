@@ -11,7 +11,10 @@ import math
 import sys
 import time
 import warnings
+from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
+
+from .shown import failures_unlogged
 
 if TYPE_CHECKING:
     from ..calibration import Progress
@@ -69,13 +72,12 @@ def _run(study: Study) -> int:
     if len(study.tests) > 1:
         print(", ".join(f"curve {i}: {test.name}" for i, test in enumerate(study.tests)))
     is_terminal = sys.stderr.isatty()
+    is_short = study.material is not None  # of hundreds of runs in seconds nobody wants lines
+    quiet = is_terminal or is_short or len(study.search.measures) > 1
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), failures_unlogged() if is_short else nullcontext():
             warnings.simplefilter("always", UserWarning)
-            found = study.run(
-                progress=is_terminal,
-                callback=None if is_terminal or len(study.search.measures) > 1 else _Reported(),
-            )
+            found = study.run(progress=is_terminal, callback=None if quiet else _Reported())
     except KeyboardInterrupt:
         print(
             f"\ncurvewise: interrupted; {_runs(study.stored_runs())} in {study.search.store}. "

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 
 from .._extras import extra
 from ..comparing.comparison import Comparison
 
-__all__ = ["print_table", "require_matplotlib", "write_picture"]
+__all__ = ["failures_unlogged", "print_table", "require_matplotlib", "write_picture"]
 
 
 def print_table(comparison: Comparison, names: list[str], columns: list[str]) -> None:
@@ -20,6 +23,18 @@ def print_table(comparison: Comparison, names: list[str], columns: list[str]) ->
     width = max(map(len, comparison.values))
     for name, deviation in comparison.deviations.items():
         print(f"{name:<{width}}  {deviation}")
+
+
+@contextmanager
+def failures_unlogged() -> Iterator[None]:
+    """Keep runs of a material that fail off standard error: the result counts them."""
+    log = logging.getLogger("curvewise.calibration")
+    level = log.level
+    log.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        log.setLevel(level)
 
 
 def require_matplotlib() -> None:

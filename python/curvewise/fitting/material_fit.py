@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import csv
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -46,7 +46,8 @@ class MaterialFit:
     tests : tuple of ndarray
         As they were compared: strain and stress, thinned.
     found : Identification
-    uncertainty : Uncertainty
+    uncertainty : Uncertainty or None
+        None where it was not asked for, by a study.
     modulus_read : float
         The slope with which the tests unload, or that of first loading where none unloads.
     units : str
@@ -56,7 +57,7 @@ class MaterialFit:
     model: DrivenModel = field(repr=False)
     tests: tuple[Array, ...] = field(repr=False)
     found: Identification
-    uncertainty: Uncertainty
+    uncertainty: Uncertainty | None
     modulus_read: float
     units: str = "MPa"
 
@@ -71,7 +72,13 @@ class MaterialFit:
         return self.found.parameters
 
     def __str__(self) -> str:
-        return "\n\n".join(map(str, filter(None, (self.found, self.uncertainty, self.remark))))
+        parts = [str(self.found), *(str(one) for one in (self.uncertainty, self.remark) if one)]
+        if failures := self.found.failures:
+            parts.append(
+                f"{len(failures)} of {self.found.evaluations} runs failed, the first: "
+                f"{failures[0][1]}"
+            )
+        return "\n\n".join(parts)
 
     @property
     def remark(self) -> str:
@@ -107,9 +114,29 @@ class MaterialFit:
             solver,
             name=name,
             units=self.units,
-            intervals=self.uncertainty.intervals,
+            intervals=self._intervals,
             along=list(self.model.strains),
         )
+
+    @property
+    def _intervals(self) -> dict[str, tuple[float, float]]:
+        return {} if self.uncertainty is None else self.uncertainty.intervals
+
+    def write_cards(
+        self, folder: str | os.PathLike[str], solvers: Iterable[str], *, name: str = "material"
+    ) -> list[Path]:
+        """Write the card of each solver into a folder, as card_<solver>.txt; see `card`.
+
+        Returns
+        -------
+        list of Path
+            What was written.
+        """
+        written = []
+        for solver in solvers:
+            written.append(Path(folder, f"card_{solver}.txt"))
+            written[-1].write_text(self.card(solver, name=name), encoding="utf-8")
+        return written
 
     def write(self, folder: str | os.PathLike[str], *, names: Sequence[str] = ()) -> list[Path]:
         """Write parameters.csv, report.html and fit.png into a folder, which is made.
@@ -149,8 +176,8 @@ class MaterialFit:
             row = {"parameter": name, "meaning": meaning}
             row["unit"] = self.units if unit == "stress" else unit
             row["value"] = repr(self.parameters[name])
-            if name in self.uncertainty.intervals:  # it was searched for
-                low, high = map(float, self.uncertainty.intervals[name])
+            if self.uncertainty is not None and name in self._intervals:  # it was searched for
+                low, high = map(float, self._intervals[name])
                 row |= {"interval_low": repr(low), "interval_high": repr(high)}
                 row["determined"] = str(bool(self.uncertainty.determined[name]))
             rows.append(row)

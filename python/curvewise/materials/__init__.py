@@ -11,4 +11,10 @@ from .chaboche_voce import ChabocheVoce
 from .material import DrivenModel, Material, Parameter
 from .yoshida_uemori import YoshidaUemori
 
-__all__ = ["ChabocheVoce", "DrivenModel", "Material", "Parameter", "YoshidaUemori"]
+__all__ = ["MATERIALS", "ChabocheVoce", "DrivenModel", "Material", "Parameter", "YoshidaUemori"]
+
+MATERIALS: dict[str, type[Material]] = {
+    "chaboche-voce": ChabocheVoce,
+    "yoshida-uemori": YoshidaUemori,
+}
+"""The materials by the names that commands and studies call them by."""

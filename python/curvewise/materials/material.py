@@ -8,6 +8,7 @@ by k parameters k / 8 times that.
 from __future__ import annotations
 
 import datetime
+import hashlib
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -21,6 +22,7 @@ from .._bounds import Bounds, Log
 from .._names import did_you_mean
 from ..curves.inputs import Array, as_curve
 from ..curves.several_curves import curve_list
+from ..installation import build_info
 from ..solvers.cards import CardContent, card_text
 from .readings import Reading, Span, reading_of, strain_and_stress
 
@@ -327,6 +329,15 @@ class DrivenModel:
             np.column_stack((strain, self.material.stress(strain, parameters)))[part]
             for strain, part in self._paths()
         ]
+
+    @property
+    def identity(self) -> str:
+        """What a store knows its runs by: material, paths, and the version that computes them."""
+        digest = hashlib.sha256(repr(self.parts).encode())
+        for strain in self.strains:
+            digest.update(strain.tobytes())
+        version = build_info()["version"]
+        return f"{self.material!r}, strains {digest.hexdigest()[:16]}, curvewise {version}"
 
     def jacobian(self, parameters: Mapping[str, float]) -> list[Array]:
         """Return for each test the derivatives of its points by every parameter, (n, 2, k).

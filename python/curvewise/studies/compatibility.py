@@ -7,8 +7,7 @@ the key that it is about. Cost: that of scaling the tests, and of reading the te
 from __future__ import annotations
 
 from ..calibration.methods import method_of
-from .contents import Contents
-from .study_model import StudyModel
+from .contents import AnyModel, Contents
 from .toml_source import KeyPath, Source
 
 __all__ = ["check_together"]
@@ -35,7 +34,7 @@ def check_together(study: Contents, source: Source) -> None:
         return
     if study.has_cases and "failure_value" in study.search.comparison:
         source.problem(("search", "failure_value"), "does not go with tests of their own kinds")
-    models: dict[str, StudyModel] = {}
+    models: dict[str, AnyModel] = {}
     try:  # in a folder that is there: reading a study makes none
         models = study.study_models(kept_in=source.folder)
     except (OSError, ValueError) as error:

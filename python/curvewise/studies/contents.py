@@ -8,19 +8,24 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from ..calibration import Case, CommandModel, Criterion, Objective, SimulationStore
 from ..calibration.models.command import LOG
 from ..calibration.models.identity import ModelIdentity, model_identity
 from ..calibration.models.templates import read_templates
 from ..calibration.objective.cases import Cases
+from ..fitting.driven_tests import fit_criterion
+from ..materials import DrivenModel
+from .material_models import MaterialModel
 from .measured_tests import MeasuredTest
 from .search_settings import SearchSettings
 from .solver_models import SolverModel
 from .study_model import OutputReader, Picked, StudyModel
 
-__all__ = ["Contents"]
+__all__ = ["AnyModel", "Contents"]
+
+AnyModel: TypeAlias = StudyModel | DrivenModel
 
 
 @dataclass(frozen=True)
@@ -30,12 +35,18 @@ class Contents:
     path: Path
     title: str
     tests: tuple[MeasuredTest, ...]
-    models: Mapping[str, SolverModel]
+    models: Mapping[str, SolverModel | MaterialModel]
     bounds: Mapping[str, Any]
     search: SearchSettings
     results: Path
 
-    def identity(self, model: StudyModel) -> ModelIdentity:
+    @property
+    def material(self) -> MaterialModel | None:
+        """The material in the place of a solver, if there is one."""
+        model = next(iter(self.models.values()), None)
+        return model if isinstance(model, MaterialModel) else None
+
+    def identity(self, model: AnyModel) -> ModelIdentity:
         """Return what the store knows the runs of a model by."""
         return model_identity(model, self.search.version)
 
@@ -44,7 +55,7 @@ class Contents:
         """The runs of the study, with what the file calls the present state of the models."""
         return SimulationStore(self.search.store, version=self.search.version)
 
-    def study_models(self, kept_in: Path | None = None) -> dict[str, StudyModel]:
+    def study_models(self, kept_in: Path | None = None) -> dict[str, AnyModel]:
         """Return the models as functions of the parameters.
 
         Parameters
@@ -53,8 +64,12 @@ class Contents:
             Where the folders of runs are made and kept, whatever the file says. The folder that
             is used is made if it is not there.
         """
-        made = {}
+        made: dict[str, AnyModel] = {}
         for name, entry in self.models.items():
+            if isinstance(entry, MaterialModel):
+                assert entry.driven is not None
+                made[name] = entry.driven
+                continue
             sources = tuple(test.output for test in self.tests if test.model == name)
             scratch = kept_in or entry.scratch
             if scratch is not None and not scratch.is_dir():
@@ -79,7 +94,7 @@ class Contents:
         own = any(test.own or test.is_number for test in self.tests)
         return own or len(self.models) > 1
 
-    def cases(self, models: Mapping[str, StudyModel]) -> list[Case]:
+    def cases(self, models: Mapping[str, AnyModel]) -> list[Case]:
         """Return the tests as cases of an identification."""
         cases = []
         for test in self.tests:
@@ -93,7 +108,7 @@ class Contents:
                     test.name,
                     models[test.model],
                     test.experiment,
-                    measure=_criterion(settings),
+                    measure=self._criterion(settings),
                     weight=test.weight,
                     sigma=sigma,
                     response=Picked(place, test.is_number),
@@ -101,7 +116,7 @@ class Contents:
             )
         return cases
 
-    def objective(self, models: Mapping[str, StudyModel], measure: str) -> Objective:
+    def objective(self, models: Mapping[str, AnyModel], measure: str) -> Objective:
         """Return what is minimised."""
         if self.has_cases:
             return Cases(self.cases(models)).objective()
@@ -110,14 +125,13 @@ class Contents:
     def criterion(self, measure: str) -> Criterion:
         """Return how all tests are compared by a measure."""
         weights = [test.weight for test in self.tests]
-        return _criterion({**self.search.comparison, "measure": measure, "weights": weights})
+        return self._criterion({**self.search.comparison, "measure": measure, "weights": weights})
 
-
-def _criterion(settings: Mapping[str, Any]) -> Criterion:
-    """Return a criterion of a file's keys, among which the measure's options are a table."""
-    options = settings.get("options", {})
-    others = {name: value for name, value in settings.items() if name != "options"}
-    return Criterion(**others, **options)
+    def _criterion(self, settings: Mapping[str, Any]) -> Criterion:
+        """Return a criterion of a file's keys, among which the measure's options are a table."""
+        options = settings.get("options", {})
+        others = {name: value for name, value in settings.items() if name != "options"}
+        return (Criterion if self.material is None else fit_criterion)(**others, **options)
 
 
 def _placeholders(entry: SolverModel, known: tuple[str, ...]) -> list[str]:

@@ -21,9 +21,8 @@ from ..calibration.problem.space import Space
 from ..comparing.units import other_units
 from ..curves.inputs import Array
 from ..curves.several_curves import points_of
-from .contents import Contents
+from .contents import AnyModel, Contents
 from .measured_tests import MeasuredTest
-from .study_model import StudyModel
 
 __all__ = ["DryRun", "dry_run"]
 
@@ -157,7 +156,7 @@ def dry_run(study: Contents) -> DryRun:
     runs = method.fewest_runs(len(space.names), has_start=bool(start))
     return DryRun(
         parameters,
-        tuple(folder for folder, _ in made.values()),
+        tuple(folder for folder, _ in made.values() if folder is not None),
         read,
         values,
         seconds,
@@ -167,22 +166,22 @@ def dry_run(study: Contents) -> DryRun:
 
 
 def _run(
-    model: StudyModel, parameters: dict[str, float], study: Contents, place: Path
-) -> tuple[Path, tuple[Array, ...]]:
-    """Run a model, store what comes, and return its folder and its curves."""
-    before = set(place.iterdir())
+    model: AnyModel, parameters: dict[str, float], study: Contents, place: Path
+) -> tuple[Path | None, tuple[Array, ...]]:
+    """Run a model, store what comes, and return its folder, if it has one, and its curves."""
+    before = set(place.iterdir()) if place.is_dir() else set()
     began = time.perf_counter()
     try:
         result = model(parameters)
     except SolverError as error:
         raise SolverError(f"{error}{_end_of_log(str(error))}") from None
     seconds = time.perf_counter() - began
-    (folder, *_) = set(place.iterdir()) - before
+    made = set(place.iterdir()) - before if place.is_dir() else ()
     identity = study.identity(model)
     with study.store as store:
         store.register(identity)
         store.save(identity.text, parameters, Outcome(result, "", seconds))
-    return folder, points_of(result)
+    return next(iter(made), None), points_of(result)
 
 
 def _end_of_log(message: str) -> str:

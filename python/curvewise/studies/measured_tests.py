@@ -69,7 +69,9 @@ class Output(Columns):
 
 
 def _output(source: Source, path: KeyPath, values: Any) -> CurveSource | None:
-    """Return where a test's simulation is, or None where something is wrong."""
+    """Return where a test's simulation is, or None where something is wrong, or nothing given."""
+    if values is None:  # of a material, which needs none
+        return None
     table = Table(source, path, values)
     output = table.read(Output)
     chosen = output.format or (format_of(output.file) if output.file else "columns")
@@ -118,9 +120,15 @@ class MeasuredTest(Comparison, Columns):
 
 
 def read_test(
-    source: Source, index: int, values: Any, models: Mapping[str, SolverModel]
+    source: Source,
+    index: int,
+    values: Any,
+    models: Mapping[str, SolverModel] | None,
 ) -> MeasuredTest | None:
-    """Return a test, or None where something is wrong with it."""
+    """Return a test, or None where something is wrong with it.
+
+    `models` is None where a material takes the place of a solver.
+    """
     table = Table(source, ("tests", index), values)
     test = table.read(MeasuredTest)
     if ("file" in table.given) == ("number" in table.given):
@@ -130,7 +138,12 @@ def read_test(
     for name in described(Columns) if test.is_number else ():
         if name in table.given:
             table.problem(name, "is about a file, and the test is a number")
-    _check_model(table, models)
+    if models is None:
+        _check_for_material(table)
+    else:
+        _check_model(table, models)
+    if models is not None and "output" not in table.given:
+        _output(source, (*table.path, "output"), {})  # says what has to be there
     if test.output is not None and test.output.is_number != test.is_number:
         if test.is_number:
             table.problem(
@@ -149,9 +162,20 @@ def read_test(
         test,
         name=test.name or (test.file.stem if test.file else f"test {index + 1}"),
         axes=test.axes or curve[1],
-        model=test.model or next(iter(models), ""),
+        model=test.model or next(iter(models or ()), ""),
         experiment=curve[0],
     )
+
+
+def _check_for_material(table: Table) -> None:
+    """Note what a test that drives a material has no use for."""
+    for name, why in (
+        ("output", "is about what a solver writes, and [model] has a material"),
+        ("model", "chooses one of several solvers, and [model] has a material"),
+        ("number", "is a number, and a material is driven by a curve; give a file"),
+    ):
+        if name in table.given:
+            table.problem(name, why)
 
 
 def _check_model(table: Table, models: Mapping[str, SolverModel]) -> None:

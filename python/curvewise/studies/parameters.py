@@ -15,7 +15,7 @@ from .formulas import Formula, undefined_names
 from .keys import Table, key
 from .toml_source import KeyPath, Source
 
-__all__ = ["SearchedParameter", "read_parameters"]
+__all__ = ["SearchedParameter", "complete_start", "read_parameters"]
 
 
 def _pair(value: Any) -> tuple[float, float]:
@@ -36,7 +36,7 @@ class SearchedParameter:
 
 
 def read_parameters(source: Source, given: Any) -> tuple[dict[str, Any], dict[str, float]]:
-    """Return the parameters as `identify` takes them, and where the search begins."""
+    """Return the parameters as `identify` takes them, and the starts that are given."""
     path: KeyPath = ("parameters",)
     if not isinstance(given, Mapping) or not given:
         source.problem(path, "is missing: give a table [parameters] with lines E = [low, high]")
@@ -52,8 +52,6 @@ def read_parameters(source: Source, given: Any) -> tuple[dict[str, Any], dict[st
         except ValueError as error:
             table.problem(parameter, str(error).replace(f"bounds[{parameter!r}] ", ""))
             bounds[parameter] = (0.0, 1.0)  # for what is checked beside it
-    if table.is_right:
-        start = _complete_start(source, bounds, start)
     return bounds, start
 
 
@@ -81,7 +79,7 @@ def _bounds(
     return Log(*said.bounds) if said.scale == "log" else said.bounds
 
 
-def _complete_start(
+def complete_start(
     source: Source, bounds: dict[str, Any], start: dict[str, float]
 ) -> dict[str, float]:
     """Return a start for every parameter that is searched for, or none at all."""

@@ -13,12 +13,15 @@ from pathlib import Path
 from typing import Any
 from unicodedata import normalize
 
+from ..calibration.methods import method_of
+from ..fitting.driven_tests import fit_method
 from . import keys
 from .contents import Contents
 from .formulas import Formula
 from .keys import Table, key, key_at, table
+from .material_models import drive, is_material, read_material
 from .measured_tests import MeasuredTest, read_test
-from .parameters import read_parameters
+from .parameters import complete_start, read_parameters
 from .result_files import file_name
 from .search_settings import SearchSettings, read_search
 from .solver_models import SolverModel, read_model
@@ -61,15 +64,39 @@ def read_contents(source: Source) -> Contents:
         With all that is wrong in it.
     """
     file = Table(source, (), source.values).read(StudyFile)
+    if is_material(file.model) and file.models is None:
+        return _of_material(source, file)
     before = len(source.problems)
     bounds, start = read_parameters(source, file.parameters)
+    if len(source.problems) == before:
+        start = complete_start(source, bounds, start)
     models, used = _models(source, file, tuple(bounds))
     if len(source.problems) == before:
         _refuse_unused(source, file.parameters, used)
     tests = _tests(source, file.tests, models)
     source.raise_problems()
-    search = replace(file.search, start=start)
+    search = replace(file.search, start=start, measures=file.search.measures or ("area",))
     return Contents(source.path, file.title, tests, models, bounds, search, file.results)
+
+
+def _of_material(source: Source, file: StudyFile) -> Contents:
+    """Return what a file says that has a material in the place of a command."""
+    given, start = read_parameters(source, file.parameters) if file.parameters else ({}, {})
+    model = read_material(source, ("model",), file.model)
+    tests = _tests(source, file.tests, None)
+    measures = file.search.measures or ("sum_of_squares",)
+    if model is not None and model.cards and len(measures) > 1:
+        source.problem(("model", "cards"), "are of one fit, and [search] has several measures")
+    source.raise_problems()
+    assert model is not None  # or there were problems
+    model, tests, bounds = drive(source, model, tests, given)
+    start = complete_start(source, bounds, start)
+    source.raise_problems()
+    method = file.search.method
+    if method is None and len(measures) == 1:
+        method = method_of(fit_method(measures[0]))
+    search = replace(file.search, start=start, measures=measures, method=method)
+    return Contents(source.path, file.title, tests, {"": model}, bounds, search, file.results)
 
 
 def _models(
@@ -85,6 +112,11 @@ def _models(
         tables = {name: (("models", name), values) for name, values in named.items()}
     models, used = {}, set()
     for name, (path, values) in tables.items():
+        if is_material(values):
+            source.problem(
+                (*path, "material"), "is for all tests, in [model]; there are no several materials"
+            )
+            continue
         models[name], uses = read_model(source, path, name, values, parameters)
         used |= uses
     return models, used
@@ -102,7 +134,7 @@ def _refuse_unused(source: Source, parameters: Mapping[str, Any], used: set[str]
 
 
 def _tests(
-    source: Source, tables: Any, models: Mapping[str, SolverModel]
+    source: Source, tables: Any, models: Mapping[str, SolverModel] | None
 ) -> tuple[MeasuredTest, ...]:
     if not isinstance(tables, list) or not tables:
         source.problem(("tests",), "is missing: give a table [[tests]] for every measured curve")

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from ..calibration import Identification, SeveralMeasures, Uncertainty
+from ..fitting import MaterialFit
 from ..installation import build_info
 from .contents import Contents
 
@@ -48,13 +49,18 @@ class StudyResult:
         Of each; empty where the study has ``uncertainty = false``.
     several : SeveralMeasures or None
         The same together, where there are several.
+    fit : MaterialFit or None
+        The same as of a material, which takes the place of a solver.
     """
 
     identifications: dict[str, Identification]
     uncertainties: dict[str, Uncertainty]
     several: SeveralMeasures | None = None
+    fit: MaterialFit | None = None
 
     def __str__(self) -> str:
+        if self.fit is not None:
+            return str(self.fit)
         parts = [str(self.several)] if self.several is not None else []
         for measure, found in self.identifications.items():
             if self.several is None:
@@ -84,6 +90,10 @@ def write_results(study: Contents, found: StudyResult) -> None:
             if not test.is_number:
                 path = folder / f"simulation_{file_name(test.name)}{ending}.csv"
                 np.savetxt(path, curve, delimiter=",", fmt="%.10g")
+    if found.fit is not None and study.material is not None:
+        found.fit.write(folder, names=[test.name for test in study.tests])
+        found.fit.write_cards(folder, study.material.cards, name=study.material.name)
+        return
     drawn = found.several or next(iter(found.identifications.values()))
     figure = drawn.plot()
     for ax, test in zip(figure.axes, study.tests, strict=False):  # the loops come first

@@ -115,4 +115,5 @@ def read_search(source: Source, path: KeyPath, values: Any) -> SearchSettings:
     folder = search.store.parent
     if not folder.is_dir():
         table.problem("store", f"is in {folder}, and there is no such folder; make it")
-    return replace(search, measures=search.measures or (search.measure or "area",))
+    alone = () if search.measure is None else (search.measure,)
+    return replace(search, measures=search.measures or alone)

@@ -93,7 +93,9 @@ class SolverModel:
     """A table [model], or one of [models]: as the arguments of `CommandModel`."""
 
     name: str
-    command: tuple[str, ...] = key_at(_command, (), required='["ccx", "-i", "deck"], say')
+    command: tuple[str, ...] = key_at(
+        _command, (), required='["ccx", "-i", "deck"], say, or material'
+    )
     templates: tuple[Path, ...] = key_at(_paths, (), required="the deck, or a list of files")
     timeout: float = key(keys.positive, 3600.0, required="the seconds that a run may take")
     environment: tuple[tuple[str, str], ...] = key(_environment, ())

@@ -8,12 +8,22 @@ where it was, and ends with the same bits.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-from ..calibration import Identification, Progress, SeveralMeasures, identify, identify_each
+import numpy as np
+
+from ..calibration import (
+    Identification,
+    Progress,
+    SeveralMeasures,
+    Uncertainty,
+    identify,
+    identify_each,
+)
 from ..drawing.figures import matplotlib_required
+from ..fitting import MaterialFit
 from .compatibility import check_together
 from .contents import Contents
 from .dry_run import DryRun, dry_run
@@ -37,7 +47,7 @@ class Study(Contents):
         What it calls itself.
     tests : tuple of MeasuredTest
         The measured curves.
-    models : mapping of str to SolverModel
+    models : mapping of str to SolverModel, or to MaterialModel
         What simulates them.
     bounds : mapping
         The parameters, as :func:`curvewise.calibration.identify` takes them.
@@ -179,7 +189,7 @@ class Study(Contents):
         samples = self.search.uncertainty
         if samples is not None:
             uncertainties = {n: one.uncertainty(samples=samples) for n, one in found[0].items()}
-        results = StudyResult(found[0], uncertainties, found[1])
+        results = StudyResult(found[0], uncertainties, found[1], self._fit(found[0], uncertainties))
         write_results(self, results)
         return results
 
@@ -190,6 +200,18 @@ class Study(Contents):
         with self.store as store:
             known = [self.identity(model).text for model in self.study_models().values()]
             return sum(1 for identity in known for _ in store.runs(identity))
+
+    def _fit(
+        self, found: Mapping[str, Identification], uncertainties: Mapping[str, Uncertainty]
+    ) -> MaterialFit | None:
+        """Return what is found of a material, by one measure, as `fit_material` does."""
+        model = self.material
+        if model is None or model.driven is None or len(found) > 1:
+            return None
+        ((measure, one),) = found.items()
+        tests = tuple(np.asarray(test.experiment) for test in self.tests)
+        uncertainty = uncertainties.get(measure)
+        return MaterialFit(model.driven, tests, one, uncertainty, model.modulus_read, model.units)
 
     def _searched(
         self, progress: bool, callback: Callable[[Progress], Any] | None

@@ -86,9 +86,7 @@ def test_the_last_cycle_alone_is_compared_after_all_of_the_history(points: int) 
 
 
 def test_a_test_without_a_cycle_has_no_last_one() -> None:
-    with pytest.raises(
-        ValueError, match=r"tests\[1\]: the curve has no complete cycle: it turns 1"
-    ):
+    with pytest.raises(ValueError, match=r"tests\[1\]: the curve has no complete cycle: it turns"):
         fit_material([LOOP, LOOP[:80]], MATERIAL, cycles="last")
     with pytest.raises(ValueError, match="cycles is 'first'; give 'all' or 'last'"):
         fit_material(LOOP, MATERIAL, cycles="first")  # type: ignore[arg-type]

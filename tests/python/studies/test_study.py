@@ -26,6 +26,7 @@ from curvewise.commands import main
 from curvewise.studies import Study, StudyError
 from curvewise.studies.curve_sources import Quantity
 from curvewise.studies.keys import described
+from curvewise.studies.material_models import MaterialModel
 from curvewise.studies.measured_tests import MeasuredTest, Output
 from curvewise.studies.parameters import SearchedParameter
 from curvewise.studies.reading import ResultsFolder, StudyFile
@@ -423,7 +424,7 @@ def test_the_examples_are_right(
 @posix
 @pytest.mark.usefixtures("solvers")
 def test_the_study_of_the_page_is_right(tmp_path: Path) -> None:
-    (block,) = re.findall(r"^```toml\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+    block, _ = re.findall(r"^```toml\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
     folder = shutil.copytree(ROOT / "examples" / "studies" / "tension_calculix", tmp_path / "study")
     (folder / "study.toml").write_text(block)
     assert Study.read(folder / "study.toml").title == "tension test"
@@ -436,6 +437,7 @@ SECTIONS = {
     "### `[tests.output]`": (Output, Quantity),
     "### `[parameters]`": (SearchedParameter,),
     "### `[model]`": (SolverModel, Success, DeckTable),
+    "### A material": (MaterialModel,),
     "### `[search]`": (SearchSettings,),
     "### `[results]`": (ResultsFolder,),
 }

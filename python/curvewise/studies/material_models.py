@@ -1,0 +1,141 @@
+"""The table [model] with a material in the place of a command: a study without a solver.
+
+The tests drive a compiled point of material, as for `fit_material`: thinned, in bounds that are
+read off them where the file gives none. Cost: linear in the tests.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any, TypeVar, get_args, get_type_hints
+
+from .._names import did_you_mean
+from ..calibration.problem.space import Space
+from ..fitting.driven_tests import CYCLES, DrivenTests
+from ..fitting.material_fit import modulus_of
+from ..materials import MATERIALS, DrivenModel, Material
+from ..solvers.cards import FORMATS
+from . import keys
+from .keys import Table, key
+from .measured_tests import MeasuredTest
+from .toml_source import KeyPath, Source
+
+__all__ = ["MaterialModel", "drive", "is_material", "read_material"]
+
+T = TypeVar("T")
+
+
+def _one_of_its_own(option: str) -> Callable[[Any], str]:
+    """Return what reads an option that is one of some words, whichever material has it."""
+    hints = [get_type_hints(kind).get(option) for kind in MATERIALS.values()]
+    return keys.choice([word for hint in hints if hint for word in get_args(hint)])
+
+
+def _cards(value: Any) -> tuple[str, ...]:
+    return tuple(keys.choice(tuple(FORMATS))(item) for item in keys.texts(value))
+
+
+@dataclass(frozen=True)
+class MaterialModel:
+    """The table [model] of a study without a solver.
+
+    Attributes
+    ----------
+    driven : DrivenModel
+        The material, driven by the study's tests.
+    modulus_read : float
+        The slope with which these unload.
+    """
+
+    material: str = key(keys.choice(tuple(MATERIALS)), "")
+    backstresses: int | None = key(keys.at_least(0))
+    modulus: str | None = key(_one_of_its_own("modulus"))
+    growth: str | None = key(_one_of_its_own("growth"))
+    cycles: str = key(keys.choice(CYCLES), "all")
+    cards: tuple[str, ...] = key(_cards, ())
+    name: str = key(keys.text, "material")
+    units: str = key(keys.text, "MPa")
+    driven: DrivenModel | None = None
+    modulus_read: float = 0.0
+
+    def made(self) -> Material:
+        """Return the material with its options."""
+        kind = MATERIALS[self.material]
+        options = {option: getattr(self, option, None) for option in _options(kind)}
+        return kind(**{name: value for name, value in options.items() if value is not None})
+
+
+def is_material(given: Any) -> bool:
+    """Whether a table [model] has a material."""
+    return isinstance(given, Mapping) and "material" in given
+
+
+def read_material(source: Source, path: KeyPath, given: Mapping[str, Any]) -> MaterialModel | None:
+    """Return the model, or None where something is wrong."""
+    table = Table(source, path, given)
+    if "command" in given:
+        table.problem("material", "stands beside command; give one of them, a solver or a material")
+        return None
+    model = table.read(MaterialModel)
+    if not table.is_right:
+        return None
+    own = _options(MATERIALS[model.material])
+    for option in {name: 0 for kind in MATERIALS.values() for name in _options(kind)}:
+        if option in given and option not in own:
+            table.problem(option, f"is no option of {model.material} (its own: {', '.join(own)})")
+    if table.is_right:
+        try:
+            _ = model.made().names
+        except ValueError as error:
+            table.problem("", f"cannot be: {error}")
+    return model if table.is_right else None
+
+
+def drive(
+    source: Source,
+    model: MaterialModel,
+    tests: Sequence[MeasuredTest],
+    given: Mapping[str, Any],
+) -> tuple[MaterialModel, tuple[MeasuredTest, ...], dict[str, Any]]:
+    """Return the model driven by the tests, these as they are compared, and all bounds.
+
+    What is wrong is noted, and raised: nothing of it can be used.
+    """
+    material = model.made()
+    for name in given:
+        if name not in material.names:
+            hint = did_you_mean([name], material.names)
+            source.problem(
+                ("parameters", name),
+                f"is no parameter of {model.material}{hint} (they are {', '.join(material.names)})",
+            )
+
+    def each(what: Callable[[list[Any]], T]) -> None:
+        for i, test in enumerate(tests):
+            try:
+                what([test.experiment])
+            except ValueError as error:
+                said = str(error).removeprefix("experiments[0] ").removeprefix("tests[0]: ")
+                source.problem(("tests", i), f"cannot drive a material: {said}")
+
+    each(material.bounds_from)
+    source.raise_problems()
+    each(lambda one: DrivenTests.of(material, one, cycles=model.cycles))
+    source.raise_problems()
+    measured = [test.experiment for test in tests]
+    bounds = {**material.bounds_from(measured), **given}
+    try:
+        Space(bounds)
+    except ValueError as error:
+        source.problem(("parameters",), f"{error} (the others are read off the tests)")
+    source.raise_problems()
+    driven = DrivenTests.of(material, measured, cycles=model.cycles)
+    made = replace(model, driven=driven.model, modulus_read=modulus_of(measured))
+    compared = zip(tests, driven.compared, strict=True)
+    return made, tuple(replace(test, experiment=curve) for test, curve in compared), bounds
+
+
+def _options(kind: type[Material]) -> list[str]:
+    """Return the options of a material that a file may give."""
+    return [one.name for one in fields(kind) if one.name in MaterialModel.__dataclass_fields__]
