@@ -1,4 +1,4 @@
-/* The five measures of two loops from C99, a batch, and what an error looks like. */
+/* The five measures of two loops from C99, a batch, a material, and what an error looks like. */
 #include <curvewise/curvewise.h>
 #include <stdio.h>
 
@@ -24,7 +24,10 @@ static int show(const char* name, int status, double value, const curvewise_erro
 int main(void) {
     double p[2 * n], q[2 * m], value = 0.0;
     curvewise_curve P, Q, curves[3];
-    double pairs[3];
+    double pairs[3], stress[3], slopes[3 * 8];
+    /* E, yield, Q, b, C1, gamma1, C2, gamma2 */
+    const double steel[8] = {200e3, 300.0, -50.0, 8.0, 80e3, 400.0, 5e3, 20.0};
+    const double strain[3] = {0.001, 0.02, -0.02};
     curvewise_dtw_options options = CURVEWISE_DTW_DEFAULTS;
     curvewise_curve_length_options length = CURVEWISE_CURVE_LENGTH_DEFAULTS;
     curvewise_error error;
@@ -55,6 +58,10 @@ int main(void) {
     show("P_and_Q", status, pairs[0], &error);
     show("P_and_beginning", status, pairs[1], &error);
     show("Q_and_beginning", status, pairs[2], &error);
+
+    status = curvewise_chaboche_voce_stress(NULL, steel, 8, strain, 3, stress, slopes, &error);
+    show("driven", status, stress[2], &error);
+    show("driven_by_yield", status, slopes[2 * 8 + 1], &error);
 
     Q.n = 1; /* too short for an area */
     status = curvewise_area(&P, &Q, NULL, &value, &error);

@@ -16,8 +16,8 @@ module curvewise
         c_loc, c_null_char, c_null_ptr, c_ptr, c_ptrdiff_t, c_size_t
     implicit none
     private
-    public :: area, cdist, curve_length, curvewise_version, dtw, frechet, frechet_continuous, &
-        normalize, pcm, pdist
+    public :: area, cdist, chaboche_voce_stress, curve_length, curvewise_version, dtw, frechet, &
+        frechet_continuous, normalize, pcm, pdist, yoshida_uemori_stress
 
     integer(c_int), parameter, public :: euclidean = 0, sqeuclidean = 1, cityblock = 2, &
         chebyshev = 3, minkowski = 4                        ! metric
@@ -29,6 +29,8 @@ module curvewise
     integer(c_ptrdiff_t), parameter, public :: no_window = -1
     integer(c_int), parameter, public :: measure_area = 0, measure_pcm = 1, measure_frechet = 2, &
         measure_dtw = 3, measure_curve_length = 4, measure_frechet_continuous = 5  ! measure
+    integer(c_int), parameter, public :: modulus_constant = 0, modulus_decaying = 1   ! modulus
+    integer(c_int), parameter, public :: growth_saturating = 0, growth_power = 1      ! growth
     integer(c_int), parameter, public :: invalid_argument = 1, no_memory = 2, failed = 3  ! stat
 
     type, bind(C), public :: area_options
@@ -75,6 +77,17 @@ module curvewise
     type, bind(C), public :: batch_options
         integer(c_ptrdiff_t) :: workers = 1     ! threads, -1 for one per core
         real(c_double) :: cutoff = huge(1.0_c_double)  ! a value above it becomes infinity
+    end type
+
+    type, bind(C), public :: chaboche_voce
+        integer(c_int) :: backstresses = 2      ! 0 to 99
+        integer(c_int) :: modulus = modulus_constant
+    end type
+
+    type, bind(C), public :: yoshida_uemori
+        integer(c_int) :: growth = growth_saturating
+        integer(c_int) :: modulus = modulus_constant
+        real(c_double) :: rtol = 1e-9_c_double  ! the error of the integration, relative to CB
     end type
 
     ! A curve among others, for cdist and pdist: curve_view(P), where P has the attribute target.
@@ -173,6 +186,28 @@ module curvewise
             type(c_ptr), value :: options
             type(batch_options), intent(in), optional :: batch
             real(c_double), intent(out) :: out(*)
+            type(error_message), intent(out) :: error
+        end function
+
+        integer(c_int) function c_chaboche_voce(material, parameters, count, strain, n, stress, &
+            slopes, error) bind(C, name="curvewise_chaboche_voce_stress")
+            import :: c_double, c_int, c_ptrdiff_t, chaboche_voce, error_message
+            type(chaboche_voce), intent(in) :: material
+            real(c_double), intent(in) :: parameters(*), strain(*)
+            integer(c_ptrdiff_t), value :: count, n
+            real(c_double), intent(out) :: stress(*)
+            real(c_double), intent(out), optional :: slopes(*)
+            type(error_message), intent(out) :: error
+        end function
+
+        integer(c_int) function c_yoshida_uemori(material, parameters, count, strain, n, stress, &
+            slopes, error) bind(C, name="curvewise_yoshida_uemori_stress")
+            import :: c_double, c_int, c_ptrdiff_t, error_message, yoshida_uemori
+            type(yoshida_uemori), intent(in) :: material
+            real(c_double), intent(in) :: parameters(*), strain(*)
+            integer(c_ptrdiff_t), value :: count, n
+            real(c_double), intent(out) :: stress(*)
+            real(c_double), intent(out), optional :: slopes(*)
             type(error_message), intent(out) :: error
         end function
 
@@ -290,6 +325,42 @@ contains
         allocate (values(k * (k - 1) / 2))
         call conclude(c_pdist(X, k, measure, given(options), batch, values, error), error, stat, &
             errmsg)
+    end subroutine
+
+    ! The stress at each strain of a path, by a point of material; slopes(j, i), where it is given,
+    ! is the derivative of stress(i) by parameter j.
+    subroutine chaboche_voce_stress(material, parameters, strain, stress, slopes, stat, errmsg)
+        type(chaboche_voce), intent(in) :: material
+        real(c_double), intent(in) :: parameters(:), strain(:)
+        real(c_double), allocatable, intent(out) :: stress(:)
+        real(c_double), allocatable, intent(out), optional :: slopes(:, :)
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        type(error_message) :: error
+        integer(c_ptrdiff_t) :: k, n
+        k = size(parameters, kind=c_ptrdiff_t)
+        n = size(strain, kind=c_ptrdiff_t)
+        allocate (stress(n))
+        if (present(slopes)) allocate (slopes(k, n))
+        call conclude(c_chaboche_voce(material, parameters, k, strain, n, stress, slopes, error), &
+            error, stat, errmsg)
+    end subroutine
+
+    subroutine yoshida_uemori_stress(material, parameters, strain, stress, slopes, stat, errmsg)
+        type(yoshida_uemori), intent(in) :: material
+        real(c_double), intent(in) :: parameters(:), strain(:)
+        real(c_double), allocatable, intent(out) :: stress(:)
+        real(c_double), allocatable, intent(out), optional :: slopes(:, :)
+        integer, intent(out), optional :: stat
+        character(*), intent(inout), optional :: errmsg
+        type(error_message) :: error
+        integer(c_ptrdiff_t) :: k, n
+        k = size(parameters, kind=c_ptrdiff_t)
+        n = size(strain, kind=c_ptrdiff_t)
+        allocate (stress(n))
+        if (present(slopes)) allocate (slopes(k, n))
+        call conclude(c_yoshida_uemori(material, parameters, k, strain, n, stress, slopes, error), &
+            error, stat, errmsg)
     end subroutine
 
     type(c_ptr) function given(options)

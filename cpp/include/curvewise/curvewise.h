@@ -1,8 +1,9 @@
 /** \file
  * curvewise for C (C99), and through cpp/fortran/curvewise.f90 for Fortran: the measures, the
- * scaling that goes with them, and all pairs of many curves. What a measure means, costs and
- * refuses is written in the C++ header of its name (area.hpp, pcm.hpp, frechet.hpp, dtw.hpp,
- * curve_length.hpp, pairwise.hpp); the numbers are the same to the last bit.
+ * scaling that goes with them, all pairs of many curves, and points of material. What a measure or
+ * a material means, costs and refuses is written in the C++ header of its name (area.hpp, pcm.hpp,
+ * frechet.hpp, dtw.hpp, curve_length.hpp, pairwise.hpp, materials.hpp); the numbers are the same to
+ * the last bit.
  *
  *     curvewise_curve P = curvewise_rows(xy, 240, 2), Q = curvewise_rows(uv, 150, 2);
  *     double value;
@@ -204,6 +205,46 @@ CURVEWISE_EXPORT int curvewise_cdist(const curvewise_curve* XA, ptrdiff_t na,
 CURVEWISE_EXPORT int curvewise_pdist(const curvewise_curve* X, ptrdiff_t k, int measure,
                                      const void* options, const curvewise_batch_options* batch,
                                      double* out, curvewise_error* error);
+
+/** Values of `modulus` of a material. */
+enum curvewise_modulus { CURVEWISE_CONSTANT, CURVEWISE_DECAYING };
+/** Values of curvewise_yoshida_uemori.growth. */
+enum curvewise_growth { CURVEWISE_SATURATING, CURVEWISE_POWER };
+
+/** Options of curvewise_chaboche_voce_stress(), as in materials.hpp. */
+typedef struct curvewise_chaboche_voce {
+    int backstresses; /**< 0 to 99 */
+    int modulus;      /**< curvewise_modulus */
+} curvewise_chaboche_voce;
+/** What NULL stands for. */
+#define CURVEWISE_CHABOCHE_VOCE_DEFAULTS \
+    { 2, CURVEWISE_CONSTANT }
+
+/** Options of curvewise_yoshida_uemori_stress(), as in materials.hpp. */
+typedef struct curvewise_yoshida_uemori {
+    int growth;  /**< curvewise_growth */
+    int modulus; /**< curvewise_modulus */
+    double rtol; /**< the error that the integration may make, relative to CB */
+} curvewise_yoshida_uemori;
+/** What NULL stands for. */
+#define CURVEWISE_YOSHIDA_UEMORI_DEFAULTS \
+    { CURVEWISE_SATURATING, CURVEWISE_CONSTANT, 1e-9 }
+
+/** Writes the stress at each of n strains, along which an unloaded point of material is driven, for
+ * `count` parameters in the order of materials.hpp: E (Ea, xi), yield, Q, b, C1, gamma1, C2, ...
+ * Where `slopes` is not NULL, slopes[i * count + j] becomes the derivative of stress i by
+ * parameter j. */
+CURVEWISE_EXPORT int curvewise_chaboche_voce_stress(const curvewise_chaboche_voce* material,
+                                                    const double* parameters, ptrdiff_t count,
+                                                    const double* strain, ptrdiff_t n,
+                                                    double* stress, double* slopes,
+                                                    curvewise_error* error);
+/** Likewise; the parameters are E (Ea, xi), CB, Y, C, K, RSAT, SB, H (C1, C2). */
+CURVEWISE_EXPORT int curvewise_yoshida_uemori_stress(const curvewise_yoshida_uemori* material,
+                                                     const double* parameters, ptrdiff_t count,
+                                                     const double* strain, ptrdiff_t n,
+                                                     double* stress, double* slopes,
+                                                     curvewise_error* error);
 
 /** The version of the library that is linked, e.g. "0.1.0". */
 CURVEWISE_EXPORT const char* curvewise_version(void);

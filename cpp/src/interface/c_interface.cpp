@@ -156,6 +156,15 @@ curvewise::BatchOptions translate(const curvewise_batch_options* given) {
     return options;
 }
 
+curvewise::ChabocheVoce translate(const curvewise_chaboche_voce& given) {
+    return {given.backstresses, choice<curvewise::Modulus>("modulus", given.modulus)};
+}
+
+curvewise::YoshidaUemori translate(const curvewise_yoshida_uemori& given) {
+    return {choice<curvewise::BoundGrowth>("growth", given.growth),
+            choice<curvewise::Modulus>("modulus", given.modulus), given.rtol};
+}
+
 void report(curvewise_error* error, const char* message) noexcept {
     if (error != nullptr) std::snprintf(error->message, sizeof error->message, "%s", message);
 }
@@ -189,6 +198,31 @@ int measured(int measure, const curvewise_curve* P, const curvewise_curve* Q, co
         const curvewise::Measure chosen = measure_of(measure, options);
         double* const out = written(value, "value");
         *out = curvewise::evaluate(chosen, view(P, "P"), view(Q, "Q"));
+    });
+}
+
+// The stresses of a point of material, and their slopes where these are asked for.
+template <class Given>
+int driven(const Given* material, const double* parameters, ptrdiff_t count, const double* strain,
+           ptrdiff_t n, double* stress, double* slopes, curvewise_error* error) noexcept {
+    return guarded(error, [&] {
+        using Material = decltype(translate(*material));
+        const Material chosen = material == nullptr ? Material{} : translate(*material);
+        const auto names = curvewise::material_parameters(chosen);
+        if (count != static_cast<ptrdiff_t>(names.size())) {
+            std::string listed;
+            for (const auto& one : names) listed += (listed.empty() ? "" : ", ") + one.name;
+            throw std::invalid_argument("there are " + std::to_string(count) +
+                                        " parameters; the material has " +
+                                        std::to_string(names.size()) + ": " + listed);
+        }
+        if (n < 0) {
+            throw std::invalid_argument("there are " + std::to_string(n) +
+                                        " strains; give a whole number >= 0");
+        }
+        at(parameters, "parameters");
+        if (n > 0) at(strain, "strain"), at(stress, "stress");
+        curvewise::material_stress(chosen, parameters, strain, n, stress, slopes);
     });
 }
 
@@ -254,6 +288,20 @@ int curvewise_pdist(const curvewise_curve* X, ptrdiff_t k, int measure, const vo
         if (k > 1) at(out, "out");
         curvewise::pdist(curves, measure_of(measure, options), out, translate(batch));
     });
+}
+
+int curvewise_chaboche_voce_stress(const curvewise_chaboche_voce* material,
+                                   const double* parameters, ptrdiff_t count, const double* strain,
+                                   ptrdiff_t n, double* stress, double* slopes,
+                                   curvewise_error* error) {
+    return driven(material, parameters, count, strain, n, stress, slopes, error);
+}
+
+int curvewise_yoshida_uemori_stress(const curvewise_yoshida_uemori* material,
+                                    const double* parameters, ptrdiff_t count, const double* strain,
+                                    ptrdiff_t n, double* stress, double* slopes,
+                                    curvewise_error* error) {
+    return driven(material, parameters, count, strain, n, stress, slopes, error);
 }
 
 const char* curvewise_version(void) { return curvewise::version; }

@@ -94,7 +94,7 @@ class SolverModel:
 
     name: str
     command: tuple[str, ...] = key_at(
-        _command, (), required='["ccx", "-i", "deck"], say, or material'
+        _command, (), required='["ccx", "-i", "deck"], say, or a material in its place'
     )
     templates: tuple[Path, ...] = key_at(_paths, (), required="the deck, or a list of files")
     timeout: float = key(keys.positive, 3600.0, required="the seconds that a run may take")

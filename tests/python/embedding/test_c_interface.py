@@ -18,6 +18,7 @@ from programs import KINDS, MARKS, ROOT, compiler, output, run
 
 import curvewise
 from curvewise._options import Metric
+from curvewise.materials import ChabocheVoce, YoshidaUemori
 
 pytestmark = MARKS
 
@@ -49,6 +50,8 @@ Dtw = structure(
     ("normalize", c_int),
 )
 CurveLength = structure("CurveLength", ("scale", c_int))
+Chaboche = structure("Chaboche", ("backstresses", c_int), ("modulus", c_int))
+Yoshida = structure("Yoshida", ("growth", c_int), ("modulus", c_int), ("rtol", c_double))
 Batch = structure("Batch", ("workers", c_ssize_t), ("cutoff", c_double))
 
 
@@ -275,6 +278,80 @@ def test_batches_take_the_options_of_their_measure(library) -> None:
     assert "d(P, Q) = d(Q, P)" in refused(curves(*X), 3, 1)
     holes = (Curve * 2)(view(P), Curve(None, 5, 2, 2, 1))
     assert refused(holes, 2, 3) == "X[1]->data is a null pointer"
+
+
+MATERIALS = [
+    (None, ChabocheVoce(), (200e3, 300.0, -50.0, 8.0, 80e3, 400.0, 5e3, 20.0)),
+    (
+        Chaboche(1, 1),
+        ChabocheVoce(1, "decaying"),
+        (200e3, 160e3, 30.0, 300.0, -50.0, 8.0, 80e3, 400.0),
+    ),
+    (None, YoshidaUemori(), (200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4)),
+    (
+        Yoshida(1, 0, 1e-6),
+        YoshidaUemori(growth="power", rtol=1e-6),
+        (200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4, 0.01, 0.3),
+    ),
+]
+
+
+def driven(library, material, options, parameters, strain, *, slopes=None, stress=None, n=None):
+    """Return status, message and stresses of a material of C."""
+    kind = "chaboche_voce" if isinstance(material, ChabocheVoce) else "yoshida_uemori"
+    stress, error = np.full(len(strain), math.nan) if stress is None else stress, Error()
+    pointers = [
+        None if array is None else array.ctypes.data_as(POINTER(c_double))
+        for array in (np.array(parameters), np.asarray(strain), stress, slopes)
+    ]
+    status = getattr(library, f"curvewise_{kind}_stress")(
+        None if options is None else byref(options),
+        pointers[0],
+        c_ssize_t(len(parameters)),
+        pointers[1],
+        c_ssize_t(len(strain) if n is None else n),
+        *pointers[2:],
+        byref(error),
+    )
+    return status, error.message.decode(), stress
+
+
+@pytest.mark.parametrize(("options", "material", "constants"), MATERIALS)
+def test_materials(options, material, constants, library) -> None:
+    strain = np.array([0.001, 0.02, 0.018, -0.02, 0.03])
+    named = dict(zip(material.names, constants, strict=True))
+    expected, slopes = material.stress_and_slopes(strain, named)
+    found = np.full(slopes.shape, math.nan)
+    assert driven(library, material, options, constants, strain, slopes=found)[:2] == (OK, "")
+    np.testing.assert_array_equal(found, slopes)
+    np.testing.assert_array_equal(
+        driven(library, material, options, constants, strain)[2], expected
+    )
+
+
+def test_materials_refused(library) -> None:
+    _, material, constants = MATERIALS[0]
+    strain = np.array([0.001, math.nan])
+
+    def refused(*given, **others) -> str:
+        status, message, stress = driven(library, *given, **others)
+        assert status == INVALID_ARGUMENT
+        assert np.isnan(stress).all()
+        return message
+
+    assert refused(material, None, constants, strain) == "strain[1] is nan; strains must be finite"
+    expected = "there are 3 parameters; the material has 8: E, yield, Q, b, C1, gamma1, C2, gamma2"
+    assert refused(material, None, constants[:3], strain) == expected
+    message = refused(material, Chaboche(2, 5), constants, strain)
+    assert message == "unknown modulus 5; choose from 0 to 1"
+    assert "backstresses is -1" in refused(material, Chaboche(-1, 0), constants, strain)
+    assert "there are -2 strains" in refused(material, None, constants, strain, n=-2)
+    assert refused(MATERIALS[2][1], Yoshida(2, 0, 1e-9), MATERIALS[2][2], strain) == (
+        "unknown growth 2; choose from 0 to 1"
+    )
+    function, error = library.curvewise_chaboche_voce_stress, Error()
+    none = function(None, None, c_ssize_t(8), None, c_ssize_t(0), None, None, byref(error))
+    assert (none, error.message) == (INVALID_ARGUMENT, b"parameters is a null pointer")
 
 
 def test_version(library) -> None:

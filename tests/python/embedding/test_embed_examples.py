@@ -30,6 +30,7 @@ from programs import (
 )
 
 import curvewise
+from curvewise.materials import ChabocheVoce
 
 pytestmark = MARKS
 
@@ -128,6 +129,12 @@ def test_nearest(examples) -> None:
     assert len(near) > 1
 
 
+STEEL = ChabocheVoce()
+CONSTANTS = (200e3, 300.0, -50.0, 8.0, 80e3, 400.0, 5e3, 20.0)
+DRIVEN, SLOPES = STEEL.stress_and_slopes(
+    [0.001, 0.02, -0.02], dict(zip(STEEL.names, CONSTANTS, strict=True))
+)
+
 C_VALUES = {
     "area": curvewise.area(P, Q),
     "pcm": curvewise.pcm(P, Q),
@@ -137,6 +144,8 @@ C_VALUES = {
     "P_and_Q": curvewise.dtw(P, Q, step_pattern="symmetric2", window=80),
     "P_and_beginning": curvewise.dtw(P, P[:60], step_pattern="symmetric2", window=80),
     "Q_and_beginning": curvewise.dtw(Q, P[:60], step_pattern="symmetric2", window=80),
+    "driven": DRIVEN[2],
+    "driven_by_yield": SLOPES[2, 1],
 }
 FORTRAN_VALUES = {
     **C_VALUES,

@@ -8,6 +8,7 @@ Fortran. Whoever changes one of them and not the others learns it here.
 from __future__ import annotations
 
 import ast
+import dataclasses
 import inspect
 import re
 import subprocess
@@ -20,6 +21,7 @@ import pytest
 
 import curvewise
 from curvewise import _core, _options, measures, plotting, reference
+from curvewise.materials import ChabocheVoce, Material, YoshidaUemori
 from curvewise.measures.registry import MEASURES, PRESETS, WARPINGS, MeasureName
 
 ROOT = next(folder for folder in Path(__file__).parents if (folder / "pyproject.toml").is_file())
@@ -83,6 +85,30 @@ def test_every_layer_has_the_same_choices_in_the_same_order(option: str) -> None
     c_enum = {"scale": "length_scale"}.get(option, option)
     assert c_choices(c_enum, "spacing_" if option == "spacing" else "") == choices
     assert fortran_choices(prefix, choices) == choices
+
+
+@pytest.mark.parametrize("kind", [ChabocheVoce, YoshidaUemori])
+def test_every_layer_has_the_same_materials(kind: type[Material]) -> None:
+    name = {ChabocheVoce: "chaboche_voce", YoshidaUemori: "yoshida_uemori"}[kind]
+    defaults = {one.name: str(getattr(kind(), one.name)) for one in dataclasses.fields(kind)}
+    text = re.sub(r"/\*.*?\*/", "", C_HEADER.read_text(encoding="utf-8"), flags=re.DOTALL)
+    struct = re.search(rf"struct curvewise_{name} {{(.*?)}}", text, re.DOTALL)
+    values = re.search(rf"CURVEWISE_{name.upper()}_DEFAULTS[\s\\]*{{(.*?)}}", text, re.DOTALL)
+    assert struct
+    assert values
+    assert re.findall(r"(\w+);", struct[1]) == list(defaults)
+    constants = [bare(value) for value in values[1].replace("\\\n", "").split(",")]
+    assert [value.replace("1e-9", "1e-09") for value in constants] == list(defaults.values())
+    source = re.sub(r"!.*", "", FORTRAN.read_text(encoding="utf-8"))
+    body = re.search(rf"public :: {name}\n(.*?)end type", source, re.DOTALL)
+    assert body
+    in_fortran = dict(re.findall(r":: (\w+) = (\S+)", body[1]))
+    assert list(in_fortran) == list(defaults)
+    for option, hint in get_type_hints(kind).items():
+        if choices := list(get_args(hint)):
+            assert c_choices(option, "") == choices
+            assert fortran_choices(f"{option}_", choices) == choices
+            assert in_fortran[option] == f"{option}_{defaults[option]}"
 
 
 @pytest.mark.parametrize("name", MEASURES)
