@@ -17,7 +17,7 @@ std::vector<MaterialParameter> material_parameters(const YoshidaUemori& material
     parameters.push_back({"K", "-", "rate of the bounding surface's motion and growth"});
     parameters.push_back({"RSAT", "stress", "what the bounding surface grows by"});
     parameters.push_back({"SB", "stress", "what its centre moves by at most"});
-    parameters.push_back({"H", "-", "share of growth in the stagnation surface's motion, to 1"});
+    parameters.push_back({"H", "-", "share of growth in the stagnation surface's motion"});
     if (material.growth == BoundGrowth::power) {
         parameters[parameters.size() - 3].meaning = "factor of the bounding surface's growth";
         parameters.push_back({"C1", "-", "plastic strain at which the power law of growth begins"});

@@ -154,11 +154,15 @@ class Walk {
     // value (by the midpoint rule, to the third power of the little) as in the slopes.
     void settle(std::size_t what, double sign) {
         const Number value = what == P ? branch_.contact() : what == U ? Number(0.0) : target_;
+        const Number left = value - state_[what];
         const State<Number> rate = branch_.rates(state_, sign);
-        const Number time = (value - state_[what]) / rate[what];
+        const Number half = 0.5 * (left / rate[what]);
         State<Number> middle = state_;
-        for (std::size_t c = 0; c < middle.size(); ++c) middle[c] += 0.5 * (rate[c] * time);
+        for (std::size_t c = 0; c < middle.size(); ++c) middle[c] += rate[c] * half;
+        // The time by the middle's rate, too: a time that is wrong by the square of the little has
+        // a derivative that is wrong by the little itself.
         const State<Number> rate_there = branch_.rates(middle, sign);
+        const Number time = left / rate_there[what];
         for (std::size_t c = 0; c < state_.size(); ++c) state_[c] += rate_there[c] * time;
         state_[what] = value;
     }
