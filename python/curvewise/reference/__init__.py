@@ -10,7 +10,8 @@ measures agree to 1e-12 relative, where no decision (longest segment, simple or 
 quadrilateral, shorter curve) hangs on rounding.
 
 :mod:`curvewise.reference.nearest` has what is made of many distances: nearest neighbours, the runs
-of a long curve, and the mean.
+of a long curve, and the mean. :mod:`curvewise.reference.materials` has the points of material, by
+many small steps.
 
 Tables are stored whole, so memory is O(n m) where the compiled library needs O(n + m).
 

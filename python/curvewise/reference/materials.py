@@ -1,0 +1,247 @@
+"""Points of material as a textbook has them: return to the yield surface by many small steps.
+
+An elastic trial; where it leaves the yield surface, the rest of the step is plastic, and the rate
+equations are integrated in the strain by the classical method of Runge and Kutta. Nothing of it is
+closed: the error is of fourth order in the step, some 1e-9 of the stress with a hundred steps
+between two points of a loop. O(n steps), 0.1 ms each.
+
+Chaboche and Voce: J. L. Chaboche, Int. J. Plasticity 2 (1986) 149-188. Yoshida and Uemori:
+Int. J. Plasticity 18 (2002) 661-686, uniaxial, with the constants of *MAT_125 of LS-DYNA. A modulus
+that decays: Yoshida, Uemori & Fujiwara, ibid. 633-659.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["chaboche_voce", "yoshida_uemori"]
+
+Array = npt.NDArray[np.float64]
+
+
+def chaboche_voce(
+    strain: npt.ArrayLike, parameters: Mapping[str, float], *, steps: int = 100
+) -> Array:
+    """Return the stress of :class:`curvewise.materials.ChabocheVoce` at each strain of a path.
+
+    Parameters
+    ----------
+    strain : array_like, shape (n,)
+        Strain [-] in the order of loading, from the unloaded state.
+    parameters : mapping of str to float
+        As for the class; with Ea and xi the modulus decays, and there are as many back stresses as
+        there are C1, C2, …
+    steps : int, default 100
+        Between two strains.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+
+    Notes
+    -----
+    O(n steps) time.
+
+    Examples
+    --------
+    >>> from curvewise.reference.materials import chaboche_voce
+    >>> steel = {"E": 200e3, "yield": 300.0, "Q": -50.0, "b": 8.0, "C1": 80e3, "gamma1": 400.0}
+    >>> chaboche_voce([0.001, 0.02, 0.018, -0.02], steel, steps=1000).round(2)
+    array([ 200.  ,  493.28,   93.28, -482.81])
+    """
+    return _driven(_ChabocheVoce(parameters), strain, steps)
+
+
+def yoshida_uemori(
+    strain: npt.ArrayLike, parameters: Mapping[str, float], *, steps: int = 100
+) -> Array:
+    """Return the stress of :class:`curvewise.materials.YoshidaUemori` at each strain of a path.
+
+    Parameters
+    ----------
+    strain : array_like, shape (n,)
+        Strain [-] in the order of loading, from the unloaded state.
+    parameters : mapping of str to float
+        As for the class; with Ea and xi the modulus decays, with C1 and C2 the bounding surface
+        grows by the power law.
+    steps : int, default 100
+        Between two strains, and more where the yield surface passes the bounding surface's centre.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+
+    Notes
+    -----
+    O(n steps) time.
+
+    Examples
+    --------
+    >>> from curvewise.reference.materials import yoshida_uemori
+    >>> names = ("E", "CB", "Y", "C", "K", "RSAT", "SB", "H")
+    >>> steel = dict(zip(names, (200e3, 420.0, 300.0, 300.0, 12.0, 150.0, 120.0, 0.4)))
+    >>> yoshida_uemori([0.001, 0.03, -0.03], steel, steps=1000).round(2)
+    array([ 200.  ,  485.77, -536.89])
+    """
+    return _driven(_YoshidaUemori(parameters), strain, steps)
+
+
+class _Point(ABC):
+    """A state, its first number the plastic strain p, and its rates."""
+
+    state: Array
+
+    def __init__(self, constants: Mapping[str, float]) -> None:
+        self.constants = constants
+
+    def modulus(self, p: float) -> float:
+        """Return E after the plastic strain p."""
+        E = self.constants["E"]
+        if "xi" not in self.constants:
+            return E
+        return E - (E - self.constants["Ea"]) * (1.0 - math.exp(-self.constants["xi"] * p))
+
+    @property
+    @abstractmethod
+    def centre(self) -> float:
+        """That of the yield surface."""
+
+    @property
+    @abstractmethod
+    def radius(self) -> float:
+        """That of the yield surface."""
+
+    @abstractmethod
+    def flow(self, n: float, left: float) -> float:
+        """Flow in a direction, by a plastic step of at most so much strain; return its length."""
+
+
+def _driven(point: _Point, strain: npt.ArrayLike, steps: int) -> Array:
+    path = np.asarray(strain, dtype=np.float64)
+    stress = np.empty_like(path)
+    s = last = 0.0
+    for i, value in enumerate(path.tolist()):
+        part, last = (value - last) / steps, value
+        n = math.copysign(1.0, part)
+        for _ in range(steps):
+            E = point.modulus(float(point.state[0]))
+            elastic = max(0.0, (point.radius + n * (point.centre - s)) / E)
+            if elastic >= abs(part):
+                s += E * part
+                continue
+            left = abs(part) - elastic
+            while left > 0.0:
+                left -= point.flow(n, left)
+            s = point.centre + n * point.radius
+        stress[i] = s
+    return stress
+
+
+def _runge_kutta(state: Array, h: float, rates: Callable[[Array], Array]) -> Array:
+    a = rates(state)
+    b = rates(state + 0.5 * h * a)
+    c = rates(state + 0.5 * h * b)
+    d = rates(state + h * c)
+    return state + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
+
+
+class _ChabocheVoce(_Point):
+    """The state is p, R, X1, X2 and so on."""
+
+    def __init__(self, constants: Mapping[str, float]) -> None:
+        super().__init__(constants)
+        count = sum(name.startswith("gamma") for name in constants)
+        self.C, self.gamma = (
+            np.array([constants[f"{name}{k + 1}"] for k in range(count)]) for name in ("C", "gamma")
+        )
+        self.state = np.zeros(2 + count)
+
+    @property
+    def centre(self) -> float:
+        return float(self.state[2:].sum())
+
+    @property
+    def radius(self) -> float:
+        return float(self.constants["yield"] + self.state[1])
+
+    def flow(self, n: float, left: float) -> float:
+        def rates(state: Array) -> Array:
+            by_p = np.empty_like(state)
+            by_p[0] = 1.0
+            by_p[1] = self.constants["b"] * (self.constants["Q"] - state[1])
+            by_p[2:] = n * self.C - self.gamma * state[2:]
+            hardening = by_p[1] + n * by_p[2:].sum()
+            return by_p / (1.0 + hardening / self.modulus(float(state[0])))
+
+        self.state = _runge_kutta(self.state, left, rates)
+        return left
+
+
+class _YoshidaUemori(_Point):
+    """The state is p, R, theta, beta, and centre and size of the stagnation surface.
+
+    Beta is the bounding surface's centre, theta the yield surface's from there.
+    """
+
+    def __init__(self, constants: Mapping[str, float]) -> None:
+        super().__init__(constants)
+        self.state = np.zeros(6)
+        self._grows, self._direction = False, 0.0
+
+    @property
+    def centre(self) -> float:
+        return float(self.state[2] + self.state[3])
+
+    @property
+    def radius(self) -> float:
+        return self.constants["Y"]
+
+    def flow(self, n: float, left: float) -> float:
+        self._grows = self._grows and n == self._direction
+        self._direction = n
+
+        def outside(state: Array) -> float:
+            """Return how far the bounding surface's centre has left the stagnation surface."""
+            return float(n * (state[3] - state[4]) - state[5])
+
+        self._grows = self._grows or outside(self.state) >= 0.0
+        steepness = abs(float(self._rates(self.state, n)[2]))
+        h = min(left, max(0.1 * abs(float(self.state[2])) / steepness, 1e-13))
+
+        def stepped(length: float) -> Array:
+            return _runge_kutta(self.state, length, lambda state: self._rates(state, n))
+
+        after = stepped(h)
+        if not self._grows and outside(after) > 0.0:  # within the step, which then ends there
+            low = 0.0
+            for _ in range(60):
+                middle = 0.5 * (low + h)
+                low, h = (low, middle) if outside(stepped(middle)) > 0.0 else (middle, h)
+            after = stepped(h)
+            self._grows = True
+        self.state = after
+        return h
+
+    def _rates(self, state: Array, n: float) -> Array:
+        c = self.constants
+        p, R, theta, beta = map(float, state[:4])
+        a = c["CB"] + R - c["Y"]
+        theta_rate = c["C"] * (n * a - math.copysign(math.sqrt(a * abs(theta)), theta))
+        beta_rate = c["K"] * (n * c["SB"] - beta)
+        growth = pushed = 0.0
+        if self._grows:
+            pushed = beta_rate
+            growth = (
+                c["RSAT"] * c["C2"] * (c["C1"] + p) ** (c["C2"] - 1.0)
+                if "C2" in c
+                else c["K"] * (c["RSAT"] - R)
+            )
+        by_p = np.array(
+            [1.0, growth, theta_rate, beta_rate, (1.0 - c["H"]) * pushed, c["H"] * abs(pushed)]
+        )
+        return by_p / (1.0 + n * (theta_rate + beta_rate) / self.modulus(p))
