@@ -185,12 +185,10 @@ class Integration {
             const double u = walk_.state()[U];
             const std::size_t by = u < 0.0 ? U : u < 0.5 ? Leg::T : STRAIN;
             if (by != last_by) length = never;
-            const double left = by == U        ? -u
-                                : by == Leg::T ? 1.0 / constants_.C  // u rises by no more than 1/2
-                                               : target_ - last_strain();
-            auto [end, taken] = accepted(by, std::min(length, left));
+            const double left = by == U ? -u : by == STRAIN ? target_ - last_strain() : never;
+            auto [end, taken] = accepted(by, std::min({length, left, longest(by)}));
             length = 2.0 * taken;
-            Leg leg{by, taken, by != Leg::T && taken == left ? by : Leg::nowhere};
+            Leg leg{by, taken, taken == left ? by : Leg::nowhere};
             const Branch<double>& branch = walk_.branch();
             if (!branch.is_growing() && end[P] > branch.contact()) {
                 std::tie(leg, end) = landed(leg, end, P, branch.contact());
@@ -209,6 +207,12 @@ class Integration {
     // errors.
     static constexpr double share_of_a_step = 1e-3;
 
+    // What a step may be at most, whatever its error: u rises by no more than 1/2 along T; and near
+    // u = 1, where the value stands still and says nothing of the step, its slopes decay as
+    // exp(-C p / 2), which the method follows up to some six of them only.
+    double longest(std::size_t by) const {
+        return by == U ? never : (by == Leg::T ? 1.0 : 8.0) / constants_.C;
+    }
     double last_strain() const { return walk_.state()[STRAIN]; }
     Step<double, 3> step(std::size_t by, double length) {
         if (--steps_left_ < 0) {

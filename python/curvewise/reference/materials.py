@@ -147,7 +147,8 @@ def _runge_kutta(state: Array, h: float, rates: Callable[[Array], Array]) -> Arr
     b = rates(state + 0.5 * h * a)
     c = rates(state + 0.5 * h * b)
     d = rates(state + h * c)
-    return state + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
+    after: Array = state + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
+    return after
 
 
 class _ChabocheVoce(_Point):
@@ -176,7 +177,8 @@ class _ChabocheVoce(_Point):
             by_p[1] = self.constants["b"] * (self.constants["Q"] - state[1])
             by_p[2:] = n * self.C - self.gamma * state[2:]
             hardening = by_p[1] + n * by_p[2:].sum()
-            return by_p / (1.0 + hardening / self.modulus(float(state[0])))
+            p_by_strain = 1.0 / (1.0 + float(hardening) / self.modulus(float(state[0])))
+            return by_p * p_by_strain
 
         self.state = _runge_kutta(self.state, left, rates)
         return left
@@ -199,7 +201,7 @@ class _YoshidaUemori(_Point):
 
     @property
     def radius(self) -> float:
-        return self.constants["Y"]
+        return float(self.constants["Y"])
 
     def flow(self, n: float, left: float) -> float:
         self._grows = self._grows and n == self._direction
