@@ -4,8 +4,9 @@
 
 For each test and material: the deviation (root mean square, MPa), how far the sum of squares is
 above scipy's best of fifty random starts with the same slopes, runs of the model, CPU seconds of
-the fit with its intervals, and what is not determined. Writes results/fits.md. A minute on one
-core; the tests are those of CURVEWISE_DATA.
+the fit with its intervals, and what is not determined; "limit": at 0, or a yield surface as large
+as the bounding surface. Writes results/fits.md. Some minutes on one core; the tests are those of
+CURVEWISE_DATA.
 """
 
 from __future__ import annotations
@@ -86,9 +87,9 @@ def main() -> None:
             stress = material.stress(compared[:, 0], fit.parameters)
             squares = float(((stress - compared[:, 1]) ** 2).sum())
             best = best_by_scipy(material, compared, fit.found.problem.space)
-            bounded = fit.uncertainty.at_bounds
+            bounded, limits = fit.uncertainty.at_bounds, fit.uncertainty.at_limits
             loose = [
-                f"{p} ({bounded[p]} bound)" if p in bounded else p
+                f"{p} ({'limit' if p in limits else f'{bounded[p]} bound'})" if p in bounded else p
                 for p, good in fit.uncertainty.determined.items()
                 if not good
             ]

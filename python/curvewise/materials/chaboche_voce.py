@@ -63,9 +63,9 @@ class ChabocheVoce(Material):
         # Of back stresses that are steep at first little yield stress is left; much of it may be
         # lost by softening.
         bounds: dict[str, Any] = {
-            "yield": Log(0.05 * span.lowest_yield, 1.2 * span.highest_yield),
-            "Q": (-0.6 * span.lowest_yield, 1.5 * span.stress),
-            "b": Log(0.1 / span.path, 200.0 / span.path),
+            "yield": Log(0.02 * span.lowest_yield, 1.2 * span.highest_yield),
+            "Q": (-1.2 * span.highest_yield, 4.0 * span.stress),
+            "b": Log(0.02 / span.path, 200.0 / span.path),
         }
         # The rates are shared out, the first the fastest, so that back stresses do not change
         # places: from what saturates within a thousandth of a branch to what is nearly a line.

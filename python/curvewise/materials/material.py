@@ -143,9 +143,9 @@ class Material(ABC):
 
         Modulus, yield stress, and the stresses and plastic strains that are reached (`readings`);
         the rest follows from these: what hardens within a hundredth of a branch or hardly at all
-        within all of the test, up to twice the stress. :class:`Log` where that is more than a
-        decade. Wide on purpose: a parameter that ends at one of them is not determined by the
-        tests.
+        within all of the test, up to several times the stress. :class:`Log` where that is more
+        than a decade. Wide on purpose: a parameter that ends at one of them is not determined by
+        the tests. Bounds at 0 are limits: nothing lies beyond.
 
         Parameters
         ----------
@@ -175,7 +175,7 @@ class Material(ABC):
 
     def _modulus_bounds(self, readings: Sequence[Reading]) -> Bounds:
         moduli = [modulus for reading in readings for modulus in reading.moduli]
-        around = (0.5 * min(moduli), 2.0 * max(moduli))
+        around = (0.5 * min(moduli), 4.0 * max(moduli))
         if "Ea" not in self.names:
             return {"E": around}
         path = max(reading.path for reading in readings)

@@ -65,11 +65,11 @@ class YoshidaUemori(Material):
     def _hardening_bounds(self, span: Span) -> Bounds:
         bounds: dict[str, Any] = {
             "CB": (0.3 * span.lowest_yield, 1.5 * span.stress),
-            "Y": Below("CB", 0.15 * span.lowest_yield, 1.2 * span.highest_yield),
-            "C": Log(1.0 / span.longest_branch, 1000.0 / span.shortest_branch),
-            "K": Log(0.05 / span.longest_branch, 50.0 / span.shortest_branch),
-            "RSAT": (0.0, 2.0 * span.stress),
-            "SB": (0.0, 1.5 * span.stress),
+            "Y": Below("CB", 0.01 * span.lowest_yield, 1.2 * span.highest_yield),
+            "C": Log(1.0 / span.longest_branch, 1e4 / span.shortest_branch),
+            "K": Log(0.005 / span.longest_branch, 500.0 / span.shortest_branch),
+            "RSAT": (0.0, 5.0 * span.stress),
+            "SB": (0.0, 5.0 * span.stress),
             "H": (0.0, 1.0),
         }
         if self.growth == "power":

@@ -263,6 +263,14 @@ def test_places_between_bounds_are_those_of_the_search():
     assert space.place("a", 210.0) == 1.1
     assert space.at_bounds(parameters) == {"b": "upper"}
     assert space.at_bounds({"a": 100.05, "b": 80.0, "c": 9.95e3}) == {"a": "lower", "c": "upper"}
+    assert space.at_limits(parameters) == ("b",)  # it cannot pass a
+    assert space.at_limits({"a": 100.05, "b": 80.0, "c": 9.95e3}) == ()
+
+
+def test_a_bound_of_zero_is_a_limit():
+    space = Space({"rate": (0.0, 1.0), "softening": (-1.0, 0.0), "b": (-1.0, 1.0)})
+    assert space.at_limits({"rate": 0.0, "softening": 0.0, "b": 0.0}) == ("rate", "softening")
+    assert space.at_limits({"rate": 1.0, "softening": -1.0, "b": 1.0}) == ()
 
 
 def test_a_start_among_ordered_and_logarithmic_parameters():

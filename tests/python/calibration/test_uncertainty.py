@@ -193,6 +193,23 @@ def test_a_parameter_at_its_bound_is_not_determined():
     assert "at its lower bound" in str(uncertainty)
 
 
+def test_a_parameter_at_zero_is_at_its_limit(tmp_path):
+    def line(p):
+        return np.column_stack((TEST[:, 0], p["height"] + p["slope"] * TEST[:, 0]))
+
+    falling = line({"height": 1.0, "slope": -0.5})
+    bounds = {"height": (-2.0, 5.0), "slope": (0.0, 3.0)}
+    found = identify(line, falling, bounds, measure="sum_of_squares", **QUIET)
+    uncertainty = found.uncertainty()
+    assert uncertainty.at_limits == ("slope",)
+    assert not uncertainty.determined["slope"]
+    assert "slope, at a limit beyond which nothing lies" in str(uncertainty)
+    assert "at its limit" in str(found)
+    found.report(tmp_path / "report.html", uncertainty=uncertainty)
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "slope is at its limit, 0: nothing lies beyond." in page
+
+
 @pytest.mark.parametrize(
     ("bounds", "value", "change", "expected"),
     [

@@ -181,6 +181,7 @@ def public_modules() -> set[str]:
     return {
         "curvewise",
         "curvewise.installation",
+        "curvewise.reference.materials",
         "curvewise.reference.nearest",
         *(f"curvewise.{name}" for name in modules),
     }

@@ -85,16 +85,16 @@ def run_search(problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()) -
 def _within_bounds(finish: Finish, ledger: Ledger, problem: Problem) -> Finish:
     """Take back "converged" where bounds stopped the search: the minimum is beyond them.
 
-    A bound of 0 is meant: it is what a modulus or a rate cannot go below.
+    A limit is meant: nothing lies beyond.
     """
     if not finish.converged:
         return finish
+    parameters = problem.space.dictionary(ledger.best.point)
+    limits = problem.space.at_limits(parameters)
     stopped = [
         f"{name} is at its {side} bound"
-        for name, side in problem.space.at_bounds(
-            problem.space.dictionary(ledger.best.point)
-        ).items()
-        if problem.space.bounds[name][side == "upper"] != 0.0
+        for name, side in problem.space.at_bounds(parameters).items()
+        if name not in limits
     ]
     if not stopped:
         return finish

@@ -235,6 +235,19 @@ class Space:
             if min(place, 1.0 - place) < _AT_BOUND
         }
 
+    def at_limits(self, parameters: Mapping[str, float]) -> tuple[str, ...]:
+        """Return those at a bound that is no assumption: at 0, or at the one that they stay below.
+
+        A modulus, a rate or a share cannot go below 0, so that nothing lies beyond.
+        """
+        found = []
+        for name, side in self.at_bounds(parameters).items():
+            i, upper = self.names.index(name), side == "upper"
+            above = parameters[self.names[self._others[i]]] if i in self._others else math.inf
+            if self.bounds[name][upper] == 0.0 or (upper and above < self.bounds[name][1]):
+                found.append(name)
+        return tuple(found)
+
     def differential(self, unit: Array) -> Array:
         """Return the derivatives of the parameters by the place in the unit cube, shape (k, k)."""
         if not self._logs and not self._others:

@@ -40,12 +40,14 @@ def parameter_table(
     if with_bounds:
         header += ["from", "to"] if spread is None else ["lower bound", "upper bound"]
     at_bounds = space.at_bounds(parameters) if parameters else {}
+    limits = space.at_limits(parameters) if parameters else ()
     rows = []
     for name, value in parameters.items():
         cells = [name, f"{value:.6g}"]
         note = "fixed" if name in space.fixed else "tied"
         if name in space.bounds:
             note = f"at its {at_bounds[name]} bound" if name in at_bounds else ""
+            note = "at its limit" if name in limits else note
             if spread is not None:
                 error, interval = spread["standard_errors"][name], spread["intervals"][name]
                 cells += [digits(error, 3), per_cent(error, value)]

@@ -98,9 +98,13 @@ def _determined(search: ShownSearch) -> list[str]:
     if loose:
         who = it.capitalize() if good else f"The {tests}"
         sentences.append(f"{who} do{'es' if is_one else ''} not determine {_listed(loose)}.")
+    limits = summary.get("at_limits", ())  # which older records do not have
     for name, side in bounded.items():
         value = digits(values[name], 4)
-        sentences.append(f"{name} is at its {side} bound, {value}: it may lie beyond.")
+        if name in limits:
+            sentences.append(f"{name} is at its limit, {value}: nothing lies beyond.")
+        else:
+            sentences.append(f"{name} is at its {side} bound, {value}: it may lie beyond.")
     return sentences
 
 

@@ -78,6 +78,8 @@ class Uncertainty(Result):
         bound.
     at_bounds : dict of str to str
         "lower" or "upper", for the parameters that are at a bound.
+    at_limits : tuple of str
+        Those of them whose bound is no assumption: 0, or the parameter that they stay below.
     sigma : ndarray, shape (loops,)
         The standard deviation of the noise, as given or as the residuals have it.
     level, samples, measure
@@ -97,6 +99,7 @@ class Uncertainty(Result):
     unnoticed: dict[str, float]
     determined: dict[str, bool]
     at_bounds: dict[str, str]
+    at_limits: tuple[str, ...]
     sigma: Array = field(repr=False)
     level: float
     samples: int
@@ -156,6 +159,11 @@ class Uncertainty(Result):
         lines.append(
             f"not determined: {', '.join(undetermined)}" if undetermined else "all are determined"
         )
+        if self.at_limits:
+            lines.append(
+                f"not determined by these tests: {', '.join(self.at_limits)}, at a limit beyond "
+                "which nothing lies"
+            )
         lines.append(f"weakest direction: {self.in_words}")
         if moved := self._biased():
             lines.append(
@@ -258,6 +266,7 @@ def uncertainty_of(
         unnoticed=named(unnoticed.tolist()),
         determined=determined(space, parameters, np.maximum(halves, unnoticed).tolist()),
         at_bounds=space.at_bounds(parameters),
+        at_limits=space.at_limits(parameters),
         sigma=noise.sigma,
         level=level,
         samples=samples,
