@@ -8,6 +8,7 @@
 
 #include "bind_topics.hpp"
 #include "curvewise/gradient.hpp"
+#include "curvewise/soft_dtw.hpp"
 #include "interruptible.hpp"
 #include "numpy_view.hpp"
 #include "options.hpp"
@@ -137,6 +138,20 @@ py::tuple value_with_gradient(const CurveArray& P, const CurveArray& Q, const py
     });
 }
 
+// The value, and its derivatives by P and by Q in their shapes.
+py::tuple soft_dtw_with_gradients(const CurveArray& P, const CurveArray& Q,
+                                  const py::dict& options) {
+    py::array_t<double> by_p(std::vector<py::ssize_t>(P.shape(), P.shape() + P.ndim()));
+    py::array_t<double> by_q(std::vector<py::ssize_t>(Q.shape(), Q.shape() + Q.ndim()));
+    double *const p_data = by_p.mutable_data(), *const q_data = by_q.mutable_data();
+    const double value = computed(
+        P, Q, read_options<SoftDtwOptions>(options),
+        [&](const CurveView& p, const CurveView& q, const SoftDtwOptions& o, Control* control) {
+            return soft_dtw_and_gradients(p, q, p_data, q_data, o, control);
+        });
+    return py::make_tuple(value, by_p, by_q);
+}
+
 // Of a measure by its name, which has a gradient.
 py::tuple gradient_by_name(const std::string& measure, const CurveArray& P, const CurveArray& Q,
                            const py::dict& options) {
@@ -196,6 +211,10 @@ void bind_measures(py::module_& module) {
     bind_array<CurveLengthOptions>(module, "curve_length_residuals", allocate_residuals,
                                    curve_length_residuals);
     module.def("value_and_gradient", gradient_by_name);
+    module.def("soft_dtw", [](const CurveArray& P, const CurveArray& Q, const py::dict& options) {
+        return computed(P, Q, read_options<SoftDtwOptions>(options), soft_dtw);
+    });
+    module.def("soft_dtw_and_gradients", soft_dtw_with_gradients);
     module.def("measures", measure_defaults);
     module.def("choices", option_choices);
     module.def("presets", preset_conditions);

@@ -41,6 +41,8 @@ inline constexpr WholeNumberRange window_range{
 inline constexpr WholeNumberRange offsets_range{1, "give a whole number >= 1, or 'continuous'"};
 /// Of a distance from which on it does not matter.
 inline constexpr RealNumberRange cutoff_range{0.0, "give a number >= 0, or None"};
+/// Of the smoothness of soft_dtw.
+inline constexpr RealNumberRange gamma_range{0.0, "give a finite number > 0"};  // 0 is refused, too
 
 /// The names of an enumeration's enumerators, in their order, as choice_names() gives them; `last`
 /// is the last one there is.

@@ -2,6 +2,8 @@
 // (SSE2 on x86-64, NEON on arm64), `v3` or `v4`.
 #include <Eigen/Core>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "strip.hpp"
@@ -10,9 +12,11 @@ namespace curvewise::kernels {
 namespace {
 #include "block.inl.hpp"
 #include "boxes.inl.hpp"
+#include "soft.inl.hpp"
 }  // namespace
 
-const KernelSet CURVEWISE_LEVEL = {select_advance, select_fill, select_reach, select_values,
-                                   select_least};
+const KernelSet CURVEWISE_LEVEL = {select_advance,     select_fill,  select_reach,
+                                   select_values,      select_least, soft_forward<false>,
+                                   soft_forward<true>, soft_backward};
 
 }  // namespace curvewise::kernels

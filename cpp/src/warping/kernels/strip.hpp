@@ -20,6 +20,7 @@
 #include "block.hpp"
 #include "boxes.hpp"
 #include "curvewise/ground_distance.hpp"
+#include "soft.hpp"
 
 namespace curvewise::kernels {
 
@@ -99,6 +100,9 @@ struct KernelSet {
     ReachFunction (*reach)(Metric metric, std::ptrdiff_t dim) noexcept;
     ValueFunction (*values)(Metric metric, std::ptrdiff_t dim) noexcept;
     LeastFunction (*least)(Metric metric, std::ptrdiff_t dim) noexcept;
+    SoftForward soft_forward;
+    SoftForward soft_forward_with_shares;
+    SoftBackward soft_backward;
 };
 
 extern const KernelSet baseline;

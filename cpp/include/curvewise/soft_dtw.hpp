@@ -1,0 +1,62 @@
+/// \file
+/// Soft dynamic time warping (Cuturi & Blondel 2017): dtw with squared Euclidean ground distances
+/// and the smallest of three replaced by a smooth minimum, so that it has a gradient everywhere.
+///
+///     r[i, j] = d + softmin(r[i-1, j-1], r[i-1, j], r[i, j-1]),   d = |P_i - Q_j|^2
+///     softmin(a, b, c) = -gamma log(exp(-a/gamma) + exp(-b/gamma) + exp(-c/gamma))
+///
+/// All paths count, each by exp(-cost / gamma); below dtw by at most gamma times the logarithm of
+/// their number, and so below 0 for curves that are alike. As gamma falls it becomes dtw. No
+/// overflow, whatever gamma is. Time O(n m); memory O(n + m), and O(n sqrt(m)) where gradients are
+/// asked for. Throws std::invalid_argument for what dtw refuses, for a gamma that is not finite and
+/// above 0, or so small that |P_i - Q_j|^2 / gamma is beyond 2^900; std::bad_alloc; Stopped. Safe
+/// from any number of threads.
+///
+///     curvewise::SoftDtwOptions options;
+///     options.gamma = 0.1;
+///     const double loss = curvewise::soft_dtw(target, forecast, options);
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "curvewise/control.hpp"
+#include "curvewise/curve.hpp"
+#include "curvewise/export.h"
+#include "curvewise/options.hpp"
+
+namespace curvewise {
+
+/// How smooth the minimum is, and which paths count.
+struct SoftDtwOptions {
+    static constexpr const char* measure = "soft_dtw";
+    static constexpr bool is_planar = false;  ///< for curves of any dimension
+
+    /// In the unit of the ground distance, squared coordinates.
+    double gamma = 1.0;
+    /// As for dtw.
+    std::optional<std::ptrdiff_t> window;
+    std::optional<double> window_fraction;
+
+    static constexpr bool is_symmetric() noexcept { return true; }
+    /// The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
+    constexpr double work(double n, double m, double /*dim*/) const noexcept { return 4 * n * m; }
+};
+
+/// Calls visit() with the name and the value of each option (options.hpp).
+template <class Visit>
+void visit_options(SoftDtwOptions& options, Visit&& visit) {
+    visit("gamma", options.gamma, gamma_range);
+    visit("window", options.window, options.window_fraction, window_range);
+}
+
+CURVEWISE_EXPORT double soft_dtw(const CurveView& P, const CurveView& Q,
+                                 const SoftDtwOptions& options = {}, Control* control = nullptr);
+
+/// The value, with its derivative by every coordinate of both curves: by P(i, c) in
+/// by_p[i * dim + c], by Q(j, c) in by_q[j * dim + c]. Twice the time of the value, or three times.
+CURVEWISE_EXPORT double soft_dtw_and_gradients(const CurveView& P, const CurveView& Q, double* by_p,
+                                               double* by_q, const SoftDtwOptions& options = {},
+                                               Control* control = nullptr);
+
+}  // namespace curvewise

@@ -1,0 +1,154 @@
+// soft_dtw and its gradients: curves checked and packed, the table swept (soft_sweep.hpp).
+#include "curvewise/soft_dtw.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "curves/checks.hpp"
+#include "curves/range_scale.hpp"
+#include "pairwise/evaluate.hpp"
+#include "warping/ground_distance.hpp"
+#include "warping/soft_sweep.hpp"
+#include "warping/warping_problem.hpp"
+
+namespace curvewise {
+namespace {
+
+using curves::CheckedCurve;
+using curves::RangeScale;
+using runtime::Poller;
+using warping::Band;
+using warping::PackedCurve;
+using warping::PointOrder;
+using warping::SoftSweep;
+using warping::WarpingOptions;
+
+// The window, checked as that of dtw is, and gamma.
+WarpingOptions checked_options(const SoftDtwOptions& options) {
+    if (!(options.gamma > 0.0 && std::isfinite(options.gamma))) {
+        throw std::invalid_argument("gamma is " + std::to_string(options.gamma) + "; " +
+                                    gamma_range.advice);
+    }
+    DtwOptions like;
+    like.ground.metric = Metric::sqeuclidean;
+    like.window = options.window;
+    like.window_fraction = options.window_fraction;
+    WarpingOptions checked = warping::checked_options(like);
+    checked.measure = SoftDtwOptions::measure;
+    return checked;
+}
+
+class SoftDtwMeasure {
+   public:
+    struct Memory {};
+    using PreparedP = pairwise::UnpreparedCurve;
+    using PreparedQ = pairwise::UnpreparedCurve;
+    static constexpr bool is_swept = true;
+
+    explicit SoftDtwMeasure(const SoftDtwOptions& options)
+        : options_(checked_options(options)), gamma_(options.gamma) {}
+    curves::Requirements requirements() const noexcept { return {options_.measure, 1, false}; }
+    void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const {
+        warping::check_sizes(options_, n, m);
+    }
+    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
+    static std::ptrdiff_t workers() noexcept { return 1; }
+    static std::int64_t steps(std::int64_t n, std::int64_t /*count*/,
+                              std::int64_t points) noexcept {
+        return n * points;
+    }
+
+    double operator()(const PreparedP& P, const PreparedQ& Q,
+                      const pairwise::Call<Memory>& call) const {
+        return -gamma_ * with_sweep(P.checked, Q.checked, call.poller,
+                                    [](SoftSweep& sweep, const RangeScale& /*range*/) {
+                                        return sweep.log_of_total();
+                                    });
+    }
+
+    double with_gradients(const CheckedCurve& P, const CheckedCurve& Q, Poller& poller,
+                          double* by_p, double* by_q) const {
+        return -gamma_ * with_sweep(P, Q, poller, [&](SoftSweep& sweep, const RangeScale& range) {
+            const std::ptrdiff_t dim = P.curve.dim();
+            PackedGradient of_p(P.curve.size(), dim), of_q(Q.curve.size(), dim);
+            const double result = sweep.log_of_total(of_p.data(), of_q.data());
+            of_p.unpack(range, PointOrder::forward, by_p);
+            of_q.unpack(range, PointOrder::reversed, by_q);
+            return result;
+        });
+    }
+
+   private:
+    // One entry for each coordinate of a packed curve, in its place.
+    class PackedGradient {
+       public:
+        PackedGradient(std::ptrdiff_t n, std::ptrdiff_t dim)
+            : n_(n),
+              dim_(dim),
+              stride_(runtime::AlignedBuffer::rounded(n + kernels::padding)),
+              entries_(static_cast<std::size_t>(dim * stride_)) {}
+        double* data() noexcept { return entries_.data(); }
+        void unpack(const RangeScale& range, PointOrder order, double* out) const noexcept {
+            for (std::ptrdiff_t i = 0; i < n_; ++i) {
+                const std::ptrdiff_t place = order == PointOrder::reversed ? n_ - 1 - i : i;
+                for (std::ptrdiff_t c = 0; c < dim_; ++c) {
+                    const double entry = entries_[static_cast<std::size_t>(c * stride_ + place)];
+                    out[i * dim_ + c] = range.restore(entry, 1);
+                }
+            }
+        }
+
+       private:
+        std::ptrdiff_t n_, dim_, stride_;
+        std::vector<double> entries_;
+    };
+
+    // Calls use(sweep, range).
+    template <class Use>
+    double with_sweep(const CheckedCurve& P, const CheckedCurve& Q, Poller& poller, Use use) const {
+        const std::ptrdiff_t n = P.curve.size(), m = Q.curve.size();
+        const double largest = std::max(P.largest, Q.largest);
+        const RangeScale range = warping::range_of(options_.ground, largest);
+        // R / gamma does not depend on the unit of the coordinates.
+        const double per_square = range.restore(log2_of_e / gamma_, 2);
+        check_gamma(per_square, range.shrink(largest), P.curve.dim());
+        const PackedCurve p(P.curve, range, PointOrder::forward, poller);
+        const PackedCurve q(Q.curve, range, PointOrder::reversed, poller);
+        SoftSweep sweep({p, q}, Band(n, m, options_.window_for(n, m)), per_square, poller);
+        return use(sweep, range);
+    }
+
+    void check_gamma(double per_square, double largest, std::ptrdiff_t dim) const {
+        const double most = 4.0 * largest * largest * static_cast<double>(dim) * per_square;
+        if (most < 0x1p900) return;
+        throw std::invalid_argument(
+            "gamma is too small for curves so far apart: their squared distances may be beyond "
+            "2^900 "
+            "times it; give a larger one, or use dtw, which is the limit");
+    }
+
+    static constexpr double log2_of_e = 1.44269504088896340736;
+    WarpingOptions options_;
+    double gamma_;
+};
+
+}  // namespace
+
+double soft_dtw(const CurveView& P, const CurveView& Q, const SoftDtwOptions& options,
+                Control* control) {
+    return pairwise::evaluate(SoftDtwMeasure(options), P, Q, control);
+}
+
+double soft_dtw_and_gradients(const CurveView& P, const CurveView& Q, double* by_p, double* by_q,
+                              const SoftDtwOptions& options, Control* control) {
+    const SoftDtwMeasure measure(options);
+    return pairwise::with_pair(
+        measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
+            return measure.with_gradients(p.checked, q.checked, call.poller, by_p, by_q);
+        });
+}
+
+}  // namespace curvewise
