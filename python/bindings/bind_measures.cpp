@@ -2,6 +2,7 @@
 // takes two curves as they are given and a tuple of all options, which for short curves is most of
 // the time; the others two arrays and a dict of options.
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -126,49 +127,96 @@ py::tuple value_with_gradient(const CurveArray& Q, Compute compute) {
     return py::make_tuple(value, gradient);
 }
 
-template <class Options>
-py::tuple value_with_gradient(const CurveArray& P, const CurveArray& Q, const py::dict& given) {
-    const auto options = read_options<Options>(given);
-    return value_with_gradient(Q, [&](double* gradient) {
-        return computed(
-            P, Q, options,
-            [&](const CurveView& p, const CurveView& q, const Options& o, Control* control) {
-                return value_and_gradient(o, p, q, gradient, control);
-            });
-    });
-}
-
-// The value, and its derivatives by P and by Q in their shapes.
-py::tuple soft_dtw_with_gradients(const CurveArray& P, const CurveArray& Q,
-                                  const py::dict& options) {
-    py::array_t<double> by_p(std::vector<py::ssize_t>(P.shape(), P.shape() + P.ndim()));
-    py::array_t<double> by_q(std::vector<py::ssize_t>(Q.shape(), Q.shape() + Q.ndim()));
-    double *const p_data = by_p.mutable_data(), *const q_data = by_q.mutable_data();
-    const double value = computed(
-        P, Q, read_options<SoftDtwOptions>(options),
-        [&](const CurveView& p, const CurveView& q, const SoftDtwOptions& o, Control* control) {
-            return soft_dtw_and_gradients(p, q, p_data, q_data, o, control);
-        });
-    return py::make_tuple(value, by_p, by_q);
+// A measure that has derivatives, by its name; none for another name.
+std::optional<DifferentiableMeasure> read_differentiable(const std::string& name,
+                                                         const py::dict& options) {
+    std::optional<DifferentiableMeasure> found;
+    detail::for_each_alternative(static_cast<const DifferentiableMeasure*>(nullptr),
+                                 [&](const auto& defaults) {
+                                     using Options = std::decay_t<decltype(defaults)>;
+                                     if (name == Options::measure)
+                                         found = read_options<Options>(options);
+                                 });
+    return found;
 }
 
 // Of a measure by its name, which has a gradient.
-py::tuple gradient_by_name(const std::string& measure, const CurveArray& P, const CurveArray& Q,
+py::tuple gradient_by_name(const std::string& name, const CurveArray& P, const CurveArray& Q,
                            const py::dict& options) {
-    if (measure == AreaOptions::measure) return value_with_gradient<AreaOptions>(P, Q, options);
-    if (measure == FrechetOptions::measure) {
-        return value_with_gradient<FrechetOptions>(P, Q, options);
-    }
-    if (measure == DtwOptions::measure) return value_with_gradient<DtwOptions>(P, Q, options);
-    if (measure == CurveLengthOptions::measure) {
-        return value_with_gradient<CurveLengthOptions>(P, Q, options);
-    }
+    const std::optional<DifferentiableMeasure> measure = read_differentiable(name, options);
     return value_with_gradient(Q, [&](double* gradient) {
+        if (measure) {
+            return std::visit(
+                [&](const auto& chosen) {
+                    return computed(P, Q, chosen,
+                                    [&](const CurveView& p, const CurveView& q, const auto& o,
+                                        Control* control) {
+                                        return value_and_gradient(o, p, q, gradient, control);
+                                    });
+                },
+                *measure);
+        }
         const CurveView p = view(P), q = view(Q);
         return interruptible(static_cast<double>(P.size()), py::none(), [&](Control* control) {
             return sum_of_squares_and_gradient(p, q, gradient, control);
         });
     });
+}
+
+// Curves of as many points each, one behind the other.
+using CurveBatch = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+std::vector<CurveView> views(const CurveBatch& batch) {
+    std::vector<CurveView> result;
+    for (py::ssize_t k = 0; k < batch.shape(0); ++k) {
+        result.emplace_back(batch.data(k), batch.shape(1), batch.shape(2));
+    }
+    return result;
+}
+
+// The derivatives of all pairs by one of their curves, or None.
+class BatchGradient {
+   public:
+    BatchGradient(const CurveBatch& batch, bool is_wanted)
+        : pair_(batch.shape(1) * batch.shape(2)) {
+        if (!is_wanted) return;
+        array_ = py::array_t<double>({batch.shape(0), batch.shape(1), batch.shape(2)});
+        data_ = array_->mutable_data();
+    }
+    double* of_pair(py::ssize_t k) const noexcept {
+        return data_ == nullptr ? nullptr : data_ + k * pair_;
+    }
+    py::object object() const { return array_ ? py::object(*array_) : py::object(py::none()); }
+
+   private:
+    py::ssize_t pair_;
+    std::optional<py::array_t<double>> array_;
+    double* data_ = nullptr;
+};
+
+// Of the pairs of two batches of shapes (b, n, d) and (b, m, d): values of shape (b,), and the
+// derivatives by those of both that are wanted.
+py::tuple gradients_of_pairs(const std::string& name, const CurveBatch& P, const CurveBatch& Q,
+                             const py::dict& options, bool by_p, bool by_q, py::ssize_t workers) {
+    const DifferentiableMeasure measure = read_differentiable(name, options).value();
+    const BatchGradient of_p(P, by_p), of_q(Q, by_q);
+    py::array_t<double> values(P.shape(0));
+    double* const data = values.mutable_data();
+    std::vector<Gradients> out;
+    for (py::ssize_t k = 0; k < P.shape(0); ++k) out.push_back({of_p.of_pair(k), of_q.of_pair(k)});
+    const std::vector<CurveView> p = views(P), q = views(Q);
+    const double work = std::visit(
+        [&](const auto& chosen) {
+            return static_cast<double>(P.shape(0)) * chosen.work(static_cast<double>(P.shape(1)),
+                                                                 static_cast<double>(Q.shape(1)),
+                                                                 static_cast<double>(P.shape(2)));
+        },
+        measure);
+    interruptible(static_cast<double>(P.size() + Q.size()) + work, py::none(),
+                  [&](Control* control) {
+                      values_and_gradients(measure, p, q, data, out, workers, control);
+                  });
+    return py::make_tuple(values, of_p.object(), of_q.object());
 }
 
 }  // namespace
@@ -211,10 +259,10 @@ void bind_measures(py::module_& module) {
     bind_array<CurveLengthOptions>(module, "curve_length_residuals", allocate_residuals,
                                    curve_length_residuals);
     module.def("value_and_gradient", gradient_by_name);
+    module.def("values_and_gradients", gradients_of_pairs);
     module.def("soft_dtw", [](const CurveArray& P, const CurveArray& Q, const py::dict& options) {
         return computed(P, Q, read_options<SoftDtwOptions>(options), soft_dtw);
     });
-    module.def("soft_dtw_and_gradients", soft_dtw_with_gradients);
     module.def("measures", measure_defaults);
     module.def("choices", option_choices);
     module.def("presets", preset_conditions);

@@ -8,9 +8,9 @@
 /// All paths count, each by exp(-cost / gamma); below dtw by at most gamma times the logarithm of
 /// their number, and so below 0 for curves that are alike. As gamma falls it becomes dtw. No
 /// overflow, whatever gamma is. Time O(n m); memory O(n + m), and O(n sqrt(m)) where gradients are
-/// asked for. Throws std::invalid_argument for what dtw refuses, for a gamma that is not finite and
-/// above 0, or so small that |P_i - Q_j|^2 / gamma is beyond 2^900; std::bad_alloc; Stopped. Safe
-/// from any number of threads.
+/// asked for (gradient.hpp). Throws std::invalid_argument for what dtw refuses, for a gamma that is
+/// not finite and above 0, or so small that |P_i - Q_j|^2 / gamma is beyond 2^900; std::bad_alloc;
+/// Stopped. Safe from any number of threads.
 ///
 ///     curvewise::SoftDtwOptions options;
 ///     options.gamma = 0.1;
@@ -52,11 +52,5 @@ void visit_options(SoftDtwOptions& options, Visit&& visit) {
 
 CURVEWISE_EXPORT double soft_dtw(const CurveView& P, const CurveView& Q,
                                  const SoftDtwOptions& options = {}, Control* control = nullptr);
-
-/// The value, with its derivative by every coordinate of both curves: by P(i, c) in
-/// by_p[i * dim + c], by Q(j, c) in by_q[j * dim + c]. Twice the time of the value, or three times.
-CURVEWISE_EXPORT double soft_dtw_and_gradients(const CurveView& P, const CurveView& Q, double* by_p,
-                                               double* by_q, const SoftDtwOptions& options = {},
-                                               Control* control = nullptr);
 
 }  // namespace curvewise

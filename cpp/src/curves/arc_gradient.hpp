@@ -22,6 +22,14 @@ class ArcGradient {
         by_arc_length_.back() += share * by_fraction / length;
     }
 
+    // By the share of the length before vertex i.
+    void add_share(std::size_t i, double share, double by_share) noexcept {
+        const double length = arc_lengths_.back();
+        if (!(length > 0.0)) return;
+        by_arc_length_[i] += by_share / length;
+        by_arc_length_.back() -= share * by_share / length;
+    }
+
     // Calls visit(k, length, by_length) for each segment, from vertex k - 1 to k, that has a
     // length.
     template <class Visit>

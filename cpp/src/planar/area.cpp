@@ -37,6 +37,7 @@ Quad quad_at(const Curves& curves, std::size_t i) noexcept {
 // hands 1 - h of its own to a and h to b.
 void write_unrefined(const Polyline& by_vertex, const std::vector<planar::Cut>& cuts,
                      const RangeScale& range, int degree, double* gradient) {
+    if (gradient == nullptr) return;
     std::size_t vertex = 0;
     auto cut = cuts.begin();
     Point carried{0.0, 0.0};
@@ -55,37 +56,58 @@ void write_unrefined(const Polyline& by_vertex, const std::vector<planar::Cut>& 
     }
 }
 
-// Of Q, given those by the vertices of MatchedCurves::B: what is no vertex of Q lies at a fixed
-// share of its length.
-void write_unmatched(const Polyline& by_vertex, const planar::PlacesOnQ& on_q, const Polyline& q,
-                     const RangeScale& range, int degree, double* gradient,
-                     runtime::Poller& poller) {
-    std::fill_n(gradient, 2 * q.size(), 0.0);
-    const std::vector<double> arc_lengths = curves::arc_lengths(on_q.scaled, poller);
+// Of one of the matched curves, given those by its vertices in MatchedCurves, by its points in
+// `range`: what is no vertex of it lies at a fixed share of its length. Adds to `by_slope` what the
+// slopes of the scaling by which lengths are measured get.
+std::vector<Point> unmatched(const Polyline& by_vertex, const planar::PlacesOnCurve& on_curve,
+                             const std::array<double, 2>& slopes, const Polyline& points,
+                             const RangeScale& range, std::array<double, 2>& by_slope,
+                             runtime::Poller& poller) {
+    std::vector<Point> gradient(points.size(), Point{0.0, 0.0});
+    const std::vector<double> arc_lengths = curves::arc_lengths(on_curve.scaled, poller);
     curves::ArcGradient by_arc(arc_lengths);
     for (std::size_t i = 0; i < by_vertex.size(); ++i) {
-        const auto& [is_vertex, k, h, share] = on_q.places[i];
+        const auto& [is_vertex, k, h, share] = on_curve.places[i];
         const Point& by_point = by_vertex[i];
-        gradient[2 * k] += (1.0 - h) * by_point.x;
-        gradient[2 * k + 1] += (1.0 - h) * by_point.y;
+        gradient[k].x += (1.0 - h) * by_point.x;
+        gradient[k].y += (1.0 - h) * by_point.y;
         if (is_vertex) continue;
-        gradient[2 * k + 2] += h * by_point.x;
-        gradient[2 * k + 3] += h * by_point.y;
-        const Point edge = q[k + 1] - q[k];
+        gradient[k + 1].x += h * by_point.x;
+        gradient[k + 1].y += h * by_point.y;
+        const Point edge = points[k + 1] - points[k];
         by_arc.add(k, h, share, by_point.x * edge.x + by_point.y * edge.y);
     }
     // By the coordinates in `range`, as everything up to here.
-    const double dx = range.restore(on_q.slopes[0], 1), dy = range.restore(on_q.slopes[1], 1);
+    const double dx = range.restore(slopes[0], 1), dy = range.restore(slopes[1], 1);
     by_arc.for_each_segment([&](std::size_t k, double length, double by_length) {
-        const Point step = on_q.scaled[k] - on_q.scaled[k - 1];
+        const Point step = on_curve.scaled[k] - on_curve.scaled[k - 1];
         const Point by_step{by_length * step.x / length * dx, by_length * step.y / length * dy};
-        gradient[2 * k] += by_step.x;
-        gradient[2 * k + 1] += by_step.y;
-        gradient[2 * k - 2] -= by_step.x;
-        gradient[2 * k - 1] -= by_step.y;
+        gradient[k].x += by_step.x;
+        gradient[k].y += by_step.y;
+        gradient[k - 1].x -= by_step.x;
+        gradient[k - 1].y -= by_step.y;
+        by_slope[0] += by_length * step.x / length * (step.x / dx);
+        by_slope[1] += by_length * step.y / length * (step.y / dy);
     });
-    for (std::size_t k = 0; k < 2 * q.size(); ++k) {
-        gradient[k] = range.restore(gradient[k], degree);
+    return gradient;
+}
+
+// Adds what the slopes of the scaling hand on to the points that span the box: 1 over its extent.
+void add_box_gradient(const Polyline& points, double slope, double by_slope,
+                      double Point::*coordinate, std::vector<Point>& gradient) {
+    const auto [low, high] = std::minmax_element(
+        points.begin(), points.end(),
+        [&](const Point& a, const Point& b) { return a.*coordinate < b.*coordinate; });
+    const double by_extent = -slope * slope * by_slope;
+    gradient[static_cast<std::size_t>(high - points.begin())].*coordinate += by_extent;
+    gradient[static_cast<std::size_t>(low - points.begin())].*coordinate -= by_extent;
+}
+
+void write(const std::vector<Point>& gradient, const RangeScale& range, int degree, double* out) {
+    if (out == nullptr) return;
+    for (std::size_t k = 0; k < gradient.size(); ++k) {
+        out[2 * k] = range.restore(gradient[k].x, degree);
+        out[2 * k + 1] = range.restore(gradient[k].y, degree);
     }
 }
 
@@ -149,59 +171,61 @@ class AreaMeasure : public pairwise::LinearMeasure {
         return result;
     }
 
-    // The area, and its derivative by Q.
-    double with_gradient(const PreparedP& P, const PreparedQ& Q, double* gradient,
-                         const pairwise::Call<Memory>& call) const {
+    // The area, and its derivatives.
+    double with_gradients(const PreparedP& P, const PreparedQ& Q, const Gradients& out,
+                          const pairwise::Call<Memory>& call) const {
         const RangeScale range = range_of(P, Q);
         const planar::FacingCurves curves =
             planar::face(P.checked.curve, Q.checked.curve, range, options_.spacing, call.poller);
-        const bool q_is_a = P.checked.curve.size() < Q.checked.curve.size();
-        Polyline by_vertex(curves.A.size(), Point{0.0, 0.0});
+        ByVertex by(curves.A.size());
         double sum = 0.0;
         for (std::size_t i = 0; i + 1 < curves.A.size(); ++i) {
             call.poller.poll_in_loop(i);
             const Quad quad = quad_at(curves, i);
             const Measured measured = measure(quad, options_.crossing);
             sum += options_.squared ? measured.area * measured.area : measured.area;
-            const planar::CornerGradient by_corner = area_gradient(quad, measured.figure);
-            const double weight = options_.squared ? 2.0 * measured.area : 1.0;
-            const Point& first = by_corner[q_is_a ? 0 : 3];
-            const Point& second = by_corner[q_is_a ? 1 : 2];
-            by_vertex[i].x += weight * first.x;
-            by_vertex[i].y += weight * first.y;
-            by_vertex[i + 1].x += weight * second.x;
-            by_vertex[i + 1].y += weight * second.y;
+            by.add(i, area_gradient(quad, measured.figure),
+                   options_.squared ? 2.0 * measured.area : 1.0);
         }
+        const bool q_is_a = P.checked.curve.size() < Q.checked.curve.size();
         const int degree = options_.squared ? 4 : 2;
         const std::vector<planar::Cut> none;
-        write_unrefined(by_vertex, q_is_a ? none : curves.cuts, range, degree - 1, gradient);
+        write_unrefined(by.A, none, range, degree - 1, q_is_a ? out.by_q : out.by_p);
+        write_unrefined(by.B, curves.cuts, range, degree - 1, q_is_a ? out.by_p : out.by_q);
         return range.restore(sum, degree);
     }
 
     // The same with Spacing::matched.
-    double with_matched_gradient(const PreparedP& P, const PreparedQ& Q, double* gradient,
-                                 const pairwise::Call<Memory>& call) const {
+    double with_matched_gradients(const PreparedP& P, const PreparedQ& Q, const Gradients& out,
+                                  const pairwise::Call<Memory>& call) const {
         const RangeScale range = range_of(P, Q);
-        planar::PlacesOnQ on_q;
+        planar::PlacesOnCurves on;
         const planar::MatchedCurves curves =
-            planar::match(P.checked.curve, Q.checked.curve, range, call.poller, &on_q);
-        Polyline by_vertex(curves.B.size(), Point{0.0, 0.0});
+            planar::match(P.checked.curve, Q.checked.curve, range, call.poller, &on);
+        ByVertex by(curves.A.size());
         double sum = 0.0;
         for_each_piece(curves, call.poller, [&](const auto&, auto first, auto end, double area) {
             sum += options_.squared ? area * area : std::abs(area);
             const double side = area < 0.0 ? -1.0 : static_cast<double>(area > 0.0);
             const double weight = options_.squared ? 2.0 * area : side;
             for (std::size_t i = first; i < end; ++i) {
-                const auto by_corner = signed_area_gradient(quad_at(curves, i));
-                by_vertex[i].x += weight * by_corner[3].x;
-                by_vertex[i].y += weight * by_corner[3].y;
-                by_vertex[i + 1].x += weight * by_corner[2].x;
-                by_vertex[i + 1].y += weight * by_corner[2].y;
+                by.add(i, signed_area_gradient(quad_at(curves, i)), weight);
             }
         });
+        const Polyline p = curves::polyline(P.checked.curve, range, call.poller);
+        const Polyline q = curves::polyline(Q.checked.curve, range, call.poller);
+        std::array<double, 2> by_slope{0.0, 0.0};
+        auto by_p = unmatched(by.A, on.p, on.slopes, p, range, by_slope, call.poller);
+        auto by_q = unmatched(by.B, on.q, on.slopes, q, range, by_slope, call.poller);
+        constexpr std::array<double Point::*, 2> coordinates{&Point::x, &Point::y};
+        for (std::size_t c = 0; c < 2; ++c) {
+            const bool is_p = on.is_box_of_p[c];
+            add_box_gradient(is_p ? p : q, range.restore(on.slopes[c], 1), by_slope[c],
+                             coordinates[c], is_p ? by_p : by_q);
+        }
         const int degree = options_.squared ? 4 : 2;
-        write_unmatched(by_vertex, on_q, curves::polyline(Q.checked.curve, range, call.poller),
-                        range, degree - 1, gradient, call.poller);
+        write(by_p, range, degree - 1, out.by_p);
+        write(by_q, range, degree - 1, out.by_q);
         return range.restore(sum, degree);
     }
 
@@ -209,6 +233,23 @@ class AreaMeasure : public pairwise::LinearMeasure {
     static RangeScale range_of(const PreparedP& P, const PreparedQ& Q) noexcept {
         return RangeScale(std::max(P.checked.largest, Q.checked.largest));
     }
+
+    // By the vertices of the two curves between which the quadrilaterals lie.
+    struct ByVertex {
+        explicit ByVertex(std::size_t size) : A(size, Point{0.0, 0.0}), B(A) {}
+        // Of quadrilateral i, whose corners are A[i], A[i + 1], B[i + 1], B[i].
+        void add(std::size_t i, const planar::CornerGradient& by_corner, double weight) noexcept {
+            add_to(A[i], by_corner[0], weight);
+            add_to(A[i + 1], by_corner[1], weight);
+            add_to(B[i], by_corner[3], weight);
+            add_to(B[i + 1], by_corner[2], weight);
+        }
+        static void add_to(Point& sum, const Point& slope, double weight) noexcept {
+            sum.x += weight * slope.x;
+            sum.y += weight * slope.y;
+        }
+        Polyline A, B;
+    };
 
     // Calls visit(quad) for one quadrilateral after the other, in the given range.
     template <class Visit>
@@ -257,8 +298,8 @@ AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& 
         [&](const auto& p, const auto& q, const auto& call) { return measure.quads(p, q, call); });
 }
 
-double value_and_gradient(const AreaOptions& options, const CurveView& P, const CurveView& Q,
-                          double* gradient, Control* control) {
+double value_and_gradients(const AreaOptions& options, const CurveView& P, const CurveView& Q,
+                           const Gradients& out, Control* control) {
     if (options.spacing == Spacing::arc_length) {
         throw std::invalid_argument(
             "area has no gradient with spacing='arc_length'; choose from distance, x, matched");
@@ -267,8 +308,8 @@ double value_and_gradient(const AreaOptions& options, const CurveView& P, const 
     return pairwise::with_pair(measure, P, Q, control,
                                [&](const auto& p, const auto& q, const auto& call) {
                                    return options.spacing == Spacing::matched
-                                              ? measure.with_matched_gradient(p, q, gradient, call)
-                                              : measure.with_gradient(p, q, gradient, call);
+                                              ? measure.with_matched_gradients(p, q, out, call)
+                                              : measure.with_gradients(p, q, out, call);
                                });
 }
 

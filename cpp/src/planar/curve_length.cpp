@@ -154,22 +154,38 @@ std::ptrdiff_t largest_of(const CurveView& curve, std::ptrdiff_t c) noexcept {
     return largest;
 }
 
-// Adds the derivatives by Q's points that its arc lengths hand on, which are taken after dividing
-// by its largest |x| and |y|: these move too.
-void add_arc_gradient(const CurveView& Q, const curves::ArcGradient& by_arc, double* gradient) {
+// Adds the derivatives by a curve's points that its arc lengths hand on, which are taken after
+// dividing by its largest |x| and |y|: these move too.
+void add_arc_gradient(const CurveView& curve, const curves::ArcGradient& by_arc, double* gradient) {
     for (std::ptrdiff_t c = 0; c < 2; ++c) {
-        const std::ptrdiff_t largest = largest_of(Q, c);
-        const double divisor = Q(largest, c);
+        const std::ptrdiff_t largest = largest_of(curve, c);
+        const double divisor = curve(largest, c);
         if (divisor == 0.0) continue;
         by_arc.for_each_segment([&](std::size_t segment, double length, double by_length) {
             const auto k = static_cast<std::ptrdiff_t>(segment);
-            const double step = (Q(k, c) - Q(k - 1, c)) / std::abs(divisor);
+            const double step = (curve(k, c) - curve(k - 1, c)) / std::abs(divisor);
             const double slope = by_length * step / length / std::abs(divisor);
             gradient[2 * k + c] += slope;
             gradient[2 * (k - 1) + c] -= slope;
             gradient[2 * largest + c] -= slope * step * std::copysign(1.0, divisor);
         });
     }
+}
+
+// Adds the derivatives by P's coordinate that its scale (see coordinate_scale) hands on.
+void add_scale_gradient(const Coordinate& x, LengthScale scale, double by_scale, double* gradient) {
+    const double share = by_scale / static_cast<double>(x.size());
+    std::ptrdiff_t low = 0, high = 0;
+    for (std::ptrdiff_t i = 0; i < x.size(); ++i) {
+        if (x.p(i) < x.p(low)) low = i;
+        if (x.p(i) > x.p(high)) high = i;
+        if (scale == LengthScale::range) continue;
+        const bool falls = scale == LengthScale::mean_abs && x.p(i) < 0.0;
+        gradient[2 * i] += x.range().shrink(falls ? -share : share);
+    }
+    if (scale != LengthScale::range) return;
+    gradient[2 * high] += x.range().shrink(by_scale);
+    gradient[2 * low] -= x.range().shrink(by_scale);
 }
 
 class CurveLengthMeasure : public pairwise::LinearMeasure {
@@ -218,36 +234,58 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
         });
     }
 
-    // The value, and its derivative by Q.
-    double with_gradient(const PreparedP& P, const PreparedQ& Q, double* gradient,
-                         const pairwise::Call<Memory>& call) const {
+    // The value, and its derivatives.
+    double with_gradients(const PreparedP& P, const PreparedQ& Q, const Gradients& out,
+                          const pairwise::Call<Memory>& call) const {
         const double value = (*this)(P, Q, call);
-        const CurveView& q = Q.checked.curve;
-        std::fill_n(gradient, static_cast<std::size_t>(2 * q.size()), 0.0);
-        if (value == 0.0) return value;
-        curves::ArcGradient by_arc(Q.arc_lengths);
+        const CurveView &p = P.checked.curve, &q = Q.checked.curve;
+        std::vector<double> by_p(static_cast<std::size_t>(2 * p.size())),
+            by_q(static_cast<std::size_t>(2 * q.size()));
+        if (value != 0.0) add_gradients(P, Q, value, by_p.data(), by_q.data(), call);
+        if (out.by_p != nullptr) std::copy(by_p.begin(), by_p.end(), out.by_p);
+        if (out.by_q != nullptr) std::copy(by_q.begin(), by_q.end(), out.by_q);
+        return value;
+    }
+
+   private:
+    void add_gradients(const PreparedP& P, const PreparedQ& Q, double value, double* by_p,
+                       double* by_q, const pairwise::Call<Memory>& call) const {
+        const double length = P.arc_lengths.back();
+        curves::ArcGradient by_arc(Q.arc_lengths), by_own_arc(P.arc_lengths);
         for (std::ptrdiff_t c = 0; c < 2; ++c) {
             const Coordinate x = coordinate(P, Q, c);
             const double scale = coordinate_scale(x, options_.scale, P.checked.name, call.poller);
+            double by_scale = 0.0;
             const auto add = [&](std::ptrdiff_t i, std::ptrdiff_t k, double fraction) {
                 const double edge = x.q(k + 1) - x.q(k);
                 const double relative = (x.q(k) + fraction * edge - x.p(i)) / std::abs(scale);
                 const double residual = std::log1p(std::abs(relative));
                 const double slope = std::copysign(residual, relative) / value /
                                      (1.0 + std::abs(relative)) / std::abs(scale);
-                gradient[2 * k + c] += x.range().shrink((1.0 - fraction) * slope);
-                gradient[2 * k + c + 2] += x.range().shrink(fraction * slope);
-                by_arc.add(static_cast<std::size_t>(k), fraction,
-                           P.arc_lengths[static_cast<std::size_t>(i)] / P.arc_lengths.back(),
-                           slope * edge);
+                const double share = P.arc_lengths[static_cast<std::size_t>(i)] / length;
+                by_q[2 * k + c] += x.range().shrink((1.0 - fraction) * slope);
+                by_q[2 * k + c + 2] += x.range().shrink(fraction * slope);
+                by_arc.add(static_cast<std::size_t>(k), fraction, share, slope * edge);
+                by_p[2 * i + c] -= x.range().shrink(slope);
+                by_scale -= slope * relative * std::copysign(1.0, scale);
+                by_own_arc.add_share(static_cast<std::size_t>(i), share,
+                                     slope * edge * places_per_share(Q.arc_lengths, k));
             };
             for_each_place(P.arc_lengths, Q.arc_lengths, call.poller, add);
+            add_scale_gradient(x, options_.scale, by_scale, by_p + c);
         }
-        add_arc_gradient(q, by_arc, gradient);
-        return value;
+        add_arc_gradient(Q.checked.curve, by_arc, by_q);
+        add_arc_gradient(P.checked.curve, by_own_arc, by_p);
     }
 
-   private:
+    // How fast a place moves along segment k as its share of the length grows.
+    static double places_per_share(const std::vector<double>& arc_lengths,
+                                   std::ptrdiff_t segment) noexcept {
+        const auto k = static_cast<std::size_t>(segment);
+        const double length = arc_lengths[k + 1] - arc_lengths[k];
+        return length > 0.0 ? arc_lengths.back() / length : 0.0;
+    }
+
     static Coordinate coordinate(const Side& P, const Side& Q, std::ptrdiff_t c) noexcept {
         const auto at = static_cast<std::size_t>(c);
         return {P.checked.curve, Q.checked.curve, c, P.largest[at], Q.largest[at]};
@@ -286,12 +324,12 @@ void curve_length_residuals(const CurveView& P, const CurveView& Q, double* out,
                         });
 }
 
-double value_and_gradient(const CurveLengthOptions& options, const CurveView& P, const CurveView& Q,
-                          double* gradient, Control* control) {
+double value_and_gradients(const CurveLengthOptions& options, const CurveView& P,
+                           const CurveView& Q, const Gradients& out, Control* control) {
     const CurveLengthMeasure measure(options);
     return pairwise::with_pair(measure, P, Q, control,
                                [&](const auto& p, const auto& q, const auto& call) {
-                                   return measure.with_gradient(p, q, gradient, call);
+                                   return measure.with_gradients(p, q, out, call);
                                });
 }
 

@@ -32,7 +32,9 @@ constexpr double far = 0x1p40;
 // The box of P; of Q, in a direction in which P has no extent.
 class CommonBox {
    public:
-    CommonBox(const CurveView& P, const CurveView& Q) : sides_{side(P, Q, 0), side(P, Q, 1)} {}
+    CommonBox(const CurveView& P, const CurveView& Q)
+        : is_of_p_{BoxSide(P, 0).has_extent(), BoxSide(P, 1).has_extent()},
+          sides_{BoxSide(is_of_p_[0] ? P : Q, 0), BoxSide(is_of_p_[1] ? P : Q, 1)} {}
 
     Polyline scaled(const CurveView& curve, Poller& poller) const {
         Polyline points;
@@ -45,13 +47,10 @@ class CommonBox {
         return points;
     }
     std::array<double, 2> slopes() const noexcept { return {sides_[0].slope(), sides_[1].slope()}; }
+    const std::array<bool, 2>& is_of_p() const noexcept { return is_of_p_; }
 
    private:
-    static BoxSide side(const CurveView& P, const CurveView& Q, std::ptrdiff_t c) noexcept {
-        const BoxSide of_p(P, c);
-        return of_p.has_extent() ? of_p : BoxSide(Q, c);
-    }
-
+    std::array<bool, 2> is_of_p_;
     std::array<BoxSide, 2> sides_;
 };
 
@@ -217,27 +216,28 @@ Polyline points_at(const std::vector<double>& places, const Side& curve,
     return points;
 }
 
-// The same on Q, in full; `of_vertices` are the places of those of Q's vertices that lie between
+// The same in full; `of_vertices` are the places of those of the curve's vertices that lie between
 // samples, in their order.
-std::vector<PlacesOnQ::Place> places_on_q(const std::vector<double>& places, const Side& q,
-                                          const std::vector<double>& of_vertices,
-                                          const Route& route, Poller& poller) {
+std::vector<PlacesOnCurve::Place> places_on(const std::vector<double>& places, const Side& curve,
+                                            const std::vector<double>& of_vertices,
+                                            const std::vector<double>& samples, const Route& route,
+                                            Poller& poller) {
     std::vector<std::size_t> vertices;  // of `of_vertices`
-    for (std::size_t k = 0; k < q.positions.size(); ++k) {
+    for (std::size_t k = 0; k < curve.positions.size(); ++k) {
         poller.poll_in_loop(k);
-        if (q.positions[k] != std::floor(q.positions[k])) vertices.push_back(k);
+        if (curve.positions[k] != std::floor(curve.positions[k])) vertices.push_back(k);
     }
-    std::vector<PlacesOnQ::Place> found;
+    std::vector<PlacesOnCurve::Place> found;
     found.reserve(places.size());
     std::size_t next = 0;
-    for_each_position(places, q, route.j, route, poller,
+    for_each_position(places, curve, samples, route, poller,
                       [&](double place, double position, const ArcPosition& at) {
                           while (next < vertices.size() && of_vertices[next] < place) ++next;
                           if (next < vertices.size() && of_vertices[next] == place) {
                               found.push_back({true, vertices[next], 0.0, 0.0});
                           } else {
                               found.push_back({false, at.segment(), at.fraction(),
-                                               position / q.positions.back()});
+                                               position / curve.positions.back()});
                           }
                       });
     return found;
@@ -246,7 +246,7 @@ std::vector<PlacesOnQ::Place> places_on_q(const std::vector<double>& places, con
 }  // namespace
 
 MatchedCurves match(const CurveView& P, const CurveView& Q, const curves::RangeScale& range,
-                    Poller& poller, PlacesOnQ* on_q) {
+                    Poller& poller, PlacesOnCurves* on_curves) {
     const CommonBox box(P, Q);
     const Polyline scaled_p = box.scaled(P, poller);
     const std::size_t pieces = count_pieces(scaled_p, poller);
@@ -260,7 +260,8 @@ MatchedCurves match(const CurveView& P, const CurveView& Q, const curves::RangeS
         cuts[k] = static_cast<double>(2 * samples_per_piece * (k + 1));
     }
     std::vector<double> places = merged(route.places, cuts, poller);
-    places = merged(places, places_of_vertices(p, route.i, route, poller), poller);
+    const std::vector<double> of_p = places_of_vertices(p, route.i, route, poller);
+    places = merged(places, of_p, poller);
     const std::vector<double> of_q = places_of_vertices(q, route.j, route, poller);
     places = merged(places, of_q, poller);
 
@@ -271,8 +272,11 @@ MatchedCurves match(const CurveView& P, const CurveView& Q, const curves::RangeS
     for (std::size_t i = 0; result.ends.size() < pieces; ++i) {
         if (places[i] == cuts[result.ends.size()]) result.ends.push_back(i);
     }
-    if (on_q != nullptr) {
-        *on_q = {places_on_q(places, q, of_q, route, poller), box.scaled(Q, poller), box.slopes()};
+    if (on_curves != nullptr) {
+        *on_curves = {{places_on(places, p, of_p, route.i, route, poller), scaled_p},
+                      {places_on(places, q, of_q, route.j, route, poller), box.scaled(Q, poller)},
+                      box.slopes(),
+                      box.is_of_p()};
     }
     return result;
 }

@@ -37,22 +37,28 @@ struct MatchedCurves {
     std::vector<std::size_t> ends;
 };
 
-// Where the vertices of MatchedCurves::B lie on Q, for derivatives.
-struct PlacesOnQ {
+// Where the vertices of MatchedCurves::A lie on P, or those of B on Q, for derivatives.
+struct PlacesOnCurve {
     struct Place {
-        bool is_vertex;  // of Q itself, that at the beginning of the segment
+        bool is_vertex;  // of the curve itself, that at the beginning of the segment
         std::size_t segment;
         double fraction;
-        double share;  // of Q's length, before it
+        double share;  // of the curve's length, before it
     };
     std::vector<Place> places;
-    Polyline scaled;               // Q, as its length is measured
-    std::array<double, 2> slopes;  // of that scaling
+    Polyline scaled;  // the curve, as its length is measured
+};
+
+struct PlacesOnCurves {
+    PlacesOnCurve p;
+    PlacesOnCurve q;
+    std::array<double, 2> slopes;     // of the scaling
+    std::array<bool, 2> is_box_of_p;  // that it is by, or else of Q
 };
 
 // P and Q with a vertex at every vertex of the other, and at every end of a piece. Coordinates come
-// out in `range`. Throws Stopped where the poller says so. `on_q`, if given, is filled in.
+// out in `range`. Throws Stopped where the poller says so. `on_curves`, if given, is filled in.
 MatchedCurves match(const CurveView& P, const CurveView& Q, const curves::RangeScale& range,
-                    Poller& poller, PlacesOnQ* on_q = nullptr);
+                    Poller& poller, PlacesOnCurves* on_curves = nullptr);
 
 }  // namespace curvewise::planar

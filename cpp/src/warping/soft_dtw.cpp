@@ -9,6 +9,7 @@
 
 #include "curves/checks.hpp"
 #include "curves/range_scale.hpp"
+#include "curvewise/gradient.hpp"
 #include "pairwise/evaluate.hpp"
 #include "warping/ground_distance.hpp"
 #include "warping/soft_sweep.hpp"
@@ -69,14 +70,14 @@ class SoftDtwMeasure {
                                     });
     }
 
-    double with_gradients(const CheckedCurve& P, const CheckedCurve& Q, Poller& poller,
-                          double* by_p, double* by_q) const {
+    double with_gradients(const CheckedCurve& P, const CheckedCurve& Q, const Gradients& out,
+                          Poller& poller) const {
         return -gamma_ * with_sweep(P, Q, poller, [&](SoftSweep& sweep, const RangeScale& range) {
             const std::ptrdiff_t dim = P.curve.dim();
             PackedGradient of_p(P.curve.size(), dim), of_q(Q.curve.size(), dim);
             const double result = sweep.log_of_total(of_p.data(), of_q.data());
-            of_p.unpack(range, PointOrder::forward, by_p);
-            of_q.unpack(range, PointOrder::reversed, by_q);
+            of_p.unpack(range, PointOrder::forward, out.by_p);
+            of_q.unpack(range, PointOrder::reversed, out.by_q);
             return result;
         });
     }
@@ -92,6 +93,7 @@ class SoftDtwMeasure {
               entries_(static_cast<std::size_t>(dim * stride_)) {}
         double* data() noexcept { return entries_.data(); }
         void unpack(const RangeScale& range, PointOrder order, double* out) const noexcept {
+            if (out == nullptr) return;
             for (std::ptrdiff_t i = 0; i < n_; ++i) {
                 const std::ptrdiff_t place = order == PointOrder::reversed ? n_ - 1 - i : i;
                 for (std::ptrdiff_t c = 0; c < dim_; ++c) {
@@ -142,12 +144,12 @@ double soft_dtw(const CurveView& P, const CurveView& Q, const SoftDtwOptions& op
     return pairwise::evaluate(SoftDtwMeasure(options), P, Q, control);
 }
 
-double soft_dtw_and_gradients(const CurveView& P, const CurveView& Q, double* by_p, double* by_q,
-                              const SoftDtwOptions& options, Control* control) {
+double value_and_gradients(const SoftDtwOptions& options, const CurveView& P, const CurveView& Q,
+                           const Gradients& out, Control* control) {
     const SoftDtwMeasure measure(options);
     return pairwise::with_pair(
         measure, P, Q, control, [&](const auto& p, const auto& q, const auto& call) {
-            return measure.with_gradients(p.checked, q.checked, call.poller, by_p, by_q);
+            return measure.with_gradients(p.checked, q.checked, out, call.poller);
         });
 }
 

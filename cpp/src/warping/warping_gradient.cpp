@@ -58,24 +58,42 @@ double magnitude(const PointPair& at) noexcept {
     return at.largest() == 0.0 ? 0.0 : Row::magnitude(at);
 }
 
-// Adds weight times the derivative by the point of Q; nothing where the points coincide.
-template <class Row>
-void add_gradient(const PointPair& at, double weight, double* out) noexcept {
-    if (at.largest() == 0.0) return;
-    const double size = Row::magnitude(at);
-    for (std::ptrdiff_t c = 0; c < at.dim(); ++c) out[c] += Row::slope(at, c, weight, size);
-}
+// What the derivatives are added to: point by point, or nowhere.
+class Sums {
+   public:
+    Sums(const Gradients& out, const CurveView& P, const CurveView& Q) : out_(out), dim_(Q.dim()) {
+        clear(out.by_p, P);
+        clear(out.by_q, Q);
+    }
 
-void clear(const CurveView& Q, double* gradient) {
-    std::fill_n(gradient, static_cast<std::size_t>(Q.size() * Q.dim()), 0.0);
-}
+    // Weight times the derivative by both points; nothing where they coincide. All ground distances
+    // depend on differences alone.
+    template <class Row>
+    void add(const PointPair& at, std::ptrdiff_t i, std::ptrdiff_t j, double weight) noexcept {
+        if (at.largest() == 0.0) return;
+        const double size = Row::magnitude(at);
+        for (std::ptrdiff_t c = 0; c < dim_; ++c) {
+            const double slope = Row::slope(at, c, weight, size);
+            if (out_.by_p != nullptr) out_.by_p[i * dim_ + c] -= slope;
+            if (out_.by_q != nullptr) out_.by_q[j * dim_ + c] += slope;
+        }
+    }
+
+   private:
+    static void clear(double* out, const CurveView& curve) noexcept {
+        if (out != nullptr) std::fill_n(out, curve.size() * curve.dim(), 0.0);
+    }
+
+    Gradients out_;
+    std::ptrdiff_t dim_;
+};
 
 }  // namespace
 
-double value_and_gradient(const DtwOptions& options, const CurveView& P, const CurveView& Q,
-                          double* gradient, Control* control) {
+double value_and_gradients(const DtwOptions& options, const CurveView& P, const CurveView& Q,
+                           const Gradients& out, Control* control) {
     const Alignment alignment = dtw_path(P, Q, options, control);
-    clear(Q, gradient);
+    Sums sums(out, P, Q);
     const double divisor =
         options.normalize ? static_cast<double>(P.size()) + static_cast<double>(Q.size()) : 1.0;
     const double diagonal = options.step_pattern == StepPattern::symmetric2 ? 2.0 : 1.0;
@@ -86,17 +104,16 @@ double value_and_gradient(const DtwOptions& options, const CurveView& P, const C
             const bool is_diagonal =
                 k > 0 && i > alignment.path[k - 1][0] && j > alignment.path[k - 1][1];
             at.move_to(P, i, Q, j);
-            add_gradient<decltype(row)>(at, (is_diagonal ? diagonal : 1.0) / divisor,
-                                        gradient + j * Q.dim());
+            sums.add<decltype(row)>(at, i, j, (is_diagonal ? diagonal : 1.0) / divisor);
         }
     });
     return alignment.distance / divisor;
 }
 
-double value_and_gradient(const FrechetOptions& options, const CurveView& P, const CurveView& Q,
-                          double* gradient, Control* control) {
+double value_and_gradients(const FrechetOptions& options, const CurveView& P, const CurveView& Q,
+                           const Gradients& out, Control* control) {
     const Alignment alignment = frechet_path(P, Q, options, control);
-    clear(Q, gradient);
+    Sums sums(out, P, Q);
     PointPair at(options.ground.p, Q.dim());
     warping::with_row(warping::named_metric(options.ground), [&](auto row) {
         using Row = decltype(row);
@@ -111,7 +128,7 @@ double value_and_gradient(const FrechetOptions& options, const CurveView& P, con
             }
         }
         at.move_to(P, decisive[0], Q, decisive[1]);
-        add_gradient<Row>(at, 1.0, gradient + decisive[1] * Q.dim());
+        sums.add<Row>(at, decisive[0], decisive[1], 1.0);
     });
     return alignment.distance;
 }

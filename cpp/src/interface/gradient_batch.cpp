@@ -1,0 +1,60 @@
+// Values and derivatives of many pairs: a pair at a time to each thread (see gradient.hpp).
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+#include "curvewise/gradient.hpp"
+#include "runtime/workers.hpp"
+
+namespace curvewise {
+
+using runtime::Poller;
+
+void values_and_gradients(const DifferentiableMeasure& measure, const std::vector<CurveView>& P,
+                          const std::vector<CurveView>& Q, double* values,
+                          const std::vector<Gradients>& out, std::ptrdiff_t workers,
+                          Control* control) {
+    if (P.size() != Q.size() || P.size() != out.size()) {
+        throw std::invalid_argument("there are " + std::to_string(P.size()) + " P, " +
+                                    std::to_string(Q.size()) + " Q and " +
+                                    std::to_string(out.size()) +
+                                    " places for derivatives; give as many of each");
+    }
+    Poller poller(control);
+    poller.begin(static_cast<std::int64_t>(P.size()));
+    std::atomic<std::size_t> next{0};
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const auto most = static_cast<std::ptrdiff_t>(P.size());
+    runtime::run_workers(std::min(runtime::resolve_workers(workers), most), poller,
+                         [&](std::ptrdiff_t /*w*/, Poller& own) {
+                             // Another Control watches a pair: its steps are none of those that are
+                             // counted here.
+                             Control pair([&](std::int64_t, std::int64_t) { return !own.poll(); },
+                                          std::chrono::milliseconds(20));
+                             Control* const watch = control == nullptr ? nullptr : &pair;
+                             try {
+                                 for (std::size_t k = next++; k < P.size(); k = next++) {
+                                     std::visit(
+                                         [&](const auto& options) {
+                                             values[k] = value_and_gradients(options, P[k], Q[k],
+                                                                             out[k], watch);
+                                         },
+                                         measure);
+                                     if (own.count_steps(1)) throw Stopped();
+                                 }
+                             } catch (...) {
+                                 const std::lock_guard<std::mutex> lock(mutex);
+                                 if (!failure) failure = std::current_exception();
+                                 next = P.size();
+                             }
+                         });
+    if (failure) std::rethrow_exception(failure);
+    poller.finish();
+}
+
+}  // namespace curvewise
