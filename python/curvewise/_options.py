@@ -32,7 +32,9 @@ __all__ = [
     "whole_number",
 ]
 
-Differentiable: TypeAlias = Literal["area", "curve_length", "dtw", "frechet", "sum_of_squares"]
+Differentiable: TypeAlias = Literal[
+    "area", "curve_length", "dtw", "frechet", "soft_dtw", "sum_of_squares"
+]
 WarpingName: TypeAlias = Literal["dtw", "frechet"]
 Preset: TypeAlias = Literal["scaled", "paper", "raw"]
 

@@ -11,7 +11,6 @@
 #include "runtime/workers.hpp"
 
 namespace curvewise {
-
 using runtime::Poller;
 
 void values_and_gradients(const DifferentiableMeasure& measure, const std::vector<CurveView>& P,
@@ -24,35 +23,42 @@ void values_and_gradients(const DifferentiableMeasure& measure, const std::vecto
                                     std::to_string(out.size()) +
                                     " places for derivatives; give as many of each");
     }
+    // The error of one pair among many says of which.
+    const auto compute = [&](std::size_t k, Control* watch) {
+        try {
+            std::visit(
+                [&](const auto& options) {
+                    values[k] = value_and_gradients(options, P[k], Q[k], out[k], watch);
+                },
+                measure);
+        } catch (const std::invalid_argument& error) {
+            if (P.size() == 1) throw;
+            throw std::invalid_argument("pair " + std::to_string(k) + ": " + error.what());
+        }
+    };
     Poller poller(control);
     poller.begin(static_cast<std::int64_t>(P.size()));
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
     std::exception_ptr failure;
-    const auto most = static_cast<std::ptrdiff_t>(P.size());
-    runtime::run_workers(std::min(runtime::resolve_workers(workers), most), poller,
-                         [&](std::ptrdiff_t /*w*/, Poller& own) {
-                             // Another Control watches a pair: its steps are none of those that are
-                             // counted here.
-                             Control pair([&](std::int64_t, std::int64_t) { return !own.poll(); },
-                                          std::chrono::milliseconds(20));
-                             Control* const watch = control == nullptr ? nullptr : &pair;
-                             try {
-                                 for (std::size_t k = next++; k < P.size(); k = next++) {
-                                     std::visit(
-                                         [&](const auto& options) {
-                                             values[k] = value_and_gradients(options, P[k], Q[k],
-                                                                             out[k], watch);
-                                         },
-                                         measure);
-                                     if (own.count_steps(1)) throw Stopped();
-                                 }
-                             } catch (...) {
-                                 const std::lock_guard<std::mutex> lock(mutex);
-                                 if (!failure) failure = std::current_exception();
-                                 next = P.size();
-                             }
-                         });
+    const auto work = [&](std::ptrdiff_t /*w*/, Poller& own) {
+        // Another Control watches a pair: its steps are none of those that are counted here.
+        Control pair([&](std::int64_t, std::int64_t) { return !own.poll(); },
+                     std::chrono::milliseconds(20));
+        try {
+            for (std::size_t k = next++; k < P.size(); k = next++) {
+                compute(k, control == nullptr ? nullptr : &pair);
+                if (own.count_steps(1)) throw Stopped();
+            }
+        } catch (...) {
+            const std::lock_guard<std::mutex> lock(mutex);
+            if (!failure) failure = std::current_exception();
+            next = P.size();
+        }
+    };
+    runtime::run_workers(
+        std::min(runtime::resolve_workers(workers), static_cast<std::ptrdiff_t>(P.size())), poller,
+        work);
     if (failure) std::rethrow_exception(failure);
     poller.finish();
 }

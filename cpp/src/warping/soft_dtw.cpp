@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,8 +31,9 @@ using warping::WarpingOptions;
 // The window, checked as that of dtw is, and gamma.
 WarpingOptions checked_options(const SoftDtwOptions& options) {
     if (!(options.gamma > 0.0 && std::isfinite(options.gamma))) {
-        throw std::invalid_argument("gamma is " + std::to_string(options.gamma) + "; " +
-                                    gamma_range.advice);
+        std::ostringstream message;  // std::to_string writes 1e-9 as 0.000000
+        message << "gamma is " << options.gamma << "; " << gamma_range.advice;
+        throw std::invalid_argument(message.str());
     }
     DtwOptions like;
     like.ground.metric = Metric::sqeuclidean;

@@ -18,9 +18,10 @@ from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_info, dtw_path, dtw_table
 from .frechet import frechet, frechet_info, frechet_path, frechet_table
 from .frechet_continuous import frechet_continuous, frechet_continuous_path, frechet_within
-from .gradient import value_and_gradient
+from .gradient import value_and_gradient, values_and_gradients
 from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, normalize, sum_of_squares
+from .soft_dtw import soft_dtw, soft_dtw_divergence
 
 __all__ = [
     "area",
@@ -43,6 +44,9 @@ __all__ = [
     "normalize",
     "pcm",
     "pcm_match",
+    "soft_dtw",
+    "soft_dtw_divergence",
     "sum_of_squares",
     "value_and_gradient",
+    "values_and_gradients",
 ]
