@@ -29,11 +29,13 @@ if TYPE_CHECKING:
     from . import compat as compat
     from . import dask as dask
     from . import installation as installation
+    from . import jax as jax
     from . import plotting as plotting
     from . import reference as reference
     from . import sklearn as sklearn
     from . import solvers as solvers
     from . import studies as studies
+    from . import torch as torch
 
 __all__ = [
     *measures.__all__,
@@ -61,12 +63,14 @@ _LAZY = (
     "dask",
     "fitting",
     "installation",
+    "jax",
     "materials",
     "plotting",
     "reference",
     "sklearn",
     "solvers",
     "studies",
+    "torch",
 )
 
 # Hidden from type checkers, which would otherwise accept every misspelt attribute.
@@ -81,7 +85,7 @@ if not TYPE_CHECKING:
 
 def __dir__() -> list[str]:
     # help() imports all of these, and the import of some fails where their packages are missing.
-    return sorted({*__all__, *_LAZY} - {"dask", "sklearn"})
+    return sorted({*__all__, *_LAZY} - {"dask", "jax", "sklearn", "torch"})
 
 
 __version__: str = _build_info()["version"]

@@ -33,7 +33,7 @@ __all__ = [
 ]
 
 Differentiable: TypeAlias = Literal[
-    "area", "curve_length", "dtw", "frechet", "soft_dtw", "sum_of_squares"
+    "area", "curve_length", "dtw", "frechet", "frechet_continuous", "soft_dtw", "sum_of_squares"
 ]
 WarpingName: TypeAlias = Literal["dtw", "frechet"]
 Preset: TypeAlias = Literal["scaled", "paper", "raw"]

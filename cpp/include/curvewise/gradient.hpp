@@ -27,6 +27,7 @@
 #include "curvewise/dtw.hpp"
 #include "curvewise/export.h"
 #include "curvewise/frechet.hpp"
+#include "curvewise/frechet_continuous.hpp"
 #include "curvewise/soft_dtw.hpp"
 
 namespace curvewise {
@@ -48,6 +49,11 @@ CURVEWISE_EXPORT double value_and_gradients(const AreaOptions& options, const Cu
 CURVEWISE_EXPORT double value_and_gradients(const FrechetOptions& options, const CurveView& P,
                                             const CurveView& Q, const Gradients& out,
                                             Control* control = nullptr);
+
+/// Of the two points, or three, whose leash decides. Three times the time of the value.
+CURVEWISE_EXPORT double value_and_gradients(const FrechetContinuousOptions& options,
+                                            const CurveView& P, const CurveView& Q,
+                                            const Gradients& out, Control* control = nullptr);
 
 /// Does not look at options.cutoff.
 CURVEWISE_EXPORT double value_and_gradients(const DtwOptions& options, const CurveView& P,
@@ -77,10 +83,11 @@ CURVEWISE_EXPORT double sum_of_squares_and_gradient(const CurveView& P, const Cu
 
 /// A measure that has derivatives, chosen by the type of its options.
 using DifferentiableMeasure =
-    std::variant<AreaOptions, FrechetOptions, DtwOptions, CurveLengthOptions, SoftDtwOptions>;
+    std::variant<AreaOptions, FrechetOptions, DtwOptions, CurveLengthOptions,
+                 FrechetContinuousOptions, SoftDtwOptions>;
 
 /// Of the pairs P[k], Q[k], on `workers` threads, -1 for one per core: values[k], and what out[k]
-/// asks for. Results do not depend on the number of threads. The first error of a pair is thrown
+/// asks for: the value alone where both are null. Results do not depend on the number of threads. The first error of a pair is thrown
 /// once all threads have ended.
 CURVEWISE_EXPORT void values_and_gradients(const DifferentiableMeasure& measure,
                                            const std::vector<CurveView>& P,

@@ -53,4 +53,10 @@ void visit_options(SoftDtwOptions& options, Visit&& visit) {
 CURVEWISE_EXPORT double soft_dtw(const CurveView& P, const CurveView& Q,
                                  const SoftDtwOptions& options = {}, Control* control = nullptr);
 
+/// For code that serves all measures alike (gradient.hpp).
+inline double evaluate(const SoftDtwOptions& options, const CurveView& P, const CurveView& Q,
+                       Control* control = nullptr) {
+    return soft_dtw(P, Q, options, control);
+}
+
 }  // namespace curvewise

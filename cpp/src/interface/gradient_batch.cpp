@@ -28,7 +28,10 @@ void values_and_gradients(const DifferentiableMeasure& measure, const std::vecto
         try {
             std::visit(
                 [&](const auto& options) {
-                    values[k] = value_and_gradients(options, P[k], Q[k], out[k], watch);
+                    const bool is_value = out[k].by_p == nullptr && out[k].by_q == nullptr;
+                    values[k] = is_value
+                                    ? evaluate(options, P[k], Q[k], watch)
+                                    : value_and_gradients(options, P[k], Q[k], out[k], watch);
                 },
                 measure);
         } catch (const std::invalid_argument& error) {

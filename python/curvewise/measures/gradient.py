@@ -6,6 +6,8 @@ differentiated: O(n + m) beyond the value.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from typing import Any, SupportsIndex, get_args
 
 import numpy as np
@@ -13,12 +15,27 @@ import numpy.typing as npt
 
 from .._core import value_and_gradient as compiled_value_and_gradient
 from .._core import values_and_gradients as compiled_values_and_gradients
+from .._docstrings import filled, listed
 from .._options import Default, Differentiable, check_choice
 from ..curves.inputs import Array, CurveLike, as_curves
 
-__all__ = ["value_and_gradient", "values_and_gradients"]
+__all__ = ["BY_BOTH_CURVES", "value_and_gradient", "values_and_gradients"]
+
+# All that have derivatives except the plain sum, which numpy has by itself.
+BY_BOTH_CURVES = tuple(name for name in get_args(Differentiable) if name != "sum_of_squares")
+
+# What the modules for other packages' arrays say of what there is not.
+NO_DERIVATIVE_OF_PCM = (
+    "pcm has no derivative: which curve is mapped, and where, is the best of a row of offsets, and "
+    "it jumps where another is; take area(spacing='matched') or curve_length"
+)
+NO_SECOND_DERIVATIVE = (
+    "curvewise's measures have first derivatives only; leave out create_graph=True, or use a method "
+    "without second derivatives"
+)
 
 
+@filled(measures=listed(get_args(Differentiable)))
 def value_and_gradient(
     P: CurveLike, Q: CurveLike, measure: Differentiable = "dtw", **options: Any
 ) -> tuple[float, Array]:
@@ -31,7 +48,7 @@ def value_and_gradient(
     ----------
     P, Q : array_like, shapes (n, d) and (m, d), or (n,) and (m,)
         The curves, as the measure takes them.
-    measure : {"area", "curve_length", "dtw", "frechet", "soft_dtw", "sum_of_squares"}
+    measure : {measures}
         The measure.
     **options
         Its options; of area not ``spacing="arc_length"``.
@@ -52,15 +69,14 @@ def value_and_gradient(
     -----
     O(n + m) time and memory beyond the value; beyond the path for dtw and frechet; of soft_dtw up
     to three times the time of its value, and O(n sqrt(m)) memory. soft_dtw has a derivative
-    everywhere; those of the others are exact where the
-    path, the cuts of the refinement and the order of corners do not change at once: dtw and
-    frechet are optima over paths, whose derivative is that with the path held (the envelope
-    theorem). There is no derivative
+    everywhere; those of the others are exact where the path, the cuts of the refinement and the
+    order of corners do not change at once: dtw and frechet are optima over paths, whose derivative
+    is that with the path held (the envelope theorem). There is no derivative
 
     - at ties: two paths that cost the same (dtw), two pairs of points that are furthest apart
       (frechet), two segments that are longest (area), two paths, or equal points of Q (area with
       ``spacing="matched"``), two points of Q with the largest abs(x) or abs(y), or a place that
-      lies on a vertex of Q (curve_length);
+      lies on a vertex of Q (curve_length); two places that could each decide (frechet_continuous);
     - where matched points coincide or a difference is 0, except for squares: a kink, as of abs(x).
 
     There the result is the derivative to one side, or 0 for a term that vanishes. The gradient of
@@ -82,6 +98,7 @@ def value_and_gradient(
     return compiled_value_and_gradient(measure, P, Q, options)
 
 
+@filled(measures=listed(BY_BOTH_CURVES))
 def values_and_gradients(
     P: npt.ArrayLike,
     Q: npt.ArrayLike,
@@ -96,7 +113,7 @@ def values_and_gradients(
     ----------
     P, Q : array_like, shapes (b, n, d) and (b, m, d)
         The curves, pair by pair.
-    measure : {"area", "curve_length", "dtw", "frechet", "soft_dtw"}
+    measure : {measures}
         The measure.
     workers : int
         Threads for this call, each with a pair at a time: at least 1, or -1 for one per core. Never
@@ -135,16 +152,51 @@ def values_and_gradients(
     """
     check_choice("measure", measure, BY_BOTH_CURVES)
     first, second = np.asarray(P), np.asarray(Q)
-    if first.ndim != 3 or second.ndim != 3 or len(first) != len(second):
+    if first.ndim != 3 or second.ndim != 3:
         raise ValueError(
-            f"P has shape {first.shape} and Q has shape {second.shape}; give as many curves of "
-            "each, in arrays of shapes (b, n, d) and (b, m, d)"
+            f"P has shape {first.shape} and Q has shape {second.shape}; give arrays of shapes "
+            "(b, n, d) and (b, m, d)"
         )
+    values, by_P, by_Q = of_arrays(first, second, measure, options, workers=workers)
+    return values, by_P, by_Q
+
+
+def check_pairs(P: tuple[int, ...], Q: tuple[int, ...]) -> None:
+    """Refuse shapes that are not (..., n, d) and (..., m, d)."""
+    shapes = f"P has shape {P} and Q has shape {Q}"
+    if len(P) < 2 or len(P) != len(Q) or P[:-2] != Q[:-2]:
+        raise ValueError(
+            f"{shapes}; give as many curves of each, of shapes (n, d) and (m, d), or (b, n, d) and "
+            "(b, m, d)"
+        )
+    if P[-1] != Q[-1]:
+        raise ValueError(f"{shapes}; both need the same number of coordinates")
+
+
+def of_arrays(
+    P: npt.NDArray[Any],
+    Q: npt.NDArray[Any],
+    measure: str,
+    options: Mapping[str, Any],
+    *,
+    by: tuple[bool, bool] = (True, True),
+    workers: SupportsIndex = -1,
+) -> tuple[Array, Array, Array]:
+    """Return the same of arrays of shapes (..., n, d) and (..., m, d), for other packages' arrays.
+
+    A derivative that is not asked for is an array without entries.
+    """
+    check_pairs(P.shape, Q.shape)
+    pairs = P.shape[:-2]
+    count = math.prod(pairs)  # reshape(-1) does not know it of curves without points
+    first, second = (C.reshape(count, *C.shape[-2:]) for C in (P, Q))
     for k in range(min(1, len(first))):  # all pairs have the shapes of the first
         as_curves(first[k], second[k])
-    found = compiled_values_and_gradients(measure, first, second, options, True, True, workers)
-    return found  # type: ignore[return-value]  # both are asked for
-
-
-# All that have derivatives except the plain sum, which numpy has by itself.
-BY_BOTH_CURVES = tuple(name for name in get_args(Differentiable) if name != "sum_of_squares")
+    values, *found = compiled_values_and_gradients(
+        measure, first, second, dict(options), *by, workers
+    )
+    by_P, by_Q = (
+        np.empty((*pairs, 0, 0)) if gradient is None else gradient.reshape(curves.shape)
+        for gradient, curves in zip(found, (P, Q), strict=True)
+    )
+    return values.reshape(pairs), by_P, by_Q
