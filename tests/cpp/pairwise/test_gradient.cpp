@@ -1,4 +1,4 @@
-// Gradients: against central differences of the measure, in every direction at once.
+// Gradients by both curves: against central differences of the measure, in every direction at once.
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -36,17 +36,24 @@ double product(const std::vector<double>& gradient, const Curve& direction) {
 template <class Options>
 void check_slope(const Options& options, const Curve& P, const Curve& Q, const Curve& direction) {
     const check::Note note(Options::measure);
-    std::vector<double> gradient(Q.values().size(), 1e300);
-    const double value = value_and_gradient(options, P, Q, gradient.data());
+    std::vector<double> by_p(P.values().size(), 1e300), by_q(Q.values().size(), 1e300);
+    const double value = value_and_gradients(options, P, Q, {by_p.data(), by_q.data()});
     CHECK_CLOSE(value, evaluate(options, P, Q), 1e-14);
-    const double difference = evaluate(options, P, moved(Q, direction, step)) -
-                              evaluate(options, P, moved(Q, direction, -step));
-    CHECK_CLOSE(product(gradient, direction), difference / (2.0 * step), 1e-5);
+    const double by_moving_q = evaluate(options, P, moved(Q, direction, step)) -
+                               evaluate(options, P, moved(Q, direction, -step));
+    CHECK_CLOSE(product(by_q, direction), by_moving_q / (2.0 * step), 1e-5);
+    const double by_moving_p = evaluate(options, moved(P, direction, step), Q) -
+                               evaluate(options, moved(P, direction, -step), Q);
+    CHECK_CLOSE(product(by_p, direction), by_moving_p / (2.0 * step), 1e-5);
+
+    std::vector<double> alone(Q.values().size(), 1e300);
+    CHECK_EQUAL(value_and_gradient(options, P, Q, alone.data()), value);
+    CHECK_EQUAL(alone, by_q);
 }
 
 void slopes() {
     Random random(17);
-    const Curve P = random.curve(12, 2), Q = random.curve(9, 2), direction = random.curve(9, 2);
+    const Curve P = random.curve(12, 2), Q = random.curve(9, 2), direction = random.curve(12, 2);
     for (const auto spacing :
          {curvewise::Spacing::distance, curvewise::Spacing::x, curvewise::Spacing::matched}) {
         for (const bool squared : {false, true}) {
@@ -61,6 +68,54 @@ void slopes() {
     check_slope(per_step, P, Q, direction);
     check_slope(curvewise::FrechetOptions{}, P, Q, direction);
     check_slope(curvewise::CurveLengthOptions{curvewise::LengthScale::range}, P, Q, direction);
+    check_slope(curvewise::FrechetContinuousOptions{}, P, Q, direction);
+    check_slope(curvewise::SoftDtwOptions{0.1}, P, Q, direction);
+    check_slope(curvewise::SoftDtwOptions{2.0, 3}, P, Q, direction);
+}
+
+// More rows than a strip has, and a band that leaves cells of most strips out.
+void slopes_across_strips() {
+    Random random(18);
+    const Curve P = random.curve(200, 1), Q = random.curve(170, 1),
+                direction = random.curve(200, 1);
+    check_slope(curvewise::SoftDtwOptions{1.0}, P, Q, direction);
+    check_slope(curvewise::SoftDtwOptions{1.0, 20}, P, Q, direction);
+}
+
+// As one by one, for any number of threads, and errors that name the pair.
+void batches() {
+    Random random(19);
+    std::vector<Curve> P, Q;
+    for (int k = 0; k < 7; ++k) {
+        P.push_back(random.curve(5 + k, 2));
+        Q.push_back(random.curve(9, 2));
+    }
+    const std::vector<curvewise::CurveView> p(P.begin(), P.end()), q(Q.begin(), Q.end());
+    for (const std::ptrdiff_t workers : {1, 3, -1}) {
+        std::vector<std::vector<double>> gradients;
+        std::vector<curvewise::Gradients> out;
+        for (const Curve& curve : Q) gradients.emplace_back(curve.values().size());
+        for (std::vector<double>& gradient : gradients) out.push_back({nullptr, gradient.data()});
+        out.back() = {};
+        std::vector<double> values(P.size());
+        values_and_gradients(curvewise::DtwOptions{}, p, q, values.data(), out, workers);
+        for (std::size_t k = 0; k < P.size(); ++k) {
+            std::vector<double> alone(Q[k].values().size());
+            CHECK_EQUAL(values[k],
+                        value_and_gradient(curvewise::DtwOptions{}, P[k], Q[k], alone.data()));
+            if (k + 1 < P.size()) CHECK_EQUAL(gradients[k], alone);
+        }
+    }
+    std::vector<double> values(P.size());
+    const std::vector<curvewise::Gradients> none(P.size());
+    std::vector<curvewise::CurveView> bad = q;
+    bad[4] = {Q[4].values().data(), 0, 2};
+    CHECK_THROWS(values_and_gradients(curvewise::DtwOptions{}, p, bad, values.data(), none, 2),
+                 std::invalid_argument, "pair 4: Q has shape (0, 2); dtw needs at least 1 point");
+    bad.pop_back();
+    CHECK_THROWS(values_and_gradients(curvewise::DtwOptions{}, p, bad, values.data(), none),
+                 std::invalid_argument,
+                 "there are 7 P, 6 Q and 7 places for derivatives; give as many of each");
 }
 
 void squares() {
@@ -83,5 +138,9 @@ void messages() {
 }  // namespace
 
 int main() {
-    return check::run({{"slopes", slopes}, {"squares", squares}, {"messages", messages}});
+    return check::run({{"slopes", slopes},
+                       {"slopes across strips", slopes_across_strips},
+                       {"batches", batches},
+                       {"squares", squares},
+                       {"messages", messages}});
 }
