@@ -1,12 +1,13 @@
 """The measures as losses of PyTorch: differentiable in both curves, of pairs or of batches of them.
 
 Values and derivatives are those of :func:`curvewise.values_and_gradients`, to the bit, computed in
-float64 on the CPU by all its cores. A tensor on another device is brought to the CPU, and the result
-back. A contiguous float64 tensor on the CPU is not copied. ``pip install "curvewise[torch]"``.
+float64 on the CPU by all its cores. A tensor on another device is brought to the CPU, and the
+result back. A contiguous float64 tensor on the CPU is not copied. Errors are those of numpy's
+functions. ``pip install "curvewise[torch]"``.
 
 Derivatives are found together with the values, where a curve asks for them; backwards they are only
-multiplied. They are not differentiated again: a second derivative is refused. Errors are those of
-numpy's functions. For ``torch.func.vmap`` and ``torch.func.grad``, too.
+multiplied. For ``torch.func.vmap`` and ``torch.func.grad``, too. They are not differentiated again:
+a second derivative is refused.
 """
 
 from __future__ import annotations

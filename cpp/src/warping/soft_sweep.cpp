@@ -210,7 +210,11 @@ void SoftSweep::backward(const Strip& strip, ShareTable& shares, FromBelow& from
 double SoftSweep::log_of_last(const ScaledRow& row) const noexcept {
     const auto last = static_cast<std::size_t>(curves_.columns());
     constexpr double log_of_2 = 0.69314718055994530942;
-    return row.exponents[last] * log_of_2 + std::log(row.mantissas[last]);
+    // From the nearest power of two: of a number just below 1 nothing cancels.
+    const bool is_above = row.mantissas[last] > 1.4;
+    const double mantissa = is_above ? 0.5 * row.mantissas[last] : row.mantissas[last];
+    const double exponent = is_above ? row.exponents[last] + 1.0 : row.exponents[last];
+    return exponent * log_of_2 + std::log(mantissa);
 }
 
 double SoftSweep::log_of_total() {

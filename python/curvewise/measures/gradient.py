@@ -30,8 +30,8 @@ NO_DERIVATIVE_OF_PCM = (
     "it jumps where another is; take area(spacing='matched') or curve_length"
 )
 NO_SECOND_DERIVATIVE = (
-    "curvewise's measures have first derivatives only; leave out create_graph=True, or use a method "
-    "without second derivatives"
+    "curvewise's measures have first derivatives only; leave out create_graph=True, or use a "
+    "method without second derivatives"
 )
 
 

@@ -1,8 +1,8 @@
 """The derivatives of measures by their curves, as what they are: limits of differences.
 
-Central differences of fourth order, by steps of a ten-thousandth of the curve's extent. They agree with the
-compiled library's formulas to about 1e-9 of the largest derivative, where no kink lies within two
-steps; both are derived in different ways, so that one checks the other.
+Central differences of fourth order, by steps of a ten-thousandth of the curve's extent. They agree
+with the compiled library's formulas to about 1e-9 of the largest derivative, where no kink lies
+within two steps; both are derived in different ways, so that one checks the other.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from .area import area
 from .curve_length import curve_length
 from .dtw import dtw
 from .frechet import frechet
+from .frechet_continuous import frechet_continuous
 from .pointwise import sum_of_squares
 from .soft_dtw import soft_dtw
 
@@ -29,6 +30,7 @@ _MEASURES: dict[str, Callable[..., float]] = {
     "curve_length": curve_length,
     "dtw": dtw,
     "frechet": frechet,
+    "frechet_continuous": frechet_continuous,
     "soft_dtw": soft_dtw,
     "sum_of_squares": sum_of_squares,
 }

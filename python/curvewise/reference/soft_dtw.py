@@ -26,7 +26,7 @@ __all__ = ["soft_dtw", "soft_dtw_divergence"]
 def soft_dtw(
     P: CurveLike, Q: CurveLike, *, gamma: SupportsFloat = 1.0, window: Window = None
 ) -> float:
-    """Time and memory O(n m). Not for curves whose squared distances leave the range of a double."""
+    """Time and memory O(n m). Not for curves whose squared distances are beyond a double."""
     smoothness = _checked(gamma)
     P, Q = check_pair(*as_curves(P, Q), "soft_dtw")
     outside = np.isinf(dtw_table(P, Q, metric="sqeuclidean", window=window))
@@ -37,8 +37,8 @@ def soft_dtw(
         least = np.minimum.reduce(before)
         reached = np.isfinite(least)
         beyond = np.where(reached, before - np.where(reached, least, 0.0), np.inf)
-        terms = np.exp(-beyond / smoothness).sum(axis=0)
-        return np.where(reached, d + least - smoothness * np.log(np.where(reached, terms, 1)), np.inf)
+        terms = np.where(reached, np.exp(-beyond / smoothness).sum(axis=0), 1.0)
+        return np.where(reached, d + least - smoothness * np.log(terms), np.inf)
 
     return float(filled_table(ground, cell)[-1, -1])
 
