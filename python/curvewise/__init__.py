@@ -17,7 +17,7 @@ from . import curves, datasets, measures
 from ._core import build_info as _build_info
 from .comparing.comparison import Comparison, compare
 from .files.curve_files import read_curve
-from .many.averages import dtw_mean, medoid
+from .many.averages import dtw_mean, medoid, soft_dtw_mean
 from .many.nearest import Index
 from .many.pairwise import Prepared, available_measures, cdist, pdist
 from .many.subsequences import subsequence
@@ -54,6 +54,7 @@ __all__ = [
     "pdist",
     "read_curve",
     "reference",
+    "soft_dtw_mean",
     "subsequence",
 ]
 

@@ -304,7 +304,8 @@ def _measured(measure: str, P: Any, Q: Any, options: dict[str, Any]) -> Array:
     elif P.ndim == 3 and Q.ndim == 2:
         Q = jnp.broadcast_to(Q, (len(P), *Q.shape))
     check_pairs(P.shape, Q.shape)
-    of_arrays(*(np.empty((0, *C.shape[-2:])) for C in (P, Q)), measure, options)  # the options
+    none = [np.empty((0, *curve.shape[-2:])) for curve in (P, Q)]
+    of_arrays(none[0], none[1], measure, options)  # which are refused here, if at all
     return _measure(P, Q, measure, tuple(options.items()))
 
 

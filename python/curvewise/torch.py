@@ -303,11 +303,11 @@ def _measured(measure: str, P: Tensor, Q: Tensor, options: dict[str, Any]) -> Te
     return values
 
 
-class _Measure(torch.autograd.Function):
+class _Measure(torch.autograd.Function):  # type: ignore[misc]  # untyped
     """The values, and what they are multiplied by backwards."""
 
     @staticmethod
-    def forward(  # type: ignore[override]
+    def forward(
         P: Tensor, Q: Tensor, measure: str, options: dict[str, Any], by: tuple[bool, bool]
     ) -> Slopes:
         first, second = (C.detach().to("cpu", torch.float64).numpy() for C in (P, Q))
@@ -353,13 +353,13 @@ class _Measure(torch.autograd.Function):
         return _Measure.apply(first, second, *rest[:2], by), (0, 0, 0)
 
 
-class _Slopes(torch.autograd.Function):
+class _Slopes(torch.autograd.Function):  # type: ignore[misc]  # untyped
     """Derivatives by a curve, which refuse to be differentiated again."""
 
     generate_vmap_rule = True
 
     @staticmethod
-    def forward(by_value: Tensor, slopes: Tensor, curve: Tensor) -> Tensor:  # type: ignore[override]
+    def forward(by_value: Tensor, slopes: Tensor, curve: Tensor) -> Tensor:
         return (by_value[..., None, None] * slopes).to(curve.dtype)
 
     @staticmethod

@@ -1,11 +1,14 @@
-"""One curve for many: their mean under dtw, and the one among them that is nearest to all others.
+"""One curve for many: their mean under dtw or soft_dtw, and the nearest of them to all others.
 
 The mean is that of Petitjean, Ketterlin & Gançarski, "A global averaging method for dynamic time
-warping, with applications to clustering" (2011), found by the compiled library.
+warping, with applications to clustering" (2011), found by the compiled library. That under soft_dtw
+(Cuturi & Blondel 2017) is found by scipy's L-BFGS-B, from the compiled library's derivatives.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from importlib import import_module
 from typing import Any, SupportsFloat, SupportsIndex
 
 import numpy as np
@@ -14,14 +17,16 @@ import numpy.typing as npt
 from .._core import check_batch, is_symmetric
 from .._core import dtw_mean as compiled_dtw_mean
 from .._docstrings import filled
-from .._options import Default, Window, real_number
+from .._extras import extra
+from .._options import Default, Window, real_number, whole_number
 from .._progress import Report, reporting
 from ..curves.inputs import Array, CurveLike, as_curve, as_curve_list
+from ..measures.gradient import values_and_gradients
 from ..measures.registry import MeasureName
 from ..measures.results import DtwMean
 from .pairwise import Curves, _check_names, cdist
 
-__all__ = ["dtw_mean", "medoid"]
+__all__ = ["dtw_mean", "medoid", "soft_dtw_mean"]
 
 # Curves of which the medoid is the initial mean, where the caller gives none: their distances take
 # about as long as a few rounds.
@@ -96,17 +101,8 @@ def dtw_mean(
     [0.0, 2.75, 0.0]
     """
     given = as_curve_list(curves, "curves")
-    if initial is None:
-        chosen = given[:: max(1, -(-len(given) // _CURVES_FOR_START))]
-        start = given[0] if len(chosen) < 2 else chosen[_start_of(chosen, window, workers)]
-    else:
-        start = as_curve(initial, "initial")
-    if weights is not None and np.ndim(weights) != 1:
-        raise ValueError(f"weights has {np.ndim(weights)} array dimensions; give one number each")
-    counts = [
-        real_number(f"weights[{i}]", weight, -np.inf, "give a finite number >= 0")
-        for i, weight in enumerate([] if weights is None else np.asarray(weights).tolist())
-    ]
+    start = _start_of(given, initial, window, workers)
+    counts = _checked_weights(weights)
     limit = real_number("tolerance", tolerance, -np.inf, "give a number >= 0")
     with reporting(progress) as report:
         mean, costs, converged = compiled_dtw_mean(
@@ -115,8 +111,130 @@ def dtw_mean(
     return DtwMean(mean, costs, converged)
 
 
-def _start_of(curves: list[Array], window: Window, workers: SupportsIndex) -> int:
-    return medoid(curves, "dtw", metric="sqeuclidean", window=window, workers=workers)
+@filled()
+def soft_dtw_mean(
+    curves: Curves,
+    *,
+    gamma: SupportsFloat = 1.0,
+    initial: CurveLike | None = None,
+    weights: npt.ArrayLike | None = None,
+    window: Window = Default.window,
+    iterations: SupportsIndex = 50,
+    tolerance: SupportsFloat = 1e-6,
+    workers: SupportsIndex = Default.workers,
+) -> DtwMean:
+    """Compute the mean of curves under soft_dtw: a smoother one than :func:`curvewise.dtw_mean`.
+
+    The curve with the smallest weighted sum of ``soft_dtw(mean, curve)``, or rather a local minimum
+    of that sum, which depends on the initial curve less than that of dtw does.
+
+    Parameters
+    ----------
+    curves : array_like, shape (k, n, d), or a sequence of curves
+        The curves of a sequence may differ in length, not in d.
+    gamma : float > 0
+        As for :func:`curvewise.soft_dtw`.
+    initial : array_like, shape (n, d), optional
+        As for :func:`curvewise.dtw_mean`.
+    weights : array_like, shape (k,), optional
+        How much each curve counts, at least 0; not all 0.
+    window : int >= 0, or float between 0 and 1, optional
+        As for :func:`curvewise.dtw`.
+    iterations : int >= 0
+        How often the mean is moved at most.
+    tolerance : float >= 0
+        Ends where a move lowers the sum by no more than this part of it.
+    {workers}
+
+    Returns
+    -------
+    DtwMean
+        The mean, the sum after every move, and whether it has converged.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`curvewise.dtw_mean` and :func:`curvewise.soft_dtw`.
+    ImportError
+        scipy is missing: ``pip install "curvewise[calibration]"``.
+
+    Notes
+    -----
+    Cuturi & Blondel (2017), by L-BFGS-B. Time of one value with its derivatives, O(n m), a curve
+    and step; memory O(n sqrt(m)) a thread.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curves = [[0, 0, 2, 0], [0, 2, 2, 0], [0, 0, 0, 2, 0]]
+    >>> mean = curvewise.soft_dtw_mean(curves, gamma=0.01, initial=[0, 1, 0])
+    >>> mean.converged, mean.curve.round(2).tolist()
+    (True, [0.0, 2.0, 0.0])
+    """
+    with extra("calibration", "soft_dtw_mean needs scipy"):
+        minimize = import_module("scipy.optimize").minimize
+    given = as_curve_list(curves, "curves")
+    start = _start_of(given, initial, window, workers)
+    counts = _checked_weights(weights)
+    limit = real_number("tolerance", tolerance, 0.0, "give a number >= 0")
+    most = whole_number("iterations", iterations, 0, "give a whole number >= 0")
+    # Which refuses what a mean cannot be of, by the names of the curves.
+    compiled_dtw_mean(given, counts, start, window, 0, 0.0, workers, None)
+    shares = np.array(counts or np.ones(len(given)))
+    in_columns = start.reshape(len(start), -1)
+    options: dict[str, Any] = {"gamma": gamma, "window": window, "workers": workers}
+
+    def cost(flat: Array) -> tuple[float, Array]:
+        mean = flat.reshape(in_columns.shape)
+        total, slopes = 0.0, np.zeros(in_columns.shape)
+        for alike, weight in _of_equal_length(given, shares):
+            several = np.broadcast_to(mean, (len(alike), *mean.shape))
+            values, by_mean, _ = values_and_gradients(several, alike, "soft_dtw", **options)
+            total += float(weight @ values)
+            slopes += np.tensordot(weight, by_mean, 1)
+        return total, slopes.ravel()
+
+    costs = [cost(in_columns.ravel())[0]]
+    found = minimize(
+        cost,
+        in_columns.ravel(),
+        jac=True,
+        method="L-BFGS-B",
+        callback=lambda intermediate_result: costs.append(float(intermediate_result.fun)),
+        options={"maxiter": most, "ftol": limit, "gtol": 0.0},
+    )
+    reached_limit = found.status == 1  # else no step lowers the sum by more, or at all
+    return DtwMean(found.x.reshape(start.shape), np.array(costs), not reached_limit)
+
+
+def _start_of(
+    curves: list[Array], initial: CurveLike | None, window: Window, workers: SupportsIndex
+) -> Array:
+    """Return where a mean begins: `initial`, or the medoid of some of the curves."""
+    if initial is not None:
+        return as_curve(initial, "initial")
+    chosen = curves[:: max(1, -(-len(curves) // _CURVES_FOR_START))]
+    if len(chosen) < 2:
+        return curves[0]
+    return chosen[medoid(chosen, "dtw", metric="sqeuclidean", window=window, workers=workers)]
+
+
+def _checked_weights(weights: npt.ArrayLike | None) -> list[float]:
+    if weights is not None and np.ndim(weights) != 1:
+        raise ValueError(f"weights has {np.ndim(weights)} array dimensions; give one number each")
+    return [
+        real_number(f"weights[{i}]", weight, -np.inf, "give a finite number >= 0")
+        for i, weight in enumerate([] if weights is None else np.asarray(weights).tolist())
+    ]
+
+
+def _of_equal_length(curves: list[Array], weights: Array) -> Iterator[tuple[Array, Array]]:
+    """Yield the curves of one length after the other, stacked, with their weights."""
+    lengths = np.array([len(curve) for curve in curves])
+    for length in np.unique(lengths):
+        chosen = np.flatnonzero(lengths == length)
+        stacked = np.stack([curves[k].reshape(length, -1) for k in chosen])
+        yield stacked, weights[chosen]
 
 
 @filled()

@@ -266,15 +266,15 @@ class Subsequence(_Record):
 
 @dataclass(frozen=True, repr=False)
 class DtwMean(_Record):
-    """The mean of curves under dtw.
+    """The mean of curves under dtw, or under soft_dtw.
 
     Attributes
     ----------
     curve : ndarray, shape (n, d)
         The mean, with as many points as the initial curve.
     costs : ndarray
-        The weighted sum of the dtw distances, with squared ground distances, from the curves: of
-        the initial curve, and of the mean after every move. It never rises.
+        The weighted sum of the dtw distances, with squared ground distances, or of soft_dtw from
+        the curves: of the initial curve, and of the mean after every move. It never rises.
     converged : bool
         Whether the last move lowered the sum by no more than the tolerance.
     """

@@ -7,7 +7,8 @@ within two steps; both are derived in different ways, so that one checks the oth
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, get_args
 
 import numpy as np
@@ -45,7 +46,7 @@ def value_and_gradient(
     P, Q = as_curves(P, Q)
     function = _MEASURES[measure]
     value = function(P, Q, **options)
-    return value, _differences(lambda curve: function(P, curve, **options), Q)
+    return value, _differences(partial(function, P, **options), Q)
 
 
 def values_and_gradients(
@@ -57,9 +58,15 @@ def values_and_gradients(
     values, by_P, by_Q = [], [], []
     for p, q in zip(np.asarray(P, dtype=float), np.asarray(Q, dtype=float), strict=True):
         values.append(function(p, q, **options))
-        by_P.append(_differences(lambda curve, q=q: function(curve, q, **options), p))
-        by_Q.append(_differences(lambda curve, p=p: function(p, curve, **options), q))
+        by_P.append(_differences(partial(_of_first, function, q, options), p))
+        by_Q.append(_differences(partial(function, p, **options), q))
     return np.array(values), np.array(by_P), np.array(by_Q)
+
+
+def _of_first(
+    function: Callable[..., float], Q: Array, options: Mapping[str, Any], P: Array
+) -> float:
+    return function(P, Q, **options)
 
 
 def _differences(function: Callable[[Array], float], curve: Array) -> Array:

@@ -114,3 +114,51 @@ def test_the_medoid_of_nothing():
         curvewise.medoid([])
     with pytest.raises(ValueError, match=r"XA\[1\]\[0\] is nan"):
         curvewise.medoid([[0], [np.nan]])
+
+
+@pytest.mark.parametrize("gamma", [0.01, 1.0])
+def test_the_soft_mean_is_where_slopes_vanish(gamma: float) -> None:
+    random = np.random.default_rng(4)
+    curves = [random.normal(size=(n, 2)).cumsum(axis=0) for n in (9, 12, 9, 15)]
+    weights = np.array([1.0, 2.0, 0.5, 1.0])
+    mean = curvewise.soft_dtw_mean(
+        curves, gamma=gamma, weights=weights, iterations=500, tolerance=1e-13
+    )
+    assert mean.converged
+    assert (np.diff(mean.costs) <= 0).all()
+    pairs = [
+        curvewise.value_and_gradient(curve, mean.curve, "soft_dtw", gamma=gamma) for curve in curves
+    ]
+    assert mean.costs[-1] == pytest.approx(
+        sum(w * v for w, (v, _) in zip(weights, pairs, strict=True))
+    )
+    slopes = [w * gradient for w, (_, gradient) in zip(weights, pairs, strict=True)]
+    assert np.abs(np.sum(slopes, axis=0)).max() < 1e-4 * np.abs(slopes).max()
+    moved = mean.curve + 0.01 * random.normal(size=mean.curve.shape)
+    assert (
+        sum(
+            w * curvewise.soft_dtw(moved, curve, gamma=gamma)
+            for w, curve in zip(weights, curves, strict=True)
+        )
+        > mean.costs[-1]
+    )
+
+
+def test_the_soft_mean_of_equal_curves_and_of_those_with_one_coordinate() -> None:
+    curve = np.sin(np.arange(20) / 3)
+    mean = curvewise.soft_dtw_mean([curve, curve], gamma=1e-4)
+    np.testing.assert_allclose(mean.curve, curve, atol=0.02)
+    assert mean.curve.shape == curve.shape
+
+
+def test_errors_of_the_soft_mean() -> None:
+    with pytest.raises(ValueError, match="no curves"):
+        curvewise.soft_dtw_mean([], initial=[1.0])
+    with pytest.raises(ValueError, match="weights has 1 entries for 2 curves; give one for each"):
+        curvewise.soft_dtw_mean([[1.0], [2.0]], weights=[1.0])
+    with pytest.raises(ValueError, match="gamma is 0; give a finite number > 0"):
+        curvewise.soft_dtw_mean([[1.0], [2.0]], gamma=0)
+    with pytest.raises(ValueError, match=r"curves\[1\]\[0\] is nan"):
+        curvewise.soft_dtw_mean([[1.0], [np.nan]], initial=[1.0])
+    with pytest.raises(ValueError, match="iterations is -1; give a whole number >= 0"):
+        curvewise.soft_dtw_mean([[1.0], [2.0]], iterations=-1)
