@@ -14,5 +14,6 @@
 #include "curvewise/options.hpp"
 #include "curvewise/pairwise.hpp"
 #include "curvewise/pointwise.hpp"
+#include "curvewise/soft_dtw.hpp"
 #include "curvewise/subsequence.hpp"
 #include "curvewise/version.hpp"

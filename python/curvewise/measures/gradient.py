@@ -115,9 +115,7 @@ def values_and_gradients(
         The curves, pair by pair.
     measure : {measures}
         The measure.
-    workers : int
-        Threads for this call, each with a pair at a time: at least 1, or -1 for one per core. Never
-        changes the result.
+    {workers}
     **options
         As for :func:`value_and_gradient`.
 
@@ -138,7 +136,7 @@ def values_and_gradients(
     -----
     Derivatives are those of :func:`value_and_gradient`, with its notes on where there are none: at
     ties those by P and by Q are of the same path, or of the same pair of points. Time as there for
-    each pair; memory O(b (n + m) d) beside what each thread takes for its pair. Arrays of float64
+    each pair, of which a thread takes one at a time; memory O(b (n + m) d) beside what each thread takes for its pair. Arrays of float64
     in C order are not copied.
 
     Examples
@@ -147,7 +145,7 @@ def values_and_gradients(
     >>> import curvewise
     >>> P, Q = np.array([[[0.0], [1.0], [2.0]]]), np.array([[[0.5], [1.25], [4.0]]])
     >>> values, by_P, by_Q = curvewise.values_and_gradients(P, Q)
-    >>> values.tolist(), by_P.ravel().tolist(), by_Q.ravel().tolist()
+    >>> values.tolist(), by_P.ravel().round(6).tolist(), by_Q.ravel().round(6).tolist()
     ([2.75], [-1.0, -1.0, -1.0], [1.0, 1.0, 1.0])
     """
     check_choice("measure", measure, BY_BOTH_CURVES)

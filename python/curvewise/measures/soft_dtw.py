@@ -58,8 +58,8 @@ def soft_dtw(
     >>> import curvewise
     >>> round(curvewise.soft_dtw([0, 1, 2, 3], [0, 2, 3], gamma=0.1), 6)
     0.930672
-    >>> curvewise.soft_dtw([0, 1, 2, 3], [0, 2, 3], gamma=1e-9)
-    0.9999999993068527
+    >>> round(curvewise.soft_dtw([0, 1, 2, 3], [0, 2, 3], gamma=1e-9), 9)
+    0.999999999
     """
     P, Q = as_curves(P, Q)
     return compiled_soft_dtw(P, Q, {"gamma": gamma, "window": window})

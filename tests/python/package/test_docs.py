@@ -25,7 +25,7 @@ HEADERS = ROOT / "cpp" / "include" / "curvewise"
 BUILT = {DOCS / "_build", DOCS / "gallery", DOCS / "api" / "generated"}
 PAGES = [page for page in sorted(DOCS.rglob("*.md")) if BUILT.isdisjoint({page, *page.parents})]
 # Pages show how to use these, and nobody has all of them.
-OPTIONAL = ("dask", "geopandas", "polars", "shapely", "sklearn", "xarray")
+OPTIONAL = ("dask", "geopandas", "jax", "polars", "shapely", "sklearn", "torch", "xarray")
 # Examples of the gallery that take seconds: they run where the site is built.
 SLOW = {"plot_identification", "plot_million_points", "plot_two_tests"}
 PYTHON = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -103,6 +103,8 @@ def test_the_code_of_a_page_runs(
 )
 def test_an_example_of_the_gallery_runs(example: Path) -> None:
     plt = pytest.importorskip("matplotlib.pyplot")
+    if example.parent.name == "losses":
+        pytest.importorskip("torch", reason='no torch: pip install "curvewise[torch]"')
     plt.switch_backend("Agg")
     exec(compile(example.read_text(encoding="utf-8"), example, "exec"), {"__name__": "__main__"})
     plt.close("all")
@@ -188,7 +190,7 @@ def public_modules() -> set[str]:
 
 
 def test_the_reference_has_every_public_name_of_python() -> None:
-    for name in ("dask", "sklearn"):
+    for name in ("dask", "jax", "sklearn", "torch"):
         pytest.importorskip(name, reason=f'no {name}: pip install "curvewise[{name}]"')
     listed = set().union(*(entries(page) for page in (DOCS / "api").glob("*.rst")))
     modules = public_modules()

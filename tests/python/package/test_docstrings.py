@@ -18,6 +18,7 @@ MODULES = sorted(
     if not module.name.endswith(("._core", ".__main__"))
 )
 
+OPTIONAL = ("dask", "distributed", "jax", "sklearn", "torch")
 FUNCTIONS = sorted(
     name for name in curvewise.__all__ if inspect.isfunction(getattr(curvewise, name))
 )
@@ -28,7 +29,7 @@ def test_examples_run(name: str) -> None:
     try:
         module: ModuleType = importlib.import_module(name)
     except ImportError as error:  # whose words say how to install what it needs
-        if getattr(error.__cause__, "name", None) not in ("dask", "distributed", "sklearn"):
+        if getattr(error.__cause__, "name", None) not in OPTIONAL:
             raise
         pytest.skip(str(error))
     assert doctest.testmod(module).failed == 0
