@@ -136,8 +136,8 @@ def values_and_gradients(
     -----
     Derivatives are those of :func:`value_and_gradient`, with its notes on where there are none: at
     ties those by P and by Q are of the same path, or of the same pair of points. Time as there for
-    each pair, of which a thread takes one at a time; memory O(b (n + m) d) beside what each thread takes for its pair. Arrays of float64
-    in C order are not copied.
+    each pair, of which a thread takes one at a time; memory O(b (n + m) d), and what the pairs of
+    all threads take. Arrays of float64 in C order are not copied.
 
     Examples
     --------
