@@ -9,23 +9,36 @@ import numpy as np
 from hardening import CLEAN, QUICK, SEARCH, all_measures, fits, model, number
 from problems import LOOPS, MEASURES, TITLES, hardening_bounds, test_loops
 from report import Run, table
-from studies import Fold, Found, Task, cross_validate_all
+from stores import cross_validate_all
+from studies import Fold, Found, Task
 
 
 def main() -> None:
     """Identify, predict, print, write."""
     run = Run(__doc__, workers=1)
-    effort = QUICK if run.quick else SEARCH
-    tasks = {
-        m: Task(
-            f"folds_{m}", model(), test_loops(), hardening_bounds(), m, {"sdrm": effort["sdrm"]}
-        )
-        for m in (MEASURES[:1] if run.quick else MEASURES)
-    }
+    tasks = tasks_of(quick=run.quick)
     folds = cross_validate_all(list(tasks.values()), run.store("hardening"), run.options.workers)
     fitted = fits(run, [CLEAN])[CLEAN]
     text = cross_table({m: folds[task.name] for m, task in tasks.items()}, fitted)
     run.section("hardening_cross_validation", text)
+
+
+def tasks_of(*, quick: bool = False) -> dict[str, Task]:
+    """Return the cross-validation by each measure, with SDRM alone."""
+    effort = QUICK if quick else SEARCH
+    return {
+        measure: Task(
+            f"folds_{measure}",
+            model(),
+            test_loops(),
+            hardening_bounds(),
+            measure,
+            {"sdrm": effort["sdrm"]},
+            folds=True,
+            material=True,
+        )
+        for measure in (MEASURES[:1] if quick else MEASURES)
+    }
 
 
 def cross_table(folds: dict[str, list[Fold]], fitted: dict[str, Found]) -> str:

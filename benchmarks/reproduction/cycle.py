@@ -1,9 +1,9 @@
 """What the scripts of the load–unload cycle share: conditions, errors, and the fits' curves.
 
 The sum of squares applies here, since every simulation has the data's x. Fréchet and DTW are
-taken on scaled curves, as in section 3.3, and on the curves as they are: section 3.2 says nothing
-of normalisation. For the sum of squares and area scaling changes the value by a factor alone, PCM
-and curve length scale in any case.
+taken on the curves as they are, as in the author's scripts (normalisation is spoken of in section
+3.3 only), and beside them on scaled curves, as in section 3.3. For the sum of squares and area
+scaling changes the value by a factor alone, PCM and curve length scale in any case.
 """
 
 from __future__ import annotations
@@ -57,7 +57,21 @@ class Condition:
         )
 
 
-FIVE = {m: Condition(TITLES[m], m, colour=COLOURS[m]) for m in COLOURS if m != "sum_of_squares"}
+FIVE = {
+    "area": Condition(TITLES["area"], "area", colour=COLOURS["area"]),
+    "pcm": Condition(TITLES["pcm"], "pcm", colour=COLOURS["pcm"]),
+    "frechet": Condition(TITLES["frechet"], "frechet", "raw", colour=COLOURS["frechet"]),
+    "dtw": Condition(
+        TITLES["dtw"], "dtw", "raw", {"step_pattern": "symmetric2"}, colour=COLOURS["dtw"]
+    ),
+    "curve_length": Condition(
+        TITLES["curve_length"], "curve_length", colour=COLOURS["curve_length"]
+    ),
+}
+SCALED = {
+    "frechet_scaled": Condition("Fréchet, scaled", "frechet"),
+    "dtw_scaled": Condition("DTW, scaled", "dtw"),
+}
 SQUARES = Condition(
     TITLES["sum_of_squares"],
     curvewise.sum_of_squares,
@@ -70,8 +84,7 @@ CONDITIONS = {
         "Sum of squares, scaled", curvewise.sum_of_squares, preset="scaled"
     ),
     **FIVE,
-    "frechet_raw": Condition("Fréchet, raw", "frechet", "raw"),
-    "dtw_raw": Condition("DTW, raw", "dtw", "raw", {"step_pattern": "symmetric2"}),
+    **SCALED,
 }
 
 

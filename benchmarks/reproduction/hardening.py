@@ -22,7 +22,8 @@ from problems import (
     with_noise,
 )
 from report import Run
-from studies import STALL, Effort, Found, Task, evolution, identify_all
+from stores import identify_all
+from studies import STALL, Effort, Found, Task, evolution
 
 import curvewise
 
@@ -56,20 +57,31 @@ def tests(name: str) -> list[Array]:
     return with_noise(test_loops(), NOISE[case], int(draw))
 
 
-def fits(run: Run, names: Sequence[str]) -> dict[str, dict[str, Found]]:
-    """Return what every measure identifies from each data set; searched for where not stored."""
-    tasks = {
+def data_sets(draws: int = DRAWS) -> dict[str, list[str]]:
+    """Return the names of the data sets with noise, draw by draw, for each deviation."""
+    return {case: [noisy(case, draw) for draw in range(draws)] for case in NOISE}
+
+
+def tasks_of(names: Sequence[str], *, quick: bool = False) -> dict[tuple[str, str], Task]:
+    """Return the identification from each data set by every measure."""
+    return {
         (name, measure): Task(
             f"{name}_{measure}",
             model(),
             tests(name),
             hardening_bounds(),
             measure,
-            QUICK if run.quick else SEARCH,
+            QUICK if quick else SEARCH,
+            material=True,
         )
         for name in names
         for measure in MEASURES
     }
+
+
+def fits(run: Run, names: Sequence[str]) -> dict[str, dict[str, Found]]:
+    """Return what every measure identifies from each data set; searched for where not stored."""
+    tasks = tasks_of(names, quick=run.quick)
     found = identify_all(list(tasks.values()), run.store("hardening"), run.options.workers)
     return {name: {m: found[tasks[name, m].name] for m in MEASURES} for name in names}
 

@@ -19,6 +19,7 @@ from hardening import (
     DRAWS,
     NOISE,
     all_measures,
+    data_sets,
     fits,
     model,
     noisy,
@@ -50,8 +51,7 @@ def main() -> None:
     run = Run(__doc__, workers=1)
     run.section("material_point", point_table())
     run.section("hardening_signal", signal_table())
-    draws = 1 if run.quick else DRAWS
-    names = {case: [noisy(case, draw) for draw in range(draws)] for case in NOISE}
+    names = data_sets(1 if run.quick else DRAWS)
     found = fits(run, [CLEAN, *(name for several in names.values() for name in several)])
     run.section("hardening_stages", stage_table(found, names))
     run.section("hardening_table_3", parameter_table(found[CLEAN], noise=False))

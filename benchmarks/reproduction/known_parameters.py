@@ -12,7 +12,8 @@ from collections.abc import Sequence
 from hardening import SDRM, model, paper_values, parameter_error
 from problems import MEASURES, TITLES, hardening_bounds
 from report import Run, table
-from studies import Effort, Found, Task, evolution, identify_all
+from stores import identify_all
+from studies import Effort, Found, Task, evolution
 
 TRUTH = {
     "CB": 700.0,
@@ -45,20 +46,26 @@ def main() -> None:
         raise SystemExit(f"known parameters not found to 0.1 % of their range: {', '.join(lost)}")
 
 
-def fits(run: Run) -> dict[tuple[str, str], Found]:
-    """Return what each search finds by each measure."""
-    tasks = {
+def tasks_of(*, quick: bool = False) -> dict[tuple[str, str], Task]:
+    """Return the identification of the known parameters by each search and measure."""
+    return {
         (name, measure): Task(
             f"known_{name}_{measure}".replace(", ", "+"),
             model(),
             model()(TRUTH),
             hardening_bounds(),
             measure,
-            stages(methods, measure, quick=run.quick),
+            stages(methods, measure, quick=quick),
+            material=True,
         )
         for name, methods in SEARCHES.items()
         for measure in MEASURES
     }
+
+
+def fits(run: Run) -> dict[tuple[str, str], Found]:
+    """Return what each search finds by each measure."""
+    tasks = tasks_of(quick=run.quick)
     found = identify_all(list(tasks.values()), run.store("hardening"), run.options.workers)
     return {key: found[task.name] for key, task in tasks.items()}
 

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
-from cycle import CONDITIONS, FIVE, SQUARES, curve_error, parameter_error
+from cycle import CONDITIONS, FIVE, SCALED, SQUARES, curve_error, parameter_error
 from problems import (
     LOAD_UNLOAD_TRUTH,
     Array,
@@ -22,7 +22,8 @@ from problems import (
     load_unload_noisy,
 )
 from report import Run, legend_below, table
-from studies import Effort, Found, evolution, identify_all
+from stores import identify_all
+from studies import Effort, Found, Task, evolution
 
 import curvewise
 
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 REQUIRED = 1e-3  # how exactly the true parameters must be found
 TEXT = math.sqrt(0.05)  # the standard deviation that the text's variance means
 DRAWS = 3
+SEEDS = 10
+NOISY_SEEDS = 3
 GENERATIONS = 200
 # An `atol` of 0: the evolution goes on to its last generation, however small the value.
 EFFORT: Effort = {"de": evolution(25, GENERATIONS, atol=0.0), "nelder-mead": {"restarts": 20}}
@@ -44,11 +47,12 @@ Noisy: TypeAlias = dict[tuple[str, str], list[list[Found]]]
 
 NOISY = {"file": "0.052", "0.05": "0.05", "text": "0.2236"}
 WITH_SQUARES = {"sum_of_squares": SQUARES, **FIVE}
+EXACT = {**WITH_SQUARES, **SCALED}
 
 
 def main() -> None:
     """Identify, print, draw, write; fail where a measure does not find the true parameters."""
-    run = Run(__doc__, workers=1, seeds=10)
+    run = Run(__doc__, workers=1, seeds=SEEDS)
     exact = exact_fits(run)
     noisy = noisy_fits(run)
     run.section("load_unload_signal", signal_table())
@@ -74,49 +78,57 @@ def tests(name: str) -> list[Array]:
     return [load_unload_noisy(deviation, draw) for draw in range(DRAWS)]
 
 
-def exact_fits(run: Run) -> dict[str, list[Found]]:
-    """Return what is found without noise from every seed."""
-    seeds = 1 if run.quick else run.options.seeds
-    effort = QUICK if run.quick else EFFORT
-    tasks = {
+def exact_tasks(seeds: int, *, quick: bool = False) -> dict[tuple[str, int], Task]:
+    """Return the identification without noise under each condition, with each seed."""
+    return {
         (key, seed): condition.task(
-            f"exact_{key}_{seed}", load_unload_data(noise=False), effort, seed, traced=seed == 0
+            f"exact_{key}_{seed}",
+            load_unload_data(noise=False),
+            QUICK if quick else EFFORT,
+            seed,
+            traced=seed == 0,
         )
-        for key, condition in WITH_SQUARES.items()
+        for key, condition in EXACT.items()
         for seed in range(seeds)
     }
-    found = identify_all(list(tasks.values()), run.store("load_unload"), run.options.workers)
-    return {key: [found[tasks[key, s].name] for s in range(seeds)] for key in WITH_SQUARES}
 
 
-def noisy_fits(run: Run) -> Noisy:
-    """Return what three seeds find for every condition and data set, draw by draw."""
-    seeds = 1 if run.quick else 3
-    names = ("file",) if run.quick else tuple(NOISY)
-    tasks = {
+def noisy_tasks(*, quick: bool = False) -> dict[tuple[str, str, int, int], Task]:
+    """Return the identification from each noisy data set under each condition, with each seed."""
+    return {
         (key, name, draw, seed): condition.task(
             f"{name}_{draw}_{key}_{seed}",
             test,
-            QUICK if run.quick else EFFORT if traced(key, name, seed) else NOISY_EFFORT,
+            QUICK if quick else EFFORT if traced(key, name, seed) else NOISY_EFFORT,
             seed,
             traced=traced(key, name, seed),
         )
         for key, condition in CONDITIONS.items()
-        for name in names
+        for name in (("file",) if quick else NOISY)
         for draw, test in enumerate(tests(name))
-        for seed in range(seeds)
+        for seed in range(1 if quick else NOISY_SEEDS)
     }
+
+
+def exact_fits(run: Run) -> dict[str, list[Found]]:
+    """Return what is found without noise from every seed."""
+    seeds = 1 if run.quick else run.options.seeds
+    tasks = exact_tasks(seeds, quick=run.quick)
+    found = identify_all(list(tasks.values()), run.store("load_unload"), run.options.workers)
+    return {key: [found[tasks[key, s].name] for s in range(seeds)] for key in EXACT}
+
+
+def noisy_fits(run: Run) -> Noisy:
+    """Return what the seeds find for every condition and data set, draw by draw."""
+    tasks = noisy_tasks(quick=run.quick)
     found = identify_all(list(tasks.values()), run.store("load_unload"), run.options.workers)
     results: Noisy = {}
-    for key in CONDITIONS:
-        for name in names:
-            results[key, name] = [
-                sorted(
-                    (found[tasks[key, name, draw, seed].name] for seed in range(seeds)),
-                    key=lambda fit: fit.value,
-                )
-                for draw in range(len(tests(name)))
-            ]
+    for (key, name, draw, _), task in tasks.items():
+        draws = results.setdefault((key, name), [[] for _ in tests(name)])
+        draws[draw].append(found[task.name])
+    for draws in results.values():
+        for fits in draws:
+            fits.sort(key=lambda fit: fit.value)
     return results
 
 
@@ -153,7 +165,7 @@ def exact_table(results: Mapping[str, Sequence[Found]]) -> str:
     """Return how exactly every measure finds the true parameters, by each stage."""
     rows = []
     for key, fits in results.items():
-        cells = [WITH_SQUARES[key].title, str(len(fits))]
+        cells = [EXACT[key].title, str(len(fits))]
         for stages in zip(*(fit.stages for fit in fits), strict=True):
             cells.append(f"{max(parameter_error(stage.parameters) for stage in stages):.1e}")
             cells.append(f"{max(stage.value for stage in stages):.1e}")
@@ -181,26 +193,34 @@ def noisy_table(results: Noisy, name: str, title: str) -> str:
 
 def apart(seeds: Sequence[Found]) -> float:
     """Return how far the parameters of seeds differ whose values are equal to 0.1 %."""
-    equal = [fit for fit in seeds if fit.value <= 1.001 * seeds[0].value]
     return max(
         abs(fit.parameters[name] - seeds[0].parameters[name])
-        for fit in equal
+        for fit in as_good(seeds)
         for name in LOAD_UNLOAD_TRUTH
     )
 
 
+def as_good(seeds: Sequence[Found]) -> list[Found]:
+    """Return the fits whose values are the first one's to 0.1 %."""
+    return [fit for fit in seeds if fit.value <= 1.001 * seeds[0].value]
+
+
 def fit_table(results: Noisy) -> str:
-    """Return where the fits run through the author's data, and how far from the least squares'."""
+    """Return where the fits run through the author's data, and how far from the least squares'.
+
+    The shares of points are those of every seed whose value is the best's to 0.1 %, the best first.
+    """
     test = load_unload_data(noise=True)[:, 1]
     deviation = (test - load_unload_data(noise=False)[:, 1]).std()
     squares = load_unload(results["sum_of_squares", "file"][0][0].parameters)[:, 1]
     rows = []
     for key, condition in CONDITIONS.items():
-        fitted = load_unload(results[key, "file"][0][0].parameters)[:, 1]
-        above = [100 * np.mean(part) for part in np.split(test > fitted, [100])]
-        apart = np.abs(fitted - squares).mean() / deviation
-        misfit = math.sqrt(np.mean((test - fitted) ** 2)) / deviation
-        cells = [f"{above[0]:.0f} %", f"{above[1]:.0f} %", f"{misfit:.2f}", f"{apart:.2f}"]
+        equal = as_good(results[key, "file"][0])
+        curves = [load_unload(fit.parameters)[:, 1] for fit in equal]
+        shares = np.array([[part.mean() for part in np.split(test > y, [100])] for y in curves])
+        apart = np.abs(curves[0] - squares).mean() / deviation
+        misfit = math.sqrt(np.mean((test - curves[0]) ** 2)) / deviation
+        cells = [*map(percentages, shares.T), f"{misfit:.2f}", f"{apart:.2f}"]
         rows.append([condition.title, *cells])
     header = [
         "measure",
@@ -210,6 +230,12 @@ def fit_table(results: Noisy) -> str:
         "mean distance from least squares / σ",
     ]
     return table(header, rows)
+
+
+def percentages(shares: Array) -> str:
+    """Return shares in percent, once where all are alike."""
+    texts = list(dict.fromkeys(f"{100 * share:.0f}" for share in shares))
+    return f"{', '.join(texts if len(texts) == 1 else [f'{100 * s:.0f}' for s in shares])} %"
 
 
 def generation_table(exact: Mapping[str, Sequence[Found]], noisy: Noisy) -> str:

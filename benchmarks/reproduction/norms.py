@@ -92,48 +92,89 @@ def reversed_table() -> str:
 
 
 def mapping_table() -> str:
-    """Return Table 4's PCM column beside ours, and beside the mean of squared distances."""
+    """Return what each definition of partial mapping gives, over Table 4's printed PCM column."""
     printed = tables()["table_4_without_noise"]
     rows = []
     for measure in MEASURES:
         pairs = list(zip(test_loops(), paper_responses(measure), strict=True))
-        integral = sum(curvewise.pcm(P, Q) for P, Q in pairs)
-        squares = sum(mean_square_mapped(P, Q) for P, Q in pairs)
         theirs = printed[measure][MEASURES.index("pcm")]
-        rows.append(
-            [
-                TITLES[measure],
-                f"{theirs:.4f}",
-                f"{integral:.4f}",
-                f"{integral / theirs:.0f}",
-                f"{squares:.5f}",
-                f"{squares / theirs:.2f}",
-            ]
-        )
-    header = [
-        "optimum of",
-        "printed",
-        "integral of the distance",
-        "over printed",
-        "mean squared distance",
-        "over printed",
-    ]
-    return f"{table(header, rows)}\n\nSums over loops {LOOPS[0]} to {LOOPS[-1]}."
+        cells = []
+        for definition in DEFINITIONS.values():
+            total = sum(definition(P, Q) for P, Q in pairs)
+            cells.append(f"{total / theirs:.3g}")
+        rows.append([TITLES[measure], f"{theirs:.4f}", *cells])
+    return (
+        f"{table(['optimum of', 'printed', *DEFINITIONS], rows)}\n\n"
+        f"Sums over loops {LOOPS[0]} to {LOOPS[-1]}, divided by what is printed."
+    )
 
 
-def mean_square_mapped(P: Array, Q: Array, offsets: int = 200) -> float:
-    """Return the smallest mean of squared distances at the mapped vertices, over the offsets."""
-    curves = curvewise.normalize(P, Q)
+def scaled_alike(P: Array, Q: Array) -> tuple[Array, Array]:
+    """Return both curves scaled by the test's box, as section 2.1 has it."""
+    P, Q = curvewise.normalize(P, Q)
+    return P, Q
+
+
+def scaled_apart(P: Array, Q: Array) -> tuple[Array, Array]:
+    """Return each curve scaled by its own box, as claim 1 of US 8,521,484 begins."""
+    return curvewise.normalize(P)[0], curvewise.normalize(Q)[0]
+
+
+def smallest(
+    P: Array,
+    Q: Array,
+    *,
+    scaled: Callable[[Array, Array], tuple[Array, Array]],
+    worth: Callable[[Array, Array, Array], float],
+    offsets: int = 200,
+) -> float:
+    """Return the least worth of mapped points, of all offsets of the shorter curve."""
+    curves = scaled(P, Q)
     lengths = [np.concatenate(([0.0], np.hypot(*np.diff(c, axis=0).T).cumsum())) for c in curves]
     shorter = 0 if lengths[0][-1] <= lengths[1][-1] else 1
     s, t = lengths[shorter], lengths[1 - shorter]
     short, long = curves[shorter], curves[1 - shorter]
-    means = []
+    found = []
     for offset in np.linspace(0.0, t[-1] - s[-1], offsets):
         at = np.minimum(s + offset, t[-1])
         mapped = np.column_stack([np.interp(at, t, column) for column in long.T])
-        means.append(((short - mapped) ** 2).sum(axis=1).mean())
-    return float(min(means))
+        found.append(worth(short, mapped, s))
+    return float(min(found))
+
+
+def integral(short: Array, mapped: Array, s: Array) -> float:
+    """Return the distance integrated over the arc length."""
+    d = np.hypot(*(short - mapped).T)
+    return float(((d[1:] + d[:-1]) / 2 * np.diff(s)).sum())
+
+
+def mean_square(short: Array, mapped: Array, s: Array) -> float:
+    """Return the mean of the squared distances at the vertices."""
+    return float(((short - mapped) ** 2).sum(axis=1).mean())
+
+
+def mean_square_by_length(short: Array, mapped: Array, s: Array) -> float:
+    """Return the squared distance integrated over the arc length, over the length."""
+    d = ((short - mapped) ** 2).sum(axis=1)
+    return float(((d[1:] + d[:-1]) / 2 * np.diff(s)).sum() / s[-1])
+
+
+def closed_polygon(short: Array, mapped: Array, s: Array) -> float:
+    """Return the area of the polygon: along one curve, and back along the other."""
+    x, y = np.concatenate((short, mapped[::-1])).T
+    return float(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2)
+
+
+DEFINITIONS: dict[str, Callable[[Array, Array], float]] = {
+    f"{name}{scaling}": functools.partial(smallest, scaled=scaled, worth=worth)
+    for scaling, scaled in (("", scaled_alike), (", own boxes", scaled_apart))
+    for name, worth in {
+        "integral of the distance": integral,
+        "mean squared distance": mean_square,
+        "squared distance over length": mean_square_by_length,
+        "closed polygon": closed_polygon,
+    }.items()
+}
 
 
 if __name__ == "__main__":

@@ -26,7 +26,8 @@ from problems import (
     test_loops,
 )
 from report import Run, table
-from studies import Effort, Found, Task, evolution, identify_all
+from stores import identify_all
+from studies import Effort, Found, Task, evolution
 
 import curvewise
 from curvewise.calibration import Criterion, Objective
@@ -58,6 +59,7 @@ BRANCH_METHODS = {
     "Curve length": ("curve_length", {}),
 }
 KEPT = (1.0, 0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2)
+SEEDS = 2
 # A smaller population misses PCM's optimum, which lies beside plateaus.
 EFFORT: Effort = {"de": evolution(25, 200, tol=1e-6), "nelder-mead": {}}
 QUICK: Effort = {"de": evolution(4, 10), "nelder-mead": {"restarts": 0, "maxfev": 100}}
@@ -65,7 +67,7 @@ QUICK: Effort = {"de": evolution(4, 10), "nelder-mead": {"restarts": 0, "maxfev"
 
 def main() -> None:
     """Compare branches, identify from pieces, cut the simulation, print, draw, write."""
-    run = Run(__doc__, workers=1, seeds=2)
+    run = Run(__doc__, workers=1, seeds=SEEDS)
     run.section("figure_15", branch_table())
     draw_branch(run)
     run.section("partial_branch", branch_fit_table(branch_fits(run)))
@@ -100,22 +102,27 @@ def loading(parameters: Mapping[str, float]) -> Array:
     return load_unload({**LOAD_UNLOAD_TRUTH, **parameters})[:100]
 
 
-def branch_fits(run: Run) -> dict[tuple[str, str], Found]:
-    """Return what each method identifies of loading from the whole cycle."""
+def branch_tasks(*, quick: bool = False) -> dict[tuple[str, str], Task]:
+    """Return the identification of loading from the whole cycle by each method."""
     bounds = {name: load_unload_bounds()[name] for name in ("b0", "b1")}
-    tasks = {
+    return {
         (name, data): Task(
             f"branch_{data}_{name}",
             loading,
             [load_unload_data(noise=data == "noise")],
             bounds,
             measure,
-            QUICK if run.quick else EFFORT,
+            QUICK if quick else EFFORT,
             options=options,
         )
         for name, (measure, options) in BRANCH_METHODS.items()
         for data in ("exact", "noise")
     }
+
+
+def branch_fits(run: Run) -> dict[tuple[str, str], Found]:
+    """Return what each method identifies of loading from the whole cycle."""
+    tasks = branch_tasks(quick=run.quick)
     found = identify_all(list(tasks.values()), run.store("partial"), run.options.workers)
     return {key: found[task.name] for key, task in tasks.items()}
 
@@ -135,24 +142,29 @@ def branch_fit_table(found: Mapping[tuple[str, str], Found]) -> str:
     return table(["model of loading, test of the cycle", *header], rows)
 
 
-def piece_fits(run: Run, *, noise: bool) -> dict[str, Found]:
-    """Return the best that each method identifies from its piece, over the seeds."""
+def piece_tasks(seeds: int, *, noise: bool, quick: bool = False) -> dict[tuple[str, int], Task]:
+    """Return the identification from its piece by each method, with each seed."""
     data = "noise" if noise else "exact"
-    seeds = 1 if run.quick else run.options.seeds
-    tasks = {
+    return {
         (name, seed): Task(
             f"piece_{data}_{name}_{seed}",
             load_unload,
             [piece(name, noise=noise)],
             load_unload_bounds(),
             measure,
-            QUICK if run.quick else EFFORT,
+            QUICK if quick else EFFORT,
             seed,
             options=options,
         )
         for name, (measure, options, _) in METHODS.items()
         for seed in range(seeds)
     }
+
+
+def piece_fits(run: Run, *, noise: bool) -> dict[str, Found]:
+    """Return the best that each method identifies from its piece, over the seeds."""
+    seeds = 1 if run.quick else run.options.seeds
+    tasks = piece_tasks(seeds, noise=noise, quick=run.quick)
     found = identify_all(list(tasks.values()), run.store("partial"), run.options.workers)
     return {
         name: min((found[tasks[name, s].name] for s in range(seeds)), key=lambda fit: fit.value)

@@ -82,7 +82,26 @@ def main() -> None:
         "decimals."
     )
     run.section("straight_line", f"{table(header, rows)}\n\n{note}")
+    run.section("figure_7_sides", side_table(optima["Fig. 7"]))
     draw(run, optima)
+
+
+def side_table(optima: dict[str, tuple[float, float, float]]) -> str:
+    """Return where the lines of figure 7 lie: beside nine points and the outlier."""
+    problem = PROBLEMS["Fig. 7"]
+    rest = np.delete(problem.points, 4, axis=0)
+    rows = []
+    for measure, best in optima.items():
+        lines = {
+            f"{TITLES[measure]}": best[:2],
+            f"*{TITLES[measure]}, paper*": tables()[problem.key]["slope_intercept"][measure],
+        }
+        for name, (slope, intercept) in lines.items():
+            above = rest[:, 1] - (slope * rest[:, 0] + intercept)
+            x, y = problem.points[4]
+            counts = [f"{(above > 1e-6).sum()}", f"{(above < -1e-6).sum()}"]
+            rows.append([name, *counts, f"{y - slope * x - intercept:.2f}"])
+    return table(["line of", "points above it", "points below it", "outlier above it by"], rows)
 
 
 def best_line(

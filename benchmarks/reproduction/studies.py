@@ -1,28 +1,21 @@
-"""Identifications by the dozen: each in a process of its own, stored, with a progress bar.
+"""One identification: what it is, and what its stages find.
 
 An identification goes through the stages of its effort, each from the best point of those before:
 SDRM, then differential evolution (in the place of the paper's genetic algorithm), then perhaps a
-Nelder–Mead search. The models here take a millisecond, so whole identifications run side by side,
-not the simulations of one. What every stage found is stored as JSON, and tables and pictures are
-drawn from that: a run that was interrupted is started again, and repeats nothing that is stored
-for the same task. A task that has changed in any way is done anew.
+Nelder–Mead search. A cross-validation leaves out one experiment after the other, and has the first
+stage of its effort alone. `stores.py` runs them by the dozen and stores what they find; what this
+file does counts in the digest of every result.
 """
 
 from __future__ import annotations
 
 import hashlib
-import json
-import logging
-import time
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, field, fields
-from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
 from problems import Array, Bounds
-from tqdm.auto import tqdm
 
 from curvewise.calibration import (
     SDRM,
@@ -71,7 +64,8 @@ class Task:
 
     The guard against simulations that are too short for PCM is off, as in the paper: noise
     lengthens a test so much that the true simulation would count as too short. With `traced` the
-    best value after every generation of differential evolution is stored too.
+    best value after every generation of differential evolution is stored too. With `folds` it is a
+    cross-validation, with `material` its model is a point of material.
     """
 
     name: str
@@ -84,6 +78,8 @@ class Task:
     preset: str = "paper"
     options: Mapping[str, Any] = field(default_factory=dict)
     traced: bool = False
+    folds: bool = False
+    material: bool = False
 
     def keywords(self) -> dict[str, Any]:
         """Return what `identify` and `cross_validate` are given, beside a stage's own."""
@@ -95,14 +91,17 @@ class Task:
             "progress": False,
         }
 
+    def middle(self) -> dict[str, float]:
+        """Return the middle of the bounds."""
+        return {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
+
     def digest(self) -> str:
-        """Return a name for all that the result depends on.
+        """Return a name for all that is given to the search.
 
         Of the model it has the curves at the middle of the bounds; numbers count with nine
         digits, which other machines agree on.
         """
-        middle = {name: (low + high) / 2 for name, (low, high) in self.bounds.items()}
-        simulated = self.model(middle)
+        simulated = self.model(self.middle())
         curves = [*self.experiments, *(simulated if isinstance(simulated, list) else [simulated])]
         numbers = " ".join(f"{value:.9g}" for curve in curves for value in np.ravel(curve))
         measure = getattr(self.measure, "__name__", self.measure)
@@ -129,7 +128,6 @@ class Found:
     """What was identified, stage by stage; a stage that found nothing better repeats the last."""
 
     stages: tuple[Stage, ...]
-    seconds: float
 
     @property
     def parameters(self) -> dict[str, float]:
@@ -162,63 +160,12 @@ class Fold:
     evaluations: int
 
 
-def identify_all(tasks: Sequence[Task], store: Path, workers: int = 1) -> dict[str, Found]:
-    """Return what every task finds, by its name; `workers` of them at a time."""
-    stored = _all(_found, tasks, store, workers)
-    return {
-        name: Found(tuple(Stage(**stage) for stage in one["stages"]), one["seconds"])
-        for name, one in stored.items()
-    }
+def found(task: Task) -> dict[str, Any]:
+    """Return what a task finds, as it is stored."""
+    return {"folds": _folds(task)} if task.folds else {"stages": _stages(task)}
 
 
-def cross_validate_all(
-    tasks: Sequence[Task], store: Path, workers: int = 1
-) -> dict[str, list[Fold]]:
-    """Return the folds of every task, by its name, with the first stage of its effort alone."""
-    stored = _all(_folds, tasks, store, workers)
-    return {name: [Fold(**fold) for fold in one["folds"]] for name, one in stored.items()}
-
-
-def _all(
-    function: Callable[[Task], dict[str, Any]], tasks: Sequence[Task], store: Path, workers: int
-) -> dict[str, dict[str, Any]]:
-    stored: dict[str, dict[str, Any]] = json.loads(store.read_text()) if store.exists() else {}
-    digests = {task.name: task.digest() for task in tasks}
-    missing = [t for t in tasks if stored.get(t.name, {}).get("digest") != digests[t.name]]
-    if missing:
-        with (
-            ProcessPoolExecutor(workers, initializer=_quiet) as pool,
-            tqdm(total=len(missing), unit="task", desc=store.stem) as bar,
-        ):
-            running = {pool.submit(function, task): task.name for task in missing}
-            try:
-                for future in as_completed(running):
-                    name = running[future]
-                    stored[name] = {"digest": digests[name], **future.result()}
-                    _write(store, stored)
-                    bar.update()
-            except BaseException:  # Ctrl-C above all: the pool would finish what is queued
-                pool.shutdown(cancel_futures=True)
-                raise
-    return {name: stored[name] for name in digests}
-
-
-def _write(store: Path, stored: dict[str, dict[str, Any]]) -> None:
-    """Write the store, a line for every task, so that no interruption leaves half of it."""
-    lines = (f"{json.dumps(name)}: {json.dumps(stored[name])}" for name in sorted(stored))
-    store.parent.mkdir(parents=True, exist_ok=True)
-    unfinished = store.with_suffix(".part")
-    unfinished.write_text("{\n" + ",\n".join(lines) + "\n}\n")
-    unfinished.replace(store)
-
-
-def _quiet() -> None:
-    """Do not log failed simulations: a search of wide bounds always has some."""
-    logging.getLogger("curvewise.calibration").setLevel(logging.ERROR)
-
-
-def _found(task: Task) -> dict[str, Any]:
-    began = time.perf_counter()
+def _stages(task: Task) -> list[dict[str, Any]]:
     stages: list[dict[str, Any]] = []
     for method, options in task.effort.items():
         start = stages[-1]["parameters"] if stages else None
@@ -245,11 +192,10 @@ def _found(task: Task) -> dict[str, Any]:
                 "trace": trace if task.traced and method == "de" else [],
             }
         )
-    return {"stages": stages, "seconds": round(time.perf_counter() - began, 1)}
+    return stages
 
 
-def _folds(task: Task) -> dict[str, Any]:
-    began = time.perf_counter()
+def _folds(task: Task) -> list[dict[str, Any]]:
     method, options = next(iter(task.effort.items()))
     validation = cross_validate(
         task.model,
@@ -258,7 +204,7 @@ def _folds(task: Task) -> dict[str, Any]:
         method=searching(method, options),
         **task.keywords(),
     )
-    folds = [
+    return [
         {
             "value": fold.value,
             "others": fold.others,
@@ -267,4 +213,3 @@ def _folds(task: Task) -> dict[str, Any]:
         }
         for fold in validation.folds
     ]
-    return {"folds": folds, "seconds": round(time.perf_counter() - began, 1)}

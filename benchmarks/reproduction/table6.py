@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 from cycle import SQUARES, Condition, curve_error
-from landscape import smoothness
+from landscape import landscape
 from noise_filter import filtered
 from partial import first_branch
 from problems import (
@@ -37,11 +37,14 @@ from problems import (
     with_noise,
 )
 from report import Run, table
-from studies import Effort, Found, Task, evolution, identify_all
+from stores import identify_all
+from studies import Effort, Found, Task, evolution
 
 from curvewise.calibration import Criterion, Objective
 
 HALF_LENGTH = 0.1  # of a line through the optimum, as a share of the parameters' ranges
+SAMPLES = 5  # sets of data of each kind
+ATTEMPTS = 4
 OUTLIER = 0.5  # how far an outlier is moved; the cycle is 1.72 high
 
 
@@ -108,7 +111,7 @@ CASES: dict[str, Callable[[int], Array]] = {
 
 def main() -> None:
     """Fit, scan, print, draw, write."""
-    run = Run(__doc__, workers=1, samples=5, lines=12)
+    run = Run(__doc__, workers=1, samples=SAMPLES, lines=12)
     samples = 1 if run.quick else run.options.samples
     lines = 3 if run.quick else run.options.lines
     found = shifts(run, samples)
@@ -133,9 +136,9 @@ def shifts(run: Run, samples: int) -> dict[tuple[str, str], list[Found]]:
     """
     keys = [(name, case, number) for name in SHIFTED for case in CASES for number in range(samples)]
     found: dict[tuple[str, str, int], Found] = {}
-    for attempt in range(4):
+    for attempt in range(ATTEMPTS):
         missed = [key for key in keys if key not in found or is_missed(key, found[key])]
-        tasks = {key: task(run, *key, attempt) for key in missed}
+        tasks = {key: task(*key, attempt, quick=run.quick) for key in missed}
         again = identify_all(list(tasks.values()), run.store("table6"), run.options.workers)
         for key, one in tasks.items():
             fits = [found[key]] if key in found else []
@@ -147,14 +150,14 @@ def shifts(run: Run, samples: int) -> dict[tuple[str, str], list[Found]]:
     }
 
 
-def task(run: Run, name: str, case: str, number: int, attempt: int) -> Task:
+def task(name: str, case: str, number: int, attempt: int, *, quick: bool = False) -> Task:
     """Return one identification of the load–unload cycle."""
     variant = SHIFTED[name]
     again = f", attempt {attempt}" if attempt else ""
     return variant.condition().task(
         f"{name}: {case}, {number}{again}",
         variant.prepared(CASES[case](number), 21),
-        QUICK if run.quick else effort(variant.measure),
+        QUICK if quick else effort(variant.measure),
         seed=number + 100 * attempt,
     )
 
@@ -224,14 +227,15 @@ def smoothness_table(scans: Mapping[tuple[str, str], list[Array]], cases: list[s
     for name in VARIANTS:
         cells = []
         for case in cases:
-            minima, variation, step = np.array([smoothness(v) for v in scans[name, case]]).T
+            lines = [landscape(values) for values in scans[name, case]]
             cells += [
-                f"{minima.mean():.1f}",
-                f"{variation.mean():.2f}",
-                f"{100 * step.max():.1f} %",
+                f"{np.mean([line.minima() for line in lines]):.1f}",
+                f"{np.mean([line.minima(of='value') for line in lines]):.1f}",
+                f"{np.mean([line.variation for line in lines]):.2f}",
+                f"{100 * max(line.step for line in lines):.1f} %",
             ]
         rows.append([name, *cells])
-    columns = ("minima", "variation", "largest step")
+    columns = ("minima by range", "minima by value", "variation", "largest step")
     return table(
         ["landscape", *(f"{column}, {case}" for case in cases for column in columns)], rows
     )
@@ -253,12 +257,16 @@ def word_table(
             case: np.median([100 * curve_error(fit.parameters) for fit in found[name, case]])
             for case in ("noise 0.05", "noise 0.2236", "1 outlier", "5 outliers")
         }
-        minima = [np.mean([smoothness(v)[0] for v in scans[name, case]]) for case in cases]
+        minima = [
+            np.mean([landscape(values).minima(of=of) for values in scans[name, case]])
+            for of in ("range", "value")
+            for case in cases
+        ]
         numbers = (
             f"{branch:.3g}",
             f"{errors['noise 0.05']:.1f}, {errors['noise 0.2236']:.1f} %",
             f"{errors['1 outlier']:.1f}, {errors['5 outliers']:.1f} %",
-            f"{minima[0]:.1f}, {minima[1]:.1f}",
+            f"{minima[0]:.1f}, {minima[1]:.1f}; {minima[2]:.1f}, {minima[3]:.1f}",
         )
         cells = [f"*{word}*: {value}" for word, value in zip(words, numbers, strict=True)]
         rows.append([name, *cells])
@@ -267,7 +275,7 @@ def word_table(
         "partial matching: loop 5 against its first branch",
         "noise: error at σ = 0.05, 0.2236",
         "outliers: error with 1, 5",
-        "shape: minima on a line, no noise, 35 MPa",
+        "shape: minima on a line, no noise, 35 MPa; by value",
     ]
     return table(header, rows)
 

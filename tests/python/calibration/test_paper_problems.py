@@ -156,31 +156,12 @@ def test_quadrilaterals(problems: ModuleType) -> None:
 
 def test_mean_squared_mapped_distances(problems: ModuleType) -> None:
     """What the printed PCM column of Table 4 is nearest to, of the definitions tried."""
-    mean_square = importlib.import_module("norms").mean_square_mapped
+    mean_square = importlib.import_module("norms").DEFINITIONS["mean squared distance"]
     expected = {"area": 0.78, "pcm": 0.77, "frechet": 0.98, "dtw": 0.71, "curve_length": 0.88}
     for measure, ratio in expected.items():
         pairs = zip(problems.test_loops(), problems.paper_responses(measure), strict=True)
         printed = problems.tables()["table_4_without_noise"][measure][1]
         assert sum(mean_square(P, Q) for P, Q in pairs) / printed == pytest.approx(ratio, abs=0.005)
-
-
-def test_what_is_stored_is_not_searched_for_again(problems: ModuleType, tmp_path: Path) -> None:
-    pytest.importorskip("curvewise.calibration")
-    studies, cycle = (importlib.import_module(name) for name in ("studies", "cycle"))
-    effort = {"de": studies.evolution(3, 4), "nelder-mead": {"restarts": 0, "maxfev": 20}}
-    test = problems.load_unload_data(noise=True)
-    task = cycle.SQUARES.task("one", test, effort, traced=True)
-    store = tmp_path / "optima" / "store.json"
-    found = studies.identify_all([task], store)["one"]
-    assert [stage.method for stage in found.stages] == ["de", "nelder-mead"]
-    assert len(found.stages[0].trace) == 5
-    assert found.stages[0].value == pytest.approx(found.stages[0].trace[-1], rel=1e-5)
-    assert found.value <= found.stages[0].value
-    written = store.read_text()
-    assert studies.identify_all([task], store)["one"] == found
-    assert store.read_text() == written
-    other = cycle.SQUARES.task("one", test, effort, seed=1)
-    assert studies.identify_all([other], store)["one"] != found
 
 
 def test_filter_keeps_parabolas_and_turning_points(problems: ModuleType) -> None:
@@ -194,16 +175,28 @@ def test_filter_keeps_parabolas_and_turning_points(problems: ModuleType) -> None
     assert np.abs(table6.filtered(noisy, 11) - curve).mean() < np.abs(noisy - curve).mean() / 1.5
 
 
-def test_smoothness_counts_minima_and_steps(problems: ModuleType) -> None:
+def test_landscape_counts_minima_and_steps(problems: ModuleType) -> None:
     pytest.importorskip("curvewise.calibration")
-    smoothness = importlib.import_module("landscape").smoothness
+    landscape = importlib.import_module("landscape").landscape
     t = np.linspace(-1, 1, 2001)
-    minima, variation, step = smoothness(np.abs(t))
-    assert (minima, variation) == (1, pytest.approx(1.0))
-    assert step < 2e-3
-    assert smoothness(t**2 + 0.3 * np.cos(20 * t))[0] > 4
-    assert smoothness(t + (t > 0))[2] == pytest.approx(1 / 3, rel=0.01)
-    assert smoothness(t)[:2] == (1, pytest.approx(1.0))  # its minimum is at an end
+    valley = landscape(np.abs(t))
+    assert (valley.minima(), valley.variation) == (1, pytest.approx(1.0))
+    assert valley.step < 2e-3
+    assert landscape(t**2 + 0.3 * np.cos(20 * t)).minima() > 4
+    assert landscape(t + (t > 0)).step == pytest.approx(1 / 3, rel=0.01)
+    slope = landscape(t)  # its minimum is at an end
+    assert (slope.minima(), slope.variation) == (1, pytest.approx(1.0))
+
+
+def test_minima_count_from_a_depth(problems: ModuleType) -> None:
+    """Two valleys, 5 and 4.98 high, 0.1 below the hill between them, on a scan of range 1.1."""
+    pytest.importorskip("curvewise.calibration")
+    landscape = importlib.import_module("landscape").landscape
+    line = landscape(np.interp(np.linspace(0, 4, 401), [0, 1, 2, 3, 4], [6.08, 5, 5.1, 4.98, 6]))
+    assert len(line.depths) == 2
+    assert line.further_depth() == pytest.approx(0.1)
+    assert [line.minima(depth) for depth in (0.01, 0.09, 0.1)] == [2, 2, 1]
+    assert [line.minima(depth, of="value") for depth in (0.01, 0.02, 0.03)] == [2, 2, 1]
 
 
 @pytest.fixture(scope="module")
