@@ -71,14 +71,19 @@ def fits(run: Run) -> dict[tuple[str, str], Found]:
 
 
 def stages(methods: Sequence[str], measure: str, *, quick: bool) -> Effort:
-    """Return the options of each stage; Fréchet, of many valleys, has a larger population."""
+    """Return the options of each stage, with more members for Fréchet, of many valleys, and DTW.
+
+    DTW's valley along RSAT, C1 and C2 is so flat that differential evolution takes its population
+    for settled there: without `atol` it goes on to its last generation.
+    """
     if quick:
         return {method: QUICK_STAGES[method] for method in methods}
-    members, generations = (10, 300) if measure == "frechet" else (5, 200)
+    large = measure in ("frechet", "dtw")
+    members, generations = (10, 300) if large else (5, 200)
     options = {
         "sdrm": SDRM,
-        "de": evolution(members, generations),
-        "nelder-mead": {"restarts": 10 if measure == "frechet" else 4},
+        "de": evolution(members, generations, **({"atol": 0.0} if measure == "dtw" else {})),
+        "nelder-mead": {"restarts": 10 if large else 4},
     }
     return {method: options[method] for method in methods}
 

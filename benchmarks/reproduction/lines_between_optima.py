@@ -33,7 +33,7 @@ def main() -> None:
     points = 21 if run.quick else 201
     lines = {name: scans(name, found[name], points) for name in FIGURES}
     scanned = {
-        (measure, name): [landscape(line.data[measure].to_numpy()) for line in lines[name]]
+        (measure, name): [landscape(line.data[measure]) for line in lines[name]]
         for measure in (*MEASURES, SPLIT)
         for name in lines
     }
@@ -133,7 +133,7 @@ def draw(run: Run, name: str, title: str, lines: Sequence[LinePlot]) -> None:
 
     corner = {"fontsize": "small", "ha": "center", "va": "top"}
     figure = Figure(figsize=(14, 6.6), layout="constrained")
-    figure.suptitle(f"{title}; beside the lines: the objective's range, of its best value there")
+    figure.suptitle(f"{title}; above the lines the objectives' ranges, of the best values there")
     panels = figure.subplots(2, 5, sharex=True, sharey=True).ravel()
     for panel, (a, b), line in zip(panels, PAIRS, lines, strict=True):
         for k, measure in enumerate(MEASURES):
@@ -144,7 +144,7 @@ def draw(run: Run, name: str, title: str, lines: Sequence[LinePlot]) -> None:
             extent = f"{100 * (values.max() / values.min() - 1):.3g} %"
             panel.text(0.1 + 0.2 * k, 1.42, extent, color=COLOURS[measure], **corner)
         panel.set_title(f"{TITLES[a]} (0) to {TITLES[b]} (1)", fontsize="medium")
-        panel.set_ylim(-0.03, 1.5)
+        panel.set(ylim=(-0.03, 1.5), yticks=(0.0, 0.5, 1.0))
     panels[7].set_xlabel("position on the line")
     figure.supylabel("objective, by Eq. 12")
     legend_below(figure, panels[0])

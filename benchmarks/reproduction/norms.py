@@ -3,7 +3,7 @@
 On the line with an outlier (figure 7), each measure's best line beside that of the norm that it
 is said to behave like: the sum of absolute residuals (L1), of squared ones (L2), the largest (L∞).
 Then footnote 1: every measure of a loop against itself traversed backwards. Last, what the PCM
-column of Table 4 is compatible with, as LS-OPT's definition is not published.
+column of Table 4 is compatible with, as LS-OPT's definition is not published in full.
 """
 
 from __future__ import annotations

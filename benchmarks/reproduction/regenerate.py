@@ -2,7 +2,8 @@
 
 The stored optima and the pictures are removed first, then every script runs, in the order in which
 one needs what another has stored. `--resume` keeps what is stored and current, so that a run that
-was interrupted goes on. `git diff` then shows whether anything has changed.
+was interrupted goes on. `git diff` then shows whether anything has changed. A script that fails,
+since an optimum is not what it must be, does not keep the others from running.
 """
 
 from __future__ import annotations
@@ -19,9 +20,11 @@ SCRIPTS = (
     "straight_line",
     "norms",
     "quadrilaterals",
+    "hardening_rules",
     "kinematic_hardening",
     "hardening_figures",
     "lines_between_optima",
+    "gradient_descents",
     "cross_validation",
     "known_parameters",
     "load_unload",
@@ -29,7 +32,14 @@ SCRIPTS = (
     "table6",
     "verdicts",
 )
-WITHOUT_SEARCHES = ("illustrations", "straight_line", "norms", "quadrilaterals", "verdicts")
+WITHOUT_SEARCHES = (
+    "illustrations",
+    "straight_line",
+    "norms",
+    "quadrilaterals",
+    "hardening_rules",
+    "verdicts",
+)
 
 
 def main() -> None:
@@ -42,10 +52,16 @@ def main() -> None:
         for file in [*HERE.glob("optima/*.json"), *HERE.glob("*.png")]:
             file.unlink()
     began = time.perf_counter()
+    failed: list[str] = []
     for script in SCRIPTS:
         workers = [] if script in WITHOUT_SEARCHES else [f"--workers={options.workers}"]
-        subprocess.run([sys.executable, str(HERE / f"{script}.py"), *workers], check=True)
-        print(f"{script}: done [{time.perf_counter() - began:.0f} s since the start]", flush=True)
+        done = subprocess.run([sys.executable, str(HERE / f"{script}.py"), *workers])
+        failed += [script] if done.returncode else []
+        outcome = "failed" if done.returncode else "done"
+        seconds = time.perf_counter() - began
+        print(f"{script}: {outcome} [{seconds:.0f} s since the start]", flush=True)
+    if failed:
+        raise SystemExit(f"failed: {', '.join(failed)}")
 
 
 if __name__ == "__main__":

@@ -114,7 +114,7 @@ def test_prose_makes_nothing_stale(problems: ModuleType, tmp_path: Path) -> None
 
 @pytest.mark.parametrize("kind", ["de", "nelder-mead", "frechet", "dtw", "folds"])
 def test_code_that_runs_is_counted(problems: ModuleType, kind: str) -> None:
-    """Every module of which a task calls a function is in one list of digests.py or in the other."""
+    """Every module of which a task calls a function is in a list of digests.py."""
     digests, studies = (importlib.import_module(name) for name in ("digests", "studies"))
     if kind in ("de", "nelder-mead"):
         task = cycle_task(problems, kind)
@@ -167,3 +167,46 @@ def test_every_stored_result_is_of_a_task(stores: ModuleType) -> None:
     stored = {store: stores.read(SCRIPTS / "optima" / f"{store}.json") for store in tasks}
     drawn = check.draw(tasks, stored, 4, seed=0)
     assert [check.begins_with_sdrm(tasks, *one) for one in drawn] == [True, False, True, False]
+
+
+def test_the_page_of_verdicts_is_that_of_the_tables() -> None:
+    """Written again from claims.toml and results.md it is the page that stands there."""
+    verdicts = importlib.import_module("verdicts")
+    results = (SCRIPTS / "results.md").read_text(encoding="utf-8")
+    page = verdicts.page(SCRIPTS / "claims.toml", results)
+    assert page == (SCRIPTS / "verdicts.md").read_text(encoding="utf-8")
+
+
+def test_cells_of_tables_are_found_by_rows_and_columns() -> None:
+    verdicts = importlib.import_module("verdicts")
+    rows = [
+        "| a | b | c |",
+        "| --- | ---: | ---: |",
+        "| x | one | **2.5 %** |",
+        "| *x* | two | 3 |",
+    ]
+    text = "\n".join(["<!-- t: begin -->", *rows, "<!-- t: end -->"])
+    tables = verdicts.tables_of(text)
+    assert verdicts.cell("t > x > one > c", tables) == "2.5 %"
+    assert verdicts.cell("max t > * > c", tables) == "3"
+    assert verdicts.cell("min t > x > * > c", tables) == "2.5 %"
+    with pytest.raises(ValueError, match="2 rows of t are meant, not one"):
+        verdicts.cell("t > x > c", tables)
+    with pytest.raises(ValueError, match="no table t with a column d"):
+        verdicts.cell("t > x > d", tables)
+
+
+def test_an_unknown_verdict_is_refused(tmp_path: Path) -> None:
+    verdicts = importlib.import_module("verdicts")
+    claims = tmp_path / "claims.toml"
+    claims.write_text("""
+        [[section]]
+        title = "1"
+        [[section.claim]]
+        says = "so"
+        verdict = "perhaps"
+        found = "nothing"
+        by = "nobody"
+        """)
+    with pytest.raises(ValueError, match="1: unknown verdicts perhaps"):
+        verdicts.page(claims, "")
