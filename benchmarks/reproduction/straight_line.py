@@ -72,7 +72,7 @@ def main() -> None:
             if measure == "area":
                 split = best_line(problem, SPLIT, cells, starts)
                 rows.append(row(name, problem, measure, "Area, split", SPLIT, split))
-    header = ["figure", "measure", "paper's line", "its value", "our line", "its value", "ratio"]
+    header = ["figure", "measure", "paper's line", "its value", "our line", "our value", "ratio"]
     note = (
         f"Grid of {cells} × {cells} cells, Nelder–Mead from the {starts} lowest. Ratio: our value "
         "over the paper's line's, both computed by curvewise. The line through all points but the "

@@ -93,7 +93,7 @@ def tables_of(results: str) -> dict[str, list[list[str]]]:
     found = re.findall(r"<!-- (\S+): begin -->\n(.*?)<!-- \1: end -->", results, re.DOTALL)
     return {
         name: [
-            [cell.strip(" *") for cell in line.strip("| ").split("|")]
+            [cell.replace("*", "").strip() for cell in line.strip("| ").split("|")]
             for line in text.splitlines()
             if line.startswith("|") and not line.startswith("| ---")
         ]
