@@ -25,6 +25,9 @@ PYBIND11_MODULE(_core, module, pybind11::mod_gil_not_used()) {
         result["version"] = info.version;
         result["compiler"] = info.compiler;
         result["eigen"] = info.eigen;
+        result["pybind11"] = std::to_string(PYBIND11_VERSION_MAJOR) + "." +
+                             std::to_string(PYBIND11_VERSION_MINOR) + "." +
+                             std::to_string(PYBIND11_VERSION_MICRO);
         result["instruction_sets"] = info.instruction_sets;
         result["active"] = info.active;
         return result;

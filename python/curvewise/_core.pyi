@@ -21,6 +21,7 @@ class BuildInfo(TypedDict):
     version: str
     compiler: str
     eigen: str
+    pybind11: str
     instruction_sets: list[str]
     active: str
 

@@ -25,8 +25,8 @@ def build_info() -> BuildInfo:
     Returns
     -------
     dict
-        "version", "compiler", "eigen", "instruction_sets" (those this machine has, the slowest
-        first) and "active" (the one in use).
+        "version", "compiler", "eigen", "pybind11", "instruction_sets" (those this machine has, the
+        slowest first) and "active" (the one in use).
 
     Examples
     --------

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <random>
 
 #include "warping/block_recursion.hpp"
 
@@ -33,21 +34,32 @@ double sweep_coarsely(const std::vector<double>& cost, std::ptrdiff_t columns, V
 
 }  // namespace
 
+const double* CoarseTable::Side::block(std::ptrdiff_t index, std::uint64_t random) const noexcept {
+    const std::ptrdiff_t up = std::max<std::ptrdiff_t>(level - block_level, 0);
+    const std::ptrdiff_t first = index << up;
+    const std::ptrdiff_t end = std::min((index + 1) << up, tree.boxes(level - up));
+    return tree.box(level - up, first + static_cast<std::ptrdiff_t>(
+                                            random % static_cast<std::uint64_t>(end - first)));
+}
+
 CoarseTable::CoarseTable(const BoxTree& P, const BoxTree& Q, Metric metric,
-                         std::ptrdiff_t most_boxes) {
-    std::ptrdiff_t p = std::min(block_level, P.levels() - 1),
-                   q = std::min(block_level, Q.levels() - 1);
-    while (P.boxes(p) * Q.boxes(q) > most_boxes) ++(P.boxes(p) >= Q.boxes(q) ? p : q);
-    rows_ = P.boxes(p);
-    columns_ = Q.boxes(q);
+                         std::ptrdiff_t most_boxes)
+    : p_{P, std::min(block_level, P.levels() - 1)},
+      q_{Q, std::min(block_level, Q.levels() - 1)},
+      metric_(metric) {
+    while (P.boxes(p_.level) * Q.boxes(q_.level) > most_boxes) {
+        ++(P.boxes(p_.level) >= Q.boxes(q_.level) ? p_ : q_).level;
+    }
+    rows_ = P.boxes(p_.level);
+    columns_ = Q.boxes(q_.level);
     smallest_.reserve(static_cast<std::size_t>(rows_ * columns_));
     largest_.reserve(smallest_.capacity());
     with_norm(metric, [&](auto norm) {
         using Norm = decltype(norm);
         for (std::ptrdiff_t i = 0; i < rows_; ++i) {
             for (std::ptrdiff_t j = 0; j < columns_; ++j) {
-                smallest_.push_back(smallest_distance<Norm>(P.box(p, i), Q.box(q, j), P.dim()));
-                largest_.push_back(largest_distance<Norm>(P.box(p, i), Q.box(q, j), P.dim()));
+                smallest_.push_back(smallest_distance<Norm>(p_.box(i), q_.box(j), P.dim()));
+                largest_.push_back(largest_distance<Norm>(p_.box(i), q_.box(j), P.dim()));
             }
         }
     });
@@ -57,9 +69,22 @@ CoarseTable::CoarseTable(const BoxTree& P, const BoxTree& Q, Metric metric,
 }
 
 double CoarseTable::undecided_share(double lower, double upper) const {
+    const bool is_of_blocks = std::max(p_.level, q_.level) <= block_level;
     std::ptrdiff_t undecided = 0;
-    sweep_coarsely(smallest_, columns_, [&](double value, std::size_t cell) {
-        undecided += value <= upper && largest_[cell] > lower;
+    with_norm(metric_, [&](auto norm) {
+        using Norm = decltype(norm);
+        std::mt19937_64 random;  // the same for every call
+        const auto is_undecided = [&](std::size_t cell) {
+            const auto columns = static_cast<std::size_t>(columns_);
+            const double* const p = p_.block(static_cast<std::ptrdiff_t>(cell / columns), random());
+            const double* const q = q_.block(static_cast<std::ptrdiff_t>(cell % columns), random());
+            return smallest_distance<Norm>(p, q, p_.tree.dim()) <= upper &&
+                   largest_distance<Norm>(p, q, p_.tree.dim()) > lower;
+        };
+        sweep_coarsely(smallest_, columns_, [&](double value, std::size_t cell) {
+            if (value > upper || largest_[cell] <= lower) return;
+            undecided += is_of_blocks || is_undecided(cell);
+        });
     });
     return static_cast<double>(undecided) / static_cast<double>(rows_ * columns_);
 }
