@@ -4,9 +4,9 @@
 /// quadrilateral i is (A[i], A[i+1], B[i+1], B[i]); the measure is the sum of their areas.
 /// Symmetric to rounding, except with Spacing::arc_length and Spacing::matched. Time
 /// O(n + m + |n - m| log m), with Spacing::matched O(n + m + (50 T)^2), where P travels T widths
-/// and heights of its box; memory O(n + m). Throws std::invalid_argument for a curve that is not
-/// finite, has fewer than 2 points or other than 2 coordinates; std::bad_alloc; Stopped. Safe from
-/// any number of threads.
+/// and heights of its box, at most that of T = 280; memory O(n + m). Throws std::invalid_argument
+/// for a curve that is not finite, has fewer than 2 points or other than 2 coordinates;
+/// std::bad_alloc; Stopped. Safe from any number of threads.
 ///
 ///     curvewise::AreaOptions options;
 ///     options.spacing = curvewise::Spacing::x;   // raw stress and strain

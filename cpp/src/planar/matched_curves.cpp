@@ -21,6 +21,9 @@ using curves::Point;
 
 constexpr double pieces_per_side = 10.0;  // of the box
 constexpr std::size_t samples_per_piece = 5;
+// Of the table of the warping path: a second or two. Curves that travel further than 280 sides,
+// as those that oscillate do, are matched within a band of so many.
+constexpr std::ptrdiff_t most_cells = 200'000'000;
 // A reversal below this part of the box is noise, or an outlier, and no travel.
 constexpr double least_reversal = 1.0 / 3.0;
 // 30 bits hold more than any measurement does, and leave room for sums of a million distances
@@ -146,6 +149,8 @@ struct Route {
 Route warping_path(const Side& P, const Side& Q, Poller& poller) {
     DtwOptions options;
     options.ground.metric = Metric::cityblock;
+    const std::ptrdiff_t samples = P.samples().size();
+    if (samples > most_cells / samples) options.window = most_cells / samples / 2;
     Control control([&](std::int64_t, std::int64_t) { return !poller.poll(); },
                     std::chrono::milliseconds(20));
     return Route(dtw_path(P.samples(), Q.samples(), options,

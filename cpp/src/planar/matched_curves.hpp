@@ -12,7 +12,8 @@
 // fro cancels.
 //
 // Time O(n + m + k^2), memory O(n + m + k), where k = 50 T samples are matched and T is how many
-// widths and heights of its box P travels.
+// widths and heights of its box P travels. Where T is above 280, samples are matched whose places
+// differ by at most 1e8 / k: O(n + m + k) then.
 #pragma once
 
 #include <array>

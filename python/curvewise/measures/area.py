@@ -76,7 +76,8 @@ def area(
     "matched": coordinates are scaled by P's box. Let T be how many widths and heights of the box P
     travels, reversals of less than a third of it left out: 5 for a tension–compression–tension
     loop. Each curve is sampled at 50 T equal shares of its arc length, and the samples are matched
-    by the warping path of :func:`dtw` with ``metric="cityblock"``. The path is cut into 10 T equal
+    by the warping path of :func:`dtw` with ``metric="cityblock"``; where T is above 280, with a
+    window of 2e6 / T, so that the path takes no longer than there. It is cut into 10 T equal
     pieces. Between the ends of a piece the two curves, as they are, enclose a polygon; the value is
     the sum of the absolute values of these areas by Gauss's formula. So areas within a piece, a
     tenth of the box long, cancel where they have different signs, as those do that noise encloses.
