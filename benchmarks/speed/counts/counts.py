@@ -197,7 +197,7 @@ def main() -> int:
         write(table)
     elif failed:
         print(
-            "\nThese calls differ from counts.json by more than 1 %, from Python 2 %. If on purpose:"
+            "\nThese differ from counts.json by more than 1 %, from Python 2 %. If on purpose:"
             "\n    python benchmarks/speed/counts/counts.py --write --because '...'"
         )
     else:

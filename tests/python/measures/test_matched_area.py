@@ -191,6 +191,6 @@ def test_a_few_outliers_do_not_drown_a_shift(loop: Array) -> None:
 def test_a_curve_that_oscillates_is_matched_within_a_band() -> None:
     n = 700  # sides of its box: 35,000 samples, in a band
     zigzag = np.column_stack([np.linspace(0, 1, n), np.arange(n) % 2])
-    moved = zigzag + (0.0, 0.01)
+    moved = zigzag + np.array((0.0, 0.01))
     assert curvewise.area(zigzag, zigzag, spacing="matched") == 0.0
     assert curvewise.area(zigzag, moved, spacing="matched") == pytest.approx(0.01, rel=0.02)
