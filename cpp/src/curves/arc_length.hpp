@@ -16,8 +16,8 @@ namespace curvewise::curves {
 template <class Edge>
 std::vector<double> summed_edges(std::ptrdiff_t size, Poller& poller, Edge edge) {
     std::vector<double> lengths(static_cast<std::size_t>(size));
-    double length = 0.0;
     poller.in_runs(size - 1, 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        double length = lengths[static_cast<std::size_t>(first)];  // in a register, in the loop
         for (std::ptrdiff_t i = first + 1; i <= end; ++i) {
             length += norm(edge(i));
             lengths[static_cast<std::size_t>(i)] = length;

@@ -28,12 +28,12 @@ using Largest = std::array<double, 2>;  // |x| and |y|
 Largest largest_of_all(const CurveView& curve, Poller& poller) {
     Largest largest{};
     poller.in_runs(curve.size(), 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-        Largest here = largest;
+        double x = largest[0], y = largest[1];  // in registers, in the loop
         for (std::ptrdiff_t i = first; i < end; ++i) {
-            here[0] = std::max(here[0], std::abs(curve(i, 0)));
-            here[1] = std::max(here[1], std::abs(curve(i, 1)));
+            x = std::max(x, std::abs(curve(i, 0)));
+            y = std::max(y, std::abs(curve(i, 1)));
         }
-        largest = here;
+        largest = {x, y};
     });
     return largest;
 }
@@ -109,7 +109,9 @@ template <class Value>
 double sum_over(const Coordinate& x, Poller& poller, Value value) {
     double sum = 0.0;
     poller.in_runs(x.size(), 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-        for (std::ptrdiff_t i = first; i < end; ++i) sum += value(x.p(i));
+        double so_far = sum;  // in a register, in the loop
+        for (std::ptrdiff_t i = first; i < end; ++i) so_far += value(x.p(i));
+        sum = so_far;
     });
     return sum;
 }
