@@ -17,7 +17,7 @@ from curvewise.calibration.models.pool import Outcome
 from curvewise.calibration.objective.objective import Objective
 from curvewise.calibration.problem.ledger import Ledger
 from curvewise.calibration.surfaces.bounded_squares import linear_minimum, squares_minimum
-from curvewise.calibration.surfaces.residual_surface import ResidualSurface
+from curvewise.calibration.surfaces.kriged_surface import KrigedSurface
 from curvewise.materials import ChabocheVoce
 
 X = np.linspace(0.0, 4.0, 40)
@@ -72,28 +72,33 @@ def test_a_surface_is_the_plane_of_linear_residuals_and_passes_through_runs():
     random = np.random.default_rng(2)
     slopes, middle = random.normal(size=(25, 3)), np.full(3, 0.4)
     points = np.vstack((middle, random.uniform(size=(6, 3))))
-    plane = ResidualSurface(points, points @ slopes.T, middle, reduced=False)
-    residuals, found = plane(np.array([0.1, 0.9, 0.5]))
+    plane = KrigedSurface(points, points @ slopes.T, middle, reduced=False)
+    residuals, found = plane.with_slopes(np.array([0.1, 0.9, 0.5]))
     np.testing.assert_allclose(residuals, slopes @ [0.1, 0.9, 0.5], atol=1e-6)
     np.testing.assert_allclose(found, slopes, atol=1e-6)
 
     bent = np.sin(3.0 * points @ slopes.T)
-    surface = ResidualSurface(points, bent, middle, reduced=False)
-    reduced = ResidualSurface(points, bent, middle, reduced=True)
-    np.testing.assert_allclose(surface(middle)[0], bent[0], rtol=1e-9)
+    surface = KrigedSurface(points, bent, middle, reduced=False)
+    reduced = KrigedSurface(points, bent, middle, reduced=True)
+    np.testing.assert_allclose(surface.at(middle), bent[0], rtol=1e-9)
     for point, there in zip(points, bent, strict=True):
-        np.testing.assert_allclose(surface(point)[0], there, atol=1e-3)
-        short, slopes_of_short = reduced(point)
+        np.testing.assert_allclose(surface.at(point), there, atol=1e-3)
+        short, slopes_of_short = reduced.with_slopes(point)
         assert short.size == len(points)
         assert short @ short == pytest.approx(there @ there, rel=1e-2)
-        full, slopes_of_full = surface(point)
+        full, slopes_of_full = surface.with_slopes(point)
         np.testing.assert_allclose(slopes_of_short.T @ short, slopes_of_full.T @ full, rtol=1e-6)
     place, step = np.array([0.3, 0.6, 0.5]), 1e-6
     differences = [
-        (surface(place + step * axis)[0] - surface(place - step * axis)[0]) / (2.0 * step)
+        (surface.at(place + step * axis) - surface.at(place - step * axis)) / (2.0 * step)
         for axis in np.eye(3)
     ]
-    np.testing.assert_allclose(surface(place)[1].T, differences, rtol=1e-5, atol=1e-5)
+    there, slopes = surface.with_slopes(place)
+    np.testing.assert_allclose(slopes.T, differences, rtol=1e-5, atol=1e-5)
+    some, chain_rule = surface.of_places(np.array([3, 0, 7])).with_chain_rule(place)
+    np.testing.assert_allclose(some, there[[3, 0, 7]])
+    gradient = np.array([1.0, -2.0, 0.5])
+    np.testing.assert_allclose(chain_rule(gradient), gradient @ slopes[[3, 0, 7]])
 
 
 def test_gauss_newton_steps_in_a_box():

@@ -272,7 +272,7 @@ STALL = r"stall is .*give \(improvement, generations\)"
 @pytest.mark.parametrize(
     ("method", "wrong", "message"),
     [
-        (TrustRegion, {"slopes": "gauss"}, "slopes is 'gauss'; choose from broyden, fresh"),
+        (TrustRegion, {"slopes": "gauss"}, "slopes is 'gauss'; choose from from runs, fresh"),
         (TrustRegion, {"starts": 0}, "starts is 0; give at least 1"),
         (TrustRegion, {"diff_step": 0.0}, "diff_step is 0.0; give a fraction of the bounds"),
         (TrustRegion, {"initial_range": 1.5}, "initial_range is 1.5; give a fraction of the"),
@@ -317,7 +317,7 @@ def two_cycles(p):
     return [np.column_stack(curve) for curve in curves]
 
 
-@pytest.mark.parametrize("slopes", ["broyden", "fresh"])
+@pytest.mark.parametrize("slopes", ["from runs", "fresh"])
 @pytest.mark.nightly
 def test_one_start_does_not_halt_with_stale_slopes(slopes):
     """Where the region shrank before slopes were renewed, it ended 76 % above the best."""

@@ -1,9 +1,8 @@
-"""The trust region without a model: how the region grows and shrinks, and what slopes come from."""
+"""The trust region without a model: how the region grows and shrinks, and what it looks at."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -11,174 +10,205 @@ from typing import Any
 import numpy as np
 import pytest
 
-from curvewise.calibration.methods.descent import Descent, Rules, SharedResponses
+from curvewise.calibration.methods.curve_descent import CurveDescent, CurveRuns
+from curvewise.calibration.methods.descent import Descent, Rules
 from curvewise.calibration.methods.side_by_side import Part
-from curvewise.calibration.methods.starts import simplex_around
+from curvewise.calibration.methods.starts import End, simplex_around
+from curvewise.calibration.objective.criterion import Criterion
+from curvewise.calibration.objective.objective import Objective
 from curvewise.calibration.problem.ledger import Finish
 from curvewise.calibration.records.evaluation import Evaluation
 
 REACH = 0.8  # of the region, by every step
-RULES = Rules(0.2, diff_step=0.02, tol=1e-3, gain=1e-3, maxiter=50, always_fresh=False)
+RULES = Rules(0.2, diff_step=0.02, tol=1e-3, gain=1e-3, maxiter=50)
 
 
 class Scripted(Descent):
     """A search whose surfaces promise a gain of 1 each time, and whose runs gain what is listed."""
 
+    looks_at_once = True
     centre = np.zeros(2)  # type: ignore[assignment]
+    value = 10.0  # type: ignore[assignment]
 
     def __init__(
-        self,
-        gains: Sequence[float],
-        rules: Rules = RULES,
-        *,
-        is_fresh: bool = False,
-        valleys: int = 0,
-        known: bool = False,
+        self, gains: Sequence[float], rules: Rules = RULES, *, unknown: int = 0, valleys: int = 0
     ) -> None:
-        ledger: Any = SimpleNamespace(negligible=0.0)
-        super().__init__(ledger, np.random.default_rng(1), rules, SharedResponses())
-        self.gains = list(gains)
-        self.value = 10.0
-        self.known = known
-        self.is_fresh = is_fresh
-        self.valleys = valleys
-        self.looked: list[tuple[float, bool]] = []  # in which regions, with fresh slopes or not
+        runs: Any = SimpleNamespace(negligible=0.0)
+        super().__init__(np.random.default_rng(1), rules, runs)
+        self.gains, self.unknown, self.valleys = list(gains), unknown, valleys
+        self.radii: list[float] = []
 
-    def lowest(self, radius: float) -> tuple[Any, float]:
-        self.looked.append((pytest.approx(radius), self.is_fresh))
+    def _lowest(self, radius: float) -> tuple[Any, float]:
+        self.radii.append(radius)
         return np.array([0.1 * radius, -REACH * radius]), 1.0 if self.gains else 0.0
 
-    def step(self, candidate: Any) -> Part[float]:
+    def _run(self, points: Any) -> Part[None]:
         yield from ()
-        self.is_fresh = False
-        self._seen.add(0 if self.known else len(self._seen))
-        return self.gains.pop(0)
+        self._last = self.value - self.gains.pop(0)
 
-    def renew(self, radius: float) -> Part[None]:
+    def _looks_around(self, radius: float) -> Part[bool]:
         yield from ()
-        self.is_fresh = True
+        self.unknown -= 1
+        return self.unknown >= 0
 
-    def leaves_valley(self, radius: float, least: float) -> Part[bool]:
+    def _leaves_valley(self, least: float) -> Part[bool]:
         yield from ()
         self.valleys -= 1
-        self.is_fresh = False
         return self.valleys >= 0
+
+    def _end(self, radius: float, promised: float, least: float) -> Finish:
+        return Finish(True, f"{promised:g} {least:g}")
 
 
 def finish_of(search: Scripted) -> Finish:
     with pytest.raises(StopIteration) as end:
-        next(search.descend())
+        next(search._descended())
     finish: Finish = end.value.value
     return finish
 
 
-def descended(search: Scripted) -> list[tuple[float, bool]]:
-    """Return in which regions a search looked for minima, and whether with fresh slopes."""
-    finish = finish_of(search)
-    assert finish.converged
-    assert not search.gains
-    return search.looked
-
-
 @pytest.mark.parametrize(
-    ("is_fresh", "gain", "factor", "is_renewed"),
+    ("gain", "factor"),
     [
-        (False, 1.0, 2.0 * REACH, False),
-        (False, 0.7, 2.0 * REACH, False),
-        (False, 0.69, 1.0, True),
-        (False, 0.09, 1.0, True),
-        (False, -np.inf, 1.0, True),
-        (True, 0.7, 2.0 * REACH, False),
-        (True, 0.69, 1.0, False),
-        (True, 0.1, 1.0, False),
-        (True, 0.09, 0.5 * REACH, False),
-        (True, -3.0, 0.5 * REACH, False),
-        (True, -np.inf, 0.5 * REACH, False),
+        (1.0, 2.0 * REACH),
+        (0.71, 2.0 * REACH),
+        (0.69, 1.0),
+        (0.31, 1.0),
+        (0.29, 0.7 * REACH),
+        (0.11, 0.7 * REACH),
+        (0.09, 0.5 * REACH),
+        (-np.inf, 0.5 * REACH),
     ],
 )
-def test_the_region_follows_how_well_gains_are_predicted(is_fresh, gain, factor, is_renewed):
-    """Slopes that mislead are measured afresh; only fresh ones that mislead shrink the region."""
-    looked = descended(Scripted([gain], is_fresh=is_fresh))
-    assert looked[:2] == [(0.2, is_fresh), (0.2 * factor, is_renewed)]
-
-
-def test_fresh_slopes_before_every_step():
-    looked = descended(Scripted([1.0, 0.5, 0.05], replace(RULES, always_fresh=True)))
-    assert looked == [(0.2, False), (0.32, True), (0.32, True), (0.128, True)]
+def test_the_region_follows_how_well_gains_are_predicted(gain, factor):
+    search = Scripted([gain])
+    assert finish_of(search) == (True, "0 0.01")
+    assert search.radii == pytest.approx([0.2, 0.2 * factor])
 
 
 def test_the_region_is_never_more_than_the_bounds():
-    looked = descended(Scripted([1.0, 1.0], replace(RULES, first_radius=0.6)))
-    assert [radius for radius, _ in looked[:3]] == [0.6, 0.96, 1.0]
+    search = Scripted([1.0, 1.0], replace(RULES, first_radius=0.6))
+    finish_of(search)
+    assert search.radii == pytest.approx([0.6, 0.96, 1.0])
 
 
-def test_a_region_below_tol_has_its_slopes_renewed():
-    search = Scripted([-1.0, -1.0, -1.0], replace(RULES, tol=0.1))
-    finish = finish_of(search)
-    assert [radius for radius, _ in search.looked] == [0.2, 0.2, 0.08, 0.15, 0.06, 0.15]
-    assert finish == (
-        True,
-        "fresh slopes promise to gain less than 0.01 within 15 % of the bounds' range",
-    )
+def test_a_region_below_tol_ends_it_once_all_is_known():
+    """A look around makes the region five times what was looked at, of 0.02 at most."""
+    search = Scripted([-1.0] * 3, replace(RULES, tol=0.1), unknown=1)
+    assert finish_of(search).converged
+    assert search.radii == pytest.approx([0.2, 0.08, 0.1, 0.04])
 
 
 def test_a_search_that_leaves_a_valley_goes_on():
-    search = Scripted([], is_fresh=True, valleys=1)
-    assert descended(search) == [(0.2, True), (0.2, False), (0.2, True)]
+    search = Scripted([], replace(RULES, first_radius=0.05), valleys=1)
+    assert finish_of(search).converged
+    assert search.radii == [0.05, 0.15]
     assert search.valleys == -1
 
 
-def test_a_search_that_only_meets_known_runs_ends():
-    """Where slopes are of noise alone, each step may lead to where the search has been."""
-    search = Scripted([-1.0] * 200, replace(RULES, maxiter=200), known=True)
-    finish = finish_of(search)
-    assert finish == (False, "30 steps in a row led only to runs that were known")
-    assert len(search.looked) == 31
+def test_steps_come_to_an_end():
+    assert finish_of(Scripted([1.0] * 99)) == (False, "50 steps")
 
 
-SLOPES = np.array([[3.0, 0.0], [-1.0, 2.0], [0.0, 0.5], [4.0, -4.0]])  # of two points' coordinates
+X = np.linspace(0.0, 1.0, 9)
+TRUE = np.array([0.3, 0.8])
 
 
-def run_at(point: Any, wrong: float = 0.0) -> Evaluation:
-    curve = (SLOPES @ point + wrong).reshape(2, 2)
-    return Evaluation(1, tuple(point), 1.0, failed=False, seconds=0.0, simulations=(curve,))
+def curve_at(point: Any) -> Any:
+    return np.column_stack((X, np.sin(3.0 * point[0] * X) + point[1] ** 2 * X))
 
 
 class Known:
-    """Evaluations, of which some are known around a point."""
+    """A ledger of a model of two parameters, which counts its runs."""
 
     has_slopes = False
+    dimensions = 2
+    negligible = 1e-9
+    earlier_runs: Any = ()
 
-    def slopes(self, unit):
+    def __init__(self, fails: Callable[[Any], bool] = lambda point: False) -> None:
+        self.objective = Objective(curve_at(TRUE), Criterion("area"))
+        self.fails = fails
+        self.asked: list[Any] = []
+
+    def slopes(self, unit: Any) -> None:
         return None
 
-    def __init__(self, unit: Any, steps: Any, wrong: Sequence[float]) -> None:
-        points = unit + np.array(steps)
-        self.earlier_runs = [(p, run_at(p, error)) for p, error in zip(points, wrong, strict=True)]
-        self.run = 0
+    def show_activity(self) -> None:
+        pass
 
-    def drive(self, part: Part[bool]) -> None:
-        runs = None
-        with suppress(StopIteration):
-            while True:
-                points = part.send(runs)  # type: ignore[arg-type]  # None begins a generator
-                self.run += len(points)
-                runs = [run_at(point) for point in points]
+    def run(self, point: Any) -> Evaluation:
+        self.asked.append(np.array(point))
+        if self.fails(point):
+            return Evaluation(1, tuple(point), 1e6, failed=True, seconds=0.0, message="failed")
+        curve = curve_at(point)
+        value = self.objective.score(curve).value
+        return Evaluation(1, tuple(point), value, False, 0.0, simulations=(curve,))
+
+    def drive(self, part: Part[End | None]) -> End | None:
+        answer: Any = None
+        while True:
+            try:
+                points = part.send(answer)
+            except StopIteration as end:
+                found: End | None = end.value
+                return found
+            answer = [self.run(point) for point in points]
 
 
-@pytest.mark.parametrize("wrong", [0.0, 0.5])
-def test_slopes_come_from_earlier_runs_the_nearest_first(wrong):
-    """Two that are further away differ from the others; they count by 1 / (distance + 0.02)^2."""
-    steps = [(0.02, 0.0), (-0.02, 0.0), (0.0, 0.02), (0.1, 0.0), (-0.1, 0.0)]
-    start = np.array([0.4, 0.3])
-    known: Any = Known(start, steps, [0.0, 0.0, 0.0, wrong, -wrong])
-    search = Descent(known, np.random.default_rng(1), RULES, SharedResponses())
-    known.drive(search.begin(start, known.earlier_runs))
-    assert known.run == 1
-    np.testing.assert_array_equal(search.centre, [0.4, 0.3])
-    near, far = 1.0 / 0.04**2, 1.0 / 0.12**2
-    steeper = far * 0.1 * wrong / (near * 0.02**2 + far * 0.1**2)
-    assert search._surfaces.slopes == pytest.approx(np.add(SLOPES, (steeper, 0.0)), abs=1e-9)
+def descent(ledger: Any, runs: CurveRuns, rules: Rules = RULES) -> CurveDescent:
+    return CurveDescent(ledger, np.random.default_rng(1), rules, runs)
+
+
+def test_a_start_that_comes_to_where_another_was_takes_few_runs_of_its_own():
+    ledger: Any = Known()
+    runs = CurveRuns(ledger)
+    first = ledger.drive(descent(ledger, runs).course(np.full(2, 0.5)))
+    assert first.place == pytest.approx(TRUE, abs=2e-3)
+    known = len(ledger.asked)
+    second = ledger.drive(descent(ledger, runs).course(TRUE + 0.02))
+    assert second.value <= 1.01 * first.value + 1e-4
+    assert len(ledger.asked) - known <= known / 2
+
+
+def test_runs_of_an_earlier_search_take_the_place_of_the_first_simplex():
+    earlier: Any = Known()
+    places = TRUE + 0.05 + np.array([(0.0, 0.08), (0.08, 0.0), (-0.08, 0.02), (0.02, -0.08)])
+    ledger: Any = Known()
+    ledger.earlier_runs = [(place, earlier.run(place)) for place in places]
+    part = descent(ledger, CurveRuns(ledger)).course(TRUE + 0.05)
+    assert next(part).shape == (1, 2)
+    alone: Any = Known()
+    part = descent(alone, CurveRuns(alone)).course(TRUE + 0.05)
+    assert next(part).shape == (3, 2)
+
+
+def test_where_runs_fail_it_goes_on_and_looks_on_the_other_side():
+    ledger: Any = Known(lambda point: bool(point[0] > 0.31))
+    end = ledger.drive(descent(ledger, CurveRuns(ledger)).course(np.full(2, 0.25)))
+    assert end.place == pytest.approx(TRUE, abs=5e-3)
+    nothing: Any = Known(lambda point: True)
+    assert nothing.drive(descent(nothing, CurveRuns(nothing)).course(np.full(2, 0.25))) is None
+
+
+def test_fresh_surroundings_before_every_step():
+    """Every direction is known around the best run before the surface is asked."""
+    ledger: Any = Known()
+    runs = CurveRuns(ledger)
+    rules = replace(RULES, always_fresh=True)
+    part = descent(ledger, runs, rules).course(np.full(2, 0.5))
+    points, best = next(part), np.inf
+    while True:
+        found = [ledger.run(point) for point in points]
+        best = min(best, *(run.value for run in found))
+        try:
+            points = part.send(found)
+        except StopIteration:
+            break
+        number = int(np.argmin(runs.values))
+        if len(points) == 1 and np.abs(points[0] - runs.points[number]).max() > 0.06:
+            assert not runs.least_known(runs.points[number], 0.02)
+    assert best < 1e-3
 
 
 @pytest.mark.parametrize("centre", [(0.5, 0.5), (0.0, 1.0), (0.01, 0.99), (1.0, 0.0)])

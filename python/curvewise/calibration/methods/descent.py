@@ -1,38 +1,35 @@
-"""One search on surfaces, from one start: `trust_region` says how it goes."""
+"""One search on surfaces through runs, from one start: what the squares and the measures share.
+
+The surface through the runs near the best one is lowest somewhere in a region of trust around it;
+there the model is run next. The region grows and shrinks with what a step gains of what was
+promised. Where the surface promises no more, the directions in which it knows least are run; where
+it knows them all, the search has ended. Cost: k + 1 runs to begin with for k parameters, one for
+every step, and up to k for every look around.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
 from ...curves.inputs import Array
-from ..problem.ledger import Finish, Ledger
-from ..records.evaluation import Evaluation
-from ..surfaces.nearby_runs import NearbyRuns, Run, narrowest, runs_near
-from ..surfaces.surface_minimum import SurfaceMinimum
-from ..surfaces.surfaces import Responses, Surfaces
+from ..problem.ledger import Finish
+from .shared_runs import SharedRuns
 from .side_by_side import Part
 from .starts import End, simplex_around
 
-__all__ = ["Descent", "Rules", "SharedResponses"]
+__all__ = ["FAR", "Descent", "Rules"]
 
-# Of what was promised, a step that gains less than _POOR has failed; from _GOOD on the slopes are
-# as good as new.
-_POOR, _GOOD = 0.1, 0.7
-_SHRINKING = 0.5  # of the region, as a fraction of the step that failed
-_SMALLEST_STEP = 0.5  # of the differences, as a fraction of the largest
-# Before it ends, a search looks for other minima of the surfaces, which costs no runs, and tries so
-# many of those that it finds.
-_ATTEMPTS = 3
-_AFTER_RENEWAL = 0.15  # fresh slopes deserve trust again
-# Steps without a new run after which a search ends: slopes of noise lead round in a circle.
-_MOST_IDLE = 30
-# Earlier runs give the slopes at a point if none is further away than this, as a fraction of the
-# bounds' range, and if their spread in every direction is at least this fraction of their reach.
-_NEAR, _FLATTEST = 0.25, 0.03
+FAR = 5.0  # how far the runs may be from which a surface is made, in regions of trust
+# Of what was promised, a step that gains less than _POOR has failed; from _GOOD on the region
+# grows.
+_POOR, _FAIR, _GOOD = 0.1, 0.3, 0.7
+_AFTER_LOOK = 5.0  # a surface that has learnt more deserves trust again, so many times as far
+_AFTER_LEAVING = 0.15  # and so does one in another valley, so far
 
 
 @dataclass(frozen=True)
@@ -43,249 +40,127 @@ class Rules:
     diff_step: float
     tol: float
     gain: float
-    maxiter: int
-    always_fresh: bool
+    maxiter: int = 500
+    always_fresh: bool = False
 
 
-class SharedResponses:
-    """What turns curves into vectors, by the first run of all searches that has any."""
+class Descent(ABC):
+    """The best run of one start, and the region around it in which surfaces are trusted."""
 
-    def __init__(self) -> None:
-        self.first: Responses | None = None
+    looks_at_once: ClassVar[bool]  # in all directions, or in one after the other
 
-    def vector(self, run: Evaluation) -> Array:
-        """Return the coordinates of the curves of a run."""
-        assert run.simulations is not None
-        if self.first is None:
-            self.first = Responses(run.simulations)
-        return self.first.vector(run.simulations)
+    def __init__(self, random: np.random.Generator, rules: Rules, runs: SharedRuns) -> None:
+        self._random, self._rules, self._runs = random, rules, runs
+        self._best: int | None = None
+        self._tried: set[tuple[float, ...]] = set()
 
+    @abstractmethod
+    def _lowest(self, radius: float) -> tuple[Array, float]:
+        """Return where the surface is lowest within the region, and the gain that it promises."""
 
-class Descent:
-    """The best run, the surfaces around it, and what they have not seen yet."""
+    @abstractmethod
+    def _end(self, radius: float, promised: float, least: float) -> Finish:
+        """Return how the search has ended where nothing more is to be done."""
 
-    def __init__(
-        self,
-        ledger: Ledger,
-        random: np.random.Generator,
-        rules: Rules,
-        responses: SharedResponses,
-    ) -> None:
-        self._ledger, self._random, self._rules = ledger, random, rules
-        self._responses = responses
-        self._seen: set[int] = set()  # the numbers of the runs
-        self.is_fresh = False
-        self.value = np.inf
+    def _leaves_valley(self, least: float) -> Part[bool]:
+        """Try other minima of the surface; return whether one is better."""
+        yield from ()
+        return False
 
-    def course(self, start: Array, runs: Sequence[Run] = ()) -> Part[End | None]:
-        """Go down from a start; return how it ended, or None where simulations fail around it.
-
-        Parameters
-        ----------
-        start : ndarray, shape (k,)
-        runs : sequence of (ndarray, Evaluation)
-            Which may give the first slopes, in the place of new ones.
-        """
-        if not (yield from self.begin(start, runs)):
-            return None
-        first = self.value
-        finish = yield from self.descend()
-        return End(first, self.value, self.centre, finish)
-
-    def descend(self) -> Part[Finish]:
-        """Go down from where the search is."""
-        rules = self._rules
-        radius = rules.first_radius
-        known, idle = 0, 0
-        for _ in range(rules.maxiter):
-            idle = idle + 1 if len(self._seen) == known else 0
-            if idle == _MOST_IDLE:
-                return Finish(False, f"{idle} steps in a row led only to runs that were known")
-            known = len(self._seen)
-            candidate, promised = self.lowest(radius)
-            least = max(self._ledger.negligible, rules.gain * self.value)
-            if promised <= least or radius < rules.tol:
-                if self.is_fresh:
-                    if (yield from self.leaves_valley(rules.first_radius, least)):
-                        continue
-                    return Finish(True, _ending(radius, least, rules.tol))
-                yield from self.renew(radius)
-                radius = max(radius, _AFTER_RENEWAL)
-                continue
-            length = float(np.abs(candidate - self.centre).max())
-            was_fresh = self.is_fresh
-            ratio = (yield from self.step(candidate)) / promised
-            if ratio >= _GOOD:
-                radius = min(1.0, max(radius, 2.0 * length))
-            elif ratio < _POOR and was_fresh:
-                radius = _SHRINKING * length
-            if rules.always_fresh or (ratio < _GOOD and not was_fresh):
-                yield from self.renew(radius)
-        return Finish(False, f"maxiter = {rules.maxiter} steps")
+    @property
+    def value(self) -> float:
+        """The smallest value so far."""
+        return np.inf if self._best is None else self._runs.values[self._best]
 
     @property
     def centre(self) -> Array:
-        """The best run so far."""
-        return self._surfaces.centre
+        """Where it is."""
+        assert self._best is not None
+        point: Array = self._runs.points[self._best]
+        return point
 
-    def begin(self, start: Array, runs: Sequence[Run]) -> Part[bool]:
-        """Run a simplex around the start, around the best of its runs if the start fails.
-
-        Return whether any run has succeeded.
-        """
+    def course(self, start: Array) -> Part[End | None]:
+        """Go down from a start; return how it ended, or None where simulations fail around it."""
         radius = self._rules.first_radius
-        near = _determining(start, runs)
-        if near is not None or self._ledger.has_slopes:
-            (first,) = yield from self._run(start[np.newaxis])
-            if not first.failed:
-                self._take(start, first)
-                if self._takes_exact_slopes():
-                    return True
-                if near is not None:
-                    assert self._responses.first is not None
-                    slopes = near.slopes(self._responses.first, self._rules.diff_step)
-                    self._surfaces.slopes = slopes
-                    return True
-        for _ in range(5):
-            points = simplex_around(start, radius / 2.0, self._random)
-            first, *others = yield from self._run(np.vstack((start, points)))
-            if not first.failed:
-                self._take(start, first)
-                yield from self._fit_simplex(points, others, radius / 2.0)
-                return True
-            good = [i for i, other in enumerate(others) if not other.failed]
-            if not good:
-                break
-            start = points[min(good, key=lambda i: others[i].value)]
-        return False
+        simplex = simplex_around(start, radius / 2.0, self._random)
+        if self._runs.has_slopes or not self._runs.least_known(start, radius / 2.0):
+            yield from self._run(start[np.newaxis])
+        if self._best is None:
+            yield from self._run(np.vstack((start, simplex)))
+        if self._best is None:
+            return None
+        number = self._runs.number(start)
+        before = self.value if number is None else self._runs.values[number]
+        finish = yield from self._descended()
+        return End(before, self.value, self.centre, finish)
 
-    def renew(self, radius: float) -> Part[None]:
-        """Measure the slopes afresh, over a step no larger than the region, down to a limit."""
-        if self._takes_exact_slopes():
-            return
-        largest = self._rules.diff_step
-        step = max(min(largest, radius), _SMALLEST_STEP * largest)
-        points = simplex_around(self.centre, step, self._random)
-        runs = yield from self._run(points)
-        yield from self._fit_simplex(points, runs, step)
-        best = min(range(len(runs)), key=lambda i: runs[i].value)
-        if not runs[best].failed and runs[best].value < self.value:
-            self._recentre(points[best], runs[best])
-        self.is_fresh = True
+    def _descended(self) -> Part[Finish]:
+        rules = self._rules
+        radius = rules.first_radius
+        for _ in range(rules.maxiter):
+            if rules.always_fresh:
+                yield from self._looks_around(radius)
+            candidate, promised = self._lowest(radius)
+            least = max(self._runs.negligible, rules.gain * self.value)
+            if promised <= least or radius < rules.tol:
+                if (yield from self._looks_around(radius)):
+                    radius = max(radius, _AFTER_LOOK * self._reach(radius))
+                elif (yield from self._leaves_valley(least)):
+                    radius = max(radius, _AFTER_LEAVING)
+                else:
+                    return self._end(radius, promised, least)
+                continue
+            length = float(np.abs(candidate - self.centre).max())
+            before = self.value
+            yield from self._run(candidate[np.newaxis])
+            ratio = (before - self._last) / promised
+            if ratio >= _GOOD:
+                radius = min(1.0, max(radius, 2.0 * length))
+            elif ratio < _POOR:
+                radius = 0.5 * length
+            elif ratio < _FAIR:
+                radius = 0.7 * length
+        return Finish(False, f"{rules.maxiter} steps")
 
-    def _takes_exact_slopes(self) -> bool:
-        """Take the slopes that the model knows at the best run, if it does: they cost no run."""
-        assert self._responses.first is not None
-        slopes = self._responses.first.slopes(self._ledger.slopes(self.centre))
-        if slopes is None:
+    def _run(self, points: Array) -> Part[None]:
+        """Run points, and move to the best of them if it is better than all before."""
+        self._last = np.inf
+        self._tried.update(tuple(point) for point in points)
+        for point, run in zip(points, (yield points), strict=True):
+            number = self._runs.add(point, run)
+            if number is not None:
+                self._last = self._runs.values[number]
+                if self._last < self.value:
+                    self._best = number
+
+    def _reach(self, radius: float) -> float:
+        """Return how far around the best run the surface has to be known."""
+        return float(np.clip(radius, self._rules.tol, self._rules.diff_step))
+
+    def _looks_around(self, radius: float) -> Part[bool]:
+        """Run what the surface would learn most from; return whether there was any such point."""
+        if self._runs.has_slopes:
             return False
-        self._surfaces.slopes = slopes
-        self.is_fresh = True
-        return True
+        unknown = list(self._unknown(radius))
+        if unknown:
+            yield from self._run(np.array(unknown if self.looks_at_once else unknown[:1]))
+        return bool(unknown)
 
-    def leaves_valley(self, radius: float, least: float) -> Part[bool]:
-        """Try other minima of the surfaces, which promise a gain; return whether one is better.
+    def _unknown(self, radius: float) -> Iterator[Array]:
+        """Yield a point for each direction in which the runs around the best one tell too little.
 
-        The surfaces learn from each that is not, so that the next is another one.
+        That in which they are spread least first. Where runs have failed there, on the other side
+        or nearer.
         """
-        for _ in range(_ATTEMPTS):
-            candidate = self._minimum.elsewhere(self._surfaces, self._region(radius))
-            promised = self._promised(candidate)
-            if promised <= least:
-                return False
-            if (yield from self.step(candidate, learns=True)) > 0:
-                return True
-        return False
-
-    def lowest(self, radius: float) -> tuple[Array, float]:
-        """Return where the surfaces are lowest within the region, and the gain they promise."""
-        best = self._minimum.lowest(
-            self._surfaces, self.centre, self._region(radius), thoroughly=self.is_fresh
-        )
-        return best, self._promised(best)
-
-    @cached_property
-    def _minimum(self) -> SurfaceMinimum:
-        assert self._responses.first is not None
-        return SurfaceMinimum(
-            self._ledger.objective,
-            self._responses.first,
-            self._random,
-            self._ledger.show_activity,
-            self._rules.gain,
-        )
-
-    def _region(self, radius: float) -> tuple[Array, Array]:
-        return np.clip(self.centre - radius, 0.0, 1.0), np.clip(self.centre + radius, 0.0, 1.0)
-
-    def _promised(self, point: Array) -> float:
-        return self.value - self._minimum.value(self._surfaces, point)
-
-    def step(self, candidate: Array, *, learns: bool = False) -> Part[float]:
-        """Run a candidate, learn from it, move there if it is better; return the gain.
-
-        Slopes that the model knows have nothing to learn, unless they are asked to.
-        """
-        (run,) = yield from self._run(candidate[np.newaxis])
-        is_exact = self._ledger.has_slopes and self.is_fresh and not learns
-        self.is_fresh = is_exact
-        if run.failed:
-            return -np.inf
-        gained = self.value - run.value
-        if gained > 0 or not is_exact:
-            self._surfaces.learn(candidate, self._responses.vector(run), recentre=gained > 0)
-        if gained > 0:
-            self.value = run.value
-            self.is_fresh = self._takes_exact_slopes()
-        return gained
-
-    def _take(self, point: Array, run: Evaluation) -> None:
-        """Make a run the centre of surfaces that are level."""
-        base = self._responses.vector(run)
-        self._surfaces = Surfaces(point, base, np.zeros((base.size, point.size)))
-        self.value = run.value
-
-    def _recentre(self, point: Array, run: Evaluation) -> None:
-        slopes = self._surfaces.slopes
-        self._take(point, run)
-        self._surfaces.slopes = slopes
-
-    def _fit_simplex(self, points: Array, runs: Sequence[Evaluation], step: float) -> Part[None]:
-        """Set the slopes by differences; on the other side, and nearer, where runs fail."""
-        for i, (point, first) in enumerate(zip(points, runs, strict=True)):
-            run, place = first, point
-            for factor in (-1.0, 0.25, -0.25):
-                if not run.failed:
+        centre, reach = self.centre, self._reach(radius)
+        for direction in self._runs.least_known(centre, reach):
+            axis = int(np.argmax(np.abs(direction)))
+            along = reach / abs(direction[axis]) * direction
+            inwards = np.zeros_like(along)  # where a corner of the bounds leaves no room for it
+            inwards[axis] = reach if centre[axis] < 0.5 else -reach
+            for step in (along, -along, along / 4.0, -along / 4.0, inwards):
+                point = centre + step
+                is_inside = (point >= 0.0).all() and (point <= 1.0).all()
+                if is_inside and tuple(point) not in self._tried:
+                    yield point
                     break
-                place = self.centre.copy()
-                place[i] += factor * (point[i] - self.centre[i])
-                if 0.0 <= place[i] <= 1.0:
-                    (run,) = yield from self._run(place[np.newaxis])
-            if not run.failed:
-                difference = self._responses.vector(run) - self._surfaces.base
-                self._surfaces.slopes[:, i] = difference / (place[i] - self.centre[i])
-
-    def _run(self, points: Array) -> Part[list[Evaluation]]:
-        runs = yield points
-        self._seen.update(run.number for run in runs)
-        return runs
-
-
-def _ending(radius: float, least: float, tol: float) -> str:
-    """Say why a search ended where fresh slopes promise too little, or the region is too small."""
-    if radius < tol:
-        return f"the region is below {tol:g} of the bounds' range"
-    within = "" if radius >= 1.0 else f" within {100.0 * radius:.3g} % of the bounds' range"
-    return f"fresh slopes promise to gain less than {least:.2g}{within}"
-
-
-def _determining(unit: Array, runs: Sequence[Run]) -> NearbyRuns | None:
-    """Return runs around a point that determine the slopes there, if they do.
-
-    The 2 k + 1 nearest, if they are near and not all in a plane.
-    """
-    near = runs_near(unit, runs, within=_NEAR, most=2 * unit.size + 1)
-    if near is None:
-        return None
-    offsets = (near.points - near.points.mean(axis=0)) / near.distances.max()
-    return near if narrowest(offsets) >= _FLATTEST * np.sqrt(len(offsets)) else None

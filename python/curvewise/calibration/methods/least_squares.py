@@ -1,7 +1,7 @@
 """A search for the smallest sum of squares of an expensive model, without derivatives.
 
 Gauss and Newton's method needs the residuals as a function of the parameters; here a surface
-through the runs near the best one stands in their place (`surfaces.residual_surface`): the plane
+through the runs near the best one stands in their place (`surfaces.kriged_surface`): the plane
 through the k + 1 runs that the search begins with, bent as later runs ask for. Where the squares of
 the surface add up to least, in a region of trust around the best run and within the bounds, is run
 next (`surfaces.bounded_squares`). The region grows and shrinks with what a step gains of what was
@@ -30,7 +30,7 @@ from ..problem.ledger import Course, Ledger
 from .method import Method, with_other_defaults
 from .robust_losses import Loss, bend_of, check_loss
 from .side_by_side import Part, side_by_side
-from .squares_descent import SharedRuns, SquaresDescent, SquaresRules
+from .squares_descent import SquaresDescent, SquaresRules, SquaresRuns
 from .starts import End, are_alike, check_regions, finish_of, hop, places
 
 __all__ = ["LeastSquares"]
@@ -118,7 +118,7 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
     def rules(self) -> SquaresRules:
         """How each start goes on."""
         bend = bend_of(self.loss, self.f_scale)
-        return SquaresRules(self.first_radius, self.diff_step, self.tol, self.gain, bend)
+        return SquaresRules(self.first_radius, self.diff_step, self.tol, self.gain, bend=bend)
 
     def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
         """Minimise from a start; where none is given from the middle, and then from elsewhere."""
@@ -145,7 +145,7 @@ class _Starts:
         self._options, self._given, self._seed = options, start, seed
         self._random = np.random.default_rng(seed)
         self._places = places(ledger.dimensions, self._random)
-        self.runs = SharedRuns(ledger, options.rules)
+        self.runs = SquaresRuns(ledger, options.rules)
         self.begun = self._running = 0
         self.ends: list[End] = []
 

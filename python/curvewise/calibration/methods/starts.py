@@ -3,9 +3,9 @@
 The first start is the middle of the bounds, the others are Latin hypercubes of four points: of four
 in a row each has a quarter of every axis to itself. (A sequence of low discrepancy is no better
 for so few points in so many dimensions, and scipy's takes half a second to import.) As long as
-starts end more than 1 % apart others follow, and every second of these begins beside the best run
-so far, in a smaller region and with slopes of the runs that are there, if they give any, which
-costs one run in the place of k + 1: a hop out of a valley into the next.
+starts end more than 1 % apart others follow, and every second of these begins where the runs so far
+promise most, or beside the best of them, in a smaller region, with a surface of the runs that are
+there, which costs one run in the place of k + 1: a hop out of a valley into the next.
 
 M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
 input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245;

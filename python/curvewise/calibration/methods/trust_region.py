@@ -1,31 +1,29 @@
 """A search for expensive models: the measure is minimised on surfaces of the curves, run by run.
 
-Linear surfaces of the simulated curves (`surfaces`) come from a simplex of k + 1 runs. The
-parameters at which the curves that they predict are nearest to the tests, within a region of
-trust around the best run, are run next, and the surfaces learn from every run (Broyden's update).
-Where a step gains clearly less than they promised, k runs nearby measure the slopes afresh; where
-fresh slopes have promised it too, the region shrinks. The search ends when fresh slopes promise
-nothing more, nearby or in another minimum that the measure has on these surfaces. With
-slopes="fresh" they are measured before every step: for a sum of squares that is Gauss and Newton's
-method, and here the exact measure, whichever it is, stands in the place of the squares.
+A surface of the simulated curves goes through the runs near the best one
+(`surfaces.kriged_surface`): the plane through the k + 1 runs that a start begins with, bent as
+later runs ask for. The parameters at which the curves that it predicts are nearest to the tests, by
+the exact measure, within a region of trust around the best run, are run next. The region grows and
+shrinks with what a step gains of what was promised. Where the surface promises nothing more, the
+directions in which it knows least are run, all at once; where it knows them all, other minima that
+the measure has on it are tried, and then the start has ended. Where the model knows its slopes
+(`jacobian`), the plane of these takes the place of the surface, and no run is made for it.
 
-A region that shrank around slopes grown stale was the way this search used to fail: on seven
-parameters with noise it halted high up in a valley from 3 of 10 starts that nothing was tuned on,
-and from none where slopes are renewed first and other minima of the surfaces are looked at before
-the end (benchmarks/validation/README.md). Differences are taken over hundredths of the bounds'
-range, not 1e-6 of it: a solver prints seven digits. Cost: k + 1 runs to begin with, k for every
-renewal, one for every step; 10 to 170 a start in what we have run. Each start is local, and every
-second one ends in another valley than the best (benchmarks/validation/searches.py): `starts` has
-how many are made, and when the search may say that it has converged.
+All starts share their runs, so that a start that comes to where another has been takes few of its
+own: 20 to 60 runs each for 8 parameters. A plane that learns from each run (Broyden's update), and
+is measured afresh where it misleads, took twice as many to the same value, and ended above it more
+often (benchmarks/validation/README.md). Each start is local, and every second one ends in another
+valley than the best: `starts` has how many are made, and when the search may say that it has
+converged.
 
-C. G. Broyden, "A class of methods for solving nonlinear simultaneous equations", Math. Comp. 19
-(1965) 577-593; A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000).
+A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000); S. M. Wild, R. G.
+Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in
+trust-regions", SIAM J. Sci. Comput. 30 (2008) 3197-3219.
 """
 
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
@@ -33,29 +31,33 @@ import numpy as np
 
 from ...curves.inputs import Array
 from ..problem.ledger import Course, Ledger
-from ..surfaces.nearby_runs import Run
-from .descent import Descent, Rules, SharedResponses
+from .curve_descent import CurveDescent, CurveRuns, promising_place
+from .descent import Rules
 from .method import Method, with_other_defaults
 from .side_by_side import Part, side_by_side
 from .starts import HOP, End, are_alike, check_regions, finish_of, hop, is_flat, places
 
 __all__ = ["TrustRegion"]
 
+# Starts that have to come to the best value beyond `starts`: of all that there are, and where
+# others have ended elsewhere.
+_SURE, _NOT_SO = 2, 3
 _ON_FLAT_GROUND = 3  # times as many starts, where the measure is flat
 
 _log = logging.getLogger("curvewise.calibration")
 
 
-Slopes = Literal["broyden", "fresh"]
+Slopes = Literal["from runs", "fresh"]
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=False):
     """The measure on linear surfaces of the curves, minimised within a region of trust.
 
-    Local, for expensive models and any measure: 10 to 30 runs a start for 3 parameters, 45 to 95
-    for 7. Each of three starts begins with k + 1 runs for k parameters, and takes one for every
-    step; they go side by side, so that three runs at least can be made at the same time.
+    Local, for expensive models and any measure: 10 to 20 runs a start for 3 parameters, 20 to 40
+    for 8, since starts share their runs. Each of the first begins with k + 1 runs for k parameters,
+    and takes one for every step; three go side by side, so that three runs at least can be made at
+    the same time.
 
     It never says "converged" where starts end more than 1 % apart, where no step has gained
     anything, or where several places have the best value, of a measure that is flat there.
@@ -65,9 +67,10 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
     starts : int, default 3
         From how many places to search, side by side, where no start is given: from the middle of
         the bounds, and evenly over them.
-    most_starts : int, default 6
-        As long as starts end more than 1 % apart others follow, up to so many in all, unless
-        `starts` of them have come within 1 % of the best.
+    most_starts : int, default 10
+        Others follow until two more than `starts` have ended alike; where some have ended more than
+        1 % above the best, until three more have come to it, or so many have been made in all.
+        Every second of them begins where a surface through all runs so far promises most.
     initial_range : float, optional
         Half the size of the first region of trust, as a fraction of the bounds' range; the first
         differences are over half of that. By default 0.5, and 0.1 where :func:`identify_each`
@@ -80,10 +83,10 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
         And where fresh slopes promise to gain no more than this fraction of the value.
     maxiter : int, default 200
         The most steps, of each start.
-    slopes : {"broyden", "fresh"}
-        "broyden": of the runs that are made anyway, and renewed by k runs where these mislead.
-        "fresh": measured before every step, by k runs, which k workers make at the same time: Gauss
-        and Newton's method, for any measure.
+    slopes : {"from runs", "fresh"}
+        "from runs": of the runs that are made anyway, and of up to k more where these promise
+        nothing. "fresh": those around the best run are made before every step, by k workers at the
+        same time.
 
     Raises
     ------
@@ -102,13 +105,13 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
     """
 
     starts: int = 3
-    most_starts: int = 6
+    most_starts: int = 10
     initial_range: float | None = None
     diff_step: float = 0.02
     tol: float = 1e-3
     gain: float = 1e-3
     maxiter: int = 200
-    slopes: Slopes = "broyden"
+    slopes: Slopes = "from runs"
 
     def __post_init__(self) -> None:
         if self.slopes not in get_args(Slopes):
@@ -168,7 +171,7 @@ class _Starts:
         self._given = start
         self._random = np.random.default_rng(seed)
         self._places = places(ledger.dimensions, self._random)
-        self._responses = SharedResponses()
+        self._runs = CurveRuns(ledger)
         self.begun, self._running = 0, 0
         self.ends: list[End] = []
 
@@ -185,35 +188,39 @@ class _Starts:
             return []
         alike = are_alike(ends, self._ledger.negligible)
         flat = is_flat(ends, self._ledger.negligible)
-        if not flat and (alike == len(ends) or alike >= options.starts):
+        if not flat and alike >= options.starts + (_SURE if alike == len(ends) else _NOT_SO):
             return []
         # On flat ground a start is short, and the way down is found by chance.
         most = _ON_FLAT_GROUND * options.most_starts if flat else options.most_starts
         count = min(options.starts - self._running, most - self.begun)
-        if count > 0 and self.begun == options.starts:
+        if count > 0 and self.begun == options.starts and alike < len(ends):
             _log.info(
                 "starts end more than 1 %% apart; up to %d more follow, of some %d runs each",
                 most - self.begun,
                 len(self._ledger.done) // self.begun,
             )
-        return [self._next(flat=flat) for _ in range(count)]
+        return [self._next() for _ in range(count)]
 
-    def _next(self, *, flat: bool = False) -> Part[None]:
-        """Begin the next start: beside the best run where it is the turn of a hop."""
+    def _next(self) -> Part[None]:
+        """Begin the next start: every second of the later ones where the runs so far promise most.
+
+        And beside the best run where they promise nothing but where starts have ended.
+        """
         rules = self._options.rules
         later = self.begun - self._options.starts
-        if not flat and later >= 0 and later % 2 == 0:
-            place = hop(self._ledger.best_unit, self._random)
+        if later >= 0 and later % 2 == 0:
+            place = promising_place(self._ledger, self._random, self._runs, self.ends)
+            if place is None:
+                place = hop(self._ledger.best_unit, self._random)
             smaller = replace(rules, first_radius=min(HOP, rules.first_radius))
-            return self._descent(place, smaller, self._ledger.runs_with_curves)
+            return self._descent(place, smaller)
         return self._descent(next(self._places), rules)
 
-    def _descent(self, place: Array, rules: Rules, runs: Sequence[Run] = ()) -> Part[None]:
+    def _descent(self, place: Array, rules: Rules) -> Part[None]:
         random = np.random.default_rng((self._seed, self.begun))
         self.begun += 1
         self._running += 1
-        search = Descent(self._ledger, random, rules, self._responses)
-        return self._ended(search.course(place, (*self._ledger.earlier_runs, *runs)))
+        return self._ended(CurveDescent(self._ledger, random, rules, self._runs).course(place))
 
     def _ended(self, course: Part[End | None]) -> Part[None]:
         end = yield from course

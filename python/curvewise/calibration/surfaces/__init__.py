@@ -1,1 +1,1 @@
-"""Linear surfaces of simulated curves, and where a measure is lowest on them."""
+"""Surfaces of simulated curves, and where a measure is lowest on them."""

@@ -15,7 +15,7 @@ search take their place, some 50 k evaluations.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from inspect import signature
 
@@ -27,7 +27,7 @@ from ...curves.thinning import Rows
 from ..objective.objective import Objective
 from .nelder_mead import nelder_mead
 from .nonsmooth_descent import nonsmooth_descent
-from .surfaces import Responses, Surfaces
+from .surfaces import Responses, Surface
 
 __all__ = ["SurfaceMinimum"]
 
@@ -39,6 +39,7 @@ _MOST, _POLISHING = 150, 8  # evaluations with a gradient, and those after thinn
 _SIMPLEX, _POLISHING_SIMPLEX = 40, 5
 _OF_NEGLIGIBLE = 1e-4
 _PLACES = 4  # from which to search elsewhere
+_NEAR = 0.1  # of points to avoid, along any axis
 _MEMBERS, _GENERATIONS = 8, 25  # of a population that does, per parameter
 
 
@@ -82,7 +83,7 @@ class SurfaceMinimum:
 
     def lowest(
         self,
-        surfaces: Surfaces,
+        surfaces: Surface,
         centre: Array,
         region: tuple[Array, Array],
         *,
@@ -115,10 +116,18 @@ class SurfaceMinimum:
         # length, which pcm measures.
         return low + self._minimised(self._exact, surfaces, region, start, True) * width
 
-    def elsewhere(self, surfaces: Surfaces, region: tuple[Array, Array]) -> Array:
+    def elsewhere(
+        self,
+        surfaces: Surface,
+        region: tuple[Array, Array],
+        *,
+        places: int = _PLACES,
+        avoid: Sequence[Array] = (),
+    ) -> Array | None:
         """Return the lowest of what is found from places that are drawn in the box.
 
-        A measure may have several minima on surfaces that are linear.
+        A measure may have several minima on surfaces that are linear. Those within _NEAR of points
+        to avoid are left out; None is returned where there are no others.
         """
         low, high = region
         predicted = self._thinned or self._exact
@@ -126,11 +135,18 @@ class SurfaceMinimum:
         if predicted.has_gradient:
             found = [
                 self._minimised(predicted, surfaces, region, place, thoroughly=False)
-                for place in self._random.random((_PLACES, low.size))
+                for place in self._random.random((places, low.size))
             ]
-            best = min(found, key=function)
         else:
-            best = self._over_the_box(function, low.size)
+            found = [self._over_the_box(function, low.size)]
+        found = [
+            place
+            for place in found
+            if all(np.abs(low + place * (high - low) - p).max() > _NEAR for p in avoid)
+        ]
+        if not found:
+            return None
+        best = min(found, key=function)
         if self._thinned is not None:
             best = self._polished(surfaces, region, best)
         return low + best * (high - low)
@@ -150,14 +166,14 @@ class SurfaceMinimum:
         )
         return self._simplex(function, np.clip(result.x, 0.0, 1.0), _SIMPLEX)
 
-    def value(self, surfaces: Surfaces, point: Array) -> float:
+    def value(self, surfaces: Surface, point: Array) -> float:
         """Return the objective that surfaces predict at a point, with all points."""
         return self._exact.value(surfaces.at(point))
 
     def _minimised(
         self,
         predicted: _Predicted,
-        surfaces: Surfaces,
+        surfaces: Surface,
         region: tuple[Array, Array],
         start: Array,
         thoroughly: bool,
@@ -184,7 +200,7 @@ class SurfaceMinimum:
             return best
         return descend(self._simplex(function, best, _SIMPLEX))
 
-    def _polished(self, surfaces: Surfaces, region: tuple[Array, Array], start: Array) -> Array:
+    def _polished(self, surfaces: Surface, region: tuple[Array, Array], start: Array) -> Array:
         """Go on from where thinned curves have led, with all points, for a few evaluations."""
         if not self._exact.has_gradient:
             return self._simplex(self._exact.on(surfaces, region), start, _POLISHING_SIMPLEX)
@@ -228,30 +244,25 @@ class _Predicted:
         self._show_activity()
         return self._objective.predicted(self._responses.curves(vector)).value
 
-    def on(self, surfaces: Surfaces, region: tuple[Array, Array]) -> Callable[[Array], float]:
+    def on(self, surfaces: Surface, region: tuple[Array, Array]) -> Callable[[Array], float]:
         """Return the objective as a function of a place in a box, which counts as a unit cube."""
-        base, slopes = self._in_box(surfaces, region)
-        return lambda place: self.value(base + slopes @ np.clip(place, 0.0, 1.0))
+        low, high = region
+        seen = surfaces.of_places(self._places)
+        return lambda place: self.value(seen.at(low + np.clip(place, 0.0, 1.0) * (high - low)))
 
     def with_gradient_on(
-        self, surfaces: Surfaces, region: tuple[Array, Array]
+        self, surfaces: Surface, region: tuple[Array, Array]
     ) -> Callable[[Array], tuple[float, Array]]:
         """Return the same with its gradient."""
-        base, slopes = self._in_box(surfaces, region)
+        low, high = region
+        width = high - low
+        seen = surfaces.of_places(self._places)
 
         def function(place: Array) -> tuple[float, Array]:
             self._show_activity()
-            curves = self._responses.curves(base + slopes @ place)
-            value, gradients = self._objective.value_and_gradient(curves)
+            vector, chain_rule = seen.with_chain_rule(low + place * width)
+            value, gradients = self._objective.value_and_gradient(self._responses.curves(vector))
             by_coordinate = np.concatenate([gradient.ravel() for gradient in gradients])
-            return value, by_coordinate @ slopes
+            return value, chain_rule(by_coordinate) * width
 
         return function
-
-    def _in_box(self, surfaces: Surfaces, region: tuple[Array, Array]) -> tuple[Array, Array]:
-        low, high = region
-        base = surfaces.at(low)
-        slopes = surfaces.slopes * (high - low)
-        if self._places is not None:
-            base, slopes = base[self._places], slopes[self._places]
-        return base, slopes

@@ -9,14 +9,18 @@ in units of the first one's box. Cost: O(k) for every coordinate, k parameters.
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Protocol, TypeAlias
 
 import numpy as np
 
 from ...curves.inputs import Array
 from ...curves.thinning import Rows, thinned_rows
 
-__all__ = ["Responses", "Surfaces", "regression"]
+__all__ = ["ChainRule", "Responses", "Surface", "Surfaces", "regression"]
+
+ChainRule: TypeAlias = Callable[[Array], Array]
+"""Of a gradient, shape (coordinates,): by the parameters, shape (k,)."""
 
 _log = logging.getLogger("curvewise.calibration")
 
@@ -109,6 +113,19 @@ def resampled(curve: Array, count: int, extent: Array) -> Array:
     return np.column_stack([np.interp(wanted, length, column) for column in curve.T])
 
 
+class Surface(Protocol):
+    """Curves, each as one vector, as a function of a point of the unit cube."""
+
+    def at(self, point: Array) -> Array:
+        """Return the response at a point, shape (coordinates,)."""
+
+    def with_chain_rule(self, point: Array) -> tuple[Array, ChainRule]:
+        """Return it, and what turns a gradient by the coordinates into one by the point."""
+
+    def of_places(self, places: Rows | None) -> Surface:
+        """Return the surface of some of the coordinates, or of all where places is None."""
+
+
 class Surfaces:
     """Curves as linear functions of a point of the unit cube.
 
@@ -130,22 +147,15 @@ class Surfaces:
         response: Array = self.base + self.slopes @ (point - self.centre)
         return response
 
-    def learn(self, point: Array, response: Array, *, recentre: bool) -> None:
-        """Take a run into account: Broyden's rank-one change, after which it lies on the surfaces.
+    def with_chain_rule(self, point: Array) -> tuple[Array, ChainRule]:
+        """Return it, and what turns a gradient by the coordinates into one by the point."""
+        return self.at(point), lambda gradient: gradient @ self.slopes
 
-        Parameters
-        ----------
-        point, response
-            The run.
-        recentre : bool
-            Whether it becomes the centre.
-        """
-        step = point - self.centre
-        square = float(step @ step)
-        if square > 0:
-            self.slopes = self.slopes + np.outer(response - self.at(point), step / square)
-        if recentre:
-            self.centre, self.base = point, response
+    def of_places(self, places: Rows | None) -> Surfaces:
+        """Return the surfaces of some of the coordinates, or of all."""
+        if places is None:
+            return self
+        return Surfaces(self.centre, self.base[places], self.slopes[places])
 
 
 def regression(points: Array, responses: Array, centre: Array, weights: Array) -> Surfaces:

@@ -1,11 +1,11 @@
-"""A surface of residuals through runs: linear in the parameters, and bent as the runs ask for.
+"""A surface of curves, or of residuals, through runs: linear, and bent as the runs ask for.
 
-Universal kriging, all residuals at once: a linear trend, and a Matérn kernel (5/2) whose length is
-a few times the bounds' range, so that the surface is the least bent of those that pass through the
-runs: of k + 1 the plane, of more one with the curvature that a plane cannot have. Residuals may
+Universal kriging, all coordinates at once: a linear trend, and a Matérn kernel (5/2) whose length
+is a few times the bounds' range, so that the surface is the least bent of those that pass through
+the runs: of k + 1 the plane, of more one with the curvature that a plane cannot have. Residuals may
 enter as their coordinates in the span of the runs, n numbers in the place of m, so that what a
 surface costs at a point does not grow with the number of residuals. Cost: O(n^3 + n^2 m) for n
-runs of m residuals, O(n^2) for a point.
+runs of m coordinates, O(n m) for a point, and O(n^2) of reduced residuals.
 
 J. Sacks, W. J. Welch, T. J. Mitchell, H. P. Wynn, "Design and analysis of computer experiments",
 Statistical Science 4 (1989) 409-423; for interpolation in a region of trust S. M. Wild, R. G.
@@ -15,18 +15,22 @@ trust-regions", SIAM J. Sci. Comput. 30 (2008) 3197-3219.
 
 from __future__ import annotations
 
+from copy import copy
+
 import numpy as np
 
 from ...curves.inputs import Array
+from ...curves.thinning import Rows
+from .surfaces import ChainRule
 
-__all__ = ["ResidualSurface"]
+__all__ = ["KrigedSurface"]
 
 _LENGTH = 4.0  # of the kernel, in distances of the farthest run from the centre
 _NUGGET = 1e-8  # of the kernel: what a solver that prints few digits may be off
 _LEVEL = 1e-8  # the inverse of the variance of the trend's coefficients: none are unlikely
 
 
-class ResidualSurface:
+class KrigedSurface:
     """Residuals as a function of a point of the unit cube, through runs.
 
     Parameters
@@ -61,14 +65,45 @@ class ResidualSurface:
         solved = np.linalg.solve(system, known)
         self._weights, self._level, self._slopes = np.split(solved, (count, count + 1))
 
-    def __call__(self, point: Array) -> tuple[Array, Array]:
-        """Return the residuals at a point, shape (m,), and their slopes, shape (m, k)."""
+    def at(self, point: Array) -> Array:
+        """Return the residuals at a point, shape (m,)."""
+        place = (point - self._centre) / self._extent
+        kernel, _ = _kernel(np.linalg.norm(place - self._places, axis=1))
+        return self._residuals(place, kernel)
+
+    def with_slopes(self, point: Array) -> tuple[Array, Array]:
+        """Return the residuals at a point, and their slopes, shape (m, k)."""
         place = (point - self._centre) / self._extent
         away = place - self._places
         kernel, by_distance = _kernel(np.linalg.norm(away, axis=1))
-        residuals = self._level[0] + place @ self._slopes + kernel @ self._weights
         slopes = self._slopes + (by_distance[:, np.newaxis] * away).T @ self._weights
-        return residuals, slopes.T / self._extent
+        return self._residuals(place, kernel), slopes.T / self._extent
+
+    def with_chain_rule(self, point: Array) -> tuple[Array, ChainRule]:
+        """Return the residuals at a point, and what turns a gradient by them into one by it."""
+        place = (point - self._centre) / self._extent
+        away = place - self._places
+        kernel, by_distance = _kernel(np.linalg.norm(away, axis=1))
+
+        def chain_rule(gradient: Array) -> Array:
+            bent: Array = (by_distance * (self._weights @ gradient)) @ away
+            return (self._slopes @ gradient + bent) / self._extent
+
+        return self._residuals(place, kernel), chain_rule
+
+    def of_places(self, places: Rows | None) -> KrigedSurface:
+        """Return the surface of some of the residuals, or of all where `places` is None."""
+        if places is None:
+            return self
+        some = copy(self)
+        some._weights, some._level, some._slopes = (
+            part[:, places] for part in (self._weights, self._level, self._slopes)
+        )
+        return some
+
+    def _residuals(self, place: Array, kernel: Array) -> Array:
+        residuals: Array = self._level[0] + place @ self._slopes + kernel @ self._weights
+        return residuals
 
 
 def _kernel(distance: Array) -> tuple[Array, Array]:

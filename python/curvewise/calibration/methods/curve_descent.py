@@ -1,0 +1,134 @@
+"""One search for the smallest measure, from one start: `trust_region` says how it goes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+
+from ...curves.inputs import Array
+from ..problem.ledger import Finish, Ledger
+from ..records.evaluation import Evaluation
+from ..surfaces.surface_minimum import SurfaceMinimum
+from ..surfaces.surfaces import Responses, Surface, Surfaces
+from .descent import FAR, Descent, Rules
+from .shared_runs import SharedRuns
+from .side_by_side import Part
+from .starts import End
+
+__all__ = ["CurveDescent", "CurveRuns", "promising_place"]
+
+# Before it ends, a search looks for other minima of the surface, which costs no runs, and tries so
+# many of those that it finds, over this much of the bounds' range to each side.
+_ATTEMPTS, _ELSEWHERE = 3, 0.5
+# Of the runs, and of the places from which it goes down, in the search for another start.
+_MOST_RUNS, _PLACES = 500, 10
+
+
+class CurveRuns(SharedRuns):
+    """Runs with the coordinates of their curves."""
+
+    def __init__(self, ledger: Ledger) -> None:
+        self._responses: Responses | None = None
+        super().__init__(ledger)
+
+    @property
+    def negligible(self) -> float:
+        """Differences of the measure below this do not count."""
+        return self._ledger.negligible
+
+    @property
+    def responses(self) -> Responses:
+        """What turns curves into vectors, by the first run that has any."""
+        assert self._responses is not None
+        return self._responses
+
+    def _taken(self, run: Evaluation) -> tuple[Array, float]:
+        assert run.simulations is not None
+        if self._responses is None:
+            self._responses = Responses(run.simulations)
+        return self._responses.vector(run.simulations), run.value
+
+    def _known_slopes(self, number: int, by_curve: list[Array]) -> Array | None:
+        return self.responses.slopes(by_curve)
+
+    def surface(self, number: int, within: float) -> Surface:
+        """Return the surface through the runs nearest to one, or the plane of its slopes."""
+        centre, slopes = self.points[number], self.slopes(number)
+        if slopes is None:
+            return self.through_nearest(centre, within, reduced=False)
+        return Surfaces(centre, self._vectors[number], slopes)
+
+
+def promising_place(
+    ledger: Ledger, random: np.random.Generator, runs: CurveRuns, ends: Sequence[End]
+) -> Array | None:
+    """Return where on the surface through all runs the measure is lowest, away from all ends.
+
+    None where it has no minimum there.
+    """
+    best = ledger.best_unit
+    surface = runs.through_nearest(best, np.inf, reduced=False, most=_MOST_RUNS)
+    minimum = SurfaceMinimum(ledger.objective, runs.responses, random, ledger.show_activity)
+    box = np.zeros_like(best), np.ones_like(best)
+    return minimum.elsewhere(surface, box, places=_PLACES, avoid=[end.place for end in ends])
+
+
+class CurveDescent(Descent):
+    """A search whose inner work is the exact measure of the curves that the surface predicts."""
+
+    looks_at_once = True
+    _runs: CurveRuns
+
+    def __init__(
+        self, ledger: Ledger, random: np.random.Generator, rules: Rules, runs: CurveRuns
+    ) -> None:
+        super().__init__(random, rules, runs)
+        self._ledger = ledger
+
+    @cached_property
+    def _minimum(self) -> SurfaceMinimum:
+        return SurfaceMinimum(
+            self._ledger.objective,
+            self._runs.responses,
+            self._random,
+            self._ledger.show_activity,
+            self._rules.gain,
+        )
+
+    def _region(self, radius: float) -> tuple[Array, Array]:
+        return np.clip(self.centre - radius, 0.0, 1.0), np.clip(self.centre + radius, 0.0, 1.0)
+
+    def _lowest(self, radius: float) -> tuple[Array, float]:
+        assert self._best is not None
+        surface = self._runs.surface(self._best, FAR * radius)
+        point = self._minimum.lowest(surface, self.centre, self._region(radius))
+        return point, self.value - self._minimum.value(surface, point)
+
+    def _leaves_valley(self, least: float) -> Part[bool]:
+        """Try other minima of the surface, which promise a gain; return whether one is better.
+
+        The surface learns from each that is not, so that the next is another one. A start that is
+        not the best so far is left where it is: another start costs less.
+        """
+        assert self._best is not None
+        for _ in range(_ATTEMPTS):
+            if self.value > min(self._runs.values):
+                return False
+            surface = self._runs.surface(self._best, np.inf)
+            candidate = self._minimum.elsewhere(surface, self._region(_ELSEWHERE))
+            assert candidate is not None
+            if self.value - self._minimum.value(surface, candidate) <= least:
+                return False
+            before = self.value
+            yield from self._run(candidate[np.newaxis])
+            if self.value < before:
+                return True
+        return False
+
+    def _end(self, radius: float, promised: float, least: float) -> Finish:
+        if radius < self._rules.tol:
+            return Finish(True, f"the region is below {self._rules.tol:g} of the bounds' range")
+        within = "" if radius >= 1.0 else f" within {100.0 * radius:.3g} % of the bounds' range"
+        return Finish(True, f"the surface promises to gain less than {least:.2g}{within}")
