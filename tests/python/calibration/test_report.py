@@ -200,6 +200,14 @@ def test_ticks_of_a_logarithm_are_apart_and_the_correlations_have_a_title():
     assert "orrelations" in drawn["layout"]["title"]["text"]
 
 
+def test_what_each_loop_notices_is_drawn_a_row_a_parameter():
+    drawn = figures.sensitivities(["a", "b"], ["3 %", "6 %"], [[0.2, 0.0], [0.1, 0.003]])
+    first, second = drawn["data"]
+    assert (first["name"], first["x"], first["y"]) == ("3 %", [20.0, None], ["a", "b"])
+    assert second["x"] == [10.0, 0.3]  # nothing that is 0 has a place on a logarithmic scale
+    assert drawn["layout"]["xaxis"]["type"] == "log"
+
+
 def test_the_call_on_the_page_makes_the_search_again(search):
     found, folder, _ = search
     (record,) = records_of(folder / "s.db").values()

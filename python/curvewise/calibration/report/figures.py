@@ -36,6 +36,7 @@ __all__ = [
     "intervals",
     "loop",
     "residuals",
+    "sensitivities",
     "weakest_direction",
 ]
 
@@ -149,6 +150,27 @@ def _bars(
     x = [x for both in ends for x in (*both, None)]
     y = [part for name in names for part in (name, name, None)]
     return _trace(x, y, label, colour, width=width, hoverinfo="skip")
+
+
+def sensitivities(names: Sequence[str], titles: Sequence[str], table: Any) -> Figure:
+    """Return how far each loop moves as a parameter goes through its bounds, a row a parameter.
+
+    On a logarithmic scale: what a loop hardly notices is worth seeing beside what it does.
+    """
+    per_cents = 100.0 * np.asarray(table)
+    traces = []
+    for title, row, colour in zip(titles, per_cents, series_colours(len(titles)), strict=True):
+        noticed = [value if value > 0.0 else None for value in row]
+        dots = _trace(noticed, names, title, colour, "markers", size=11)
+        traces.append(dots | {"hovertemplate": "%{y}: %{x:.3g} % of the loop<extra></extra>"})
+    return _figure(
+        traces,
+        "% of the loop, as the parameter goes through its bounds",
+        title="What each loop notices",
+        xaxis={"type": "log"},
+        yaxis={**_DOWNWARDS, "categoryorder": "array", "categoryarray": list(names)},
+        height=155 + 34 * len(names),
+    )
 
 
 def correlations(names: Sequence[str], table: Sequence[Sequence[float]]) -> Figure:

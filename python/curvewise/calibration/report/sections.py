@@ -174,12 +174,16 @@ def _weakest(search: ShownSearch, add: AddFigure, most: int) -> str:
         [loop.title, *(f"{100 * value:.3g}" for value in row)]
         for loop, row in zip(loops, summary["sensitivities"], strict=True)
     ]
+    noticed = figures.sensitivities(
+        names, [loop.title for loop in loops], summary["sensitivities"]
+    )
     singular = ", ".join(f"{100 * value:.3g}" for value in summary["singular_values"])
     parts = [
         paragraph(f"{in_words[:1].upper()}{in_words[1:]}."),
         _side_by_side(*drawn),
         Table(changes, header).html(),
         "<h4>How far each loop moves as a parameter goes through its bounds, % of the loop</h4>",
+        _side_by_side(add(noticed, "How far each loop moves with each parameter")),
         Table(sensitivities, ["loop", *names]).html(),
         paragraph(f"The same for combinations of parameters, strongest to weakest: {singular} %."),
     ]
