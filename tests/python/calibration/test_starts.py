@@ -228,6 +228,14 @@ def test_the_answer_is_the_same_however_many_runs_are_made_at_once():
             np.testing.assert_array_equal(other.history[name], alone.history[name])
 
 
+@pytest.mark.nightly
+def test_nor_does_it_depend_on_eight_processes():
+    alone = quiet_identify(model, model(TRUE), BOUNDS, max_runs=40)
+    other = quiet_identify(slow_model, model(TRUE), BOUNDS, max_runs=40, workers=8)
+    assert other.message == alone.message
+    np.testing.assert_array_equal(other.history.value, alone.history.value)
+
+
 def slow_model(parameters):
     time.sleep(1e-3 * (hash(parameters["E"]) % 7))
     return model(parameters)

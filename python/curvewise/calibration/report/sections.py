@@ -174,9 +174,7 @@ def _weakest(search: ShownSearch, add: AddFigure, most: int) -> str:
         [loop.title, *(f"{100 * value:.3g}" for value in row)]
         for loop, row in zip(loops, summary["sensitivities"], strict=True)
     ]
-    noticed = figures.sensitivities(
-        names, [loop.title for loop in loops], summary["sensitivities"]
-    )
+    noticed = figures.sensitivities(names, [loop.title for loop in loops], summary["sensitivities"])
     singular = ", ".join(f"{100 * value:.3g}" for value in summary["singular_values"])
     parts = [
         paragraph(f"{in_words[:1].upper()}{in_words[1:]}."),
