@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import logging
 import sys
 import threading
 from collections.abc import Iterator
@@ -38,10 +39,13 @@ def problems(data_dir: Path, _scripts: None) -> ModuleType:
 
 
 @pytest.fixture(scope="module")
-def stores(problems: ModuleType) -> ModuleType:
+def stores(problems: ModuleType) -> Iterator[ModuleType]:
     module = importlib.import_module("stores")
+    log = logging.getLogger("curvewise.calibration")
+    level = log.level
     module.quiet()
-    return module
+    yield module
+    log.setLevel(level)  # other tests of this process read it
 
 
 def cycle_task(problems: ModuleType, method: str = "de", **changes: Any) -> Any:
