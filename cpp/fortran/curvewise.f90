@@ -21,7 +21,8 @@ module curvewise
 
     integer(c_int), parameter, public :: euclidean = 0, sqeuclidean = 1, cityblock = 2, &
         chebyshev = 3, minkowski = 4                        ! metric
-    integer(c_int), parameter, public :: symmetric1 = 0, symmetric2 = 1          ! step_pattern
+    ! step_pattern; the others by their places in curvewise.h
+    integer(c_int), parameter, public :: symmetric1 = 0, symmetric2 = 1
     integer(c_int), parameter, public :: spacing_distance = 0, spacing_x = 1, &
         spacing_arc_length = 2, spacing_matched = 3                              ! spacing
     integer(c_int), parameter, public :: rearrange = 0, split = 1                ! crossing
@@ -63,7 +64,8 @@ module curvewise
         integer(c_int) :: prune = 1
         real(c_double) :: cutoff = huge(1.0_c_double)
         real(c_double) :: window_fraction = 0   ! not 0: of the longer curve's points, as window
-        integer(c_int) :: normalize = 0         ! not 0: divide by n + m; symmetric2 only
+        integer(c_int) :: normalize = 0         ! not 0: divide by the weight of all paths
+        real(c_double) :: penalty = 0           ! of each step that leaves the diagonal
     end type
 
     type, bind(C), public :: curve_length_options

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "bind_topics.hpp"
@@ -219,6 +220,25 @@ py::tuple gradients_of_pairs(const std::string& name, const CurveBatch& P, const
     return py::make_tuple(values, of_p.object(), of_q.object());
 }
 
+// Calls use(options) with those of the edit distance of a name.
+template <class Use>
+py::tuple with_edit_distance(const py::object& name, const py::dict& given, Use use) {
+    return std::visit(
+        [&](const auto& options) -> py::tuple {
+            using Options = std::decay_t<decltype(options)>;
+            if constexpr (is_edit_distance<Options>) {
+                Options own = options;
+                own.cutoff = Options{}.cutoff;
+                return use(own);
+            } else {
+                throw py::value_error(
+                    "edit_path and edit_table are of the edit distances, not of " +
+                    std::string(Options::measure));
+            }
+        },
+        read_measure(name, given));
+}
+
 }  // namespace
 
 void bind_measures(py::module_& module) {
@@ -262,6 +282,43 @@ void bind_measures(py::module_& module) {
     module.def("values_and_gradients", gradients_of_pairs);
     module.def("soft_dtw", [](const CurveArray& P, const CurveArray& Q, const py::dict& options) {
         return computed(P, Q, read_options<SoftDtwOptions>(options), soft_dtw);
+    });
+    module.def("edit_path", [](const py::object& name, const CurveArray& P, const CurveArray& Q,
+                               const py::dict& given) {
+        return with_edit_distance(name, given, [&](const auto& options) {
+            return as_tuple(computed(
+                P, Q, options,
+                [](const CurveView& p, const CurveView& q, const auto& o, Control* control) {
+                    return warp_path(o.recurrence(), p, q, control);
+                }));
+        });
+    });
+    module.def("edit_table", [](const py::object& name, const CurveArray& P, const CurveArray& Q,
+                                const py::dict& given) {
+        py::array_t<double> out = allocate_table(P, Q);
+        double* const data = out.mutable_data();
+        with_edit_distance(name, given, [&](const auto& options) {
+            computed(P, Q, options,
+                     [&](const CurveView& p, const CurveView& q, const auto& o, Control* control) {
+                         warp_table(o.recurrence(), p, q, data, control);
+                         return 0;
+                     });
+            return py::tuple();
+        });
+        return out;
+    });
+    module.def("step_patterns", [] {
+        py::dict patterns;
+        for (const StepSet& one : step_patterns) patterns[one.name] = as_tuple(step_rows(one));
+        return patterns;
+    });
+    module.def("rabiner_juang", [](int type, const py::object& weight, bool smoothed) {
+        constexpr auto names = choice_names(SlopeWeight{});
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (!is_text(weight, names[i])) continue;
+            return as_tuple(rabiner_juang(type, static_cast<SlopeWeight>(i), smoothed));
+        }
+        refuse_choice("weight", weight, names.data(), names.size());
     });
     module.def("measures", measure_defaults);
     module.def("choices", option_choices);

@@ -1,7 +1,13 @@
 #include "options.hpp"
 
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
+#include <tuple>
 
 #include "curvewise/compare.hpp"
 
@@ -23,6 +29,9 @@ class ChoiceCollector {
         choices_[name] = list;
     }
     void operator()(const GroundDistance& ground) { (*this)("metric", ground.metric); }
+    void operator()(const char* name, StepPattern value, const StepRows& /*own*/) {
+        (*this)(name, value);
+    }
     template <class... Other>
     void operator()(const char* /*name*/, const Other&... /*not a choice*/) noexcept {}
 
@@ -72,10 +81,11 @@ std::optional<double> proper_fraction(const py::object& given) {
     return value;
 }
 
-double real_number(const char* option, const py::object& given, const RealNumberRange& range) {
-    if (given.is_none()) return std::numeric_limits<double>::infinity();
+double real_number(const char* option, const py::object& given, const RealNumberRange& range,
+                   bool may_be_none) {
+    if (may_be_none && given.is_none()) return std::numeric_limits<double>::infinity();
     const double value = PyFloat_AsDouble(given.ptr());
-    if (PyErr_Occurred() || !(value >= range.least)) {
+    if (PyErr_Occurred() || !(value >= range.least) || !(may_be_none || std::isfinite(value))) {
         PyErr_Clear();
         throw py::value_error(std::string(option) + " is " + repr(given) + "; " + range.advice);
     }
@@ -100,6 +110,32 @@ double minkowski_order(const py::object& p, Metric metric) {
         throw py::value_error("p is " + repr(p) + "; minkowski needs 1 <= p <= inf");
     }
     return order;
+}
+
+constexpr const char* normalizations[] = {"NA", "N", "M", "N+M"};  // in the order of Per
+
+StepRows step_rows_of(const py::object& pattern) {
+    StepRows result;
+    for (const py::handle row : py::list(pattern.attr("rows"))) {
+        const auto [step, rows, columns, weight] = row.cast<std::tuple<int, int, int, double>>();
+        result.rows.push_back({step, rows, columns, weight});
+    }
+    const auto per = pattern.attr("normalization").cast<std::string>();
+    const auto* const found = std::find(std::begin(normalizations), std::end(normalizations), per);
+    if (found == std::end(normalizations)) {
+        refuse_choice("normalization", pattern.attr("normalization"), normalizations,
+                      std::size(normalizations));
+    }
+    result.per = static_cast<Per>(found - normalizations);
+    return result;
+}
+
+py::tuple as_tuple(const StepRows& pattern) {
+    py::list rows;
+    for (const StepRow& row : pattern.rows) {
+        rows.append(py::make_tuple(row.step, row.rows, row.columns, row.weight));
+    }
+    return py::make_tuple(py::tuple(rows), normalizations[static_cast<std::size_t>(pattern.per)]);
 }
 
 py::object OptionReader::take(const char* name) {

@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <type_traits>
@@ -30,8 +31,9 @@ std::ptrdiff_t whole_number(const char* option, const py::object& given,
 // A float between 0 and 1; none for any other object.
 std::optional<double> proper_fraction(const py::object& given);
 
-// A number within the range, or infinity for None.
-double real_number(const char* option, const py::object& given, const RealNumberRange& range);
+// A number within the range; where there may be none, infinity for None, and else a finite one.
+double real_number(const char* option, const py::object& given, const RealNumberRange& range,
+                   bool may_be_none);
 
 // Python's truth.
 bool is_true(const py::object& given);
@@ -41,6 +43,12 @@ double minkowski_order(const py::object& p, Metric metric);
 
 // Whether the options are those of a batch, which has workers and a cutoff of its own.
 enum class OptionsOf { pair, batch };
+
+// What is in a StepPattern of Python's: its rows, and what it divides by.
+StepRows step_rows_of(const py::object& pattern);
+
+// (rows, what it divides by), as Python has them.
+py::tuple as_tuple(const StepRows& pattern);
 
 // Reads the options of one measure (see curvewise/options.hpp): from a dict, or from a tuple that
 // has the value of every one in the measure's order.
@@ -76,10 +84,21 @@ class OptionReader {
         continuous = is_text(object, "continuous");
         if (!continuous) value = whole_number(name, object, range);
     }
-    // Only `cutoff` is a real number.
     void operator()(const char* name, double& value, const RealNumberRange& range) {
-        if (what_ == OptionsOf::batch) return;
-        if (const py::object object = take(name)) value = real_number(name, object, range);
+        if (what_ == OptionsOf::batch && is_of_batch(name)) return;
+        const bool may_be_none = value == std::numeric_limits<double>::infinity();
+        if (const py::object object = take(name)) {
+            value = real_number(name, object, range, may_be_none);
+        }
+    }
+    // A step pattern by its name, or one's own.
+    void operator()(const char* name, StepPattern& value, StepRows& own) {
+        const py::object object = take(name);
+        if (object && !PyUnicode_Check(object.ptr()) && py::hasattr(object, "rows")) {
+            own = step_rows_of(object);
+        } else if (object) {
+            value = choose<StepPattern>(name, object);
+        }
     }
     void operator()(GroundDistance& ground) {
         const py::object metric = take("metric");
@@ -87,6 +106,9 @@ class OptionReader {
         const py::object p = take("p");
         if (p && !p.is_none()) ground.p = minkowski_order(p, ground.metric);
     }
+
+    // Whether a number is not the measure's but the batch's.
+    static bool is_of_batch(const char* name) noexcept { return std::strcmp(name, "cutoff") == 0; }
 
     // How many values have been read.
     py::ssize_t taken() const noexcept { return taken_; }
@@ -142,6 +164,9 @@ class OptionWriter {
     void operator()(const char* name, double value, const RealNumberRange& /*range*/) {
         const bool is_none = value == std::numeric_limits<double>::infinity();
         options_[name] = is_none ? py::object(py::none()) : py::object(py::float_(value));
+    }
+    void operator()(const char* name, StepPattern value, const StepRows& /*own*/) {
+        (*this)(name, value);
     }
     void operator()(const GroundDistance& ground) {
         (*this)("metric", ground.metric);

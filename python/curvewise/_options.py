@@ -24,7 +24,7 @@ __all__ = [
     "Order",
     "Preset",
     "Spacing",
-    "StepPattern",
+    "StepPatternName",
     "WarpingName",
     "Window",
     "check_choice",
@@ -40,7 +40,35 @@ Preset: TypeAlias = Literal["scaled", "paper", "raw"]
 
 Metric: TypeAlias = Literal["euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"]
 Order: TypeAlias = SupportsFloat | None
-StepPattern: TypeAlias = Literal["symmetric1", "symmetric2"]
+StepPatternName: TypeAlias = Literal[
+    "symmetric1",
+    "symmetric2",
+    "asymmetric",
+    "symmetricP0",
+    "symmetricP05",
+    "symmetricP1",
+    "symmetricP2",
+    "asymmetricP0",
+    "asymmetricP05",
+    "asymmetricP1",
+    "asymmetricP2",
+    "typeIa",
+    "typeIb",
+    "typeIc",
+    "typeId",
+    "typeIas",
+    "typeIbs",
+    "typeIcs",
+    "typeIds",
+    "typeIIa",
+    "typeIIb",
+    "typeIIc",
+    "typeIId",
+    "typeIIIc",
+    "typeIVc",
+    "rigid",
+    "mori2006",
+]
 Window: TypeAlias = SupportsIndex | float | None
 Spacing: TypeAlias = Literal["distance", "x", "arc_length", "matched"]
 Crossing: TypeAlias = Literal["rearrange", "split"]
@@ -49,7 +77,9 @@ LengthScale: TypeAlias = Literal["mean", "mean_abs", "range"]
 
 
 _DEFAULTS: dict[str, Any] = {
-    option: value for options in measures().values() for option, value in options.items()
+    option: value
+    for options in reversed(measures().values())  # of the same option, the first measure's
+    for option, value in options.items()
 }
 
 
@@ -58,7 +88,8 @@ class Default:
 
     metric: Final[Metric] = _DEFAULTS["metric"]
     p: Final[Order] = _DEFAULTS["p"]
-    step_pattern: Final[StepPattern] = _DEFAULTS["step_pattern"]
+    step_pattern: Final[StepPatternName] = _DEFAULTS["step_pattern"]
+    penalty: Final[SupportsFloat] = _DEFAULTS["penalty"]
     window: Final[Window] = _DEFAULTS["window"]
     open_begin: Final[bool] = _DEFAULTS["open_begin"]
     open_end: Final[bool] = _DEFAULTS["open_end"]

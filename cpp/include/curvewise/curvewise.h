@@ -60,7 +60,35 @@ enum curvewise_metric {
     CURVEWISE_MINKOWSKI
 };
 /** Values of curvewise_dtw_options.step_pattern. */
-enum curvewise_step_pattern { CURVEWISE_SYMMETRIC1, CURVEWISE_SYMMETRIC2 };
+enum curvewise_step_pattern {
+    CURVEWISE_SYMMETRIC1,
+    CURVEWISE_SYMMETRIC2,
+    CURVEWISE_ASYMMETRIC,
+    CURVEWISE_SYMMETRICP0,
+    CURVEWISE_SYMMETRICP05,
+    CURVEWISE_SYMMETRICP1,
+    CURVEWISE_SYMMETRICP2,
+    CURVEWISE_ASYMMETRICP0,
+    CURVEWISE_ASYMMETRICP05,
+    CURVEWISE_ASYMMETRICP1,
+    CURVEWISE_ASYMMETRICP2,
+    CURVEWISE_TYPEIA,
+    CURVEWISE_TYPEIB,
+    CURVEWISE_TYPEIC,
+    CURVEWISE_TYPEID,
+    CURVEWISE_TYPEIAS,
+    CURVEWISE_TYPEIBS,
+    CURVEWISE_TYPEICS,
+    CURVEWISE_TYPEIDS,
+    CURVEWISE_TYPEIIA,
+    CURVEWISE_TYPEIIB,
+    CURVEWISE_TYPEIIC,
+    CURVEWISE_TYPEIID,
+    CURVEWISE_TYPEIIIC,
+    CURVEWISE_TYPEIVC,
+    CURVEWISE_RIGID,
+    CURVEWISE_MORI2006
+};
 /** Values of curvewise_area_options.spacing. */
 enum curvewise_spacing {
     CURVEWISE_SPACING_DISTANCE,
@@ -116,7 +144,8 @@ typedef struct curvewise_dtw_options {
     int prune;              /**< not 0: leave out what cannot matter of the table */
     double cutoff;          /**< a value above it becomes infinity */
     double window_fraction; /**< not 0: in place of window, a fraction of the longer curve */
-    int normalize;          /**< not 0: divide by n + m; CURVEWISE_SYMMETRIC2 only */
+    int normalize;          /**< not 0: divide by the weight of all paths, e.g. n + m */
+    double penalty;         /**< of each step that leaves the diagonal */
 } curvewise_dtw_options;
 /** As the window: no band. */
 #define CURVEWISE_NO_WINDOW (-1)
@@ -124,7 +153,7 @@ typedef struct curvewise_dtw_options {
 #define CURVEWISE_DTW_DEFAULTS                                                                     \
     {                                                                                              \
         CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL, \
-            0.0, 0                                                                                 \
+            0.0, 0, 0.0                                                                            \
     }
 
 /** Options of curvewise_curve_length(), as in curve_length.hpp. */

@@ -4,7 +4,8 @@
 ///     c[0, 0] = d(P_0, Q_0)
 ///     c[i, j] = min(min(c[i-1, j], c[i, j-1]) + d, c[i-1, j-1] + w d),   d = d(P_i, Q_j)
 ///
-/// w = 1 for symmetric1, 2 for symmetric2 (Sakoe & Chiba 1978). Exact. Time O(n m); memory O(n + m)
+/// w = 1 for symmetric1, 2 for symmetric2 (Sakoe & Chiba 1978); step_pattern.hpp has others, and
+/// recurrence.hpp what they mean. Exact. Time O(n m); memory O(n + m)
 /// for the distance and the path, 8 n m bytes for the table. Every function throws
 /// std::invalid_argument for a curve that is empty or not finite, for curves of different
 /// dimension, and for options out of range, with a message that says which and where;
@@ -27,17 +28,10 @@
 #include "curvewise/export.h"
 #include "curvewise/ground_distance.hpp"
 #include "curvewise/options.hpp"
+#include "curvewise/step_pattern.hpp"
 #include "curvewise/warping_info.hpp"
 
 namespace curvewise {
-
-/// What a diagonal step counts: once, or twice.
-enum class StepPattern { symmetric1, symmetric2 };
-
-/// The names of the enumerators, in their order.
-constexpr auto choice_names(StepPattern /*pattern*/) noexcept {
-    return names_up_to<StepPattern::symmetric2>("symmetric1", "symmetric2");
-}
 
 /// Which paths dtw() allows, what it adds up along them, and how it is computed.
 struct DtwOptions {
@@ -46,6 +40,10 @@ struct DtwOptions {
 
     GroundDistance ground;
     StepPattern step_pattern = StepPattern::symmetric1;
+    /// In place of `step_pattern`, where there are rows.
+    StepRows own_steps = {};
+    /// What each step costs besides that leaves the diagonal, at least 0.
+    double penalty = 0.0;
     /// Sakoe-Chiba band: |i (m-1) - j (n-1)| <= window (max(n, m) - 1); none where n or m is 1.
     std::optional<std::ptrdiff_t> window;
     /// In place of `window`, a fraction between 0 and 1 of the points of the longer curve, cut to a
@@ -55,8 +53,9 @@ struct DtwOptions {
     /// anywhere. With symmetric1 and without a window only.
     bool open_begin = false;
     bool open_end = false;
-    /// Divide the distance by n + m, the sum of the weights of any path, with symmetric2 only.
-    /// Paths and tables do not look at it.
+    /// Divide the distance by the sum of the weights of any path: n + m, n or m, as the step
+    /// pattern has it; not with patterns whose paths differ in it. Paths and tables do not look at
+    /// it.
     bool normalize = false;
     /// Threads for this call, -1 for one per core. Never changes a result.
     std::ptrdiff_t workers = 1;
@@ -66,9 +65,9 @@ struct DtwOptions {
     /// tables do not look at it; batches have one of their own besides.
     double cutoff = std::numeric_limits<double>::infinity();
 
-    constexpr bool is_symmetric() const noexcept { return !open_begin && !open_end; }
+    CURVEWISE_EXPORT bool is_symmetric() const;
     /// The elementary steps, of some nanoseconds each, that curves of n and m points take, roughly.
-    constexpr double work(double n, double m, double dim) const noexcept {
+    double work(double n, double m, double dim) const noexcept {
         return n * m * ground.weight(dim);
     }
 };
@@ -77,7 +76,8 @@ struct DtwOptions {
 template <class Visit>
 void visit_options(DtwOptions& options, Visit&& visit) {
     visit(options.ground);
-    visit("step_pattern", options.step_pattern);
+    visit("step_pattern", options.step_pattern, options.own_steps);
+    visit("penalty", options.penalty, penalty_range);
     visit("window", options.window, options.window_fraction, window_range);
     visit("open_begin", options.open_begin);
     visit("open_end", options.open_end);

@@ -10,15 +10,25 @@
 #include "curvewise/area.hpp"
 #include "curvewise/curve_length.hpp"
 #include "curvewise/dtw.hpp"
+#include "curvewise/edit_distances.hpp"
 #include "curvewise/frechet.hpp"
 #include "curvewise/frechet_continuous.hpp"
+#include "curvewise/hausdorff.hpp"
 #include "curvewise/pcm.hpp"
 
 namespace curvewise {
 
+namespace detail {
+template <class... Options, class... More>
+std::variant<Options..., More...> joined(const std::variant<Options...>*,
+                                         const std::variant<More...>*);
+using SingleMeasure = std::variant<AreaOptions, PcmOptions, FrechetOptions, DtwOptions,
+                                   CurveLengthOptions, FrechetContinuousOptions, HausdorffOptions>;
+}  // namespace detail
+
 /// A measure, chosen by the type of its options.
-using Measure = std::variant<AreaOptions, PcmOptions, FrechetOptions, DtwOptions,
-                             CurveLengthOptions, FrechetContinuousOptions>;
+using Measure = decltype(detail::joined(static_cast<const detail::SingleMeasure*>(nullptr),
+                                        static_cast<const EditDistance*>(nullptr)));
 
 namespace detail {
 template <class Visit, class... Options>

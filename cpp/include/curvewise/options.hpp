@@ -44,6 +44,9 @@ inline constexpr RealNumberRange cutoff_range{0.0, "give a number >= 0, or None"
 /// Of the smoothness of soft_dtw.
 inline constexpr RealNumberRange gamma_range{0.0, "give a finite number > 0"};  // 0 is refused, too
 
+/// Of what each step of a warping path costs that leaves the diagonal.
+inline constexpr RealNumberRange penalty_range{0.0, "give a number >= 0"};
+
 /// The names of an enumeration's enumerators, in their order, as choice_names() gives them; `last`
 /// is the last one there is.
 template <auto last, class... Name>

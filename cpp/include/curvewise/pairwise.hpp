@@ -27,7 +27,7 @@ namespace curvewise {
 
 /// Whether d(P, Q) = d(Q, P): dtw without open ends, frechet, and (to rounding) area except with
 /// Spacing::arc_length.
-CURVEWISE_EXPORT bool is_symmetric(const Measure& measure) noexcept;
+CURVEWISE_EXPORT bool is_symmetric(const Measure& measure);
 
 /// How a batch is run.
 struct BatchOptions {

@@ -47,8 +47,8 @@ static_assert(is_measure<CURVEWISE_FRECHET, curvewise::FrechetOptions>);
 static_assert(is_measure<CURVEWISE_DTW, curvewise::DtwOptions>);
 static_assert(is_measure<CURVEWISE_CURVE_LENGTH, curvewise::CurveLengthOptions>);
 static_assert(is_measure<CURVEWISE_FRECHET_CONTINUOUS, curvewise::FrechetContinuousOptions>);
-constexpr int measures = std::variant_size_v<curvewise::Measure>;
-static_assert(CURVEWISE_FRECHET_CONTINUOUS + 1 == measures);
+// hausdorff and the edit distances are C++'s and Python's alone.
+constexpr int measures = CURVEWISE_FRECHET_CONTINUOUS + 1;
 
 [[noreturn]] void refuse_choice(const char* option, int given, int count) {
     throw std::invalid_argument("unknown " + std::string(option) + " " + std::to_string(given) +
@@ -90,6 +90,7 @@ curvewise::DtwOptions translate(const curvewise_dtw_options& given) {
     curvewise::DtwOptions options;
     options.ground = ground_distance(given.metric, given.p);
     options.step_pattern = choice<StepPattern>("step_pattern", given.step_pattern);
+    options.penalty = given.penalty;
     if (given.window != CURVEWISE_NO_WINDOW) options.window = given.window;
     if (given.window_fraction != 0.0) options.window_fraction = given.window_fraction;
     options.normalize = given.normalize != 0;

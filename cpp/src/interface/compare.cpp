@@ -66,7 +66,9 @@ Condition condition(Preset preset, CurveLengthOptions options) {
 // A Comparison has the five measures of the paper. The continuous Fréchet distance would say nearly
 // the same as the discrete one.
 template <class Options>
-constexpr bool is_compared = !std::is_same_v<Options, FrechetContinuousOptions>;
+constexpr bool is_compared =
+    !std::is_same_v<Options, FrechetContinuousOptions> &&
+    !std::is_same_v<Options, HausdorffOptions> && !is_edit_distance<Options>;
 
 // The values that a Comparison has as members, too.
 template <class Options>

@@ -177,7 +177,7 @@ DtwMean dtw_mean(const std::vector<CurveView>& curves, const std::vector<double>
     std::int64_t steps = 0;
     for (std::size_t i = 0; i < curves.size(); ++i) {
         checked.emplace_back(curves[i], list.name_of(i), poller);
-        warping::check_sizes(measure, initial.size(), curves[i].size());
+        measure.window.check_sizes(initial.size(), curves[i].size());
         steps += initial.size() * curves[i].size();
     }
     poller.begin((options.iterations + 1) * steps);

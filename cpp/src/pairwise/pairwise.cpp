@@ -24,14 +24,8 @@ void check_options(const BatchOptions& options) {
 
 }  // namespace
 
-bool is_symmetric(const Measure& measure) noexcept {
-    // Not std::visit, which may throw as far as a compiler can see.
-    bool result = false;
-    for_each_measure([&](const auto& defaults) {
-        using Options = std::decay_t<decltype(defaults)>;
-        if (const auto* options = std::get_if<Options>(&measure)) result = options->is_symmetric();
-    });
-    return result;
+bool is_symmetric(const Measure& measure) {
+    return std::visit([](const auto& options) { return options.is_symmetric(); }, measure);
 }
 
 double evaluate(const Measure& measure, const CurveView& P, const CurveView& Q, Control* control) {

@@ -24,16 +24,16 @@ Level choose_level() {
 }  // namespace
 
 std::vector<Level> available_levels() {
-    std::vector<Level> levels{{"baseline", &kernels::baseline}};
+    std::vector<Level> levels{{"baseline", &kernels::baseline, &kernels::recurrences::baseline}};
 #ifdef CURVEWISE_X86_64_LEVELS
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
         __builtin_cpu_supports("bmi2")) {
-        levels.push_back({"v3", &kernels::v3});
+        levels.push_back({"v3", &kernels::v3, &kernels::recurrences::v3});
         if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
             __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
             __builtin_cpu_supports("avx512vl")) {
-            levels.push_back({"v4", &kernels::v4});
+            levels.push_back({"v4", &kernels::v4, &kernels::recurrences::v4});
         }
     }
 #endif

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "warping/kernels/recurrence.hpp"
 #include "warping/kernels/strip.hpp"
 
 namespace curvewise::warping {
@@ -11,6 +12,7 @@ namespace curvewise::warping {
 struct Level {
     const char* name;
     const kernels::KernelSet* kernels;
+    const kernels::RecurrenceKernels* recurrences;
 };
 
 // Those this machine has, the slowest first.

@@ -178,7 +178,7 @@ double PairBounds::run_bound(const BoxTree& Q, std::ptrdiff_t most_runs) {
     const std::ptrdiff_t rows = tree_.boxes(level), columns = Q.boxes(q_level);
     const std::ptrdiff_t row_points = BoxTree::leaf_points << level;
     const std::ptrdiff_t column_points = BoxTree::leaf_points << q_level;
-    const Band band(tree_.size(), Q.size(), options_.window_for(tree_.size(), Q.size()));
+    const Band band(tree_.size(), Q.size(), options_.window.between(tree_.size(), Q.size()));
     run_terms_.assign(static_cast<std::size_t>(rows + columns), infinity);
     double* const row_terms = run_terms_.data();
     double* const column_terms = row_terms + rows;
@@ -237,7 +237,7 @@ void PairBounds::compute_terms(std::ptrdiff_t j, const PackedCurve& q) {
                            BandedBoxes& banded, AlignedBuffer& out) {
         const std::ptrdiff_t level = tree_level(boxes, most_boxes[point_level]);
         banded.assign(points.size(), order, boxes, level,
-                      options_.window_for(points.size(), boxes.size()));
+                      options_.window.between(points.size(), boxes.size()));
         out.reserve(AlignedBuffer::rounded(points.size() + kernels::padding));
         kernel_({points.data(), points.stride(), points.size(), points.dim(), boxes.box(level, 0),
                  boxes.boxes(level), banded.first(), banded.last(), out.data()});

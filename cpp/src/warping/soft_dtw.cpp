@@ -55,7 +55,7 @@ class SoftDtwMeasure {
         : options_(checked_options(options)), gamma_(options.gamma) {}
     curves::Requirements requirements() const noexcept { return {options_.measure, 1, false}; }
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const {
-        warping::check_sizes(options_, n, m);
+        options_.window.check_sizes(n, m);
     }
     static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
     static std::ptrdiff_t workers() noexcept { return 1; }
@@ -121,7 +121,7 @@ class SoftDtwMeasure {
         check_gamma(per_square, range.shrink(largest), P.curve.dim());
         const PackedCurve p(P.curve, range, PointOrder::forward, poller);
         const PackedCurve q(Q.curve, range, PointOrder::reversed, poller);
-        SoftSweep sweep({p, q}, Band(n, m, options_.window_for(n, m)), per_square, poller);
+        SoftSweep sweep({p, q}, Band(n, m, options_.window.between(n, m)), per_square, poller);
         return use(sweep, range);
     }
 

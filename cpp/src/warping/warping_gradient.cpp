@@ -2,9 +2,11 @@
 // differentiated. O(path length) beyond the path.
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "curvewise/gradient.hpp"
+#include "warping/dtw_recurrence.hpp"
 #include "warping/ground_distance.hpp"
 
 namespace curvewise {
@@ -92,6 +94,10 @@ class Sums {
 
 double value_and_gradients(const DtwOptions& options, const CurveView& P, const CurveView& Q,
                            const Gradients& out, Control* control) {
+    if (!warping::is_swept_by_dtw(options)) {
+        throw std::invalid_argument(
+            "a gradient needs step_pattern='symmetric1' or 'symmetric2' and no penalty");
+    }
     const Alignment alignment = dtw_path(P, Q, options, control);
     Sums sums(out, P, Q);
     const double divisor =

@@ -9,6 +9,8 @@
 #include "curvewise/frechet.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
+#include "runtime/stopwatch.hpp"
+#include "warping/dtw_recurrence.hpp"
 #include "warping/pair_bounds.hpp"
 #include "warping/warping_problem.hpp"
 
@@ -17,12 +19,14 @@ namespace {
 
 using curves::RangeScale;
 using runtime::Poller;
+using warping::Band;
 using warping::CostToGo;
 using warping::PackedCurve;
 using warping::PointOrder;
 using warping::SweepMemory;
 using warping::WarpingOptions;
 using warping::WarpingProblem;
+using warping::Window;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -46,7 +50,7 @@ class WarpingMeasure {
     explicit WarpingMeasure(const Options& options) : options_(warping::checked_options(options)) {}
     curves::Requirements requirements() const noexcept { return {options_.measure, 1, false}; }
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const {
-        warping::check_sizes(options_, n, m);
+        options_.window.check_sizes(n, m);
     }
     static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
     std::ptrdiff_t workers() const noexcept { return options_.workers; }
@@ -175,7 +179,15 @@ void table(const WarpingMeasure& measure, const CurveView& P, const CurveView& Q
 
 }  // namespace
 
+bool DtwOptions::is_symmetric() const {
+    if (warping::is_swept_by_dtw(*this)) return !open_begin && !open_end;
+    return warping::recurrence_of(*this).is_symmetric();
+}
+
 double dtw(const CurveView& P, const CurveView& Q, const DtwOptions& options, Control* control) {
+    if (!warping::is_swept_by_dtw(options)) {
+        return warp(warping::recurrence_of(options), P, Q, control);
+    }
     return pairwise::evaluate(WarpingMeasure(options), P, Q, control);
 }
 
@@ -186,6 +198,9 @@ double frechet(const CurveView& P, const CurveView& Q, const FrechetOptions& opt
 
 Alignment dtw_path(const CurveView& P, const CurveView& Q, const DtwOptions& options,
                    Control* control) {
+    if (!warping::is_swept_by_dtw(options)) {
+        return warp_path(warping::recurrence_of_path(options), P, Q, control);
+    }
     return path(WarpingMeasure(options), P, Q, control);
 }
 
@@ -196,6 +211,21 @@ Alignment frechet_path(const CurveView& P, const CurveView& Q, const FrechetOpti
 
 WarpingInfo dtw_info(const CurveView& P, const CurveView& Q, const DtwOptions& options,
                      Control* control) {
+    if (!warping::is_swept_by_dtw(options)) {
+        runtime::Stopwatch all;
+        WarpingInfo info;
+        info.value = dtw(P, Q, options, control);
+        const Band band(
+            P.size(), Q.size(),
+            Window{options.window, options.window_fraction}.between(P.size(), Q.size()));
+        for (std::ptrdiff_t i = 0; i < P.size(); ++i) {
+            info.cells_swept += band.columns(i).last - band.columns(i).first + 1;
+        }
+        info.share = static_cast<double>(info.cells_swept) /
+                     (static_cast<double>(P.size()) * static_cast<double>(Q.size()));
+        info.phases.push_back({"all", all.lap()});
+        return info;
+    }
     return info(WarpingMeasure(options), P, Q, control);
 }
 
@@ -206,6 +236,9 @@ WarpingInfo frechet_info(const CurveView& P, const CurveView& Q, const FrechetOp
 
 void dtw_table(const CurveView& P, const CurveView& Q, double* out, const DtwOptions& options,
                Control* control) {
+    if (!warping::is_swept_by_dtw(options)) {
+        return warp_table(warping::recurrence_of_path(options), P, Q, out, control);
+    }
     table(WarpingMeasure(options), P, Q, out, control);
 }
 
@@ -215,6 +248,7 @@ void frechet_table(const CurveView& P, const CurveView& Q, double* out,
 }
 
 std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(const DtwOptions& options) {
+    if (!warping::is_swept_by_dtw(options)) return batch_measure(warping::recurrence_of(options));
     return std::make_unique<BatchOf<WarpingMeasure>>(WarpingMeasure(options));
 }
 

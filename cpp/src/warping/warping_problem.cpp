@@ -10,6 +10,7 @@
 #include "runtime/workers.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/dtw_pruned.hpp"
+#include "warping/dtw_recurrence.hpp"
 #include "warping/frechet_corridor.hpp"
 #include "warping/frechet_pruned.hpp"
 #include "warping/ground_distance.hpp"
@@ -20,24 +21,17 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-void check_window(const DtwOptions& options) {
-    if (options.window && options.window_fraction) {
-        throw std::invalid_argument("window and window_fraction are both given; give one of them");
-    }
-    if (options.window) curves::check_whole_number("window", *options.window, window_range);
-    if (options.window_fraction &&
-        !(*options.window_fraction > 0.0 && *options.window_fraction < 1.0)) {
-        throw std::invalid_argument("window is " + std::to_string(*options.window_fraction) + "; " +
-                                    window_range.advice);
-    }
-}
-
 }  // namespace
 
 WarpingOptions checked_options(const DtwOptions& options) {
+    if (!is_swept_by_dtw(options)) {
+        throw std::invalid_argument(
+            "this needs step_pattern='symmetric1' or 'symmetric2' and no penalty");
+    }
     check_ground_distance(options.ground);
     curves::check_cutoff(options.cutoff);
-    check_window(options);
+    const Window window{options.window, options.window_fraction};
+    window.check();
     const bool is_symmetric1 = options.step_pattern == StepPattern::symmetric1;
     if (options.open_begin || options.open_end) {
         if (!is_symmetric1) {
@@ -58,8 +52,7 @@ WarpingOptions checked_options(const DtwOptions& options) {
         runtime::resolve_workers(options.workers),
         options.prune,
         options.cutoff,
-        options.window,
-        options.window_fraction,
+        window,
         options.open_begin,
         options.open_end,
         options.normalize};
@@ -71,13 +64,6 @@ WarpingOptions checked_options(const FrechetOptions& options) {
     return {FrechetOptions::measure, kernels::Recurrence::frechet,
             options.ground,          runtime::resolve_workers(options.workers),
             options.prune,           options.cutoff};
-}
-
-void check_sizes(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m) {
-    if (options.window_for(n, m) == 0 && n != m && n > 1 && m > 1) {
-        throw std::invalid_argument("window=0 admits no path between " + std::to_string(n) +
-                                    " and " + std::to_string(m) + " points; use at least 1");
-    }
 }
 
 WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& curves,
@@ -92,7 +78,7 @@ WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& 
              canonical_cost(options.ground, curves),
              options.ground.p,
              Band(curves.rows(), curves.columns(),
-                  options.window_for(curves.rows(), curves.columns())),
+                  options.window.between(curves.rows(), curves.columns())),
              options.open_begin,
              call.workers,
              call.poller,

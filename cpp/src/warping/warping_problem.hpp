@@ -21,6 +21,7 @@
 #include "pairwise/measure.hpp"
 #include "warping/path.hpp"
 #include "warping/sweep_problem.hpp"
+#include "warping/window.hpp"
 
 namespace curvewise::warping {
 
@@ -32,16 +33,11 @@ struct WarpingOptions {
     std::ptrdiff_t workers;
     bool prune = false;
     double cutoff = std::numeric_limits<double>::infinity();
-    std::optional<std::ptrdiff_t> window = std::nullopt;
-    std::optional<double> window_fraction = std::nullopt;
+    Window window = {};
     bool open_begin = false;
     bool open_end = false;
     bool normalize = false;
 
-    std::optional<std::ptrdiff_t> window_for(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
-        if (!window_fraction) return window;
-        return static_cast<std::ptrdiff_t>(*window_fraction * static_cast<double>(std::max(n, m)));
-    }
     // What a distance is divided by.
     double divisor(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
         return normalize ? static_cast<double>(n) + static_cast<double>(m) : 1.0;
@@ -50,9 +46,6 @@ struct WarpingOptions {
 
 WarpingOptions checked_options(const DtwOptions& options);
 WarpingOptions checked_options(const FrechetOptions& options);
-// Throws where the window admits no path.
-void check_sizes(const WarpingOptions& options, std::ptrdiff_t n, std::ptrdiff_t m);
-
 class WarpingProblem {
    public:
     WarpingProblem(const WarpingOptions& options, const PackedPair& curves, const RangeScale& range,

@@ -13,17 +13,23 @@ material parameters from hysteresis loops using inverse analysis", Int. J. Mater
 
 from __future__ import annotations
 
+from . import edit_distances
 from .area import area, area_quads
 from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_info, dtw_path, dtw_table
+from .edit_distances import *  # noqa: F403  # the names that it lists
 from .frechet import frechet, frechet_info, frechet_path, frechet_table
 from .frechet_continuous import frechet_continuous, frechet_continuous_path, frechet_within
 from .gradient import value_and_gradient, values_and_gradients
+from .hausdorff import hausdorff
 from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, normalize, sum_of_squares
 from .soft_dtw import soft_dtw, soft_dtw_divergence
+from .step_pattern import StepPattern
 
 __all__ = [
+    *edit_distances.__all__,
+    "StepPattern",
     "area",
     "area_quads",
     "curve_length",
@@ -39,6 +45,7 @@ __all__ = [
     "frechet_path",
     "frechet_table",
     "frechet_within",
+    "hausdorff",
     "mae",
     "mse",
     "normalize",

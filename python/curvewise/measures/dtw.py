@@ -12,10 +12,11 @@ from .._core import dtw_info as compiled_dtw_info
 from .._core import dtw_path as compiled_dtw_path
 from .._core import dtw_table as compiled_dtw_table
 from .._docstrings import filled
-from .._options import Default, Metric, Order, StepPattern, Window
+from .._options import Default, Metric, Order, Window
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.named_curve import copied
 from .results import Alignment, WarpingInfo
+from .step_pattern import Steps
 
 __all__ = ["dtw", "dtw_info", "dtw_path", "dtw_table"]
 
@@ -27,7 +28,8 @@ def dtw(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
-    step_pattern: StepPattern = Default.step_pattern,
+    step_pattern: Steps = Default.step_pattern,
+    penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
@@ -44,9 +46,15 @@ def dtw(
         The curves, of any d.
     {metric}
     {p}
-    step_pattern : {"symmetric1", "symmetric2"}
+    step_pattern : str or StepPattern
         "symmetric2" counts a diagonal step twice; it is R's default, with which the paper's
-        tables were made.
+        tables were made. The others of R's dtw: "asymmetric", "symmetricP0", "symmetricP05",
+        "symmetricP1", "symmetricP2", the same four as "asymmetricP0" and so on, "typeIa" to
+        "typeId", "typeIas" to "typeIds", "typeIIa" to "typeIId", "typeIIIc", "typeIVc", "rigid",
+        "mori2006"; or a :class:`StepPattern` of one's own.
+    penalty : float >= 0
+        What each step costs besides that does not go forward by as many points of P as of Q, in
+        units of the ground distance.
     window : int >= 0 or 0 < float < 1, optional
         Sakoe–Chiba band: abs(i (m-1) - j (n-1)) <= window (max(n, m) - 1), that is
         abs(i - j) <= window where n = m. No limit where n = 1 or m = 1. A fraction is one of
@@ -55,9 +63,10 @@ def dtw(
         Subsequence DTW: P is matched to a part of Q, which may begin, or end, anywhere. Not
         normalised by length. With "symmetric1" and without a window only.
     normalize : bool
-        Divide by n + m, the sum of the step weights of every path: a distance per step, which does
-        not grow with the number of points. With "symmetric2" only, as in R's dtw and dtw-python,
-        because paths of "symmetric1" differ in length.
+        Divide by the sum of the step weights, where all paths have the same: n + m with
+        "symmetric2", else what the pattern says (:attr:`StepPattern.normalization`). A distance
+        per step, which does not grow with the number of points. Not with "symmetric1" and others
+        whose paths differ in length, as in R's dtw and dtw-python.
     {workers}
     {prune}
     {cutoff}
@@ -66,7 +75,8 @@ def dtw(
     -------
     float
         In units of the ground distance; not divided by the length of the path unless
-        ``normalize``. Symmetric, except with open ends.
+        ``normalize``; inf where the step pattern has no path between curves so different in
+        length. Symmetric, except with open ends and where the step pattern is not.
 
     Raises
     ------
@@ -80,7 +90,10 @@ def dtw(
     -----
     Sakoe & Chiba (1978): c[i, j] = min(min(c[i-1, j], c[i, j-1]) + d, c[i-1, j-1] + w d), with
     w = 1 for "symmetric1" and 2 for "symmetric2"; open ends: Müller (2007). Exact. Time O(n m),
-    or the cells of the band; memory O(n + m).
+    or the cells of the band; memory O(n + m). With another pattern or a penalty, in one thread
+    and without pruning, O(n m) times the number of weights: c[i, j] is the least, over the steps
+    of the pattern, of c where the step begins, plus the penalty, plus the weighted distances of
+    the cells that it visits, added in this order.
 
     What other packages call DTW, in these options:
 
@@ -92,6 +105,7 @@ def dtw(
     dtaidistance's ``window=w``                    ``window=w - 1``
     tslearn's ``sakoe_chiba_radius=r``             ``window=r``
     aeon's ``window=f``, of n = m points           ``window=f``
+    aeon's ``adtw_distance(warp_penalty=w)``       ``metric="sqeuclidean", penalty=w``
     =============================================  ===========================================
 
     Examples
@@ -103,11 +117,14 @@ def dtw(
     0.14285714285714285
     >>> curvewise.dtw([1, 2], [9, 1, 2, 9], open_begin=True, open_end=True)
     0.0
+    >>> curvewise.dtw([0, 1, 2, 3], [0, 2, 3], step_pattern="typeIIa", penalty=0.5)
+    0.5
     """
     options = (
         metric,
         p,
         step_pattern,
+        penalty,
         window,
         open_begin,
         open_end,
@@ -125,7 +142,8 @@ def dtw_info(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
-    step_pattern: StepPattern = Default.step_pattern,
+    step_pattern: Steps = Default.step_pattern,
+    penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
@@ -136,7 +154,7 @@ def dtw_info(
 
     Parameters
     ----------
-    P, Q, metric, p, step_pattern, window, open_begin, open_end, workers, prune
+    P, Q, metric, p, step_pattern, penalty, window, open_begin, open_end, workers, prune
         As for :func:`dtw`.
 
     Returns
@@ -162,8 +180,8 @@ def dtw_info(
     (1.0, 12, 1.0)
     """
     P, Q = as_curves(P, Q)
-    steps = {"metric": metric, "p": p, "step_pattern": step_pattern, "window": window}
-    ends = {"open_begin": open_begin, "open_end": open_end}
+    steps = {"metric": metric, "p": p, "step_pattern": step_pattern, "penalty": penalty}
+    ends = {"window": window, "open_begin": open_begin, "open_end": open_end}
     how = {"workers": workers, "prune": prune}
     return WarpingInfo(*compiled_dtw_info(P, Q, steps | ends | how))
 
@@ -174,7 +192,8 @@ def dtw_path(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
-    step_pattern: StepPattern = Default.step_pattern,
+    step_pattern: Steps = Default.step_pattern,
+    penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
@@ -185,15 +204,16 @@ def dtw_path(
 
     Parameters
     ----------
-    P, Q, metric, p, step_pattern, window, open_begin, open_end, workers, prune
+    P, Q, metric, p, step_pattern, penalty, window, open_begin, open_end, workers, prune
         As for :func:`dtw`.
 
     Returns
     -------
     Alignment
         ``distance`` and ``path``, shape (k, 2). Among equal predecessors the diagonal is taken,
-        then (i-1, j), then (i, j-1); with an open end, the first best j. The sum of step weight
-        times ground distance, in path order, equals the distance to the bit.
+        then (i-1, j), then (i, j-1), or that of the first step in the pattern; with an open end,
+        the first best j. The sum of step weight times ground distance, in path order, equals the
+        distance to the bit. Of a step over several cells, all that it visits are in the path.
 
     Raises
     ------
@@ -212,8 +232,8 @@ def dtw_path(
     [[0, 0], [1, 0], [2, 1], [3, 2]]
     """
     A, B = as_curves(P, Q)
-    steps = {"metric": metric, "p": p, "step_pattern": step_pattern, "window": window}
-    ends = {"open_begin": open_begin, "open_end": open_end}
+    steps = {"metric": metric, "p": p, "step_pattern": step_pattern, "penalty": penalty}
+    ends = {"window": window, "open_begin": open_begin, "open_end": open_end}
     how = {"workers": workers, "prune": prune}
     found = compiled_dtw_path(A, B, steps | ends | how)
     return Alignment(*found, (copied(P, A), copied(Q, B)))
@@ -225,7 +245,8 @@ def dtw_table(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
-    step_pattern: StepPattern = Default.step_pattern,
+    step_pattern: Steps = Default.step_pattern,
+    penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
@@ -234,7 +255,7 @@ def dtw_table(
 
     Parameters
     ----------
-    P, Q, metric, p, step_pattern, window, open_begin, open_end
+    P, Q, metric, p, step_pattern, penalty, window, open_begin, open_end
         As for :func:`dtw`. An open end does not change the table: the value is then the smallest
         entry of its last row.
 
@@ -261,6 +282,6 @@ def dtw_table(
     [[0.0, 2.0, 5.0], [1.0, 1.0, 3.0]]
     """
     P, Q = as_curves(P, Q)
-    steps = {"metric": metric, "p": p, "step_pattern": step_pattern, "window": window}
-    ends = {"open_begin": open_begin, "open_end": open_end}
+    steps = {"metric": metric, "p": p, "step_pattern": step_pattern, "penalty": penalty}
+    ends = {"window": window, "open_begin": open_begin, "open_end": open_end}
     return compiled_dtw_table(P, Q, steps | ends)

@@ -8,15 +8,19 @@ and its reference, are named and not imported, so that ``import curvewise`` stay
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, Literal, NamedTuple, TypeAlias
+from functools import partial
+from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
 from .._core import presets
 from ..curves.inputs import Array
+from . import edit_distances
 from .area import area
 from .curve_length import curve_length, curve_length_residuals
 from .dtw import dtw, dtw_path, dtw_table
+from .edit_distances import EditDistance, edit_path, edit_table
 from .frechet import frechet, frechet_path, frechet_table
 from .frechet_continuous import frechet_continuous
+from .hausdorff import hausdorff
 from .pcm import pcm
 from .results import Alignment
 
@@ -32,9 +36,10 @@ __all__ = [
 ]
 
 
-MeasureName: TypeAlias = Literal[
-    "area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous"
-]
+MeasureName: TypeAlias = (
+    Literal["area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous", "hausdorff"]
+    | EditDistance
+)
 
 
 class Condition(NamedTuple):
@@ -145,6 +150,30 @@ MEASURES: Mapping[str, MeasureInfo] = {
             symmetric=True,
             picture="plot_matching",
             by_default=False,
+        ),
+        MeasureInfo(
+            name="hausdorff",
+            title="Hausdorff",
+            function=hausdorff,
+            planar=False,
+            symmetric=True,
+            picture="plot_farthest",
+            by_default=False,
+        ),
+        *(
+            MeasureInfo(
+                name=name,
+                title=name.upper(),
+                function=getattr(edit_distances, name),
+                planar=False,
+                symmetric=True,
+                picture="plot_alignment",
+                warping=Warping(
+                    partial(edit_path, measure=name), partial(edit_table, measure=name)
+                ),
+                by_default=False,
+            )
+            for name in get_args(EditDistance)
         ),
     )
 }

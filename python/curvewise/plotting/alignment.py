@@ -12,6 +12,7 @@ from ..curves.ground_distance import check_metric, ground_distances
 from ..curves.inputs import CurveLike
 from ..drawing.figures import CurveArtists
 from ..drawing.links import draw_pair, draw_path
+from ..measures.edit_distances import EditDistance
 from .measured import measured_and_drawn, warping_of
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ def plot_alignment(
     Q: CurveLike,
     ax: Axes,
     *,
-    measure: WarpingName = "dtw",
+    measure: WarpingName | EditDistance = "dtw",
     every: int | None = None,
     normalized: bool = False,
     names: Sequence[str] | None = None,
@@ -42,7 +43,7 @@ def plot_alignment(
         The curves.
     ax : matplotlib.axes.Axes
         Where to draw.
-    measure : {"dtw", "frechet"}
+    measure : {"dtw", "frechet"} or an edit distance
         Whose path to draw.
     every : int, optional
         Draw each `every`-th pair of the path. By default at most 80 pairs, evenly spread over
@@ -84,7 +85,7 @@ def plot_alignment(
     measured, drawn, labels = measured_and_drawn(P, Q, normalized, names, refused)
     path = warping.path(*measured, **options).path
     artists = draw_path(ax, drawn, path, labels, every=every)
-    if measure == "dtw":
+    if measure != "frechet":
         return artists
     # The first place on the path where the ground distance is largest.
     metric = check_metric(options.get("metric", Default.metric), options.get("p", Default.p))

@@ -12,20 +12,22 @@ O(n m).
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, get_args
+from typing import Any, NamedTuple, SupportsFloat
 
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, Metric, Order, StepPattern, Window, check_choice, whole_number
+from .._options import Default, Metric, Order, Window, real_number, whole_number
 from ..curves.ground_distance import check_metric, ground_distances, in_range
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
+from ..measures.step_pattern import StepPattern, Steps
 from .checks import check_pair
+from .recurrence import Recurrence, filled, path_through, pattern_steps
 from .warping_table import filled_table, traced_path
 
-__all__ = ["dtw", "dtw_path", "dtw_table"]
+__all__ = ["checked_radius", "dtw", "dtw_path", "dtw_table", "sakoe_chiba_band"]
 
 
 def dtw(
@@ -34,7 +36,8 @@ def dtw(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
-    step_pattern: StepPattern = Default.step_pattern,
+    step_pattern: Steps = Default.step_pattern,
+    penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
@@ -45,13 +48,13 @@ def dtw(
     Step patterns: Sakoe & Chiba (1978); open ends: Müller, "Information Retrieval for Music and
     Motion" (2007), chapter 4.
     """
-    if normalize and step_pattern == "symmetric1":
-        raise ValueError(
-            "normalize needs step_pattern='symmetric2', whose paths all have the weight n + m"
-        )
-    table = _accumulate(P, Q, metric, p, step_pattern, window, open_begin, open_end)
+    steps = _Steps.checked(step_pattern, penalty)
+    if normalize:
+        steps.check_normalization()
+    table = _accumulate(P, Q, metric, p, steps, window, open_begin, open_end)
     distance = float(table.restored(table.costs[-1, table.end]))
-    return distance / sum(table.costs.shape) if normalize else distance
+    n, m = table.costs.shape
+    return distance / {"N": n, "M": m, "N+M": n + m}[steps.per] if normalize else distance
 
 
 def dtw_path(
@@ -60,15 +63,19 @@ def dtw_path(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
-    step_pattern: StepPattern = Default.step_pattern,
+    step_pattern: Steps = Default.step_pattern,
+    penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
 ) -> Alignment:
     """As for :func:`dtw`."""
-    table = _accumulate(P, Q, metric, p, step_pattern, window, open_begin, open_end)
+    steps = _Steps.checked(step_pattern, penalty)
+    table = _accumulate(P, Q, metric, p, steps, window, open_begin, open_end)
     distance = float(table.restored(table.costs[-1, table.end]))
-    c, d, w = table.costs, table.ground, table.weight
+    if table.path is not None:
+        return Alignment(distance, table.path)
+    c, d, w = table.costs, table.ground, steps.diagonal_weight
 
     def is_diagonal(i: int, j: int) -> bool:
         return bool(c[i - 1, j - 1] + w * d[i, j] <= min(c[i - 1, j], c[i, j - 1]) + d[i, j])
@@ -82,13 +89,15 @@ def dtw_table(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
-    step_pattern: StepPattern = Default.step_pattern,
+    step_pattern: Steps = Default.step_pattern,
+    penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
 ) -> Array:
     """As for :func:`dtw`."""
-    table = _accumulate(P, Q, metric, p, step_pattern, window, open_begin, open_end)
+    steps = _Steps.checked(step_pattern, penalty)
+    table = _accumulate(P, Q, metric, p, steps, window, open_begin, open_end)
     return np.array(table.restored(table.costs))
 
 
@@ -97,9 +106,9 @@ class _Table(NamedTuple):
 
     costs: Array  # c[i, j], in units of 2**exponent
     ground: Array  # d(P[i], Q[j]), in the same units; inf outside the window
-    weight: float  # of a diagonal step
     end: int  # the column in which the path ends
     exponent: int
+    path: npt.NDArray[np.int64] | None = None  # where it was found with the table
 
     def restored(self, values: Any) -> Array:
         """Return values of the table in units of the curves."""
@@ -111,7 +120,7 @@ def _accumulate(
     Q: CurveLike,
     metric: Metric,
     p: Order,
-    step_pattern: StepPattern,
+    steps: _Steps,
     window: Window,
     open_begin: bool,
     open_end: bool,
@@ -119,47 +128,103 @@ def _accumulate(
     """Check everything and fill the table."""
     P, Q = as_curves(P, Q)
     metric, order = check_metric(metric, p)
-    radius = _check_steps(step_pattern, window, open_begin, open_end)
+    _check_steps(steps, window, open_begin, open_end)
     P, Q = check_pair(P, Q, "dtw")
-    if isinstance(radius, float):
-        radius = int(radius * max(len(P), len(Q)))
-    if radius == 0 and len(P) != len(Q) and min(len(P), len(Q)) > 1:
-        raise ValueError(
-            f"window=0 admits no path between {len(P)} and {len(Q)} points; use at least 1"
-        )
+    radius = checked_radius(window, len(P), len(Q))
     P, Q, exponent = in_range(P, Q, metric)
     ground = ground_distances(P[:, np.newaxis], Q, metric, order)
-    if radius is not None:
-        ground[~_sakoe_chiba_band(len(P), len(Q), radius)] = np.inf
-    weight = 1.0 if step_pattern == "symmetric1" else 2.0
+    inside = sakoe_chiba_band(len(P), len(Q), radius)
+    weight = steps.diagonal_weight
+    if weight is None:
+        penalty = float(times_power_of_two(np.array(steps.penalty), -exponent))
+        cells = pattern_steps(steps.pattern.steps(), penalty, ground)
+        recurrence = Recurrence(cells, first=float(ground[0, 0]))
+        costs, taken = filled(recurrence, inside)
+        return _Table(costs, ground, len(Q) - 1, exponent, path_through(recurrence, taken))
+    ground[~inside] = np.inf
     costs = filled_table(
         ground,
         lambda d, up, left, diagonal: np.minimum(np.minimum(up, left) + d, diagonal + weight * d),
         open_begin=open_begin,
     )
     end = int(np.argmin(costs[-1])) if open_end else len(Q) - 1
-    return _Table(costs, ground, weight, end, exponent)
+    return _Table(costs, ground, end, exponent)
 
 
-def _check_steps(step_pattern: StepPattern, window: Any, open_begin: bool, open_end: bool) -> Any:
-    """Check the options that shape the path, and return the radius, or a fraction, or None."""
-    check_choice("step_pattern", step_pattern, get_args(StepPattern))
-    radius = None
-    if window is not None:
-        is_fraction = isinstance(window, float) and 0 < window < 1
-        advice = "give a whole number >= 0, a fraction between 0 and 1, or None"
-        radius = window if is_fraction else whole_number("window", window, 0, advice)
+class _Steps(NamedTuple):
+    """A step pattern with its penalty."""
+
+    pattern: StepPattern
+    name: str
+    penalty: float
+
+    @classmethod
+    def checked(cls, given: Steps, penalty: SupportsFloat) -> _Steps:
+        """Check both."""
+        cost = real_number("penalty", penalty, 0.0, "give a number >= 0")
+        if isinstance(given, StepPattern):
+            return cls(given, "of one's own", cost)
+        return cls(StepPattern.named(given), given, cost)
+
+    @property
+    def per(self) -> str:
+        """What normalize divides by."""
+        return self.pattern.normalization
+
+    @property
+    def diagonal_weight(self) -> float | None:
+        """That of "symmetric1" and "symmetric2" without a penalty, None otherwise."""
+        weights = {"symmetric1": 1.0, "symmetric2": 2.0}
+        return None if self.penalty else weights.get(self.name)
+
+    def check_normalization(self) -> None:
+        """Refuse to normalise where paths differ in their weight."""
+        if self.name == "symmetric1" and not self.penalty:
+            raise ValueError(
+                "normalize needs step_pattern='symmetric2', whose paths all have the weight n + m"
+            )
+        if self.per == "NA":
+            raise ValueError(
+                "normalize needs a step pattern whose paths all have one weight, such as "
+                f"'symmetric2'; those of {self.name} differ"
+            )
+
+
+def _check_steps(steps: _Steps, window: Any, open_begin: bool, open_end: bool) -> None:
+    """Check the options that shape the path."""
+    _check_window(window)
     if open_begin or open_end:
-        if step_pattern != "symmetric1":
+        if steps.diagonal_weight is None:
+            raise ValueError(
+                "open_begin and open_end need step_pattern='symmetric1' without a penalty"
+            )
+        if steps.diagonal_weight != 1.0:
             raise ValueError("open_begin and open_end need step_pattern='symmetric1'")
         if window is not None:
             raise ValueError("open_begin and open_end cannot be combined with window")
-    return radius
 
 
-def _sakoe_chiba_band(n: int, m: int, radius: int) -> npt.NDArray[np.bool_]:
-    """Return which cells are inside the band."""
-    if n == 1 or m == 1:
+def _check_window(window: Any) -> Any:
+    """Check a window, and return it as a radius, a fraction, or None."""
+    if window is None or (isinstance(window, float) and 0 < window < 1):
+        return window
+    advice = "give a whole number >= 0, a fraction between 0 and 1, or None"
+    return whole_number("window", window, 0, advice)
+
+
+def checked_radius(window: Any, n: int, m: int) -> int | None:
+    """Return the radius of a window between so many points, or None."""
+    radius = _check_window(window)
+    if isinstance(radius, float):
+        radius = int(radius * max(n, m))
+    if radius == 0 and n != m and min(n, m) > 1:
+        raise ValueError(f"window=0 admits no path between {n} and {m} points; use at least 1")
+    return None if radius is None else int(radius)
+
+
+def sakoe_chiba_band(n: int, m: int, radius: int | None) -> npt.NDArray[np.bool_]:
+    """Return which cells are inside the band, or all."""
+    if radius is None or n == 1 or m == 1:
         return np.ones((n, m), dtype=np.bool_)
     i = np.arange(n, dtype=np.int64)[:, np.newaxis]
     j = np.arange(m, dtype=np.int64)

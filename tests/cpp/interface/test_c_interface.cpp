@@ -54,7 +54,7 @@ void options_are_those_given() {
     refused(answer(curvewise_area, &area), "unknown spacing 9; choose from 0 to 3");
     curvewise_dtw_options dtw = CURVEWISE_DTW_DEFAULTS;
     dtw.step_pattern = -1;
-    refused(answer(curvewise_dtw, &dtw), "unknown step_pattern -1; choose from 0 to 1");
+    refused(answer(curvewise_dtw, &dtw), "unknown step_pattern -1; choose from 0 to 26");
 }
 
 void null_pointers_are_named() {

@@ -22,7 +22,11 @@ using Names = std::vector<std::string>;
 void choices_have_their_names() {
     CHECK_EQUAL(names(Metric{}),
                 (Names{"euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"}));
-    CHECK_EQUAL(names(StepPattern{}), (Names{"symmetric1", "symmetric2"}));
+    CHECK_EQUAL(names(StepPattern{}).size(), std::size(step_patterns));
+    CHECK_EQUAL(names(StepPattern{})[static_cast<std::size_t>(StepPattern::symmetricP1)],
+                std::string("symmetricP1"));
+    CHECK_EQUAL(names(StepPattern{}).back(), std::string("mori2006"));
+    CHECK_EQUAL(names(SlopeWeight{}), (Names{"a", "b", "c", "d"}));
     CHECK_EQUAL(names(Spacing{}), (Names{"distance", "x", "arc_length", "matched"}));
     CHECK_EQUAL(names(Crossing{}), (Names{"rearrange", "split"}));
     CHECK_EQUAL(names(LengthScale{}), (Names{"mean", "mean_abs", "range"}));

@@ -2,9 +2,10 @@
 # weak symbol: the linker would then serve one instruction-set level with the other's code. NM lists
 # the symbols of an archive file by file, each behind its name.
 execute_process(COMMAND ${NM} ${LIBRARY} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
-string(REGEX MATCHALL "kernel_set[^\n]*:\n([^\n]+\n)+" kernels "${symbols}")
+string(REGEX MATCHALL "(kernel|recurrence)_set[^\n]*:\n([^\n]+\n)+" kernels "${symbols}")
 list(LENGTH kernels count)
 list(LENGTH LEVELS levels)
+math(EXPR levels "2 * ${levels}")
 if(NOT count EQUAL levels)
   message(FATAL_ERROR "${LIBRARY}: ${NM} lists ${count} kernels, of ${levels}")
 endif()

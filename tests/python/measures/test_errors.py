@@ -18,7 +18,8 @@ import pytest
 
 import curvewise
 from curvewise import reference
-from curvewise._options import Metric
+from curvewise._options import Metric, StepPatternName
+from curvewise.measures.registry import MEASURES
 
 # Functions that store a table, with the bytes of one cell.
 TOO_LARGE = ["frechet_table", "dtw_table"]
@@ -196,7 +197,7 @@ def option_cases(function: str) -> Iterator[tuple[str, Case]]:
     if function == "compare":
         yield from unknown("preset", "scaled, paper, raw", "raw")
         for name in ("foo", None, ["dtw"]):
-            choices = "area, pcm, frechet, dtw, curve_length, frechet_continuous"
+            choices = ", ".join(MEASURES)
             message = f"unknown measure {name!r}; choose from {choices}"
             yield f"measure-{name}", Case(good(), good(4), {"measures": ["dtw", name]}, message)
 
@@ -212,7 +213,8 @@ def metric_cases() -> Iterator[tuple[str, Case]]:
 
 
 def warping_cases() -> Iterator[tuple[str, Case]]:
-    yield from unknown("step_pattern", "symmetric1, symmetric2", "symmetric1")
+    patterns = ", ".join(get_args(StepPatternName))
+    yield from unknown("step_pattern", patterns, "symmetric1")
     advice = "give a whole number >= 0, a fraction between 0 and 1, or None"
     for window in (-1, 1.5, 2.0, 1.0, 0.0, -0.5, True, "3", [3]):
         message = f"window is {window!r}; {advice}"

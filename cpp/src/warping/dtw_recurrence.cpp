@@ -1,0 +1,47 @@
+#include "warping/dtw_recurrence.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "runtime/workers.hpp"
+
+namespace curvewise::warping {
+
+Recurrence recurrence_of(const DtwOptions& options) {
+    const auto place = static_cast<std::size_t>(options.step_pattern);
+    const bool is_own = !options.own_steps.rows.empty();
+    const std::string name = is_own ? "of one's own" : std::string(step_patterns[place].name);
+    const StepRows rows = is_own ? options.own_steps : step_rows(step_patterns[place]);
+    if (options.open_begin || options.open_end) {
+        throw std::invalid_argument(
+            "open_begin and open_end need step_pattern='symmetric1' without a penalty");
+    }
+    if (options.normalize && rows.per == Per::one) {
+        throw std::invalid_argument(
+            "normalize needs a step pattern whose paths all have one "
+            "weight, such as 'symmetric2'; those of " +
+            name + " differ");
+    }
+    if (!(options.penalty >= 0.0)) {
+        throw std::invalid_argument("penalty is " + std::to_string(options.penalty) + "; " +
+                                    penalty_range.advice);
+    }
+    runtime::resolve_workers(options.workers);
+    Recurrence result{DtwOptions::measure, steps_of(rows), options.ground};
+    for (Step& step : result.steps) {
+        if (step.rows != step.columns) step.constant = options.penalty;
+    }
+    result.per = options.normalize ? rows.per : Per::one;
+    result.window = options.window;
+    result.window_fraction = options.window_fraction;
+    result.cutoff = options.cutoff;
+    return result;
+}
+
+Recurrence recurrence_of_path(DtwOptions options) {
+    options.normalize = false;
+    return recurrence_of(options);
+}
+
+}  // namespace curvewise::warping

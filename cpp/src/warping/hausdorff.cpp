@@ -1,0 +1,128 @@
+// hausdorff: the distances of all pairs of points, one point of Q after another against a SIMD
+// vector of P's, of which the least of every row and of every column are kept. A point that is not
+// farther from the other curve than what has been found cannot be known before all of it has been
+// looked at, so nothing is left out. O(n m) time, O(n + m) memory.
+#include "curvewise/hausdorff.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "pairwise/batch_of.hpp"
+#include "pairwise/evaluate.hpp"
+#include "warping/dispatch.hpp"
+#include "warping/ground_distance.hpp"
+
+namespace curvewise {
+namespace {
+
+using curves::RangeScale;
+using runtime::Poller;
+using warping::PackedCurve;
+using warping::PointOrder;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+class HausdorffMeasure {
+   public:
+    struct Memory {
+        std::vector<double> point, distances, nearest;
+    };
+    static constexpr bool is_swept = true;
+    struct Side {
+        Side(const curves::CheckedCurve& curve, Poller& poller)
+            : checked(curve), packed(curve.curve, RangeScale(1.0), PointOrder::forward, poller) {}
+        curves::CheckedCurve checked;
+        PackedCurve packed;
+    };
+    using PreparedP = Side;
+    using PreparedQ = Side;
+
+    explicit HausdorffMeasure(const HausdorffOptions& options) : options_(options) {
+        warping::check_ground_distance(options_.ground);
+        curves::check_cutoff(options_.cutoff);
+    }
+    static curves::Requirements requirements() noexcept {
+        return {HausdorffOptions::measure, 1, false};
+    }
+    static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
+    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
+    static std::ptrdiff_t workers() noexcept { return 1; }
+    static std::int64_t steps(std::int64_t n, std::int64_t /*count*/,
+                              std::int64_t points) noexcept {
+        return n * points;
+    }
+
+    double operator()(const PreparedP& P, const PreparedQ& Q,
+                      const pairwise::Call<Memory>& call) const {
+        const RangeScale range =
+            warping::range_of(options_.ground, std::max(P.checked.largest, Q.checked.largest));
+        double found = 0.0;
+        if (range.is_identity()) {
+            found = between({P.packed, Q.packed}, call);
+        } else {
+            const PackedCurve p(P.checked.curve, range, PointOrder::forward, call.poller);
+            const PackedCurve q(Q.checked.curve, range, PointOrder::forward, call.poller);
+            found = range.restore(between({p, q}, call), warping::degree(options_.ground.metric));
+        }
+        return found > options_.cutoff ? infinity : found;
+    }
+
+   private:
+    double between(const warping::PackedPair& curves, const pairwise::Call<Memory>& call) const {
+        const std::ptrdiff_t n = curves.rows(), m = curves.columns(), dim = curves.dim();
+        const auto room = static_cast<std::size_t>(n + kernels::padding);
+        Memory& memory = call.memory;
+        memory.distances.resize(room);
+        memory.nearest.assign(room, infinity);
+        kernels::Cost cost = warping::canonical_cost(options_.ground, curves);
+        const bool is_squared = warping::put_off_root(cost);
+        const kernels::CostFunction fill = warping::active_level().kernels->fill(cost);
+        kernels::Strip strip{};
+        strip.p = curves.p.data();
+        strip.p_stride = curves.p.stride();
+        strip.q_stride = n + kernels::padding;
+        strip.columns = 1;
+        strip.dim = dim;
+        strip.minkowski_p = options_.ground.p;
+        strip.cost = memory.distances.data();
+        memory.point.resize(static_cast<std::size_t>(dim * strip.q_stride));
+        strip.q = memory.point.data();
+        double* const nearest = memory.nearest.data();
+        double farthest = 0.0;
+        for (std::ptrdiff_t j = 0; j < m; ++j) {
+            for (std::ptrdiff_t c = 0; c < dim; ++c) {
+                std::fill_n(memory.point.data() + c * strip.q_stride, strip.q_stride,
+                            curves.q.data()[c * curves.q.stride() + j]);
+            }
+            fill(strip, 0, 0, n - 1);
+            double least = infinity;
+            for (std::ptrdiff_t i = 0; i < n; ++i) {
+                nearest[i] = std::min(nearest[i], strip.cost[i]);
+                least = std::min(least, strip.cost[i]);
+            }
+            farthest = std::max(farthest, least);
+            if (call.poller.count_steps(n, dim)) throw Stopped();
+        }
+        for (std::ptrdiff_t i = 0; i < n; ++i) farthest = std::max(farthest, nearest[i]);
+        return is_squared ? std::sqrt(farthest) : farthest;
+    }
+
+    HausdorffOptions options_;
+};
+
+}  // namespace
+
+double hausdorff(const CurveView& P, const CurveView& Q, const HausdorffOptions& options,
+                 Control* control) {
+    return pairwise::evaluate(HausdorffMeasure(options), P, Q, control);
+}
+
+std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(
+    const HausdorffOptions& options) {
+    return std::make_unique<BatchOf<HausdorffMeasure>>(HausdorffMeasure(options));
+}
+
+}  // namespace curvewise

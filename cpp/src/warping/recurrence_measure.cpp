@@ -1,0 +1,306 @@
+// Any recurrence as a measure (pairwise/measure.hpp): its value, its path and its table, by the
+// sweep of recurrence_sweep.hpp; in one thread a pair.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "curvewise/recurrence.hpp"
+#include "pairwise/batch_of.hpp"
+#include "pairwise/evaluate.hpp"
+#include "warping/ground_distance.hpp"
+#include "warping/recurrence_sweep.hpp"
+#include "warping/window.hpp"
+
+namespace curvewise {
+namespace {
+
+using curves::RangeScale;
+using runtime::Poller;
+using warping::PackedCurve;
+using warping::PointOrder;
+using warping::RecurrenceSweep;
+using warping::StepTable;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A curve with a point before its first, all of whose coordinates are 0.
+class LedCurve {
+   public:
+    explicit LedCurve(const CurveView& curve)
+        : points_(static_cast<std::size_t>((curve.size() + 1) * curve.dim()), 0.0),
+          view_(points_.data(), curve.size() + 1, curve.dim()) {
+        double* next = points_.data() + curve.dim();
+        for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+            for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) *next++ = curve(i, c);
+        }
+    }
+    const CurveView& view() const noexcept { return view_; }
+
+   private:
+    std::vector<double> points_;
+    CurveView view_;
+};
+
+// A quarter of the larger standard deviation of all coordinates of either curve.
+double quarter_of_deviation(const CurveView& P, const CurveView& Q) {
+    const auto deviation = [](const CurveView& curve) {
+        const double count = static_cast<double>(curve.size() * curve.dim());
+        const auto mean = [&](auto term) {
+            double sum = 0.0;
+            for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+                for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) sum += term(curve(i, c));
+            }
+            return sum / count;
+        };
+        const double middle = mean([](double x) { return x; });
+        return std::sqrt(mean([=](double x) { return (x - middle) * (x - middle); }));
+    };
+    return std::max(deviation(P), deviation(Q)) / 4.0;
+}
+
+class RecurrenceMeasure {
+   public:
+    using Memory = warping::RecurrenceMemory;
+    static constexpr bool is_swept = true;
+    // Packed without scaling, which curves within the usual range do not need.
+    template <PointOrder order>
+    struct Side {
+        Side(const curves::CheckedCurve& curve, Poller& poller)
+            : checked(curve), packed(curve.curve, RangeScale(1.0), order, poller) {}
+        curves::CheckedCurve checked;
+        PackedCurve packed;
+    };
+    using PreparedP = Side<PointOrder::forward>;
+    using PreparedQ = Side<PointOrder::reversed>;
+
+    explicit RecurrenceMeasure(Recurrence recurrence)
+        : recurrence_(std::move(recurrence)), steps_(recurrence_, RangeScale(1.0)) {
+        warping::check_ground_distance(recurrence_.ground);
+        curves::check_cutoff(recurrence_.cutoff);
+        window().check();
+        check_number("gap", recurrence_.gap);
+        check_number("steepness", recurrence_.steepness);
+    }
+    curves::Requirements requirements() const noexcept { return {recurrence_.measure, 1, false}; }
+    void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const { window().check_sizes(n, m); }
+    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
+    static std::ptrdiff_t workers() noexcept { return 1; }
+    static std::int64_t steps(std::int64_t n, std::int64_t /*count*/,
+                              std::int64_t points) noexcept {
+        return n * points;
+    }
+
+    // Calls use(recurrence, steps, curves, range), with curves as the recurrence takes them.
+    template <class Use>
+    auto with_curves(const PreparedP& P, const PreparedQ& Q, Poller& poller, Use use) const {
+        const RangeScale range =
+            warping::range_of(recurrence_.ground, std::max(P.checked.largest, Q.checked.largest));
+        std::optional<Recurrence> own;
+        if (recurrence_.pair == PairCost::apart && recurrence_.threshold == infinity) {
+            own = recurrence_;
+            own->threshold = quarter_of_deviation(P.checked.curve, Q.checked.curve);
+        }
+        const Recurrence& recurrence = own ? *own : recurrence_;
+        const bool is_led = recurrence.border == Border::origin;
+        if (range.is_identity() && !is_led) {
+            return use(recurrence, steps_, warping::PackedPair{P.packed, Q.packed}, range);
+        }
+        const auto pack = [&](const CurveView& curve, PointOrder order) {
+            return is_led ? PackedCurve(LedCurve(curve).view(), range, order, poller)
+                          : PackedCurve(curve, range, order, poller);
+        };
+        const PackedCurve p = pack(P.checked.curve, PointOrder::forward);
+        const PackedCurve q = pack(Q.checked.curve, PointOrder::reversed);
+        return use(recurrence, StepTable(recurrence, range), warping::PackedPair{p, q}, range);
+    }
+
+    double operator()(const PreparedP& P, const PreparedQ& Q,
+                      const pairwise::Call<Memory>& call) const {
+        const std::ptrdiff_t n = P.packed.size(), m = Q.packed.size();
+        const double cutoff = std::min(call.cutoff, recurrence_.cutoff);
+        const double found = with_curves(
+            P, Q, call.poller,
+            [&](const Recurrence& recurrence, const StepTable& steps,
+                const warping::PackedPair& curves, const RangeScale& range) {
+                const bool may_give_up = range.is_identity() && recurrence.per != Per::matches;
+                const double give_up =
+                    may_give_up ? cutoff * divisor(n, m) * (1.0 + 1e-15) : infinity;
+                double sum = 0.0;
+                for_each_table(curves, [&](std::ptrdiff_t coordinate) {
+                    RecurrenceSweep sweep(recurrence, steps, curves, range, coordinate, call.poller,
+                                          call.memory);
+                    sum += sweep.value(give_up);
+                });
+                return finished(restored(sum, range), n, m);
+            });
+        return found > recurrence_.cutoff ? infinity : found;
+    }
+
+    Alignment path(const PreparedP& P, const PreparedQ& Q,
+                   const pairwise::Call<Memory>& call) const {
+        if (recurrence_.by_coordinate && P.packed.dim() > 1) {
+            throw std::invalid_argument(
+                std::string(recurrence_.measure) +
+                " has no path for curves of several coordinates, of which each has its own; take "
+                "them one by one");
+        }
+        Alignment found;
+        found.distance = (*this)(P, Q, call);
+        with_curves(P, Q, call.poller,
+                    [&](const Recurrence& recurrence, const StepTable& steps,
+                        const warping::PackedPair& curves, const RangeScale& range) {
+                        found.path = RecurrenceSweep(recurrence, steps, curves, range, -1,
+                                                     call.poller, call.memory)
+                                         .path();
+                    });
+        if (recurrence_.border == Border::origin) {  // without the point before the first
+            found.path.erase(found.path.begin());
+            for (auto& [i, j] : found.path) --i, --j;
+        }
+        return found;
+    }
+
+    void write_table(const PreparedP& P, const PreparedQ& Q, const pairwise::Call<Memory>& call,
+                     double* out) const {
+        const std::ptrdiff_t n = P.packed.size(), m = Q.packed.size();
+        std::fill_n(out, n * m, 0.0);
+        with_curves(P, Q, call.poller,
+                    [&](const Recurrence& recurrence, const StepTable& steps,
+                        const warping::PackedPair& curves, const RangeScale& range) {
+                        const std::ptrdiff_t led = curves.rows() - n, width = curves.columns();
+                        std::vector<double> table(static_cast<std::size_t>(curves.rows() * width));
+                        for_each_table(curves, [&](std::ptrdiff_t coordinate) {
+                            RecurrenceSweep(recurrence, steps, curves, range, coordinate,
+                                            call.poller, call.memory)
+                                .write_table(table.data());
+                            for (std::ptrdiff_t i = 0; i < n; ++i) {
+                                const double* const row = table.data() + (i + led) * width + led;
+                                for (std::ptrdiff_t j = 0; j < m; ++j) {
+                                    out[i * m + j] += restored(row[j], range);
+                                }
+                            }
+                        });
+                    });
+    }
+
+   private:
+    warping::Window window() const noexcept {
+        return {recurrence_.window, recurrence_.window_fraction};
+    }
+
+    static void check_number(const char* name, double value) {
+        if (!std::isfinite(value)) {
+            throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
+                                        "; give a number");
+        }
+    }
+
+    template <class Use>
+    void for_each_table(const warping::PackedPair& curves, Use use) const {
+        if (!recurrence_.by_coordinate || curves.dim() == 1) return use(-1);
+        for (std::ptrdiff_t c = 0; c < curves.dim(); ++c) use(c);
+    }
+
+    // Counts have no unit.
+    double restored(double value, const RangeScale& range) const noexcept {
+        const bool is_count =
+            recurrence_.pair == PairCost::apart || recurrence_.pair == PairCost::together;
+        return is_count ? value : range.restore(value, warping::degree(recurrence_.ground.metric));
+    }
+
+    double divisor(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
+        switch (recurrence_.per) {
+            case Per::one:
+            case Per::matches:
+                break;
+            case Per::rows:
+                return static_cast<double>(n);
+            case Per::columns:
+                return static_cast<double>(m);
+            case Per::both:
+                return static_cast<double>(n) + static_cast<double>(m);
+            case Per::longer:
+                return static_cast<double>(std::max(n, m));
+        }
+        return 1.0;
+    }
+
+    double finished(double value, std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
+        if (recurrence_.per != Per::matches) return value / divisor(n, m);
+        return std::max(0.0, 1.0 + value / static_cast<double>(std::min(n, m)));
+    }
+
+    Recurrence recurrence_;
+    StepTable steps_;
+};
+
+}  // namespace
+
+bool Recurrence::is_symmetric() const {
+    if (per == Per::rows || per == Per::columns) return false;
+    const auto turned = [](CostFrom from) {
+        switch (from) {
+            case CostFrom::row_gap:
+                return CostFrom::column_gap;
+            case CostFrom::column_gap:
+                return CostFrom::row_gap;
+            case CostFrom::row_move:
+                return CostFrom::column_move;
+            case CostFrom::column_move:
+                return CostFrom::row_move;
+            case CostFrom::pair:
+            case CostFrom::offset:
+                break;
+        }
+        return from;
+    };
+    const auto mirrors = [&](const Step& one, const Step& other) {
+        return one.rows == other.columns && one.columns == other.rows &&
+               one.constant == other.constant &&
+               std::equal(one.terms.begin(), one.terms.end(), other.terms.begin(),
+                          other.terms.end(), [&](const StepTerm& a, const StepTerm& b) {
+                              return a.rows == b.columns && a.columns == b.rows &&
+                                     a.weight == b.weight && a.from == turned(b.from);
+                          });
+    };
+    return std::all_of(steps.begin(), steps.end(), [&](const Step& one) {
+        return std::any_of(steps.begin(), steps.end(),
+                           [&](const Step& other) { return mirrors(one, other); });
+    });
+}
+
+double warp(const Recurrence& recurrence, const CurveView& P, const CurveView& Q,
+            Control* control) {
+    return pairwise::evaluate(RecurrenceMeasure(recurrence), P, Q, control);
+}
+
+Alignment warp_path(const Recurrence& recurrence, const CurveView& P, const CurveView& Q,
+                    Control* control) {
+    const RecurrenceMeasure measure(recurrence);
+    return pairwise::with_pair(
+        measure, P, Q, control,
+        [&](const auto& p, const auto& q, const auto& call) { return measure.path(p, q, call); });
+}
+
+void warp_table(const Recurrence& recurrence, const CurveView& P, const CurveView& Q, double* out,
+                Control* control) {
+    const RecurrenceMeasure measure(recurrence);
+    pairwise::with_pair(measure, P, Q, control,
+                        [&](const auto& p, const auto& q, const auto& call) {
+                            measure.write_table(p, q, call, out);
+                        });
+}
+
+std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(
+    const Recurrence& recurrence) {
+    return std::make_unique<BatchOf<RecurrenceMeasure>>(RecurrenceMeasure(recurrence));
+}
+
+}  // namespace curvewise

@@ -1,0 +1,365 @@
+#include "warping/recurrence_sweep.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "warping/dispatch.hpp"
+#include "warping/ground_distance.hpp"
+#include "warping/window.hpp"
+
+namespace curvewise::warping {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::ptrdiff_t height = 256;
+constexpr std::ptrdiff_t margin = kernels::max_reach + kernels::padding;
+constexpr std::ptrdiff_t cells_between_polls = 1 << 16;
+
+// The rows of the table; with a point before the first of each curve, one more.
+Band band_of(const Recurrence& recurrence, const PackedPair& curves) {
+    const std::ptrdiff_t before = recurrence.border == Border::origin ? 1 : 0;
+    const std::ptrdiff_t n = curves.rows() - before, m = curves.columns() - before;
+    return {n, m, Window{recurrence.window, recurrence.window_fraction}.between(n, m)};
+}
+
+}  // namespace
+
+// The step by which each cell of a part was reached, strip by strip.
+struct RecurrenceSweep::Codes {
+    Codes(const Part& part, std::ptrdiff_t reach)
+        : stride(std::min(height, part.end - part.first) + reach),
+          per_strip((part.columns + stride + reach) * stride),
+          content(static_cast<std::size_t>(per_strip * ((part.end - part.first) / height + 1))) {}
+
+    std::ptrdiff_t stride;
+    std::ptrdiff_t per_strip;
+    std::vector<std::uint8_t> content;
+};
+
+RecurrenceSweep::RecurrenceSweep(const Recurrence& recurrence, const StepTable& steps,
+                                 const PackedPair& curves, const RangeScale& range,
+                                 std::ptrdiff_t coordinate, Poller& poller,
+                                 RecurrenceMemory& memory)
+    : recurrence_(recurrence),
+      table_(steps),
+      curves_(curves),
+      advance_(active_level().recurrences->advance(
+          steps.steps.data(), static_cast<std::ptrdiff_t>(steps.steps.size()), steps.terms.data())),
+      band_(band_of(recurrence, curves)),
+      poller_(poller),
+      memory_(memory),
+      reentry_(infinity) {
+    kernels::Strip& ground = whole_.ground;
+    const std::ptrdiff_t first = std::max<std::ptrdiff_t>(coordinate, 0);
+    ground.p = curves.p.data() + first * curves.p.stride();
+    ground.q = curves.q.data() + first * curves.q.stride();
+    ground.p_stride = curves.p.stride();
+    ground.q_stride = curves.q.stride();
+    ground.dim = coordinate < 0 ? curves.dim() : 1;
+    ground.minkowski_p = recurrence.ground.p;
+    const kernels::Cost cost{canonical_metric(recurrence.ground, ground.dim),
+                             curves.squares_are_in_domain()};
+    fill_ = active_level().recurrences->fill(cost, ground.dim);
+    whole_.steps = table_.steps.data();
+    whole_.step_count = static_cast<std::ptrdiff_t>(table_.steps.size());
+    whole_.terms = table_.terms.data();
+    whole_.rule = static_cast<kernels::PairRule>(recurrence.pair);
+    whole_.threshold = range.restore(recurrence.threshold, -degree(recurrence.ground.metric));
+    whole_.reach = table_.reach;
+    whole_.value_count = table_.value_diagonals;
+    whole_.pair_count = table_.pair_diagonals;
+    prepare_costs(range);
+}
+
+// Every array has room for lanes before the first row and behind the last.
+void RecurrenceSweep::prepare_costs(const RangeScale& range) {
+    const std::ptrdiff_t n = curves_.rows(), m = curves_.columns();
+    const bool has_gaps = recurrence_.gaps != Gaps::none;
+    const bool has_moves = table_.uses(kernels::Source::row_move);
+    const bool has_offsets =
+        table_.uses(kernels::Source::offset) || recurrence_.pair == PairCost::weighted;
+    const bool has_border =
+        recurrence_.border == Border::zero || recurrence_.border == Border::all_gaps;
+    if (!has_gaps && !has_moves && !has_offsets && !has_border) return;
+    const std::ptrdiff_t longest = std::max(n, m) + 2 * margin;
+    memory_.costs.reserve(8 * longest);
+    double* next = memory_.costs.data();
+    std::fill_n(next, 8 * longest, 0.0);
+    const auto take = [&] { return std::exchange(next, next + longest) + margin; };
+    if (has_gaps) {
+        double* const rows = take();
+        double* const columns = take();
+        prepare_gaps(range.shrink(recurrence_.gap), rows, columns);
+        whole_.row_gaps = rows;
+        whole_.column_gaps = columns;
+    }
+    if (has_moves) {
+        double* const rows = take();
+        double* const columns = take();
+        const double* const p = whole_.ground.p;
+        const double* const q = whole_.ground.q;
+        for (std::ptrdiff_t i = 1; i < n; ++i) rows[i] = p[i] - p[i - 1];
+        for (std::ptrdiff_t r = 0; r + 1 < m; ++r) columns[r] = q[r] - q[r + 1];
+        whole_.row_steps = rows;
+        whole_.column_steps = columns;
+    }
+    for (int odd = 0; odd < 2 && has_offsets; ++odd) {
+        double* const offsets = take() + m / 2;
+        prepare_offsets(odd, offsets);
+        whole_.offsets[odd] = offsets;
+    }
+    if (has_border) {
+        left_border_ = take() - margin;
+        reentry_ = recurrence_.border == Border::zero ? 0.0 : sum_of_row_gaps_;
+        std::fill_n(left_border_, table_.reach - 1, infinity);
+        std::fill_n(left_border_ + table_.reach, n, reentry_);  // behind the corner, which is 0
+    }
+}
+
+// A point that is left out costs its distance from a point that does not move, or from the one
+// before, which is the one behind it where points are stored in reverse.
+void RecurrenceSweep::prepare_gaps(double gap, double* rows, double* columns) {
+    const std::ptrdiff_t n = curves_.rows(), m = curves_.columns();
+    kernels::Strip strip = whole_.ground;
+    strip.columns = 1;
+    const auto fill = [&](const double* points, std::ptrdiff_t stride, const double* others,
+                          std::ptrdiff_t count, double* out) {
+        strip.p = points;
+        strip.p_stride = stride;
+        strip.q = others;
+        strip.cost = out;
+        if (count > 0) fill_(strip, 0, 0, count - 1);
+        std::fill_n(out + std::max<std::ptrdiff_t>(count, 0), kernels::padding, 0.0);
+    };
+    const double* const p = whole_.ground.p;
+    const double* const q = whole_.ground.q;
+    if (recurrence_.gaps == Gaps::to_point) {
+        const std::vector<double> point(static_cast<std::size_t>(std::max(n, m) + kernels::padding),
+                                        gap);
+        strip.q_stride = 0;
+        fill(p, whole_.ground.p_stride, point.data(), n, rows);
+        fill(q, whole_.ground.q_stride, point.data(), m, columns);
+    } else {
+        strip.q_stride = whole_.ground.p_stride;
+        fill(p + 1, whole_.ground.p_stride, p, n - 1, rows + 1);
+        strip.q_stride = whole_.ground.q_stride;
+        fill(q, whole_.ground.q_stride, q + 1, m - 1, columns);
+    }
+    for (std::ptrdiff_t i = 0; i < n; ++i) sum_of_row_gaps_ += rows[i];
+    for (std::ptrdiff_t r = m - 1; r >= 0; --r) sum_of_column_gaps_ += columns[r];
+}
+
+void RecurrenceSweep::prepare_offsets(int odd, double* offsets) const {
+    const std::ptrdiff_t n = curves_.rows(), m = curves_.columns();
+    const double half = static_cast<double>(std::max(n, m)) / 2.0;
+    for (std::ptrdiff_t i = -(m / 2); i <= n / 2; ++i) {
+        const double offset = std::abs(static_cast<double>(2 * i + odd));
+        offsets[i] = recurrence_.pair != PairCost::weighted
+                         ? offset
+                         : 1.0 / (1.0 + std::exp(-recurrence_.steepness * (offset - half)));
+    }
+}
+
+// Behind a point that is before both curves, the first row and column hold nothing else.
+ColumnRange RecurrenceSweep::columns_of(std::ptrdiff_t row) const noexcept {
+    if (recurrence_.border != Border::origin) return band_.columns(row);
+    if (row == 0) return {0, 0};
+    const ColumnRange columns = band_.columns(row - 1);
+    return {columns.first + 1, columns.last + 1};
+}
+
+RecurrenceSweep::Rows RecurrenceSweep::first_boundary() const {
+    const auto m = static_cast<std::size_t>(curves_.columns());
+    Rows rows(static_cast<std::size_t>(table_.reach) * m, infinity);
+    if (left_border_ != nullptr) {
+        const bool is_zero = recurrence_.border == Border::zero;
+        std::fill(rows.end() - static_cast<std::ptrdiff_t>(m), rows.end(),
+                  is_zero ? 0.0 : sum_of_column_gaps_);
+    }
+    return rows;
+}
+
+double RecurrenceSweep::value(double give_up) {
+    Rows boundary = first_boundary();
+    const Part whole{0, curves_.rows(), curves_.columns()};
+    sweep(whole, boundary.data(), whole.columns, nullptr, nullptr, give_up);
+    return boundary.back();
+}
+
+void RecurrenceSweep::write_table(double* out) {
+    const std::ptrdiff_t n = curves_.rows(), m = curves_.columns();
+    Rows boundary = first_boundary();
+    if (band_.is_limited() || recurrence_.border == Border::origin) {
+        poller_.in_runs(n, m, [&](auto first, auto end) {
+            std::fill(out + first * m, out + end * m, infinity);
+        });
+    }
+    sweep({0, n, m}, boundary.data(), m, nullptr, out, infinity);
+}
+
+// Sweeps a part strip by strip. The rows above it come in as `boundary`, the last ones leave so.
+void RecurrenceSweep::sweep(const Part& part, double* boundary, std::ptrdiff_t stride, Codes* codes,
+                            double* table, double give_up) {
+    const std::ptrdiff_t reach = table_.reach;
+    std::ptrdiff_t place = 0;
+    for (std::ptrdiff_t first = part.first; first < part.end; first += height, ++place) {
+        kernels::RecurrenceStrip strip = whole_;
+        aim(strip, part, first, std::min(height, part.end - first));
+        strip.boundary = boundary;
+        strip.boundary_stride = stride;
+        if (codes != nullptr) {
+            strip.code_stride = codes->stride;
+            strip.codes = codes->content.data() + place * codes->per_strip + reach * codes->stride;
+        }
+        if (table != nullptr) {
+            strip.table_stride = part.columns;
+            strip.table = table + (first - reach) * part.columns;
+        }
+        run(strip, part);
+        if (give_up < infinity && is_hopeless(boundary, stride, give_up)) {
+            for (std::ptrdiff_t r = 0; r < reach; ++r) {
+                std::fill_n(boundary + r * stride, part.columns, infinity);
+            }
+            poller_.count_steps((part.end - std::min(part.end, first + height)) * part.columns);
+            return;
+        }
+    }
+}
+
+// Every path visits one of the rows that leave a strip, or comes in from the left behind it.
+bool RecurrenceSweep::is_hopeless(const double* boundary, std::ptrdiff_t stride,
+                                  double give_up) const noexcept {
+    if (reentry_ <= give_up) return false;
+    const auto count = static_cast<std::size_t>(table_.reach) * static_cast<std::size_t>(stride);
+    return std::all_of(boundary, boundary + count, [=](double x) { return x > give_up; });
+}
+
+void RecurrenceSweep::aim(kernels::RecurrenceStrip& strip, const Part& part, std::ptrdiff_t first,
+                          std::ptrdiff_t rows) {
+    const std::ptrdiff_t reach = table_.reach, above = std::min(reach, first);
+    strip.lanes = rows + reach;
+    strip.columns = part.columns;
+    // Of the curve in reverse order, so many columns before the last.
+    strip.ground.q += curves_.columns() - part.columns;
+    strip.ground.columns = part.columns;
+    strip.ground.p += first - above;
+    strip.ground.rows = rows + above;
+    strip.starts_here = first == 0 && left_border_ == nullptr;
+    strip.first_offset = first - reach;
+    if (strip.row_gaps != nullptr) {
+        strip.row_gaps += first - reach;
+        strip.column_gaps += curves_.columns() - part.columns;
+    }
+    if (strip.row_steps != nullptr) {
+        strip.row_steps += first - reach;
+        strip.column_steps += curves_.columns() - part.columns;
+    }
+    if (left_border_ != nullptr) strip.left_border = left_border_ + first;
+
+    memory_.columns.resize(static_cast<std::size_t>(2 * strip.lanes));
+    std::ptrdiff_t* const columns = memory_.columns.data();
+    for (std::ptrdiff_t k = reach; k < strip.lanes; ++k) {
+        const ColumnRange range = columns_of(first + k - reach);
+        columns[k] = range.first;
+        columns[strip.lanes + k] = std::min(range.last, part.columns - 1);
+    }
+    strip.first_column = columns;
+    strip.last_column = columns + strip.lanes;
+
+    const std::ptrdiff_t length = AlignedBuffer::rounded(strip.lanes + kernels::padding) + 8;
+    const std::ptrdiff_t count = strip.value_count + strip.pair_count + 3;
+    memory_.lanes.reserve(count * length);
+    double* next = memory_.lanes.data();
+    std::fill_n(next, strip.value_count * length, infinity);
+    std::fill_n(next + strip.value_count * length, (strip.pair_count + 3) * length, 0.0);
+    const auto take = [&] { return std::exchange(next, next + length); };
+    for (std::ptrdiff_t i = 0; i < strip.value_count; ++i) strip.values[i] = take();
+    for (std::ptrdiff_t i = 0; i < strip.pair_count; ++i) strip.pairs[i] = take();
+    strip.code_lanes = take();
+    if (strip.row_steps != nullptr) {
+        strip.row_moves = take();
+        strip.column_moves = take();
+    }
+    strip.next_diagonal = -reach;
+    strip.low_lane = reach;
+    strip.high_lane = reach - 1;
+}
+
+void RecurrenceSweep::run(kernels::RecurrenceStrip& strip, const Part& part) {
+    const std::ptrdiff_t rows = strip.lanes - table_.reach;
+    const std::ptrdiff_t end = part.columns + strip.lanes;
+    const std::ptrdiff_t chunk = cells_between_polls / strip.lanes;
+    const auto weight = static_cast<std::int64_t>(table_.terms.size() / 3 + 1);
+    while (strip.next_diagonal < end) {
+        const std::ptrdiff_t from = strip.next_diagonal;
+        advance_(strip, std::min(end, from + chunk), fill_);
+        const auto counted = [&](std::ptrdiff_t t) {
+            return std::clamp<std::ptrdiff_t>(t, 0, part.columns);
+        };
+        const std::int64_t steps = rows * (counted(strip.next_diagonal) - counted(from));
+        if (!is_counting_) {
+            poller_.spend(steps * weight);
+        } else if (poller_.count_steps(steps, weight)) {
+            throw Stopped();
+        }
+    }
+}
+
+std::vector<std::array<std::int64_t, 2>> RecurrenceSweep::path() {
+    found_.clear();
+    is_counting_ = false;
+    find(0, first_boundary(), {curves_.rows() - 1, curves_.columns() - 1});
+    std::reverse(found_.begin(), found_.end());
+    return std::move(found_);
+}
+
+// Adds the path that ends at `end`, backwards, up to where it leaves the rows from `first` on, and
+// returns the cell above them that it comes from.
+RecurrenceSweep::Cell RecurrenceSweep::find(std::ptrdiff_t first, const Rows& boundary, Cell end) {
+    const std::ptrdiff_t rows = end.row - first + 1, columns = end.column + 1;
+    const std::ptrdiff_t most =
+        (std::ptrdiff_t{1} << 22) + 16 * (curves_.rows() + curves_.columns());
+    if (rows <= 2 * table_.reach || rows * columns <= most) return trace(first, boundary, end);
+    const std::ptrdiff_t middle = first + rows / 2;
+    Rows below = boundary;
+    sweep({first, middle, columns}, below.data(), curves_.columns(), nullptr, nullptr, infinity);
+    const Cell left = find(middle, below, end);
+    if (left.row < first || left.column < 0) return left;
+    Rows().swap(below);
+    return find(first, boundary, left);
+}
+
+RecurrenceSweep::Cell RecurrenceSweep::trace(std::ptrdiff_t first, const Rows& boundary, Cell end) {
+    const Part part{first, end.row + 1, end.column + 1};
+    const std::ptrdiff_t reach = table_.reach;
+    Codes codes(part, reach);
+    Rows rows = boundary;
+    sweep(part, rows.data(), curves_.columns(), &codes, nullptr, infinity);
+    const auto code = [&](const Cell& at) {
+        const std::ptrdiff_t strip = (at.row - first) / height;
+        const std::ptrdiff_t lane = (at.row - first) % height + reach;
+        return codes.content[static_cast<std::size_t>(
+            strip * codes.per_strip + (reach + at.column + lane) * codes.stride + lane)];
+    };
+    Cell at = end;
+    while (at.row >= first && at.column >= 0) {
+        if (at.row == 0 && at.column == 0) {
+            found_.push_back({0, 0});
+            return {-1, -1};
+        }
+        const Step& step = recurrence_.steps[code(at)];
+        found_.push_back({at.row, at.column});
+        for (auto term = step.terms.rbegin(); term != step.terms.rend(); ++term) {
+            if (term->from != CostFrom::pair || term->rows + term->columns == 0) continue;
+            if (term->rows == step.rows && term->columns == step.columns) continue;
+            found_.push_back({at.row - term->rows, at.column - term->columns});
+        }
+        at = {at.row - step.rows, at.column - step.columns};
+    }
+    return at;
+}
+
+}  // namespace curvewise::warping

@@ -1,0 +1,91 @@
+// The table of a recurrence with any steps, swept by strips of rows: the value, the table, and a
+// path, for which the rows are halved until the steps of all cells of a part fit into some memory
+// (Hirschberg's division, going forward only, so that every cell keeps its bits): a part is swept
+// up to its middle row, the path through the lower half is found, which says where it leaves the
+// upper, and then that through the upper half, of which only the columns up to there are swept.
+// Time O(n m) terms for a value, at most 1 + log2(n m / (2^22 + 16 (n + m))) / 2 times that for a
+// path; memory O(n + m), and for a path O((n + m) log n).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "curves/range_scale.hpp"
+#include "curvewise/recurrence.hpp"
+#include "runtime/aligned_buffer.hpp"
+#include "warping/band.hpp"
+#include "warping/packed_curve.hpp"
+#include "warping/step_table.hpp"
+
+namespace curvewise::warping {
+
+// What one thread keeps from one pair to the next.
+struct RecurrenceMemory {
+    AlignedBuffer lanes;
+    AlignedBuffer costs;  // of rows, columns and differences
+    AlignedBuffer boundary;
+    std::vector<std::ptrdiff_t> columns;
+};
+
+class RecurrenceSweep {
+   public:
+    // One coordinate of the curves where `coordinate` is not negative.
+    RecurrenceSweep(const Recurrence& recurrence, const StepTable& steps, const PackedPair& curves,
+                    const RangeScale& range, std::ptrdiff_t coordinate, Poller& poller,
+                    RecurrenceMemory& memory);
+
+    // Of the last cell; infinity where all paths are found to be above `give_up`.
+    double value(double give_up);
+    void write_table(double* out);
+    // The cells of a path from the first to the last.
+    std::vector<std::array<std::int64_t, 2>> path();
+
+   private:
+    struct Codes;
+    struct Cell {
+        std::ptrdiff_t row;
+        std::ptrdiff_t column;
+    };
+    // Rows first..end - 1 in so many columns.
+    struct Part {
+        std::ptrdiff_t first;
+        std::ptrdiff_t end;
+        std::ptrdiff_t columns;
+    };
+    using Rows = std::vector<double>;
+
+    void prepare_costs(const RangeScale& range);
+    void prepare_gaps(double gap, double* rows, double* columns);
+    void prepare_offsets(int odd, double* offsets) const;
+    ColumnRange columns_of(std::ptrdiff_t row) const noexcept;
+    Rows first_boundary() const;
+    void sweep(const Part& part, double* boundary, std::ptrdiff_t stride, Codes* codes,
+               double* table, double give_up);
+    void aim(kernels::RecurrenceStrip& strip, const Part& part, std::ptrdiff_t first,
+             std::ptrdiff_t rows);
+    void run(kernels::RecurrenceStrip& strip, const Part& part);
+    bool is_hopeless(const double* boundary, std::ptrdiff_t stride, double give_up) const noexcept;
+    Cell find(std::ptrdiff_t first, const Rows& boundary, Cell end);
+    Cell trace(std::ptrdiff_t first, const Rows& boundary, Cell end);
+
+    const Recurrence& recurrence_;
+    const StepTable& table_;
+    PackedPair curves_;
+    kernels::AdvanceRecurrence advance_;
+    kernels::CostFunction fill_;
+    kernels::RecurrenceStrip whole_{};  // what all strips have in common
+    Band band_;
+    Poller& poller_;
+    RecurrenceMemory& memory_;
+    bool is_counting_ = true;
+    double sum_of_row_gaps_ = 0.0;
+    double sum_of_column_gaps_ = 0.0;
+    double* left_border_ = nullptr;  // of the row `reach` above the first, and so on
+    double reentry_;                 // the least of it
+    std::vector<std::array<std::int64_t, 2>> found_;  // backwards
+};
+
+}  // namespace curvewise::warping

@@ -1,0 +1,28 @@
+// The steps of a recurrence as the kernels read them: checked, without terms that cost nothing, in
+// the units of a range.
+#pragma once
+
+#include <vector>
+
+#include "curves/range_scale.hpp"
+#include "curvewise/recurrence.hpp"
+#include "warping/kernels/recurrence.hpp"
+
+namespace curvewise::warping {
+
+using curves::RangeScale;
+
+struct StepTable {
+    // Throws std::invalid_argument for steps that the kernels do not take.
+    StepTable(const Recurrence& recurrence, const RangeScale& range);
+
+    bool uses(kernels::Source source) const noexcept;
+
+    std::vector<kernels::LaneStep> steps;
+    std::vector<kernels::LaneTerm> terms;
+    int reach = 1;            // the most rows or columns of a step
+    int value_diagonals = 2;  // those that a cell depends on, and its own
+    int pair_diagonals = 1;
+};
+
+}  // namespace curvewise::warping

@@ -1,0 +1,409 @@
+"""Edit distances between curves, and weighted dynamic time warping.
+
+Each is a row of the compiled library's table of recurrences (edit_distances.hpp), with the
+definitions and defaults of aeon 1.6. Time O(n m), memory O(n + m) except for the table.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal, SupportsFloat, TypeAlias, get_args
+
+from .._core import edit_path as compiled_path
+from .._core import edit_table as compiled_table
+from .._core import edr as compiled_edr
+from .._core import erp as compiled_erp
+from .._core import lcss as compiled_lcss
+from .._core import msm as compiled_msm
+from .._core import twe as compiled_twe
+from .._core import wdtw as compiled_wdtw
+from .._docstrings import filled, listed
+from .._options import Default, Metric, Order, Window, check_choice
+from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.named_curve import copied
+from .results import Alignment
+
+__all__ = ["edit_path", "edit_table", "edr", "erp", "lcss", "msm", "twe", "wdtw"]
+
+EditDistance: TypeAlias = Literal["erp", "edr", "lcss", "msm", "twe", "wdtw"]
+
+_SHARED = {
+    "curves": """\
+P, Q : array_like, shapes (n, d) and (m, d)
+    The curves, of any d.""",
+    "window": """\
+window : int >= 0 or 0 < float < 1, optional
+    Sakoe-Chiba band, as for :func:`dtw`.""",
+    "raises": """\
+ValueError
+    A curve is not finite or empty; the curves differ in d; an option is unknown or out of
+    range; no path fits the window (window = 0 and n != m).
+TypeError
+    A curve does not hold real numbers.""",
+}
+
+
+@filled(**_SHARED)
+def erp(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    gap: SupportsFloat = 0.0,
+    window: Window = Default.window,
+    cutoff: SupportsFloat | None = Default.cutoff,
+) -> float:
+    """Edit distance with real penalty: points are matched, or left out at their distance to a gap.
+
+    Parameters
+    ----------
+    {curves}
+    {metric}
+    {p}
+    gap : float
+        All coordinates of the point from which a point that is left out has its distance.
+    {window}
+    {cutoff}
+
+    Returns
+    -------
+    float
+        In units of the ground distance. Symmetric.
+
+    Raises
+    ------
+    {raises}
+
+    Notes
+    -----
+    Chen & Ng, "On the marriage of Lp-norms and edit distance" (2004): c[i, j] is the least of
+    c[i-1, j-1] + d(P[i], Q[j]), c[i-1, j] + d(P[i], gap) and c[i, j-1] + d(gap, Q[j]). Before the
+    first row and column are, as in aeon, the sums over all points of Q and of P: a path that
+    begins by leaving out points pays for all of that curve, where Chen & Ng add up as they go.
+    Exact. Time O(n m), memory O(n + m).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.erp([0, 1, 2, 3], [0, 2, 3])
+    1.0
+    """
+    return compiled_erp(P, Q, (metric, p, gap, window, cutoff))
+
+
+@filled(**_SHARED)
+def edr(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    epsilon: SupportsFloat | None = None,
+    window: Window = Default.window,
+    cutoff: SupportsFloat | None = Default.cutoff,
+) -> float:
+    """Edit distance on real sequences: the share of points that are changed or left out.
+
+    Parameters
+    ----------
+    {curves}
+    {metric}
+    {p}
+    epsilon : float >= 0, optional
+        Points nearer than this are equal. If not given, a quarter of the larger standard
+        deviation of all coordinates of P and of Q.
+    {window}
+    {cutoff}
+
+    Returns
+    -------
+    float
+        The least number of changes over max(n, m). Symmetric.
+
+    Raises
+    ------
+    {raises}
+
+    Notes
+    -----
+    Chen, Özsu & Oria, "Robust and fast similarity search for moving object trajectories" (2005):
+    c[i, j] is the least of c[i-1, j-1], plus 1 unless d(P[i], Q[j]) < epsilon, c[i-1, j] + 1 and
+    c[i, j-1] + 1. As in aeon, points may be left out for nothing before the first match. Exact.
+    Time O(n m), memory O(n + m).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.edr([0, 1, 2, 3], [0, 1, 7, 3], epsilon=0.5)
+    0.25
+    """
+    return compiled_edr(P, Q, (metric, p, epsilon, window, cutoff))
+
+
+@filled(**_SHARED)
+def lcss(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    epsilon: SupportsFloat = 1.0,
+    window: Window = Default.window,
+    cutoff: SupportsFloat | None = Default.cutoff,
+) -> float:
+    """Longest common subsequence: the share of points of the shorter curve that have no match.
+
+    Parameters
+    ----------
+    {curves}
+    {metric}
+    {p}
+    epsilon : float >= 0
+        Points at most so far apart match.
+    {window}
+    {cutoff}
+
+    Returns
+    -------
+    float
+        1 minus the most matches in order, over min(n, m). Symmetric.
+
+    Raises
+    ------
+    {raises}
+
+    Notes
+    -----
+    Vlachos, Kollios & Gunopulos, "Discovering similar multidimensional trajectories" (2002). The
+    table holds minus the number of matches. Exact. Time O(n m), memory O(n + m).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.lcss([0, 1, 2, 3], [0, 9, 2, 3], epsilon=0.5)
+    0.25
+    """
+    return compiled_lcss(P, Q, (metric, p, epsilon, window, cutoff))
+
+
+@filled(**_SHARED)
+def msm(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    cost: SupportsFloat = 1.0,
+    window: Window = Default.window,
+    cutoff: SupportsFloat | None = Default.cutoff,
+) -> float:
+    """Move-split-merge: what it costs to move numbers, to split one in two, and to merge two.
+
+    Parameters
+    ----------
+    {curves}
+    cost : float >= 0
+        Of a split or a merge.
+    {window}
+    {cutoff}
+
+    Returns
+    -------
+    float
+        In units of the coordinates. Of several coordinates, the sum over each. Symmetric.
+
+    Raises
+    ------
+    {raises}
+
+    Notes
+    -----
+    Stefan, Athitsos & Das, "The move-split-merge metric for time series" (2013). A split or merge
+    costs besides how far the number lies outside of its two neighbours. With several coordinates
+    each has a table of its own, as in aeon (``independent=True``). Exact. Time O(n m d), memory
+    O(n + m).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.msm([0, 1, 2, 3], [0, 2, 3])
+    2.0
+    """
+    return compiled_msm(P, Q, (cost, window, cutoff))
+
+
+@filled(**_SHARED)
+def twe(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    stiffness: SupportsFloat = 0.001,
+    penalty: SupportsFloat = 1.0,
+    window: Window = Default.window,
+    cutoff: SupportsFloat | None = Default.cutoff,
+) -> float:
+    """Time warp edit distance: matched segments, and deletions that cost a penalty and time.
+
+    Parameters
+    ----------
+    {curves}
+    {metric}
+    {p}
+    stiffness : float >= 0
+        What each unit of time between matched points costs; points are one unit apart.
+    penalty : float >= 0
+        Of each point that is deleted.
+    {window}
+    {cutoff}
+
+    Returns
+    -------
+    float
+        In units of the ground distance. Symmetric.
+
+    Raises
+    ------
+    {raises}
+
+    Notes
+    -----
+    Marteau, "Time warp edit distance with stiffness adjustment for time series matching" (2009),
+    whose nu and lambda are `stiffness` and `penalty`. Before the first point of each curve is 0.
+    Exact. Time O(n m), memory O(n + m).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.twe([0, 1, 2, 3], [0, 2, 3], penalty=0.5)
+    2.5029999999999997
+    """
+    return compiled_twe(P, Q, (metric, p, stiffness, penalty, window, cutoff))
+
+
+@filled(**_SHARED)
+def wdtw(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = "sqeuclidean",
+    p: Order = Default.p,
+    steepness: SupportsFloat = 0.05,
+    window: Window = Default.window,
+    cutoff: SupportsFloat | None = Default.cutoff,
+) -> float:
+    """Weighted dynamic time warping: a match weighs more, the farther apart its indices are.
+
+    Parameters
+    ----------
+    {curves}
+    {metric}
+    {p}
+    steepness : float >= 0
+        How sharply the weight rises about half of the longer curve.
+    {window}
+    {cutoff}
+
+    Returns
+    -------
+    float
+        In units of the ground distance. Symmetric.
+
+    Raises
+    ------
+    {raises}
+
+    Notes
+    -----
+    Jeong, Jeong & Omitaomu, "Weighted dynamic time warping for time series classification" (2011):
+    dtw of ground distances divided by 1 + exp(-steepness (abs(i - j) - max(n, m) / 2)). Exact.
+    Time O(n m), memory O(n + m).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> round(curvewise.wdtw([0, 1, 2, 3], [0, 2, 3]), 6)
+    0.475021
+    """
+    return compiled_wdtw(P, Q, (metric, p, steepness, window, cutoff))
+
+
+@filled(distances=listed(get_args(EditDistance)))
+def edit_path(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any) -> Alignment:
+    """Find a cheapest path of an edit distance: the cells of its table that it visits.
+
+    Parameters
+    ----------
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves.
+    measure : {distances}
+        The edit distance.
+    **options
+        Those of its function.
+
+    Returns
+    -------
+    Alignment
+        ``distance`` and ``path``, shape (k, 2). A step (1, 1) matches its points, or changes one
+        into the other; (1, 0) leaves out a point of P, (0, 1) one of Q. Among equal ones the
+        first of these is taken. The path begins where points have been left out at the start.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for the function; and ValueError for msm of several coordinates, each of which has a
+        path of its own.
+
+    Notes
+    -----
+    By halving the rows: time O(n m) some times, memory O((n + m) log n).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.edit_path([0, 1, 2, 3], [0, 2, 3], "msm").path.tolist()
+    [[0, 0], [1, 0], [2, 1], [3, 2]]
+    """
+    check_choice("measure", measure, get_args(EditDistance))
+    A, B = as_curves(P, Q)
+    return Alignment(*compiled_path(measure, A, B, options), (copied(P, A), copied(Q, B)))
+
+
+@filled(distances=listed(get_args(EditDistance)))
+def edit_table(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any) -> Array:
+    """Return the cumulative table of an edit distance.
+
+    Parameters
+    ----------
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves.
+    measure : {distances}
+        The edit distance.
+    **options
+        Those of its function.
+
+    Returns
+    -------
+    ndarray, shape (n, m)
+        c[i, j], before it is divided by a length; ``inf`` outside the window. Of lcss, minus the
+        number of matches; of msm, the sum over the coordinates.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for the function.
+    MemoryError
+        The table does not fit.
+
+    Notes
+    -----
+    Time O(n m), memory 16 n m bytes while it is made.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.edit_table([0, 1], [0, 2, 3], "msm").tolist()
+    [[0.0, 3.0, 5.0], [2.0, 1.0, 3.0]]
+    """
+    check_choice("measure", measure, get_args(EditDistance))
+    P, Q = as_curves(P, Q)
+    return compiled_table(measure, P, Q, options)

@@ -1,0 +1,58 @@
+"""The Hausdorff distance between the points of two curves. Time O(n m), memory O(n + m)."""
+
+from __future__ import annotations
+
+from typing import SupportsFloat
+
+from .._core import hausdorff as compiled_hausdorff
+from .._docstrings import filled
+from .._options import Default, Metric, Order
+from ..curves.inputs import CurveLike
+
+__all__ = ["hausdorff"]
+
+
+@filled()
+def hausdorff(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    cutoff: SupportsFloat | None = Default.cutoff,
+) -> float:
+    """How far the point of either curve is from the other curve's points that is farthest from it.
+
+    Parameters
+    ----------
+    P, Q : array_like, shapes (n, d) and (m, d)
+        The curves, of any d.
+    {metric}
+    {p}
+    {cutoff}
+
+    Returns
+    -------
+    float
+        In units of the ground distance. Symmetric. The order of points does not matter.
+
+    Raises
+    ------
+    ValueError
+        A curve is not finite or empty; the curves differ in d; an option is unknown or out of
+        range.
+    TypeError
+        A curve does not hold real numbers.
+
+    Notes
+    -----
+    The larger of the two that ``scipy.spatial.distance.directed_hausdorff`` returns for (P, Q)
+    and (Q, P). At most the discrete Fréchet distance. Exact. Time O(n m), memory O(n + m).
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> curvewise.hausdorff([0, 1, 2, 3], [3, 0, 1])
+    1.0
+    """
+    return compiled_hausdorff(P, Q, (metric, p, cutoff))

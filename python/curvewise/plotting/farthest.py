@@ -1,0 +1,87 @@
+"""The pair of points that a Hausdorff distance is the distance of. Time O(n m)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .._options import Default, Metric, Order
+from ..curves.ground_distance import check_metric, ground_distances
+from ..curves.inputs import CurveLike
+from ..drawing.figures import CurveArtists
+from ..drawing.links import draw_pair, draw_path
+from .measured import measured_and_drawn
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["plot_farthest"]
+
+
+def plot_farthest(
+    P: CurveLike,
+    Q: CurveLike,
+    ax: Axes,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    normalized: bool = False,
+    names: Sequence[str] | None = None,
+) -> CurveArtists:
+    """Draw each point's nearest on the other curve, and the pair that is farthest apart.
+
+    Parameters
+    ----------
+    P, Q : array_like, shape (n, d) and (m, d), or (n,) and (m,), d = 1 or 2
+        The curves.
+    ax : matplotlib.axes.Axes
+        Where to draw.
+    metric, p
+        As for :func:`curvewise.hausdorff`.
+    normalized, names
+        As in `plot_area`.
+
+    Returns
+    -------
+    CurveArtists
+        `between` is a LineCollection, each line from a point of P to the one of Q that is nearest
+        to it, or the other way round; `accent` the pair whose distance is the value.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`curvewise.hausdorff`, and for d > 2; before anything is drawn.
+
+    Notes
+    -----
+    Time and memory O(n m).
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from curvewise.plotting import plot_farthest
+    >>> ax = Figure().subplots()
+    >>> plot_farthest([0, 1, 2], [0, 2], ax).accent.get_label()
+    'Hausdorff distance'
+    """
+    metric, order = check_metric(metric, p)
+    refused = "plot_farthest draws 1 or 2 coordinates"
+    (A, B), drawn, labels = measured_and_drawn(P, Q, normalized, names, refused)
+    A, B = A.reshape(len(A), -1), B.reshape(len(B), -1)
+    ground = ground_distances(A[:, np.newaxis], B, metric, order)
+    rows, columns = np.arange(len(A)), np.arange(len(B))
+    pairs = np.vstack(
+        [
+            np.column_stack([rows, ground.argmin(axis=1)]),
+            np.column_stack([ground.argmin(axis=0), columns]),
+        ]
+    )
+    artists = draw_path(ax, drawn, pairs, labels)
+    farthest = pairs[np.argmax(ground[pairs[:, 0], pairs[:, 1]])]
+    ends = [
+        np.asarray(line.get_xydata())[i]
+        for line, i in zip((artists.P, artists.Q), farthest, strict=True)
+    ]
+    return artists._replace(accent=draw_pair(ax, ends, "Hausdorff distance"))

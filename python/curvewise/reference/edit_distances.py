@@ -1,0 +1,278 @@
+"""Edit distances, and weighted dynamic time warping, by the table of reference/recurrence.py.
+
+Each says its steps: a match or change, a point of P left out, and one of Q, in this order; what
+lies before the first row and column; and what the last cell is divided by. Time and memory O(n m).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Literal, NamedTuple, SupportsFloat, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from .._options import Default, Metric, Order, Window, real_number
+from ..curves.ground_distance import check_metric, ground_distances
+from ..curves.inputs import Array, CurveLike, as_curves
+from ..measures.results import Alignment
+from .checks import check_pair
+from .dtw import checked_radius, sakoe_chiba_band
+from .recurrence import CellCost, Recurrence, Step, filled, path_through
+
+__all__ = ["edit_path", "edit_table", "edr", "erp", "lcss", "msm", "twe", "wdtw"]
+
+
+EditDistance: TypeAlias = Literal["erp", "edr", "lcss", "msm", "twe", "wdtw"]
+
+
+def erp(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    gap: SupportsFloat = 0.0,
+    window: Window = Default.window,
+) -> float:
+    """Time and memory O(n m)."""
+    return _erp(P, Q, metric, p, gap, window).value()
+
+
+def edr(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    epsilon: SupportsFloat | None = None,
+    window: Window = Default.window,
+) -> float:
+    """Time and memory O(n m)."""
+    return _edr(P, Q, metric, p, epsilon, window).value()
+
+
+def lcss(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    epsilon: SupportsFloat = 1.0,
+    window: Window = Default.window,
+) -> float:
+    """Time and memory O(n m)."""
+    found = _lcss(P, Q, metric, p, epsilon, window)
+    n, m = found.table.shape
+    return float(max(0.0, 1.0 + found.last() / min(n, m)))
+
+
+def msm(
+    P: CurveLike, Q: CurveLike, *, cost: SupportsFloat = 1.0, window: Window = Default.window
+) -> float:
+    """Time and memory O(n m)."""
+    return _msm(P, Q, cost, window).value()
+
+
+def twe(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    stiffness: SupportsFloat = 0.001,
+    penalty: SupportsFloat = 1.0,
+    window: Window = Default.window,
+) -> float:
+    """Time and memory O(n m)."""
+    return _twe(P, Q, metric, p, stiffness, penalty, window).value()
+
+
+def wdtw(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = "sqeuclidean",
+    p: Order = Default.p,
+    steepness: SupportsFloat = 0.05,
+    window: Window = Default.window,
+) -> float:
+    """Time and memory O(n m)."""
+    return _wdtw(P, Q, metric, p, steepness, window).value()
+
+
+def edit_path(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any) -> Alignment:
+    """Time and memory O(n m)."""
+    found = _found(P, Q, measure, options)
+    if found.path is None:
+        raise ValueError(
+            f"{measure} has no path for curves of several coordinates, of which each has its own; "
+            "take them one by one"
+        )
+    return Alignment(globals()[measure](P, Q, **options), found.path)
+
+
+def edit_table(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any) -> Array:
+    """Time and memory O(n m)."""
+    return _found(P, Q, measure, options).table
+
+
+class _Found(NamedTuple):
+    """A filled table, with the path to its last cell."""
+
+    table: Array
+    path: npt.NDArray[np.int64] | None
+    divisor: float = 1.0
+
+    def last(self) -> float:
+        return float(self.table[-1, -1])
+
+    def value(self) -> float:
+        return self.last() / self.divisor
+
+
+def _found(P: CurveLike, Q: CurveLike, measure: str, options: dict[str, Any]) -> _Found:
+    defaults = dict(globals()[measure].__kwdefaults__)
+    found: _Found = globals()[f"_{measure}"](P, Q, *(defaults | options).values())
+    return found
+
+
+class _Pair(NamedTuple):
+    """Two curves that have been checked, and what all edit distances ask of them."""
+
+    P: Array
+    Q: Array
+    metric: Metric
+    order: float
+    inside: npt.NDArray[np.bool_]
+
+    @classmethod
+    def checked(
+        cls, P: CurveLike, Q: CurveLike, metric: Metric, p: Order, window: Any, measure: str
+    ) -> _Pair:
+        P, Q = as_curves(P, Q)
+        metric, order = check_metric(metric, p)
+        P, Q = check_pair(P, Q, measure)
+        radius = checked_radius(window, len(P), len(Q))
+        return cls(P, Q, metric, order, sakoe_chiba_band(len(P), len(Q), radius))
+
+    def ground(self) -> Array:
+        """Return d(P[i], Q[j])."""
+        return self.between(self.P[:, np.newaxis], self.Q)
+
+    def between(self, A: Array, B: Array) -> Array:
+        """Return the distances of points that are broadcast."""
+        return ground_distances(A, B, self.metric, self.order)
+
+    def found(self, recurrence: Recurrence, divisor: float = 1.0) -> _Found:
+        """Fill the table."""
+        table, taken = filled(recurrence, self.inside)
+        return _Found(table, path_through(recurrence, taken), divisor)
+
+
+def _steps(match: CellCost, row: float, column: float, *gaps: CellCost) -> list[Step]:
+    """Return the three steps: what a match costs, and what leaving out costs, and its gap."""
+    gap_of_row, gap_of_column = ([(1.0, gap)] for gap in gaps) if gaps else ([], [])
+    return [
+        Step(1, 1, 0.0, [(1.0, match)]),
+        Step(1, 0, row, gap_of_row),
+        Step(0, 1, column, gap_of_column),
+    ]
+
+
+def _cell(table: Array) -> CellCost:
+    return lambda i, j: float(table[i, j])
+
+
+def _erp(P: Any, Q: Any, metric: Metric, p: Order, gap: Any, window: Any) -> _Found:
+    pair = _Pair.checked(P, Q, metric, p, window, "erp")
+    point = np.full((1, pair.P.shape[1]), real_number("gap", gap, -math.inf, "give a number"))
+    rows, columns = pair.between(pair.P, point), pair.between(pair.Q, point)
+    steps = _steps(
+        _cell(pair.ground()),
+        0.0,
+        0.0,
+        lambda i, j: float(rows[i]),
+        lambda i, j: float(columns[j]),
+    )
+    return pair.found(Recurrence(steps, None, sum(columns.tolist()), sum(rows.tolist())))
+
+
+def _edr(P: Any, Q: Any, metric: Metric, p: Order, epsilon: Any, window: Any) -> _Found:
+    pair = _Pair.checked(P, Q, metric, p, window, "edr")
+    quarter = max(float(np.std(curve)) for curve in (pair.P, pair.Q)) / 4
+    least = quarter if epsilon is None else epsilon
+    least = real_number("epsilon", least, 0.0, "give a number >= 0, or None")
+    apart = np.where(pair.ground() < least, 0.0, 1.0)
+    recurrence = Recurrence(_steps(_cell(apart), 1.0, 1.0), None, 0.0, 0.0)
+    return pair.found(recurrence, max(pair.inside.shape))
+
+
+def _lcss(P: Any, Q: Any, metric: Metric, p: Order, epsilon: Any, window: Any) -> _Found:
+    pair = _Pair.checked(P, Q, metric, p, window, "lcss")
+    most = real_number("epsilon", epsilon, 0.0, "give a number >= 0")
+    together = np.where(pair.ground() <= most, -1.0, 0.0)
+    return pair.found(Recurrence(_steps(_cell(together), 0.0, 0.0), None, 0.0, 0.0))
+
+
+def _msm(P: Any, Q: Any, cost: Any, window: Any) -> _Found:
+    pair = _Pair.checked(P, Q, "cityblock", None, window, "msm")
+    constant = real_number("cost", cost, 0.0, "give a number >= 0")
+    found = [_msm_of_one(pair, c, constant) for c in range(pair.P.shape[1])]
+    table = sum((one.table for one in found[1:]), found[0].table)
+    return _Found(table, found[0].path if len(found) == 1 else None)
+
+
+def _msm_of_one(pair: _Pair, coordinate: int, cost: float) -> _Found:
+    x, y = pair.P[:, coordinate], pair.Q[:, coordinate]
+
+    def outside(new: float, old: float, other: float) -> float:
+        if old <= new <= other or old >= new >= other:
+            return 0.0
+        return min(abs(new - old), abs(new - other))
+
+    steps = _steps(
+        lambda i, j: abs(x[i] - y[j]),
+        cost,
+        cost,
+        lambda i, j: outside(x[i], x[i - 1], y[j]),
+        lambda i, j: outside(y[j], y[j - 1], x[i]),
+    )
+    return pair.found(Recurrence(steps, first=abs(float(x[0] - y[0]))))
+
+
+def _twe(
+    P: Any, Q: Any, metric: Metric, p: Order, stiffness: Any, penalty: Any, window: Any
+) -> _Found:
+    pair = _Pair.checked(P, Q, metric, p, window, "twe")
+    stiff = real_number("stiffness", stiffness, 0.0, "give a number >= 0")
+    deletion = stiff + real_number("penalty", penalty, 0.0, "give a number >= 0")
+    led_P, led_Q = (
+        np.concatenate([np.zeros((1, curve.shape[1])), curve]) for curve in (pair.P, pair.Q)
+    )
+    ground = pair.between(led_P[:, np.newaxis], led_Q)  # one row and one column more
+    rows, columns = pair.between(led_P[1:], led_P[:-1]), pair.between(led_Q[1:], led_Q[:-1])
+    match, above, left = _steps(
+        lambda i, j: float(ground[i + 1, j + 1]),
+        deletion,
+        deletion,
+        lambda i, j: float(rows[i]),
+        lambda i, j: float(columns[j]),
+    )
+    more: list[tuple[float, CellCost]] = [
+        (1.0, lambda i, j: float(ground[i, j])),
+        (2.0 * stiff, lambda i, j: abs(i - j)),
+    ]
+    match = match._replace(costs=[*match.costs, *more])
+    return pair.found(Recurrence([match, above, left]))
+
+
+def _wdtw(P: Any, Q: Any, metric: Metric, p: Order, steepness: Any, window: Any) -> _Found:
+    pair = _Pair.checked(P, Q, metric, p, window, "wdtw")
+    steep = real_number("steepness", steepness, 0.0, "give a number >= 0")
+    n, m = pair.inside.shape
+    apart = np.abs(np.arange(n)[:, np.newaxis] - np.arange(m))
+    ground = pair.ground() * (1.0 / (1.0 + np.exp(-steep * (apart - max(n, m) / 2.0))))
+    cost = _cell(ground)
+    steps = [Step(i, j, 0.0, [(1.0, cost)]) for i, j in ((1, 1), (1, 0), (0, 1))]
+    return pair.found(Recurrence(steps, first=float(ground[0, 0])))
