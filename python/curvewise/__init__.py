@@ -22,6 +22,7 @@ from .many.nearest import Index
 from .many.pairwise import Prepared, available_measures, cdist, pdist
 from .many.subsequences import subsequence
 from .measures import *  # noqa: F403  # the names that measures/__init__ lists
+from .measures.edit_distances import *  # noqa: F403  # which type checkers do not see in that list
 from .measures.results import *  # noqa: F403  # likewise
 
 if TYPE_CHECKING:

@@ -80,12 +80,17 @@ graph = index.kneighbors_graph([P], 1, mode="distance")
 runs: list[curvewise.Subsequence] = curvewise.subsequence(P[:5], Q, k=3, cutoff=9, path=True)
 number = runs[0].distance + runs[0].start + runs[0].stop
 mean: curvewise.DtwMean = curvewise.dtw_mean([P, Q], weights=[1, 2], iterations=2)
+mean = curvewise.soft_dtw_mean([P, Q], gamma=0.1, initial=P, iterations=2)
 average: FloatArray = mean.curve
 chosen: int = curvewise.medoid([P, Q], "frechet", metric="chebyshev")
 
 residuals: FloatArray = curvewise.curve_length_residuals(P, Q, scale="range")
 number = curvewise.sum_of_squares(P, P) + curvewise.mse(P, P) + curvewise.mae(P, P)
 value_and_slope: tuple[float, FloatArray] = curvewise.value_and_gradient(P, Q, "area", spacing="x")
+number = curvewise.soft_dtw(P, Q, gamma=0.1, window=9) + curvewise.soft_dtw_divergence(P, Q)
+all_slopes: tuple[FloatArray, FloatArray, FloatArray] = curvewise.values_and_gradients(
+    np.stack([P]), np.stack([Q]), "soft_dtw", workers=2, gamma=0.1
+)
 scaled: list[FloatArray] = curvewise.normalize(P, Q, listed)
 
 comparison: curvewise.Comparison = curvewise.compare(P, Q, preset="paper", measures=["dtw"])

@@ -178,6 +178,9 @@ void count_warping(const Calls& count) {
     count("gradient dtw 300", [&] { value_and_gradient(DtwOptions{}, P, Q, gradient.data()); });
     count("gradient curve_length 300",
           [&] { value_and_gradient(CurveLengthOptions{}, P, Q, gradient.data()); });
+    count("soft_dtw 300", [&] { soft_dtw(P, Q); });
+    count("gradient soft_dtw 300",
+          [&] { value_and_gradient(SoftDtwOptions{}, P, Q, gradient.data()); });
 }
 
 void count_many(const Calls& count) {

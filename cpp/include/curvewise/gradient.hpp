@@ -87,8 +87,8 @@ using DifferentiableMeasure =
                  FrechetContinuousOptions, SoftDtwOptions>;
 
 /// Of the pairs P[k], Q[k], on `workers` threads, -1 for one per core: values[k], and what out[k]
-/// asks for: the value alone where both are null. Results do not depend on the number of threads. The first error of a pair is thrown
-/// once all threads have ended.
+/// asks for: the value alone where both are null. Results do not depend on the number of threads.
+/// The first error of a pair is thrown once all threads have ended.
 CURVEWISE_EXPORT void values_and_gradients(const DifferentiableMeasure& measure,
                                            const std::vector<CurveView>& P,
                                            const std::vector<CurveView>& Q, double* values,

@@ -29,9 +29,8 @@ void values_and_gradients(const DifferentiableMeasure& measure, const std::vecto
             std::visit(
                 [&](const auto& options) {
                     const bool is_value = out[k].by_p == nullptr && out[k].by_q == nullptr;
-                    values[k] = is_value
-                                    ? evaluate(options, P[k], Q[k], watch)
-                                    : value_and_gradients(options, P[k], Q[k], out[k], watch);
+                    values[k] = is_value ? evaluate(options, P[k], Q[k], watch)
+                                         : value_and_gradients(options, P[k], Q[k], out[k], watch);
                 },
                 measure);
         } catch (const std::invalid_argument& error) {
