@@ -40,7 +40,7 @@ def test_matplotlib_is_imported_for_pictures_only(files):
         (["bogus"], "bogus"),
         (["compare", "A.csv"], "B"),
         (["compare", "A.csv", "B.csv", "--preset", "best"], "'paper'"),
-        (["compare", "A.csv", "B.csv", "--measures", "area", "lcss"], "lcss"),
+        (["compare", "A.csv", "B.csv", "--measures", "area", "ssim"], "ssim"),
         (["compare", "A.csv", "B.csv", "--measures"], "--measures"),
         (["compare", "A.csv", "B.csv", "--columns"], "--columns"),
         (["info", "more"], "more"),

@@ -11,6 +11,7 @@ import pytest
 
 from curvewise import Prepared, cdist, pdist
 from curvewise._options import Metric
+from curvewise.measures.registry import MEASURES
 
 GOOD = [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)]
 POINT = [(1, 1), (1, 1)]
@@ -20,6 +21,7 @@ NO_LIST = (
     "XA has 2 array dimensions; give k curves as shape (k, n, d) or as a list: [XA] for a single "
     "curve, list(XA) for k curves with d = 1"
 )
+ALL_MEASURES = ", ".join(sorted(MEASURES))
 VALUES = {
     "XA[1][1, 1] is nan; curves must be finite": lambda: cdist(
         [GOOD, [(0, 0), (1, np.nan)]], [GOOD]
@@ -56,15 +58,15 @@ VALUES = {
     f"unknown metric 'manhattan'; choose from {', '.join(get_args(Metric))}": lambda: cdist(
         [GOOD], metric="manhattan"
     ),
-    "'euclidean' is a ground distance, between points; the measure is of curves, one of area, "
-    "curve_length, dtw, frechet, frechet_continuous, pcm: use measure='dtw', "
-    "metric='euclidean' for example": lambda: cdist([GOOD], [GOOD], "euclidean"),
+    "'euclidean' is a ground distance, between points; the measure is of curves, one of "
+    f"{ALL_MEASURES}: use measure='dtw', metric='euclidean' for example": lambda: cdist([GOOD], [GOOD], "euclidean"),
     "'dtw' is a measure, of curves; the metric is the ground distance between their points, "
     f"one of {', '.join(get_args(Metric))}: use measure='dtw'": lambda: cdist(
         [GOOD], [GOOD], metric="dtw"
     ),
-    "unknown measure 'no_such'; choose from area, curve_length, dtw, frechet, "
-    "frechet_continuous, pcm": lambda: cdist([GOOD], measure="no_such"),
+    f"unknown measure 'no_such'; choose from {ALL_MEASURES}": lambda: cdist(
+        [GOOD], measure="no_such"
+    ),
     "pdist needs a symmetric measure, and 'curve_length', scale='range' is not: use cdist, "
     "which computes both directions": lambda: pdist([GOOD], "curve_length", scale="range"),
     "workers is 0; give a whole number >= 1, or -1 for all cores": lambda: cdist([GOOD], workers=0),

@@ -254,7 +254,7 @@ def test_alignment_refuses_what_it_cannot_draw(ax):
         with pytest.raises(ValueError, match=f"every is {every}; give a whole number >= 1"):
             plotting.plot_alignment(P, Q, ax, every=every)
     for plot in (plotting.plot_alignment, plotting.plot_table):
-        with pytest.raises(ValueError, match="unknown measure 'area'; choose from dtw, frechet"):
+        with pytest.raises(ValueError, match="unknown measure 'area'; choose from dtw, edr"):
             plot(P, Q, ax, measure="area")
         with pytest.raises(ValueError, match="unknown step_pattern 'x'"):
             plot(P, Q, ax, step_pattern="x")
