@@ -145,14 +145,18 @@ py::object OptionReader::take(const char* name) {
     return py::reinterpret_borrow<py::object>(value);
 }
 
-bool are_same_objects(const py::tuple& values, const py::tuple& defaults) {
+bool are_defaults(const py::tuple& values, const py::tuple& defaults) {
     if (values.size() != defaults.size()) {
         throw py::type_error("there are " + std::to_string(values.size()) + " values for " +
                              std::to_string(defaults.size()) + " options");
     }
     bool same = true;
     for (py::ssize_t i = 0; i < PyTuple_GET_SIZE(defaults.ptr()); ++i) {
-        same &= PyTuple_GET_ITEM(values.ptr(), i) == PyTuple_GET_ITEM(defaults.ptr(), i);
+        PyObject* const value = PyTuple_GET_ITEM(values.ptr(), i);
+        PyObject* const standard = PyTuple_GET_ITEM(defaults.ptr(), i);
+        // Of numbers there may be several objects; of what else there is, there is one.
+        same &= value == standard || (PyFloat_CheckExact(value) && PyFloat_CheckExact(standard) &&
+                                      PyFloat_AS_DOUBLE(value) == PyFloat_AS_DOUBLE(standard));
     }
     return same;
 }

@@ -200,15 +200,15 @@ Options read_options(const py::dict& given, OptionsOf what = OptionsOf::pair) {
     return options;
 }
 
-// Throws where there are not as many; whether each is the same object as the other's.
-bool are_same_objects(const py::tuple& values, const py::tuple& defaults);
+// Throws where there are not as many; whether each is the default, at a glance.
+bool are_defaults(const py::tuple& values, const py::tuple& defaults);
 
 // From a tuple of the values of all options in the measure's order: what most calls give are the
 // very objects of the tuple of defaults, and then none is read.
 template <class Options>
 Options read_options(const py::tuple& values, const py::tuple& defaults) {
     Options options;
-    if (are_same_objects(values, defaults)) return options;
+    if (are_defaults(values, defaults)) return options;
     OptionReader reader(values);
     visit_options(options, reader);
     return options;
