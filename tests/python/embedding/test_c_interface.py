@@ -48,6 +48,7 @@ Dtw = structure(
     *PRUNING,
     ("window_fraction", c_double),
     ("normalize", c_int),
+    ("penalty", c_double),
 )
 CurveLength = structure("CurveLength", ("scale", c_int))
 Chaboche = structure("Chaboche", ("backstresses", c_int), ("modulus", c_int))
@@ -181,7 +182,7 @@ def test_planar_options(call) -> None:
         ("frechet", Frechet(), "workers is 0"),
         ("frechet", Frechet(0, 2.0, 1, 1, -1.0), "cutoff is -1"),
         ("dtw", Dtw(), "workers is 0"),
-        ("dtw", Dtw(0, 2.0, 2, 0, 0, -1, 1), "unknown step_pattern 2; choose from 0 to 1"),
+        ("dtw", Dtw(0, 2.0, 27, 0, 0, -1, 1), "unknown step_pattern 27; choose from 0 to 26"),
         ("dtw", Dtw(0, 2.0, 1, 1, 0, -1, 1), "open_begin and open_end need step_pattern="),
         ("dtw", per_step_or_fraction(pattern=0, normalize=1), "normalize needs step_pattern="),
         ("dtw", per_step_or_fraction(fraction=1.5), "window is 1.5"),
