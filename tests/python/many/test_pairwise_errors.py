@@ -59,7 +59,9 @@ VALUES = {
         [GOOD], metric="manhattan"
     ),
     "'euclidean' is a ground distance, between points; the measure is of curves, one of "
-    f"{ALL_MEASURES}: use measure='dtw', metric='euclidean' for example": lambda: cdist([GOOD], [GOOD], "euclidean"),
+    f"{ALL_MEASURES}: use measure='dtw', metric='euclidean' for example": lambda: cdist(
+        [GOOD], [GOOD], "euclidean"
+    ),
     "'dtw' is a measure, of curves; the metric is the ground distance between their points, "
     f"one of {', '.join(get_args(Metric))}: use measure='dtw'": lambda: cdist(
         [GOOD], [GOOD], metric="dtw"
