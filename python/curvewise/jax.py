@@ -286,7 +286,7 @@ def pcm(P: Array, Q: Array, **options: Any) -> NoReturn:
     Examples
     --------
     >>> import curvewise.jax
-    >>> curvewise.jax.pcm(None, None)
+    >>> curvewise.jax.pcm(None, None)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
     NotImplementedError: pcm has no derivative: ...
     """
