@@ -1,5 +1,7 @@
 // Gradients by both curves: against central differences of the measure, in every direction at once.
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -51,6 +53,13 @@ void check_slope(const Options& options, const Curve& P, const Curve& Q, const C
     CHECK_EQUAL(alone, by_q);
 }
 
+curvewise::SoftDtwOptions soft(double gamma, std::optional<std::ptrdiff_t> window = std::nullopt) {
+    curvewise::SoftDtwOptions options;
+    options.gamma = gamma;
+    options.window = window;
+    return options;
+}
+
 void slopes() {
     Random random(17);
     const Curve P = random.curve(12, 2), Q = random.curve(9, 2), direction = random.curve(12, 2);
@@ -69,8 +78,8 @@ void slopes() {
     check_slope(curvewise::FrechetOptions{}, P, Q, direction);
     check_slope(curvewise::CurveLengthOptions{curvewise::LengthScale::range}, P, Q, direction);
     check_slope(curvewise::FrechetContinuousOptions{}, P, Q, direction);
-    check_slope(curvewise::SoftDtwOptions{0.1}, P, Q, direction);
-    check_slope(curvewise::SoftDtwOptions{2.0, 3}, P, Q, direction);
+    check_slope(soft(0.1), P, Q, direction);
+    check_slope(soft(2.0, 3), P, Q, direction);
 }
 
 // More rows than a strip has, and a band that leaves cells of most strips out.
@@ -78,8 +87,8 @@ void slopes_across_strips() {
     Random random(18);
     const Curve P = random.curve(200, 1), Q = random.curve(170, 1),
                 direction = random.curve(200, 1);
-    check_slope(curvewise::SoftDtwOptions{1.0}, P, Q, direction);
-    check_slope(curvewise::SoftDtwOptions{1.0, 20}, P, Q, direction);
+    check_slope(soft(1.0), P, Q, direction);
+    check_slope(soft(1.0, 20), P, Q, direction);
 }
 
 // As one by one, for any number of threads, and errors that name the pair.
