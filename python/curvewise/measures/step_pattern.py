@@ -123,6 +123,7 @@ Steps: TypeAlias = StepPatternName | StepPattern
 
 def _checked(rows: Iterable[Sequence[SupportsIndex | SupportsFloat]]) -> tuple[Row, ...]:
     try:
+        # What is no number is refused here, whatever its type.
         checked = tuple((int(s), int(i), int(j), float(w)) for s, i, j, w in rows)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         raise ValueError("rows are of four numbers: step, rows, columns, weight") from None
