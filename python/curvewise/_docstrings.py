@@ -42,14 +42,6 @@ prune : bool
     "cutoff": """\
 cutoff : float >= 0, optional
     A distance above it is inf, and is found to be so early.""",
-    "loss_curves": """\
-P, Q : {array}, shapes (n, d) and (m, d), or (b, n, d) and (b, m, d)
-    A pair of curves, or b pairs. Of real numbers; one of them may be a single curve that is
-    compared with b.""",
-    "loss_value": """\
-{array}, shape () or (b,)
-    The values, with the bits of :mod:`curvewise`, differentiable in both curves. Computed in
-    float64; returned as float64 if a curve is, else as float32.""",
 }
 # What the reference does not have: it computes the plain table in one thread.
 _NOT_OF_THE_REFERENCE = ("workers", "prune", "cutoff")

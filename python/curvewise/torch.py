@@ -16,8 +16,8 @@ from typing import Any, NoReturn, TypeAlias
 
 import numpy as np
 
-from ._docstrings import filled
 from ._extras import extra
+from ._loss_texts import documented_loss
 from .measures.gradient import NO_DERIVATIVE_OF_PCM, NO_SECOND_DERIVATIVE, of_arrays
 
 with extra("torch", "curvewise.torch needs PyTorch"):
@@ -30,30 +30,11 @@ __all__ = ["area", "curve_length", "dtw", "frechet", "frechet_continuous", "pcm"
 Slopes: TypeAlias = tuple[Tensor, Tensor, Tensor]
 
 
-@filled(array="Tensor")
+@documented_loss("Tensor")
 def area(P: Tensor, Q: Tensor, **options: Any) -> Tensor:
     """Compute :func:`curvewise.area` of tensors, differentiable in both.
 
-    Parameters
-    ----------
-    {loss_curves}
-    **options
-        Those of :func:`curvewise.area`, except ``spacing="arc_length"``. As a loss,
-        ``spacing="matched"``, which takes other increments and noise, and does not jump.
-
-    Returns
-    -------
-    {loss_value}
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`curvewise.area`; shapes that do not make pairs; complex tensors.
-
-    Notes
-    -----
-    Jekel et al. (2018). The cuts of the refinement, or the matching, are held. Time and memory of
-    :func:`curvewise.values_and_gradients`.
+    {loss}
 
     Examples
     --------
@@ -69,29 +50,11 @@ def area(P: Tensor, Q: Tensor, **options: Any) -> Tensor:
     return _measured("area", P, Q, options)
 
 
-@filled(array="Tensor")
+@documented_loss("Tensor")
 def curve_length(P: Tensor, Q: Tensor, **options: Any) -> Tensor:
     """Compute :func:`curvewise.curve_length` of tensors, differentiable in both.
 
-    Parameters
-    ----------
-    {loss_curves}
-    **options
-        Those of :func:`curvewise.curve_length`.
-
-    Returns
-    -------
-    {loss_value}
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`curvewise.curve_length`; shapes that do not make pairs; complex tensors.
-
-    Notes
-    -----
-    Andrade-Campos et al. (2012). Not symmetric: P is the experiment. Time and memory of
-    :func:`curvewise.values_and_gradients`.
+    {loss}
 
     Examples
     --------
@@ -105,30 +68,11 @@ def curve_length(P: Tensor, Q: Tensor, **options: Any) -> Tensor:
     return _measured("curve_length", P, Q, options)
 
 
-@filled(array="Tensor")
+@documented_loss("Tensor")
 def dtw(P: Tensor, Q: Tensor, **options: Any) -> Tensor:
     """Compute :func:`curvewise.dtw` of tensors, differentiable in both.
 
-    Parameters
-    ----------
-    {loss_curves}
-    **options
-        Those of :func:`curvewise.dtw`.
-
-    Returns
-    -------
-    {loss_value}
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`curvewise.dtw`; shapes that do not make pairs; complex tensors.
-
-    Notes
-    -----
-    Sakoe & Chiba (1978). The warping path is held (the envelope theorem); where two cost the same,
-    the derivative is that of the one that :func:`curvewise.dtw_path` returns, a member of the
-    subdifferential. Time O(n m), memory O(n + m) for each pair and thread.
+    {loss}
 
     Examples
     --------
@@ -144,30 +88,11 @@ def dtw(P: Tensor, Q: Tensor, **options: Any) -> Tensor:
     return _measured("dtw", P, Q, options)
 
 
-@filled(array="Tensor")
+@documented_loss("Tensor")
 def frechet(P: Tensor, Q: Tensor, **options: Any) -> Tensor:
     """Compute :func:`curvewise.frechet` of tensors, differentiable in both.
 
-    Parameters
-    ----------
-    {loss_curves}
-    **options
-        Those of :func:`curvewise.frechet`.
-
-    Returns
-    -------
-    {loss_value}
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`curvewise.frechet`; shapes that do not make pairs; complex tensors.
-
-    Notes
-    -----
-    Eiter & Mannila (1994). The derivative is 0 except at the one pair of points that decides; of
-    two that are equally far apart it is the first along :func:`curvewise.frechet_path`, a member of
-    the subdifferential. Time O(n m), memory O(n + m) for each pair and thread.
+    {loss}
 
     Examples
     --------
@@ -183,30 +108,11 @@ def frechet(P: Tensor, Q: Tensor, **options: Any) -> Tensor:
     return _measured("frechet", P, Q, options)
 
 
-@filled(array="Tensor")
+@documented_loss("Tensor")
 def frechet_continuous(P: Tensor, Q: Tensor, **options: Any) -> Tensor:
     """Compute :func:`curvewise.frechet_continuous` of tensors, differentiable in both.
 
-    Parameters
-    ----------
-    {loss_curves}
-    **options
-        None: the measure has no options that change its value.
-
-    Returns
-    -------
-    {loss_value}
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`curvewise.frechet_continuous`; shapes that do not make pairs; complex tensors.
-
-    Notes
-    -----
-    Alt & Godau (1995). The derivative is that of the leash that decides, or of the two that do
-    together, at a point of an edge that lies between two vertices of the other curve. Time of the
-    value and of its matching; memory O(n + m) for each pair and thread.
+    {loss}
 
     Examples
     --------
@@ -222,29 +128,11 @@ def frechet_continuous(P: Tensor, Q: Tensor, **options: Any) -> Tensor:
     return _measured("frechet_continuous", P, Q, options)
 
 
-@filled(array="Tensor")
+@documented_loss("Tensor")
 def soft_dtw(P: Tensor, Q: Tensor, **options: Any) -> Tensor:
     """Compute :func:`curvewise.soft_dtw` of tensors, differentiable in both, everywhere.
 
-    Parameters
-    ----------
-    {loss_curves}
-    **options
-        Those of :func:`curvewise.soft_dtw`: ``gamma`` and ``window``.
-
-    Returns
-    -------
-    {loss_value}
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for :func:`curvewise.soft_dtw`; shapes that do not make pairs; complex tensors.
-
-    Notes
-    -----
-    Cuturi & Blondel (2017). Time O(n m); memory O(n sqrt(m)) for each pair and thread, never the
-    table: pairs of 10 000 points take 40 MB.
+    {loss}
 
     Examples
     --------
