@@ -1,0 +1,1 @@
+"""What asv times, commit by commit: see benchmarks/speed/README.md, History."""
