@@ -31,15 +31,6 @@ auto computed(const CurveArray& P, const CurveArray& Q, const Options& options, 
                          [&](Control* control) { return compute(p, q, options, control); });
 }
 
-// The function `name`, which returns what shape(found) makes of what compute() finds.
-template <class Options, class Compute, class Shape>
-void bind(py::module_& module, const char* name, Compute compute, Shape shape) {
-    module.def(name,
-               [compute, shape](const CurveArray& P, const CurveArray& Q, const py::dict& options) {
-                   return shape(computed(P, Q, read_options<Options>(options), compute));
-               });
-}
-
 // An array that has taken over what a vector held: copying millions of rows would take long, and
 // twice the memory.
 template <class Item, class T>
@@ -87,9 +78,14 @@ py::tuple as_tuple(Matching&& matching) {
 
 py::tuple as_tuple(Interval&& interval) { return py::make_tuple(interval.low, interval.high); }
 
-constexpr auto to_tuple = [](auto&& found) {
-    return as_tuple(std::forward<decltype(found)>(found));
-};
+// What is bound is plain functions of few types: what pybind11 makes of a type, the compiler has to
+// compile, and it is made once for all functions of that type.
+
+// What compute(P, Q, options, control) finds, as a tuple.
+template <class Options, auto compute>
+py::tuple found(const CurveArray& P, const CurveArray& Q, const py::dict& options) {
+    return as_tuple(computed(P, Q, read_options<Options>(options), compute));
+}
 
 py::array_t<double> allocate_table(const CurveArray& P, const CurveArray& Q) {
     try {
@@ -104,19 +100,22 @@ py::array_t<double> allocate_table(const CurveArray& P, const CurveArray& Q) {
     }
 }
 
-// `fill` writes a table, or whatever has an array of the shape that allocate(P, Q) returns.
-template <class Options, class Allocate, class Fill>
-void bind_array(py::module_& module, const char* name, Allocate allocate, Fill fill) {
-    module.def(name,
-               [allocate, fill](const CurveArray& P, const CurveArray& Q, const py::dict& given) {
-                   const auto options = read_options<Options>(given);
-                   py::array_t<double> out = allocate(P, Q);
-                   double* const data = out.mutable_data();
-                   computed(P, Q, options,
-                            [&](const CurveView& p, const CurveView& q, const Options& o,
-                                Control* control) { fill(p, q, data, o, control); });
-                   return out;
-               });
+// A row of two residuals for each point of P.
+py::array_t<double> allocate_residuals(const CurveArray& P, const CurveArray& /*Q*/) {
+    return py::array_t<double>({P.shape(0), py::ssize_t{2}});
+}
+
+// An array as allocate(P, Q) returns it, with what fill(P, Q, data, options, control) writes.
+template <class Options, auto allocate, auto fill>
+py::array_t<double> filled(const CurveArray& P, const CurveArray& Q, const py::dict& given) {
+    const auto options = read_options<Options>(given);
+    py::array_t<double> out = allocate(P, Q);
+    double* const data = out.mutable_data();
+    computed(P, Q, options,
+             [&](const CurveView& p, const CurveView& q, const Options& o, Control* control) {
+                 fill(p, q, data, o, control);
+             });
+    return out;
 }
 
 // The value, and its derivative by Q in Q's shape.
@@ -220,16 +219,19 @@ py::tuple gradients_of_pairs(const std::string& name, const CurveBatch& P, const
     return py::make_tuple(values, of_p.object(), of_q.object());
 }
 
-// Calls use(options) with those of the edit distance of a name.
-template <class Use>
-py::tuple with_edit_distance(const py::object& name, const py::dict& given, Use use) {
+// An edit distance as a recurrence, with what the work of a call is estimated from.
+struct EditSteps {
+    EditOptions options;
+    Recurrence recurrence;
+};
+
+EditSteps read_edit_distance(const py::object& name, const py::dict& given) {
     return std::visit(
-        [&](const auto& options) -> py::tuple {
+        [](auto options) -> EditSteps {
             using Options = std::decay_t<decltype(options)>;
             if constexpr (is_edit_distance<Options>) {
-                Options own = options;
-                own.cutoff = Options{}.cutoff;
-                return use(own);
+                options.cutoff = Options{}.cutoff;
+                return {options, options.recurrence()};
             } else {
                 throw py::value_error(
                     "edit_path and edit_table are of the edit distances, not of " +
@@ -239,30 +241,67 @@ py::tuple with_edit_distance(const py::object& name, const py::dict& given, Use 
         read_measure(name, given));
 }
 
+py::tuple edit_path(const py::object& name, const CurveArray& P, const CurveArray& Q,
+                    const py::dict& given) {
+    const EditSteps steps = read_edit_distance(name, given);
+    return as_tuple(
+        computed(P, Q, steps.options,
+                 [&](const CurveView& p, const CurveView& q, const EditOptions&, Control* control) {
+                     return warp_path(steps.recurrence, p, q, control);
+                 }));
+}
+
+py::array_t<double> edit_table(const py::object& name, const CurveArray& P, const CurveArray& Q,
+                               const py::dict& given) {
+    const EditSteps steps = read_edit_distance(name, given);
+    py::array_t<double> out = allocate_table(P, Q);
+    double* const data = out.mutable_data();
+    computed(P, Q, steps.options,
+             [&](const CurveView& p, const CurveView& q, const EditOptions&, Control* control) {
+                 warp_table(steps.recurrence, p, q, data, control);
+             });
+    return out;
+}
+
+// The value of two curves as they are given; `values` has all options.
+template <class Options>
+double value_of(const py::object& P, const py::object& Q, const py::tuple& values,
+                const py::tuple& defaults) {
+    const CurvePair pair(P, Q);
+    return computed(pair.P, pair.Q, read_options<Options>(values, defaults),
+                    [](const CurveView& p, const CurveView& q, const Options& options,
+                       Control* control) { return evaluate(options, p, q, control); });
+}
+
+void bind_value(py::module_& module, const char* name, decltype(&value_of<DtwOptions>) value,
+                const py::tuple& defaults) {
+    module.def(
+        name, [value, defaults](const py::object& P, const py::object& Q, const py::tuple& values) {
+            return value(P, Q, values, defaults);
+        });
+}
+
+double bound_soft_dtw(const CurveArray& P, const CurveArray& Q, const py::dict& options) {
+    return computed(P, Q, read_options<SoftDtwOptions>(options), soft_dtw);
+}
+
 }  // namespace
 
 void bind_measures(py::module_& module) {
     for_each_measure([&](const auto& defaults) {
         using Options = std::decay_t<decltype(defaults)>;
-        const auto value = [](const CurveView& p, const CurveView& q, const Options& options,
-                              Control* control) { return evaluate(options, p, q, control); };
-        const py::tuple standard(written(defaults).attr("values")());
-        module.def(Options::measure, [value, standard](const py::object& P, const py::object& Q,
-                                                       const py::tuple& options) {
-            const CurvePair pair(P, Q);
-            return computed(pair.P, pair.Q, read_options<Options>(options, standard), value);
-        });
+        bind_value(module, Options::measure, value_of<Options>,
+                   py::tuple(written(defaults).attr("values")()));
     });
-    bind<AreaOptions>(module, "area_quads", area_quads, to_tuple);
-    bind<PcmOptions>(module, "pcm_match", pcm_match, to_tuple);
-    bind<FrechetOptions>(module, "frechet_path", frechet_path, to_tuple);
-    bind<DtwOptions>(module, "dtw_path", dtw_path, to_tuple);
-    bind<FrechetOptions>(module, "frechet_info", frechet_info, to_tuple);
-    bind<DtwOptions>(module, "dtw_info", dtw_info, to_tuple);
-    bind<FrechetContinuousOptions>(module, "frechet_continuous_bounds", frechet_continuous_bounds,
-                                   to_tuple);
-    bind<FrechetContinuousOptions>(module, "frechet_continuous_path", frechet_continuous_path,
-                                   to_tuple);
+    module.def("area_quads", found<AreaOptions, area_quads>);
+    module.def("pcm_match", found<PcmOptions, pcm_match>);
+    module.def("frechet_path", found<FrechetOptions, frechet_path>);
+    module.def("dtw_path", found<DtwOptions, dtw_path>);
+    module.def("frechet_info", found<FrechetOptions, frechet_info>);
+    module.def("dtw_info", found<DtwOptions, dtw_info>);
+    module.def("frechet_continuous_bounds",
+               found<FrechetContinuousOptions, frechet_continuous_bounds>);
+    module.def("frechet_continuous_path", found<FrechetContinuousOptions, frechet_continuous_path>);
     module.def("frechet_within", [](const CurveArray& P, const CurveArray& Q, double distance,
                                     bool continuous) {
         const auto decide = [=](const CurveView& p, const CurveView& q,
@@ -271,42 +310,15 @@ void bind_measures(py::module_& module) {
         };
         return computed(P, Q, FrechetContinuousOptions{}, decide);
     });
-    bind_array<FrechetOptions>(module, "frechet_table", allocate_table, frechet_table);
-    bind_array<DtwOptions>(module, "dtw_table", allocate_table, dtw_table);
-    const auto allocate_residuals = [](const CurveArray& P, const CurveArray& /*Q*/) {
-        return py::array_t<double>({P.shape(0), py::ssize_t{2}});
-    };
-    bind_array<CurveLengthOptions>(module, "curve_length_residuals", allocate_residuals,
-                                   curve_length_residuals);
+    module.def("frechet_table", filled<FrechetOptions, allocate_table, frechet_table>);
+    module.def("dtw_table", filled<DtwOptions, allocate_table, dtw_table>);
+    module.def("curve_length_residuals",
+               filled<CurveLengthOptions, allocate_residuals, curve_length_residuals>);
     module.def("value_and_gradient", gradient_by_name);
     module.def("values_and_gradients", gradients_of_pairs);
-    module.def("soft_dtw", [](const CurveArray& P, const CurveArray& Q, const py::dict& options) {
-        return computed(P, Q, read_options<SoftDtwOptions>(options), soft_dtw);
-    });
-    module.def("edit_path", [](const py::object& name, const CurveArray& P, const CurveArray& Q,
-                               const py::dict& given) {
-        return with_edit_distance(name, given, [&](const auto& options) {
-            return as_tuple(computed(
-                P, Q, options,
-                [](const CurveView& p, const CurveView& q, const auto& o, Control* control) {
-                    return warp_path(o.recurrence(), p, q, control);
-                }));
-        });
-    });
-    module.def("edit_table", [](const py::object& name, const CurveArray& P, const CurveArray& Q,
-                                const py::dict& given) {
-        py::array_t<double> out = allocate_table(P, Q);
-        double* const data = out.mutable_data();
-        with_edit_distance(name, given, [&](const auto& options) {
-            computed(P, Q, options,
-                     [&](const CurveView& p, const CurveView& q, const auto& o, Control* control) {
-                         warp_table(o.recurrence(), p, q, data, control);
-                         return 0;
-                     });
-            return py::tuple();
-        });
-        return out;
-    });
+    module.def("soft_dtw", bound_soft_dtw);
+    module.def("edit_path", edit_path);
+    module.def("edit_table", edit_table);
     module.def("step_patterns", [] {
         py::dict patterns;
         for (const StepSet& one : step_patterns) patterns[one.name] = as_tuple(step_rows(one));

@@ -37,24 +37,27 @@ ROOT = Path(__file__).resolve().parents[2]
 COPY = ROOT / "build" / "mutants" / "python"
 MEASURES = "tests/python/measures"
 CALIBRATION = "tests/python/calibration"
+# What holds the reference to what does not come from it.
+WARPING = (f"{MEASURES}/test_reference_warping.py", f"{MEASURES}/test_reference.py")
+PLANAR = (f"{MEASURES}/test_reference_planar.py", f"{MEASURES}/test_reference.py")
 # The tests of each module, the fastest first.
 TESTS: dict[str, tuple[str, ...]] = {
-    "curves/ground_distance.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_errors.py"),
+    "curves/ground_distance.py": (*WARPING, f"{MEASURES}/test_errors.py"),
     "reference/dtw.py": (
-        f"{MEASURES}/test_reference.py",
+        *WARPING,
         f"{MEASURES}/test_errors.py",
         f"{MEASURES}/test_dtw_conventions.py",
     ),
-    "reference/frechet.py": (f"{MEASURES}/test_reference.py",),
+    "reference/frechet.py": WARPING,
     "reference/frechet_continuous.py": (
         f"{MEASURES}/test_reference.py",
         f"{MEASURES}/test_frechet_continuous.py",
     ),
-    "reference/area.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
-    "reference/refinement.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
-    "reference/pcm.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
-    "reference/curve_length.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
-    "curves/arc_length.py": (f"{MEASURES}/test_reference.py", f"{MEASURES}/test_planar.py"),
+    "reference/area.py": (*PLANAR, f"{MEASURES}/test_planar.py"),
+    "reference/refinement.py": (*PLANAR, f"{MEASURES}/test_planar.py"),
+    "reference/pcm.py": (*PLANAR, f"{MEASURES}/test_planar.py"),
+    "reference/curve_length.py": (*PLANAR, f"{MEASURES}/test_planar.py"),
+    "curves/arc_length.py": (*PLANAR, f"{MEASURES}/test_planar.py"),
     "reference/matched_curves.py": (
         f"{MEASURES}/test_matched_area.py",
         "tests/python/comparing/test_deviations.py",

@@ -109,7 +109,7 @@ def pytest_report_header(config: pytest.Config) -> list[str]:
     lines = []
     if config.args == config.getini("testpaths"):
         lines.append(
-            "curvewise: some 5800 tests; they also build programs that use the library; about "
+            "curvewise: some 6200 tests; they also build programs that use the library; about "
             "three minutes on two cores"
         )
     if leaves_out_nightly(config):

@@ -177,7 +177,10 @@ class AreaMeasure : public pairwise::LinearMeasure {
         const RangeScale range = range_of(P, Q);
         const planar::FacingCurves curves =
             planar::face(P.checked.curve, Q.checked.curve, range, options_.spacing, call.poller);
-        ByVertex by(curves.A.size());
+        const bool q_is_a = P.checked.curve.size() < Q.checked.curve.size();
+        double* const by_a = q_is_a ? out.by_q : out.by_p;
+        double* const by_b = q_is_a ? out.by_p : out.by_q;
+        ByVertex by(curves.A.size(), by_a != nullptr, by_b != nullptr);
         double sum = 0.0;
         for (std::size_t i = 0; i + 1 < curves.A.size(); ++i) {
             call.poller.poll_in_loop(i);
@@ -187,11 +190,10 @@ class AreaMeasure : public pairwise::LinearMeasure {
             by.add(i, area_gradient(quad, measured.figure),
                    options_.squared ? 2.0 * measured.area : 1.0);
         }
-        const bool q_is_a = P.checked.curve.size() < Q.checked.curve.size();
         const int degree = options_.squared ? 4 : 2;
         const std::vector<planar::Cut> none;
-        write_unrefined(by.A, none, range, degree - 1, q_is_a ? out.by_q : out.by_p);
-        write_unrefined(by.B, curves.cuts, range, degree - 1, q_is_a ? out.by_p : out.by_q);
+        write_unrefined(by.A, none, range, degree - 1, by_a);
+        write_unrefined(by.B, curves.cuts, range, degree - 1, by_b);
         return range.restore(sum, degree);
     }
 
@@ -202,7 +204,8 @@ class AreaMeasure : public pairwise::LinearMeasure {
         planar::PlacesOnCurves on;
         const planar::MatchedCurves curves =
             planar::match(P.checked.curve, Q.checked.curve, range, call.poller, &on);
-        ByVertex by(curves.A.size());
+        // Both, since each moves the box by which the lengths of the other are measured.
+        ByVertex by(curves.A.size(), true, true);
         double sum = 0.0;
         for_each_piece(curves, call.poller, [&](const auto&, auto first, auto end, double area) {
             sum += options_.squared ? area * area : std::abs(area);
@@ -234,15 +237,20 @@ class AreaMeasure : public pairwise::LinearMeasure {
         return RangeScale(std::max(P.checked.largest, Q.checked.largest));
     }
 
-    // By the vertices of the two curves between which the quadrilaterals lie.
+    // By the vertices of the two curves between which the quadrilaterals lie, or of one of them.
     struct ByVertex {
-        explicit ByVertex(std::size_t size) : A(size, Point{0.0, 0.0}), B(A) {}
+        ByVertex(std::size_t size, bool of_a, bool of_b)
+            : A(of_a ? size : 0, Point{0.0, 0.0}), B(of_b ? size : 0, Point{0.0, 0.0}) {}
         // Of quadrilateral i, whose corners are A[i], A[i + 1], B[i + 1], B[i].
         void add(std::size_t i, const planar::CornerGradient& by_corner, double weight) noexcept {
-            add_to(A[i], by_corner[0], weight);
-            add_to(A[i + 1], by_corner[1], weight);
-            add_to(B[i], by_corner[3], weight);
-            add_to(B[i + 1], by_corner[2], weight);
+            if (!A.empty()) {
+                add_to(A[i], by_corner[0], weight);
+                add_to(A[i + 1], by_corner[1], weight);
+            }
+            if (!B.empty()) {
+                add_to(B[i], by_corner[3], weight);
+                add_to(B[i + 1], by_corner[2], weight);
+            }
         }
         static void add_to(Point& sum, const Point& slope, double weight) noexcept {
             sum.x += weight * slope.x;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -236,24 +237,23 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
         });
     }
 
-    // The value, and its derivatives.
+    // The value, and those of its derivatives that are asked for.
     double with_gradients(const PreparedP& P, const PreparedQ& Q, const Gradients& out,
                           const pairwise::Call<Memory>& call) const {
         const double value = (*this)(P, Q, call);
-        const CurveView &p = P.checked.curve, &q = Q.checked.curve;
-        std::vector<double> by_p(static_cast<std::size_t>(2 * p.size())),
-            by_q(static_cast<std::size_t>(2 * q.size()));
-        if (value != 0.0) add_gradients(P, Q, value, by_p.data(), by_q.data(), call);
-        if (out.by_p != nullptr) std::copy(by_p.begin(), by_p.end(), out.by_p);
-        if (out.by_q != nullptr) std::copy(by_q.begin(), by_q.end(), out.by_q);
+        if (out.by_p != nullptr) std::fill_n(out.by_p, 2 * P.checked.curve.size(), 0.0);
+        if (out.by_q != nullptr) std::fill_n(out.by_q, 2 * Q.checked.curve.size(), 0.0);
+        if (value != 0.0) add_gradients(P, Q, value, out, call);
         return value;
     }
 
    private:
-    void add_gradients(const PreparedP& P, const PreparedQ& Q, double value, double* by_p,
-                       double* by_q, const pairwise::Call<Memory>& call) const {
+    void add_gradients(const PreparedP& P, const PreparedQ& Q, double value, const Gradients& out,
+                       const pairwise::Call<Memory>& call) const {
         const double length = P.arc_lengths.back();
-        curves::ArcGradient by_arc(Q.arc_lengths), by_own_arc(P.arc_lengths);
+        std::optional<curves::ArcGradient> by_arc, by_own_arc;
+        if (out.by_q != nullptr) by_arc.emplace(Q.arc_lengths);
+        if (out.by_p != nullptr) by_own_arc.emplace(P.arc_lengths);
         for (std::ptrdiff_t c = 0; c < 2; ++c) {
             const Coordinate x = coordinate(P, Q, c);
             const double scale = coordinate_scale(x, options_.scale, P.checked.name, call.poller);
@@ -265,19 +265,23 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
                 const double slope = std::copysign(residual, relative) / value /
                                      (1.0 + std::abs(relative)) / std::abs(scale);
                 const double share = P.arc_lengths[static_cast<std::size_t>(i)] / length;
-                by_q[2 * k + c] += x.range().shrink((1.0 - fraction) * slope);
-                by_q[2 * k + c + 2] += x.range().shrink(fraction * slope);
-                by_arc.add(static_cast<std::size_t>(k), fraction, share, slope * edge);
-                by_p[2 * i + c] -= x.range().shrink(slope);
-                by_scale -= slope * relative * std::copysign(1.0, scale);
-                by_own_arc.add_share(static_cast<std::size_t>(i), share,
-                                     slope * edge * places_per_share(Q.arc_lengths, k));
+                if (by_arc) {
+                    out.by_q[2 * k + c] += x.range().shrink((1.0 - fraction) * slope);
+                    out.by_q[2 * k + c + 2] += x.range().shrink(fraction * slope);
+                    by_arc->add(static_cast<std::size_t>(k), fraction, share, slope * edge);
+                }
+                if (by_own_arc) {
+                    out.by_p[2 * i + c] -= x.range().shrink(slope);
+                    by_scale -= slope * relative * std::copysign(1.0, scale);
+                    by_own_arc->add_share(static_cast<std::size_t>(i), share,
+                                          slope * edge * places_per_share(Q.arc_lengths, k));
+                }
             };
             for_each_place(P.arc_lengths, Q.arc_lengths, call.poller, add);
-            add_scale_gradient(x, options_.scale, by_scale, by_p + c);
+            if (by_own_arc) add_scale_gradient(x, options_.scale, by_scale, out.by_p + c);
         }
-        add_arc_gradient(Q.checked.curve, by_arc, by_q);
-        add_arc_gradient(P.checked.curve, by_own_arc, by_p);
+        if (by_arc) add_arc_gradient(Q.checked.curve, *by_arc, out.by_q);
+        if (by_own_arc) add_arc_gradient(P.checked.curve, *by_own_arc, out.by_p);
     }
 
     // How fast a place moves along segment k as its share of the length grows.

@@ -257,57 +257,70 @@ double grid_offset(double slack, std::ptrdiff_t i, std::ptrdiff_t count) noexcep
 class GridSearch {
    public:
     GridSearch(const AreaAtOffset& f, double S, double slack, std::ptrdiff_t count)
-        : f_(f), S_(S), slack_(slack), count_(count), areas_(static_cast<std::size_t>(count)) {}
+        : f_(f), S_(S), slack_(slack), count_(count) {}
 
     // `doubt`: what rounding may have made of an area, in areas.
     Offset best(double doubt) {
-        constexpr std::ptrdiff_t first_ones = 16;
-        const std::ptrdiff_t stride = std::max<std::ptrdiff_t>(1, count_ / (first_ones - 1));
-        for (std::ptrdiff_t i = 0; i < count_; i += stride) wanted_.push_back(i);
-        if (wanted_.back() != count_ - 1) wanted_.push_back(count_ - 1);
-        std::vector<Stretch> open;
-        for (std::size_t k = 1; k < wanted_.size(); ++k)
-            open.push_back({wanted_[k - 1], wanted_[k]});
-        evaluate();
+        std::vector<Stretch> open = first_stretches();
         while (!open.empty()) {
             const double most = best_.area + doubt * (1.0 + best_.area);
             const auto is_done = [&](const Stretch& stretch) { return !may_hold(stretch, most); };
             open.erase(std::remove_if(open.begin(), open.end(), is_done), open.end());
-            for (std::size_t k = 0, size = open.size(); k < size; ++k) {
-                const std::ptrdiff_t middle = (open[k].first + open[k].last) / 2;
-                wanted_.push_back(middle);
-                open.push_back({middle, open[k].last});
-                open[k].last = middle;
+            for (const Stretch& stretch : open) {
+                wanted_.push_back((stretch.first + stretch.last) / 2);
             }
             evaluate();
+            for (std::size_t k = 0; k < wanted_.size(); ++k) {
+                open.push_back({wanted_[k], open[k].last, areas_[k], open[k].area_at_last});
+                open[k].last = wanted_[k];
+                open[k].area_at_last = areas_[k];
+            }
+            wanted_.clear();
         }
         return best_;
     }
 
    private:
+    // Between two offsets of the grid, with the areas there: those of the whole grid might not fit
+    // into memory.
     struct Stretch {
         std::ptrdiff_t first;
         std::ptrdiff_t last;
+        double area_at_first;
+        double area_at_last;
     };
 
+    std::vector<Stretch> first_stretches() {
+        constexpr std::ptrdiff_t first_ones = 16;
+        const std::ptrdiff_t stride = std::max<std::ptrdiff_t>(1, count_ / (first_ones - 1));
+        for (std::ptrdiff_t i = 0; i < count_; i += stride) wanted_.push_back(i);
+        if (wanted_.back() != count_ - 1) wanted_.push_back(count_ - 1);
+        evaluate();
+        std::vector<Stretch> stretches;
+        for (std::size_t k = 1; k < wanted_.size(); ++k) {
+            stretches.push_back({wanted_[k - 1], wanted_[k], areas_[k - 1], areas_[k]});
+        }
+        wanted_.clear();
+        return stretches;
+    }
+
     double offset(std::ptrdiff_t i) const noexcept { return grid_offset(slack_, i, count_); }
-    double& area(std::ptrdiff_t i) noexcept { return areas_[static_cast<std::size_t>(i)]; }
 
     // An offset inside the best one. Not where areas are infinite, or differences of them no
     // number.
-    bool may_hold(const Stretch& stretch, double most) noexcept {
+    bool may_hold(const Stretch& stretch, double most) const noexcept {
         const double width = offset(stretch.last) - offset(stretch.first);
         if (stretch.last - stretch.first < 2 || !(width > 0.0)) return false;
-        return !(0.5 * (area(stretch.first) + area(stretch.last) - S_ * width) > most);
+        return !(0.5 * (stretch.area_at_first + stretch.area_at_last - S_ * width) > most);
     }
 
-    // What is wanted; many at once, as long as there are.
+    // The areas at what is wanted; many at once, as long as there are.
     void evaluate() {
+        areas_.resize(wanted_.size());
         std::size_t done = 0;
         while (wanted_.size() - done >= 16) done = evaluate<16>(done);
         while (wanted_.size() - done >= 4) done = evaluate<4>(done);
         while (wanted_.size() > done) done = evaluate<1>(done);
-        wanted_.clear();
     }
 
     template <std::size_t at_once>
@@ -316,7 +329,7 @@ class GridSearch {
         for (std::size_t o = 0; o < at_once; ++o) offsets[o] = offset(wanted_[done + o]);
         const std::array<double, at_once> areas = f_.values(offsets);
         for (std::size_t o = 0; o < at_once; ++o) {
-            area(wanted_[done + o]) = areas[o];
+            areas_[done + o] = areas[o];
             improve(best_, offsets[o], areas[o]);
         }
         return done + at_once;
@@ -326,8 +339,8 @@ class GridSearch {
     double S_;
     double slack_;
     std::ptrdiff_t count_;
-    std::vector<double> areas_;
     std::vector<std::ptrdiff_t> wanted_;
+    std::vector<double> areas_;  // at those
     Offset best_{0.0, std::numeric_limits<double>::infinity()};
 };
 

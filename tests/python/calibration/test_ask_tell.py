@@ -56,6 +56,7 @@ def driven(search, order, at_once):
 
 
 @pytest.mark.parametrize("method", EVERY, ids=repr)
+@pytest.mark.nightly("slopes='fresh'")
 def test_asked_and_told_is_what_identify_finds(method):
     """Bit for bit, in whatever order runs are told."""
     measure = "sum_of_squares" if method.needs_squares else "area"

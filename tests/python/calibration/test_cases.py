@@ -199,6 +199,7 @@ def relaxation(parameters):
 
 
 @pytest.mark.parametrize("viscosity", [3e0, 2e3, 4e5])
+@pytest.mark.nightly("2000")
 def test_a_viscosity_over_six_decades(viscosity):
     found = identify(
         relaxation, relaxation({"viscosity": viscosity}), {"viscosity": Log(1.0, 1e6)}, **QUIET

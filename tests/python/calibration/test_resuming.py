@@ -62,7 +62,7 @@ def keywords_of(method):
 
 @pytest.mark.parametrize("workers", [1, 2])
 @pytest.mark.parametrize("method", ["sdrm+de", "trust-region", "least-squares", "nelder-mead"])
-@pytest.mark.nightly("(de|squares|mead)-2")
+@pytest.mark.nightly("(de|squares|region)-2")
 def test_a_finished_search_is_replayed_from_its_store(tmp_path, method, workers):
     store = SimulationStore(tmp_path / "s.db", version="1")
     keywords = {"store": store, **keywords_of(method)}

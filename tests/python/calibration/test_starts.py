@@ -216,11 +216,11 @@ def test_flat_ground_is_said_and_searched():
 
 def test_the_answer_is_the_same_however_many_runs_are_made_at_once():
     """Threads and processes; some runs are finished before others that were asked first."""
-    alone = quiet_identify(model, model(TRUE), BOUNDS, max_runs=40)
+    alone = quiet_identify(model, model(TRUE), BOUNDS, max_runs=25)
     with ThreadPoolExecutor(8) as threads:
         others = [
-            quiet_identify(slow_model, model(TRUE), BOUNDS, max_runs=40, executor=threads),
-            quiet_identify(model, model(TRUE), BOUNDS, max_runs=40, workers=2),
+            quiet_identify(slow_model, model(TRUE), BOUNDS, max_runs=25, executor=threads),
+            quiet_identify(model, model(TRUE), BOUNDS, max_runs=25, workers=2),
         ]
     for other in others:
         assert other.message == alone.message

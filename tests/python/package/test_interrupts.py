@@ -26,8 +26,11 @@ def random_walk(n: int, dim: int = 2, seed: int = 0) -> np.ndarray:
 
 LONG = random_walk(300_000), random_walk(300_000, seed=1)
 MANY = [random_walk(100, seed=seed) for seed in range(200)] * 50
-SHORT = random_walk(160)
 ENDLESS = np.broadcast_to(np.array([1.0, 2.0]), (10**10, 2))  # takes no memory
+# All places on a circle are as far from what lies at its centre, so that no offset is left out.
+ANGLES = np.linspace(0, 2 * np.pi, 1001)
+CIRCLE = np.column_stack((np.cos(ANGLES), np.sin(ANGLES)))
+CENTRE = 1e-3 * CIRCLE[::-7]
 ZIGZAG = np.column_stack((np.arange(20_001) % 2, np.zeros(20_001)))
 
 MANY_ALIKE = curvewise.Index([LONG[0][: 300 + i] for i in range(200)] * 10)
@@ -59,7 +62,7 @@ LONG_CALLS: dict[str, Callable[[], object]] = {
     "Prepared, few points": lambda: curvewise.Prepared(
         random_walk(3000, 2000), "dtw", metric="minkowski", p=3
     )(random_walk(2000, 2000)),
-    "cdist, many offsets": lambda: curvewise.cdist([SHORT], [SHORT[:80]], "pcm", offsets=10**9),
+    "cdist, many offsets": lambda: curvewise.cdist([CIRCLE], [CENTRE], "pcm", offsets=10**9),
     "sum_of_squares": lambda: curvewise.sum_of_squares(ENDLESS, ENDLESS),
     "frechet_continuous": lambda: curvewise.frechet_continuous(*LONG),
     "value_and_gradient": lambda: curvewise.value_and_gradient(*LONG, "frechet"),
