@@ -144,9 +144,10 @@ def with_value(case: Case) -> Case | None:
 
 
 def size(case: Case) -> tuple[float, ...]:
-    """Return how long a counterexample is: points, coordinates, digits."""
+    """Return how long a counterexample is: points, coordinates, digits, and their sum."""
     numbers = [x for row in (*case["P"], *case["Q"]) for x in row]
-    return (len(case["P"]) + len(case["Q"]), len(numbers), sum(len(f"{x:g}") for x in numbers))
+    digits = sum(len(short(x)) for x in numbers)
+    return (len(case["P"]) + len(case["Q"]), len(numbers), digits, sum(map(abs, numbers)))
 
 
 def shrink(process: Process, case: Case, tolerance: float) -> tuple[Case, str]:

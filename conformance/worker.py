@@ -46,6 +46,7 @@ def about(adapter: dict[str, Any]) -> dict[str, Any]:
         "licence": adapter.get("LICENCE", "not known"),
         "checks": list(adapter["CHECKS"]),
         "other": adapter.get("OTHER", {}),
+        "notes": adapter.get("NOTES", {}),
         "python": sys.version.partition(" ")[0],
     }
 

@@ -31,3 +31,7 @@ CHECKS = {
     "dtw-open-end": lambda P, Q: squared(P, Q, open_end=True),
     "dtw-subsequence": lambda P, Q: squared(P, Q, open_begin=True, open_end=True),
 }
+NOTES = {
+    "dtw-squared-root": "the squares overflow or vanish before the root that the adapter takes",
+    "dtw-penalty": "curves below 2^-500 are scaled up, and the penalty with them, which overflows",
+}

@@ -33,3 +33,8 @@ CHECKS = {
     "dtw-open-end": lambda P, Q: distance(P, Q, psi=(0, 0, 0, len(Q) - 1)) ** 2,
     "dtw-subsequence": lambda P, Q: distance(P, Q, psi=(0, 0, len(Q) - 1, len(Q) - 1)) ** 2,
 }
+PRUNING = (
+    "series of numbers are pruned by default, by a bound that is rounded and knows no penalty; "
+    "with use_pruning=False the value is right"
+)
+NOTES = dict.fromkeys(CHECKS, PRUNING)

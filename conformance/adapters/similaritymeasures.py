@@ -10,4 +10,4 @@ CHECKS = {
     "dtw": lambda P, Q: package.dtw(P, Q)[0],
     "dtw-squared": lambda P, Q: package.dtw(P, Q, metric="sqeuclidean")[0],
 }
-OTHER = {"area": "lengths are measured anew after each cut, on middles rounded otherwise"}
+NOTES = {"area": "the middle of an upright piece is one of its ends, by an interpolation in x"}
