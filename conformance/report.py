@@ -47,7 +47,7 @@ call here is not how your package wants to be called, the adapters are short: we
 
 def cell_of_values(counts: dict[str, int]) -> str:
     """Return how many numbers pass, of those that the package gave or should have given."""
-    asked = {key: k for key, k in counts.items() if key != "not offered"}
+    asked = {key: k for key, k in counts.items() if key not in ("not offered", "not run")}
     total, right = sum(asked.values()), asked.get("pass", 0)
     if not total:
         return "–"
@@ -59,7 +59,7 @@ def cell_of_values(counts: dict[str, int]) -> str:
 
 def cell_of_refusals(counts: dict[str, int]) -> str:
     """Return what becomes of curves that are none."""
-    asked = {key: k for key, k in counts.items() if key != "not offered"}
+    asked = {key: k for key, k in counts.items() if key not in ("not offered", "not run")}
     total = sum(asked.values())
     if asked.get("raises", 0) == total:
         return "all" if total else "–"

@@ -30,10 +30,11 @@ from typing import Any
 
 from exact import certify, nearest_double
 from make import parameters, walk
-from verify import CHECKS, ROOM, read_cases
+from verify import CHECKS, ROOM, read_cases, verify
 
 Case = dict[str, Any]
 FIRST_CALL = 120.0  # seconds: compilers of numba
+KINDS = ("usual", "edge", "known", "random", "extreme", "refused")
 MOST_FAULTS = 3  # crashes or hangs of a check, after which it is left
 
 
@@ -135,12 +136,15 @@ def random_cases(check: str, count: int, seed: int) -> Iterator[Case]:
 
 
 def with_value(case: Case) -> Case | None:
-    """Return a case with its exact value; None where no path fits."""
+    """Return a case with its exact value, whose certificate was verified; None without a path."""
     found = certify(case["check"], case["P"], case["Q"], case["parameters"])
     if found is None:
         return None
-    value = nearest_double(found[0])
-    return {**case, "value": {"double": repr(value), "hex": value.hex()}}
+    number = nearest_double(found[0])
+    terms = [[str(k), str(q)] for k, q in found[0]]
+    value = {"terms": terms, "double": repr(number), "hex": number.hex()}
+    verify({"kind": "random", **case, "value": value, "certificate": found[1]})
+    return {**case, "value": value}
 
 
 def size(case: Case) -> tuple[float, ...]:
@@ -150,10 +154,15 @@ def size(case: Case) -> tuple[float, ...]:
     return (len(case["P"]) + len(case["Q"]), len(numbers), digits, sum(map(abs, numbers)))
 
 
+def least_points(check: str) -> int:
+    """Return how many points a curve of a counterexample has at least: edges need two."""
+    return 2 if CHECKS[check]["measure"] in ("area", "frechet-continuous") else 1
+
+
 def shrink(process: Process, case: Case, tolerance: float) -> tuple[Case, str]:
     """Make a case that differs shorter while it differs; return it with the package's number."""
     best, number = case, process.ask(case)["number"]
-    least = 2 if CHECKS[case["check"]]["measure"] == "area" else 1
+    least = least_points(case["check"])
     again = True
     while again:
         again = False
@@ -196,7 +205,12 @@ def score(process: Process, cases: Iterable[Case], tolerance: float) -> dict[str
     shortest: dict[str, Case] = {}
     raised: dict[str, str] = {}
     faults = 0
-    for case in cases:
+
+    def order(case: Case) -> tuple[float, ...]:
+        shortest_curve = min(len(case["P"]), len(case["Q"]))
+        return (shortest_curve < least_points(case["check"]), *size(case))
+
+    for case in sorted(cases, key=lambda case: KINDS.index(case["kind"])):
         if faults == MOST_FAULTS:
             result, said = "not run", {"not run": ""}
         else:
@@ -205,10 +219,8 @@ def score(process: Process, cases: Iterable[Case], tolerance: float) -> dict[str
         faults += result in ("hung", "crashed")
         kind = {"extreme": "extreme", "refused": "refused"}.get(case["kind"], "usual")
         counts.setdefault(kind, Counter())[result] += 1
-        if (result == "differs" and size(case) < size(shortest.get(kind, case))) or (
-            result == "differs" and kind not in shortest
-        ):
-            shortest[kind] = case
+        if result == "differs":
+            shortest[kind] = min(shortest.get(kind, case), case, key=order)
         if result in ("raises", "hung", "crashed") and kind != "refused":
             raised.setdefault(f"{kind}: {next(iter(said.values()))}", case["id"])
     found: dict[str, Any] = {"counts": {kind: dict(count) for kind, count in counts.items()}}

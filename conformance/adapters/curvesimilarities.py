@@ -10,7 +10,4 @@ CHECKS = {
     "dtw": package.dtw,
     "dtw-squared": lambda P, Q: package.dtw(P, Q, dist="squared_euclidean"),
 }
-NOTES = {
-    "dtw-squared": "the first column of its table is not squared",
-    "frechet-continuous": "a walk back along an edge is not ruled out",
-}
+NOTES = {"dtw-squared": "the first column of its table is not squared"}

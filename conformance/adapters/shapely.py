@@ -18,4 +18,4 @@ CHECKS = {
     "hausdorff": lambda P, Q: hausdorff_distance(line(P), line(Q)),
 }
 OTHER = {"hausdorff": "from the vertices of one line to the nearest place of the other line"}
-NOTES = {"frechet": "a coupling with the exact value stands in the case's certificate"}
+NOTES = {"frechet": "the case leash-past-a-corner has a coupling with the right value"}

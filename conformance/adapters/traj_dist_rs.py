@@ -12,16 +12,16 @@ def plane(call):
     def checked(P, Q):
         if P.shape[1] != 2:
             raise NotImplementedError("trajectories in the plane")
-        found = call(P, Q, "euclidean")
+        found = call(P, Q)
         return getattr(found, "distance", found)
 
     return checked
 
 
 CHECKS = {
-    "frechet": plane(package.discret_frechet),
+    "frechet": plane(lambda P, Q: package.discret_frechet(P, Q, "euclidean")),
     "frechet-continuous": plane(package.frechet),
-    "hausdorff": plane(package.hausdorff),
-    "dtw": plane(package.dtw),
+    "hausdorff": plane(lambda P, Q: package.hausdorff(P, Q, "euclidean")),
+    "dtw": plane(lambda P, Q: package.dtw(P, Q, "euclidean")),
 }
 OTHER = {"hausdorff": "from the points of one trajectory to the segments of the other"}

@@ -20,7 +20,7 @@ def penalised(P, Q, penalty):
 
 def window(P, Q, radius):
     """Return dtw in its band."""
-    share = min(1.0, (radius + 0.5) / len(P))
+    share = min(1.0, radius / max(1, len(P)))
     return numbers(tsdistances.dtw_distance, P, Q, band=share)
 
 

@@ -20,3 +20,4 @@ CHECKS = {
     "dtw-window-widened": window,
     "dtw-subsequence": lambda P, Q: metrics.dtw_subsequence_path(P, Q)[1] ** 2,
 }
+NOTES = {"dtw": "distances from expanded squares lose half of their digits between near points"}
