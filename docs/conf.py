@@ -91,6 +91,7 @@ repository_folders = {
     "benchmarks/reproduction": "docs/paper/index.md",
     "benchmarks/speed": "docs/project/speed.md",
     "benchmarks/validation": "docs/project/validation.md",
+    "conformance": "docs/project/conformance.md",
 }
 
 # Python. Types stand in the docstrings, in words; attributes of a result stand before its methods.
