@@ -202,12 +202,7 @@ def pdist(
         _fill(out, combinations(curves, 2), points, measure, limit, options, progress)
         return out
     name = _check_names(measure, options)
-    if not is_symmetric(name, options):
-        given = "".join(f", {option}={value!r}" for option, value in options.items())
-        raise ValueError(
-            f"pdist needs a symmetric measure, and {name!r}{given} is not: use cdist, "
-            "which computes both directions"
-        )
+    _check_symmetric(name, options)
     with reporting(progress) as report:
         compiled_pdist(curves, name, options, out, workers, limit, report)
     return out
@@ -329,6 +324,15 @@ def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
             f"points, one of {', '.join(metrics)}: use measure={metric!r}"
         )
     return str(measure)
+
+
+def _check_symmetric(name: str, options: dict[str, Any]) -> None:
+    if not is_symmetric(name, options):
+        given = "".join(f", {option}={value!r}" for option, value in options.items())
+        raise ValueError(
+            f"pdist needs a symmetric measure, and {name!r}{given} is not: use cdist, "
+            "which computes both directions"
+        )
 
 
 def _checked_out(out: Array | None, shape: tuple[int, ...], name: str) -> Array:
