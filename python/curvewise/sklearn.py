@@ -159,7 +159,8 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         count = self.n_neighbors if n_neighbors is None else n_neighbors
         if X is not None and not _is_list_of_curves(X):
             X = list(validate_data(self, X, reset=False, dtype=np.float64))
-        return self.index_.kneighbors(X, count, workers=self.workers)
+        distances, indices = self.index_.kneighbors(X, count, workers=self.workers)
+        return distances, indices
 
     def predict_proba(self, X: Curves) -> Array:
         """Return the share of each class in the votes.

@@ -237,7 +237,8 @@ def _block(
     """Compute a block; without columns one of the diagonal, each of its pairs once."""
     others = None if columns is None else columns.curves
     progress = watch() or False
-    return pairwise.cdist(rows.curves, others, measure, cutoff=cutoff, progress=progress, **options)
+    wanted = {"cutoff": cutoff, "progress": progress, **options}
+    return np.asarray(pairwise.cdist(rows.curves, others, measure, **wanted))
 
 
 def _runs(parts: list[Piece], size: int, token: str, compute: partial[Array]) -> dask_array.Array:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from importlib import import_module
-from typing import Any, SupportsFloat, SupportsIndex
+from typing import Any, SupportsFloat, SupportsIndex, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -21,10 +21,11 @@ from .._extras import extra
 from .._options import Default, Window, real_number, whole_number
 from .._progress import Report, reporting
 from ..curves.inputs import Array, CurveLike, as_curve, as_curve_list
+from ..curves.labels import unlabelled
 from ..measures.gradient import values_and_gradients
 from ..measures.registry import MeasureName
 from ..measures.results import DtwMean
-from .pairwise import Curves, _check_names, cdist
+from .pairwise import Curves, LabelledCurves, _check_names, cdist
 
 __all__ = ["dtw_mean", "medoid", "soft_dtw_mean"]
 
@@ -38,7 +39,7 @@ _BLOCK = 1 << 20
 
 @filled()
 def dtw_mean(
-    curves: Curves,
+    curves: Curves | LabelledCurves,
     *,
     initial: CurveLike | None = None,
     weights: npt.ArrayLike | None = None,
@@ -113,7 +114,7 @@ def dtw_mean(
 
 @filled()
 def soft_dtw_mean(
-    curves: Curves,
+    curves: Curves | LabelledCurves,
     *,
     gamma: SupportsFloat = 1.0,
     initial: CurveLike | None = None,
@@ -237,7 +238,7 @@ def _of_equal_length(curves: list[Array], weights: Array) -> Iterator[tuple[Arra
         yield stacked, weights[chosen]
 
 
-@filled()
+@overload
 def medoid(
     curves: Curves,
     measure: MeasureName = "dtw",
@@ -245,7 +246,25 @@ def medoid(
     workers: SupportsIndex = Default.workers,
     progress: bool | Report = False,
     **options: Any,
-) -> int:
+) -> int: ...
+@overload
+def medoid(
+    curves: LabelledCurves,
+    measure: MeasureName = "dtw",
+    *,
+    workers: SupportsIndex = Default.workers,
+    progress: bool | Report = False,
+    **options: Any,
+) -> Any: ...
+@filled()
+def medoid(
+    curves: Curves | LabelledCurves,
+    measure: MeasureName = "dtw",
+    *,
+    workers: SupportsIndex = Default.workers,
+    progress: bool | Report = False,
+    **options: Any,
+) -> Any:
     """Find the curve with the smallest sum of distances from all curves of a list.
 
     Parameters
@@ -263,7 +282,7 @@ def medoid(
     Returns
     -------
     int
-        Its index; of equal sums the first.
+        Its index, or its label if the curves have labels; of equal sums the first.
 
     Raises
     ------
@@ -281,6 +300,7 @@ def medoid(
     >>> curvewise.medoid([[0, 0, 0], [0, 1, 0], [0, 4, 0]])
     1
     """
+    curves, labels = unlabelled(curves, "curves")
     given = as_curve_list(curves, "curves")
     if not given:
         raise ValueError("no curves; a medoid needs at least 1")
@@ -299,4 +319,5 @@ def medoid(
                 sums[begin:end] += block[:, end - begin :].sum(axis=1)
             if report is not None:
                 report(end, len(given))
-    return int(np.argmin(sums))
+    place = int(np.argmin(sums))
+    return place if labels is None else labels[place]
