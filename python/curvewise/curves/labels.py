@@ -42,7 +42,7 @@ def unlabelled(curves: Any, name: str) -> tuple[Any, Labels]:
     """
     if isinstance(curves, list | tuple | np.ndarray):
         return curves, None
-    if isinstance(curves, Mapping):
+    if isinstance(curves, Mapping) and not hasattr(curves, "shape"):  # as scipy's dok_array has
         return list(curves.values()), list(curves)
     if hasattr(curves, "exclusions") and hasattr(curves, "ngroups"):
         return _groups(curves, name)
