@@ -19,7 +19,8 @@ from .comparing.comparison import Comparison, compare
 from .files.curve_files import read_curve
 from .many.averages import dtw_mean, medoid, soft_dtw_mean
 from .many.nearest import Index
-from .many.pairwise import Prepared, available_measures, cdist, pdist
+from .many.pairwise import available_measures, cdist, pdist
+from .many.prepared import Prepared
 from .many.subsequences import subsequence
 from .measures import *  # noqa: F403  # the names that measures/__init__ lists
 from .measures.edit_distances import *  # noqa: F403  # which type checkers do not see in that list

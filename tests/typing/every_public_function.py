@@ -66,6 +66,8 @@ number = curvewise.curve_length(P, Q, scale="mean_abs")
 distances: FloatArray = curvewise.cdist([P, Q], [P], "pcm", offsets=50, workers=-1)
 distances = curvewise.cdist([listed], measure=curvewise.mae, progress=print, cutoff=np.float32(3))
 distances = curvewise.pdist(np.stack((P, P)), "frechet", metric="chebyshev", out=distances)
+by_name = curvewise.cdist({"P": P, "Q": Q}, {"Q": Q})  # a DataFrame, whose types are pandas'
+by_pair = curvewise.pdist({"P": P, "Q": Q}, "frechet").loc["P", "Q"]
 prepared = curvewise.Prepared(listed, "dtw", window=4)
 number = prepared(Q)
 names: list[str] = curvewise.available_measures()

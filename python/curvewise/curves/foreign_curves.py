@@ -158,19 +158,14 @@ def column_names(curve: Any) -> list[Any]:
 
 def list_instead(curves: Any, name: str) -> str:
     """Return what to write instead of a collection that is no list of curves, if it is known."""
-    if isinstance(curves, Mapping):
-        return f"give list({name}.values()), in whose order the answers come"
-    if hasattr(curves, "columns") and hasattr(curves, "geometry"):  # GeoDataFrame
-        return f"give {name}.geometry, its lines"
     if not type(curves).__name__.endswith("GroupBy"):
         return ""
-    # Of pandas and polars; the groups hold the key too, which is no coordinate.
-    keys = getattr(curves, "keys", getattr(curves, "by", ()))
+    # Of polars; the groups hold the key too, which is no coordinate.
+    keys = getattr(curves, "by", ())
     keys = keys if isinstance(keys, list | tuple) else [keys]
-    table = getattr(curves, "obj", getattr(curves, "df", None))
-    names = [one for one in column_names(table) if one not in keys]
+    names = [one for one in column_names(getattr(curves, "df", None)) if one not in keys]
     chosen = f"[{coordinates_among(names)}]" if names else ""
-    return f"give [group{chosen} for _, group in {name}]"
+    return f"give {{key: group{chosen} for key, group in {name}}}"
 
 
 def chosen_columns(table: Any, name: str, columns: list[Any]) -> str:

@@ -24,6 +24,7 @@ from .foreign_curves import (
     opened,
     warn,
 )
+from .labels import unlabelled
 
 __all__ = [
     "Array",
@@ -189,12 +190,15 @@ def as_curves(P: Any, Q: Any) -> tuple[Array, Array]:
 def as_curve_list(curves: Any, name: str, like: Any = None) -> list[Array]:
     """Return the curves of an array of shape (k, n, d), or of a sequence, as a list of arrays.
 
+    Labels are left out: who keeps them asks labels.py for them first.
+
     Raises
     ------
     TypeError, ValueError
         Not a list of curves; a curve that :func:`as_curve` refuses, named ``XA[3]``; DataFrames
         whose columns differ from those of the first curve, or of the first of the list `like`.
     """
+    curves, _ = unlabelled(curves, name)
     if instead := list_instead(curves, name):
         raise TypeError(f"{name} is a {type(curves).__name__}; {instead}")
     if hasattr(curves, "columns") or (isinstance(curves, np.ndarray) and curves.dtype != object):
@@ -208,8 +212,9 @@ def as_curve_list(curves: Any, name: str, like: Any = None) -> list[Array]:
         raise TypeError(f"{name} is of type {type(curves).__name__}; give a list of curves")
     given = list(curves)
     first, first_name = column_names(given[0]) if given else [], f"{name}[0]"
-    if like is not None and len(like) > 0:
-        first, first_name = column_names(like[0]), "XA[0]"
+    others = [] if like is None else unlabelled(like, "XA")[0]
+    if len(others) > 0:
+        first, first_name = column_names(others[0]), "XA[0]"
     for i, curve in enumerate(given):
         check_column_names(first, first_name, column_names(curve), f"{name}[{i}]")
     converted = [as_curve(curve, f"{name}[{i}]") for i, curve in enumerate(given)]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from importlib import import_module
-from typing import Any, SupportsFloat, SupportsIndex
+from typing import Any, SupportsFloat, SupportsIndex, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -20,17 +20,23 @@ from .._docstrings import filled
 from .._extras import extra
 from .._options import Default, Window, real_number, whole_number
 from .._progress import Report, reporting
-from ..curves.inputs import Array, CurveLike, as_curve, as_curve_list
+from ..curves.foreign_curves import warn
+from ..curves.inputs import Array, CurveLike, as_curve, as_curve_list, copy_of
+from ..curves.labels import unlabelled
+from ..drawing.figures import evenly
 from ..measures.gradient import values_and_gradients
 from ..measures.registry import MeasureName
 from ..measures.results import DtwMean
-from .pairwise import Curves, _check_names, cdist
+from .pairwise import Curves, LabelledCurves, _check_names, cdist
 
-__all__ = ["dtw_mean", "medoid", "soft_dtw_mean"]
+__all__ = ["dtw_mean", "medoid", "soft_dtw_mean", "soft_mean"]
 
 # Curves of which the medoid is the initial mean, where the caller gives none: their distances take
 # about as long as a few rounds.
 _CURVES_FOR_START = 50
+
+# Of so many curves a mean keeps copies, for its picture.
+_CURVES_SHOWN = 50
 
 # Distances that are held at once.
 _BLOCK = 1 << 20
@@ -38,7 +44,7 @@ _BLOCK = 1 << 20
 
 @filled()
 def dtw_mean(
-    curves: Curves,
+    curves: Curves | LabelledCurves,
     *,
     initial: CurveLike | None = None,
     weights: npt.ArrayLike | None = None,
@@ -87,6 +93,11 @@ def dtw_mean(
     ImportError
         ``progress=True`` without tqdm: ``pip install "curvewise[progress]"``.
 
+    Warns
+    -----
+    UserWarning
+        The sum still fell by more than `tolerance` as the last of the `iterations` ended.
+
     Notes
     -----
     Each round finds the best path from the mean to every curve, and moves each point of the mean to
@@ -108,12 +119,12 @@ def dtw_mean(
         mean, costs, converged = compiled_dtw_mean(
             given, counts, start, window, iterations, limit, workers, report
         )
-    return DtwMean(mean, costs, converged)
+    return _mean_of(given, mean, costs, bool(converged))
 
 
 @filled()
 def soft_dtw_mean(
-    curves: Curves,
+    curves: Curves | LabelledCurves,
     *,
     gamma: SupportsFloat = 1.0,
     initial: CurveLike | None = None,
@@ -158,6 +169,11 @@ def soft_dtw_mean(
     ImportError
         scipy is missing: ``pip install "curvewise[calibration]"``.
 
+    Warns
+    -----
+    UserWarning
+        As for :func:`curvewise.dtw_mean`.
+
     Notes
     -----
     Cuturi & Blondel (2017), by L-BFGS-B. Time of one value with its derivatives, O(n m), a curve
@@ -171,8 +187,6 @@ def soft_dtw_mean(
     >>> mean.converged, mean.curve.round(2).tolist()
     (True, [0.0, 2.0, 0.0])
     """
-    with extra("calibration", "soft_dtw_mean needs scipy"):
-        minimize = import_module("scipy.optimize").minimize
     given = as_curve_list(curves, "curves")
     start = _start_of(given, initial, window, workers)
     counts = _checked_weights(weights)
@@ -181,8 +195,22 @@ def soft_dtw_mean(
     # Which refuses what a mean cannot be of, by the names of the curves.
     compiled_dtw_mean(given, counts, start, window, 0, 0.0, workers, None)
     shares = np.array(counts or np.ones(len(given)))
+    options = {"gamma": gamma, "window": window, "workers": workers}
+    return _mean_of(given, *soft_mean(given, shares, start, most, limit, options))
+
+
+def soft_mean(
+    given: list[Array],
+    shares: Array,
+    start: Array,
+    most: int,
+    limit: float,
+    options: dict[str, Any],
+) -> tuple[Array, Array, bool]:
+    """Return a mean under soft_dtw, its costs after every move, and whether it has converged."""
+    with extra("calibration", "soft_dtw_mean needs scipy"):
+        minimize = import_module("scipy.optimize").minimize
     in_columns = start.reshape(len(start), -1)
-    options: dict[str, Any] = {"gamma": gamma, "window": window, "workers": workers}
 
     def cost(flat: Array) -> tuple[float, Array]:
         mean = flat.reshape(in_columns.shape)
@@ -204,7 +232,19 @@ def soft_dtw_mean(
         options={"maxiter": most, "ftol": limit, "gtol": 0.0},
     )
     reached_limit = found.status == 1  # else no step lowers the sum by more, or at all
-    return DtwMean(found.x.reshape(start.shape), np.array(costs), not reached_limit)
+    return found.x.reshape(start.shape), np.array(costs), not reached_limit
+
+
+def _mean_of(given: list[Array], mean: Array, costs: Array, converged: bool) -> DtwMean:
+    """Return the record of a mean, and warn where it could still be moved."""
+    if not converged and len(costs) > 1:
+        fell = (costs[-2] - costs[-1]) / abs(costs[-2])
+        warn(
+            f"the mean has not converged: the last of {len(costs) - 1} moves lowered the sum by "
+            f"{100 * fell:.2g} %; give more iterations, or a larger tolerance"
+        )
+    shown = [copy_of(given[i]) for i in evenly(len(given), _CURVES_SHOWN)]
+    return DtwMean(mean, costs, converged, tuple(shown))
 
 
 def _start_of(
@@ -237,7 +277,7 @@ def _of_equal_length(curves: list[Array], weights: Array) -> Iterator[tuple[Arra
         yield stacked, weights[chosen]
 
 
-@filled()
+@overload
 def medoid(
     curves: Curves,
     measure: MeasureName = "dtw",
@@ -245,7 +285,25 @@ def medoid(
     workers: SupportsIndex = Default.workers,
     progress: bool | Report = False,
     **options: Any,
-) -> int:
+) -> int: ...
+@overload
+def medoid(
+    curves: LabelledCurves,
+    measure: MeasureName = "dtw",
+    *,
+    workers: SupportsIndex = Default.workers,
+    progress: bool | Report = False,
+    **options: Any,
+) -> Any: ...
+@filled()
+def medoid(
+    curves: Curves | LabelledCurves,
+    measure: MeasureName = "dtw",
+    *,
+    workers: SupportsIndex = Default.workers,
+    progress: bool | Report = False,
+    **options: Any,
+) -> Any:
     """Find the curve with the smallest sum of distances from all curves of a list.
 
     Parameters
@@ -263,7 +321,7 @@ def medoid(
     Returns
     -------
     int
-        Its index; of equal sums the first.
+        Its index, or its label if the curves have labels; of equal sums the first.
 
     Raises
     ------
@@ -281,6 +339,7 @@ def medoid(
     >>> curvewise.medoid([[0, 0, 0], [0, 1, 0], [0, 4, 0]])
     1
     """
+    curves, labels = unlabelled(curves, "curves")
     given = as_curve_list(curves, "curves")
     if not given:
         raise ValueError("no curves; a medoid needs at least 1")
@@ -299,4 +358,5 @@ def medoid(
                 sums[begin:end] += block[:, end - begin :].sum(axis=1)
             if report is not None:
                 report(end, len(given))
-    return int(np.argmin(sums))
+    place = int(np.argmin(sums))
+    return place if labels is None else labels[place]

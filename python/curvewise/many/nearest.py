@@ -12,7 +12,7 @@ from functools import partial
 from importlib import import_module
 from itertools import pairwise
 from threading import get_ident
-from typing import Any, Literal, SupportsFloat, SupportsIndex, get_args, overload
+from typing import Any, Literal, SupportsFloat, SupportsIndex, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -23,8 +23,9 @@ from .._extras import extra
 from .._options import Default, check_choice, real_number, whole_number
 from .._progress import Report, reporting
 from ..curves.inputs import Array, as_curve_list
+from ..curves.labels import Labels, labelled_column, labelled_matrix, labels_at, unlabelled
 from ..measures.registry import MeasureName
-from .pairwise import Curves, _check_names
+from .pairwise import Curves, LabelledCurves, _check_names
 
 __all__ = ["Index", "checked_count"]
 
@@ -43,7 +44,8 @@ class Index:
     Parameters
     ----------
     curves : array_like, shape (k, n, d), or a sequence of curves
-        The curves of a sequence may differ in length, not in d. They are copied.
+        The curves of a sequence may differ in length, not in d. They are copied. They may have
+        labels, as for :func:`curvewise.cdist`.
     measure : {measures}
         A measure by its name. A curve that is asked for is P, one of the index is Q.
     **options
@@ -80,11 +82,17 @@ class Index:
     [[0, 1], [2, 1]]
     >>> distances.tolist()
     [[1.0, 1.0], [1.0, 2.0]]
+    >>> index = curvewise.Index({"ramp": ramp, "step": step, "peak": peak})
+    >>> index.kneighbors([[0, 2, 3]], n_neighbors=2, return_distance=False).loc[0].tolist()
+    ['ramp', 'step']
     """
 
-    def __init__(self, curves: Curves, measure: MeasureName = "dtw", **options: Any) -> None:
+    def __init__(
+        self, curves: Curves | LabelledCurves, measure: MeasureName = "dtw", **options: Any
+    ) -> None:
         self._measure = _check_names(measure, options)
         self._options = options
+        curves, self._labels = unlabelled(curves, "curves")
         self._index = CompiledIndex(as_curve_list(curves, "curves"), self._measure, options)
         self._searching: list[int] = []  # threads; one stands as often as it searches
 
@@ -96,20 +104,22 @@ class Index:
         return f"Index(<{len(self)} curves>, {self._measure!r}{options})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return partial(Index, **self._options), (self._index.curves(), self._measure)
+        arguments = (self._index.curves(), self._measure)
+        return partial(Index, **self._options), arguments, {"_labels": self._labels}
 
-    def add(self, curves: Curves) -> None:
+    def add(self, curves: Curves | LabelledCurves) -> None:
         """Add curves behind those there are.
 
         Parameters
         ----------
         curves : array_like, shape (k, n, d), or a sequence of curves
-            All are added, or, where one is refused, none.
+            All are added, or, where one is refused, none. With labels if those there are have
+            labels, and otherwise without.
 
         Raises
         ------
         ValueError, TypeError
-            As for :class:`Index`.
+            As for :class:`Index`; ValueError where some would have labels and others not.
         RuntimeError
             The progress function of a search in this index calls it.
 
@@ -122,38 +132,27 @@ class Index:
                 "add was called by the progress function of a search in the same index, for whose "
                 "end it would wait; add the curves after the search"
             )
+        curves, labels = unlabelled(curves, "curves")
+        if (labels is None) != (self._labels is None):
+            known, new = ("no labels", "some") if self._labels is None else ("labels", "none")
+            raise ValueError(
+                f"the curves of the index have {known} and those to be added {new}; give all of "
+                "them labels, as the keys of a dict, or none"
+            )
         self._index.add(as_curve_list(curves, "curves"))
+        if labels is not None:
+            self._labels = [*self._labels, *labels]
 
-    @overload
-    def kneighbors(
-        self,
-        X: Curves | None = None,
-        n_neighbors: SupportsIndex = 5,
-        *,
-        return_distance: Literal[True] = True,
-        workers: SupportsIndex = Default.workers,
-        progress: bool | Report = False,
-    ) -> tuple[Array, Places]: ...
-    @overload
-    def kneighbors(
-        self,
-        X: Curves | None = None,
-        n_neighbors: SupportsIndex = 5,
-        *,
-        return_distance: Literal[False],
-        workers: SupportsIndex = Default.workers,
-        progress: bool | Report = False,
-    ) -> Places: ...
     @filled()
     def kneighbors(
         self,
-        X: Curves | None = None,
+        X: Curves | LabelledCurves | None = None,
         n_neighbors: SupportsIndex = 5,
         *,
         return_distance: bool = True,
         workers: SupportsIndex = Default.workers,
         progress: bool | Report = False,
-    ) -> tuple[Array, Places] | Places:
+    ) -> Any:
         """Find the curves of the index that are nearest to each of some others.
 
         Parameters
@@ -175,7 +174,9 @@ class Index:
         distances : ndarray, shape (q, n_neighbors)
             In ascending order; only where asked for.
         indices : ndarray of int64, shape (q, n_neighbors)
-            Those of the neighbours; of equal distances the smaller index comes first.
+            Those of the neighbours; of equal distances the smaller index comes first. Where the
+            curves of the index have labels, these in their place. Both are DataFrames, with the
+            labels of X as their index, where the curves of the index or of X have labels.
 
         Raises
         ------
@@ -193,46 +194,21 @@ class Index:
         each. Threads share the queries: a single one is not divided. Ctrl-C as for
         :func:`curvewise.cdist`.
         """
-        queries = None if X is None else as_curve_list(X, "X")
-        which = "the other curves of the index" if X is None else "the curves of the index"
-        count = checked_count(n_neighbors, len(self) - (X is None), which)
-        with self._reporting(progress) as report:
-            distances, indices, _ = self._index.kneighbors(queries, count, workers, report)
-        return (distances, indices) if return_distance else indices
+        distances, indices, names = self._nearest(X, n_neighbors, workers, progress)
+        found = labelled_matrix(labels_at(self._labels, indices), names, None)
+        return (labelled_matrix(distances, names, None), found) if return_distance else found
 
-    @overload
-    def radius_neighbors(
-        self,
-        X: Curves | None = None,
-        radius: SupportsFloat = 1.0,
-        *,
-        return_distance: Literal[True] = True,
-        sort_results: bool = True,
-        workers: SupportsIndex = Default.workers,
-        progress: bool | Report = False,
-    ) -> tuple[npt.NDArray[np.object_], npt.NDArray[np.object_]]: ...
-    @overload
-    def radius_neighbors(
-        self,
-        X: Curves | None = None,
-        radius: SupportsFloat = 1.0,
-        *,
-        return_distance: Literal[False],
-        sort_results: bool = True,
-        workers: SupportsIndex = Default.workers,
-        progress: bool | Report = False,
-    ) -> npt.NDArray[np.object_]: ...
     @filled()
     def radius_neighbors(
         self,
-        X: Curves | None = None,
+        X: Curves | LabelledCurves | None = None,
         radius: SupportsFloat = 1.0,
         *,
         return_distance: bool = True,
         sort_results: bool = True,
         workers: SupportsIndex = Default.workers,
         progress: bool | Report = False,
-    ) -> tuple[npt.NDArray[np.object_], npt.NDArray[np.object_]] | npt.NDArray[np.object_]:
+    ) -> Any:
         """Find all curves of the index within a radius of each of some others.
 
         Parameters
@@ -254,7 +230,7 @@ class Index:
         distances : ndarray of objects, shape (q,)
             Of each curve of X an array of distances; only where asked for.
         indices : ndarray of objects, shape (q,)
-            Of each curve of X an array of int64.
+            Of each curve of X an array of int64. Labels as for :meth:`kneighbors`, in Series.
 
         Raises
         ------
@@ -267,16 +243,18 @@ class Index:
         the computation of their distance shows it. Without distances, and without sorting by them,
         frechet_continuous only decides whether a curve is within, which is several times faster.
         """
-        distances, indices, begins = self._within(
+        distances, indices, begins, names = self._within(
             X, radius, sort_results, return_distance, workers, progress
         )
-        found = _divided(indices, begins)
-        return (_divided(distances, begins), found) if return_distance else found
+        found = labelled_column(_divided(labels_at(self._labels, indices), begins), names)
+        if not return_distance:
+            return found
+        return labelled_column(_divided(distances, begins), names), found
 
     @filled()
     def kneighbors_graph(
         self,
-        X: Curves | None = None,
+        X: Curves | LabelledCurves | None = None,
         n_neighbors: SupportsIndex = 5,
         *,
         mode: GraphMode = "connectivity",
@@ -295,8 +273,9 @@ class Index:
         Returns
         -------
         scipy.sparse.csr_matrix, shape (q, k)
-            Row i has the neighbours of X[i]. With "distance", estimators of scikit-learn with
-            ``metric="precomputed"`` take it, as long as they ask for no more neighbours.
+            Row i has the neighbours of X[i], without labels. With "distance", estimators of
+            scikit-learn with ``metric="precomputed"`` take it, as long as they ask for no more
+            neighbours.
 
         Raises
         ------
@@ -315,14 +294,14 @@ class Index:
         [[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0]]
         """
         check_choice("mode", mode, get_args(GraphMode))
-        distances, indices = self.kneighbors(X, n_neighbors, workers=workers, progress=progress)
+        distances, indices, _ = self._nearest(X, n_neighbors, workers, progress)
         begins = np.arange(len(indices) + 1) * indices.shape[1]
         return self._graph(mode, distances.ravel(), indices.ravel(), begins)
 
     @filled()
     def radius_neighbors_graph(
         self,
-        X: Curves | None = None,
+        X: Curves | LabelledCurves | None = None,
         radius: SupportsFloat = 1.0,
         *,
         mode: GraphMode = "connectivity",
@@ -353,7 +332,7 @@ class Index:
         As for :meth:`kneighbors`.
         """
         check_choice("mode", mode, get_args(GraphMode))
-        return self._graph(mode, *self._within(X, radius, True, True, workers, progress))
+        return self._graph(mode, *self._within(X, radius, True, True, workers, progress)[:3])
 
     @contextmanager
     def _reporting(self, progress: bool | Report) -> Iterator[Report | None]:
@@ -365,22 +344,46 @@ class Index:
         finally:
             self._searching.remove(get_ident())
 
+    def _nearest(
+        self,
+        X: Curves | LabelledCurves | None,
+        n_neighbors: SupportsIndex,
+        workers: SupportsIndex,
+        progress: bool | Report,
+    ) -> tuple[Array, Places, Labels]:
+        """Return the distances and places of neighbours, and the labels of what they are of."""
+        queries, names = self._queries(X)
+        which = "the other curves of the index" if X is None else "the curves of the index"
+        count = checked_count(n_neighbors, len(self) - (X is None), which)
+        with self._reporting(progress) as report:
+            distances, indices, _ = self._index.kneighbors(queries, count, workers, report)
+        return distances, indices, names
+
+    def _queries(self, X: Curves | LabelledCurves | None) -> tuple[list[Array] | None, Labels]:
+        """Return what is asked for and, where the answer is to have labels, those of its rows."""
+        if X is None:
+            return None, self._labels
+        X, names = unlabelled(X, "X")
+        queries = as_curve_list(X, "X")
+        counted = names is None and self._labels is not None
+        return queries, range(len(queries)) if counted else names
+
     def _within(
         self,
-        X: Curves | None,
+        X: Curves | LabelledCurves | None,
         radius: SupportsFloat,
         sort_results: bool,
         with_distances: bool,
         workers: SupportsIndex,
         progress: bool | Report,
-    ) -> tuple[Array, Places, Places]:
-        queries = None if X is None else as_curve_list(X, "X")
+    ) -> tuple[Array, Places, Places, Labels]:
+        queries, names = self._queries(X)
         limit = real_number("radius", radius, 0.0, "give a number >= 0")
         with self._reporting(progress) as report:
             found = self._index.radius_neighbors(
                 queries, limit, bool(sort_results), bool(with_distances), workers, report
             )
-        return found[:3]
+        return *found[:3], names
 
     def _graph(self, mode: GraphMode, distances: Array, indices: Places, begins: Places) -> Any:
         with extra("compat", "a graph of neighbours needs scipy"):

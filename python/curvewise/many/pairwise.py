@@ -14,31 +14,23 @@ from typing import Any, SupportsFloat, SupportsIndex, TypeAlias, get_args, overl
 
 import numpy as np
 
-from .._core import Prepared as CompiledPrepared
 from .._core import cdist as compiled_cdist
 from .._core import is_symmetric
 from .._core import pdist as compiled_pdist
 from .._docstrings import filled, listed
 from .._options import Default, Metric, check_choice, real_number
 from .._progress import Report, reporting
-from ..curves.foreign_curves import is_curve_of_another_package
-from ..curves.inputs import (
-    Array,
-    CurveLike,
-    as_curve,
-    as_curve_list,
-    check_column_names,
-    column_names,
-    copy_of,
-    warn_if_transposed,
-)
+from ..curves.inputs import Array, CurveLike, as_curve_list, copy_of
+from ..curves.labels import labelled_matrix, labelled_triangle, unlabelled
 from ..measures.registry import MEASURES, MeasureName
 
-__all__ = ["Curves", "Measure", "Prepared", "available_measures", "cdist", "pdist"]
+__all__ = ["Curves", "LabelledCurves", "Measure", "available_measures", "cdist", "pdist"]
 
 Measure: TypeAlias = MeasureName | Callable[..., float]
 Curves: TypeAlias = Sequence[CurveLike] | Array
 """k curves: an array of shape (k, n, d), or a sequence of curves of different lengths."""
+LabelledCurves: TypeAlias = Mapping[Any, CurveLike]
+"""Curves by their labels; the collections of pandas, whose types are not known, count too."""
 
 
 def available_measures() -> list[str]:
@@ -62,7 +54,7 @@ def available_measures() -> list[str]:
     return sorted(MEASURES)
 
 
-@filled()
+@overload
 def cdist(
     XA: Curves,
     XB: Curves | None = None,
@@ -73,7 +65,31 @@ def cdist(
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
     **options: Any,
-) -> Array:
+) -> Array: ...
+@overload
+def cdist(
+    XA: Curves | LabelledCurves,
+    XB: Curves | LabelledCurves | None = None,
+    measure: Measure = "dtw",
+    *,
+    out: Array | None = None,
+    workers: SupportsIndex = Default.workers,
+    cutoff: SupportsFloat | None = None,
+    progress: bool | Report = False,
+    **options: Any,
+) -> Any: ...
+@filled()
+def cdist(
+    XA: Curves | LabelledCurves,
+    XB: Curves | LabelledCurves | None = None,
+    measure: Measure = "dtw",
+    *,
+    out: Array | None = None,
+    workers: SupportsIndex = Default.workers,
+    cutoff: SupportsFloat | None = None,
+    progress: bool | Report = False,
+    **options: Any,
+) -> Any:
     """Compute a measure between every curve of one list and every curve of another.
 
     Parameters
@@ -81,7 +97,8 @@ def cdist(
     XA, XB : array_like, shapes (k, n, d) and (l, m, d), or sequences of curves
         The curves of a sequence may differ in length, not in d. A curve of XA is P, one of XB is
         Q. Without XB, XA is compared with itself: each pair of a symmetric measure is then
-        computed once, with the earlier curve as P.
+        computed once, with the earlier curve as P. A dict of curves, a groupby, a Series or a
+        GeoDataFrame of lines has labels too.
     measure : {measures} or callable
         A measure by its name (see :func:`available_measures`), or a function of two curves that
         returns a float. A callable runs in this thread, holding the interpreter's lock, pair by
@@ -100,8 +117,9 @@ def cdist(
 
     Returns
     -------
-    ndarray, shape (k, l)
-        `out`, if given. Entry (i, j) has the bits of ``measure(XA[i], XB[j], **options)``.
+    ndarray, shape (k, l), or DataFrame
+        `out`, if given. Entry (i, j) has the bits of ``measure(XA[i], XB[j], **options)``. Where XA
+        or XB have labels, a DataFrame with them as its index and columns.
 
     Raises
     ------
@@ -111,7 +129,8 @@ def cdist(
     TypeError
         A curve does not hold real numbers; an option that the measure does not have.
     ImportError
-        ``progress=True`` without tqdm: ``pip install "curvewise[progress]"``.
+        ``progress=True`` without tqdm: ``pip install "curvewise[progress]"``; labels without
+        pandas: ``pip install "curvewise[curves]"``.
 
     Notes
     -----
@@ -127,7 +146,13 @@ def cdist(
     [[0.0, 2.0, 5.0], [2.0, 0.0, 3.0], [5.0, 3.0, 0.0]]
     >>> curvewise.cdist([ramp], [step, peak], "frechet").tolist()
     [[1.0, 3.0]]
+    >>> print(curvewise.cdist({"ramp": ramp, "step": step}))
+          ramp  step
+    ramp   0.0   2.0
+    step   2.0   0.0
     """
+    XA, row_labels = unlabelled(XA, "XA")
+    XB, column_labels = (None, row_labels) if XB is None else unlabelled(XB, "XB")
     rows = as_curve_list(XA, "XA")
     columns = None if XB is None else as_curve_list(XB, "XB", like=XA)
     shape = (len(rows), len(rows if columns is None else columns))
@@ -138,14 +163,14 @@ def cdist(
         others = rows if columns is None else columns
         points = _points(rows) * len(others) + len(rows) * _points(others)
         _fill(out, product(rows, others), points, measure, limit, options, progress)
-        return out
-    name = _check_names(measure, options)
-    with reporting(progress) as report:
-        compiled_cdist(rows, columns, name, options, out, workers, limit, report)
-    return out
+    else:
+        name = _check_names(measure, options)
+        with reporting(progress) as report:
+            compiled_cdist(rows, columns, name, options, out, workers, limit, report)
+    return labelled_matrix(out, row_labels, column_labels)
 
 
-@filled(symmetric=listed(name for name, info in MEASURES.items() if info.symmetric))
+@overload
 def pdist(
     X: Curves,
     measure: Measure = "dtw",
@@ -155,7 +180,29 @@ def pdist(
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
     **options: Any,
-) -> Array:
+) -> Array: ...
+@overload
+def pdist(
+    X: LabelledCurves,
+    measure: Measure = "dtw",
+    *,
+    out: Array | None = None,
+    workers: SupportsIndex = Default.workers,
+    cutoff: SupportsFloat | None = None,
+    progress: bool | Report = False,
+    **options: Any,
+) -> Any: ...
+@filled(symmetric=listed(name for name, info in MEASURES.items() if info.symmetric))
+def pdist(
+    X: Curves | LabelledCurves,
+    measure: Measure = "dtw",
+    *,
+    out: Array | None = None,
+    workers: SupportsIndex = Default.workers,
+    cutoff: SupportsFloat | None = None,
+    progress: bool | Report = False,
+    **options: Any,
+) -> Any:
     """Compute a symmetric measure between every two curves of a list.
 
     Parameters
@@ -172,10 +219,11 @@ def pdist(
 
     Returns
     -------
-    ndarray, shape (k (k-1) / 2,)
+    ndarray, shape (k (k-1) / 2,), or Series
         The upper triangle of the matrix, row by row, as ``scipy.spatial.distance.pdist`` returns
         it: ``scipy.spatial.distance.squareform`` makes a matrix of it. The value for i < j is
-        that of ``measure(X[i], X[j], **options)``.
+        that of ``measure(X[i], X[j], **options)``. Where the curves have labels, a Series whose
+        index is the pairs of labels; squareform and scipy's linkage take it too.
 
     Raises
     ------
@@ -192,7 +240,10 @@ def pdist(
     >>> import curvewise
     >>> curvewise.pdist([[0, 1, 2, 3], [0, 0, 3, 3], [0, 3, 0]], "dtw").tolist()
     [2.0, 5.0, 3.0]
+    >>> curvewise.pdist({"ramp": [0, 1, 2, 3], "step": [0, 0, 3, 3]})["ramp", "step"]
+    np.float64(2.0)
     """
+    X, labels = unlabelled(X, "X")
     curves = as_curve_list(X, "X")
     out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
     curves = _apart(curves, out)
@@ -200,116 +251,12 @@ def pdist(
     if callable(measure):
         points = (len(curves) - 1) * _points(curves)
         _fill(out, combinations(curves, 2), points, measure, limit, options, progress)
-        return out
-    name = _check_names(measure, options)
-    if not is_symmetric(name, options):
-        given = "".join(f", {option}={value!r}" for option, value in options.items())
-        raise ValueError(
-            f"pdist needs a symmetric measure, and {name!r}{given} is not: use cdist, "
-            "which computes both directions"
-        )
-    with reporting(progress) as report:
-        compiled_pdist(curves, name, options, out, workers, limit, report)
-    return out
-
-
-@filled()
-class Prepared:
-    """A curve P ready to be compared with many: checked, packed and scaled once.
-
-    ``Prepared(P, measure, **options)(Q)`` has the bits of ``measure(P, Q, **options)``. May be
-    called from several threads at once. P is copied: changing the array later changes nothing.
-
-    Parameters
-    ----------
-    P : array_like, shape (n, d)
-        The reference, e.g. the experiment.
-    measure : {measures}
-        A measure by its name.
-    **options
-        Those of the measure's own function, except ``workers``.
-
-    Raises
-    ------
-    ValueError, TypeError
-        As for the measure.
-
-    Notes
-    -----
-    What is saved per call is of the order of O(n): the checks and the packing of P, for pcm its
-    scaling and arc lengths, for curve_length its arc lengths.
-
-    Examples
-    --------
-    >>> import curvewise
-    >>> against_ramp = curvewise.Prepared([0, 1, 2, 3], "dtw")
-    >>> against_ramp([0, 0, 3, 3])
-    2.0
-    >>> against_ramp([[0, 0, 3, 3], [0, 3, 0]]).tolist()
-    [2.0, 5.0]
-    """
-
-    def __init__(self, P: CurveLike, measure: MeasureName = "dtw", **options: Any) -> None:
-        self._curve = copy_of(as_curve(P, "P"))
-        warn_if_transposed(self._curve, "P")
-        self._columns = column_names(P)
-        self._measure = _check_names(measure, options)
-        self._options = options
-        self._prepared = CompiledPrepared(self._curve, self._measure, options)
-
-    def __repr__(self) -> str:
-        options = "".join(f", {name}={value!r}" for name, value in self._options.items())
-        return f"Prepared(<P of shape {self._curve.shape}>, {self._measure!r}{options})"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _prepare, (self._curve, self._columns, self._measure, self._options)
-
-    @overload
-    def __call__(self, Q: Array, *, workers: SupportsIndex = Default.workers) -> float: ...
-    @overload
-    def __call__(self, Q: Any, *, workers: SupportsIndex = Default.workers) -> Any: ...
-    def __call__(self, Q: Any, *, workers: SupportsIndex = Default.workers) -> Any:
-        """Return the measure of P and Q, or of P and each curve of a list.
-
-        Parameters
-        ----------
-        Q : array_like, shape (m, d); or an array of shape (k, m, d), or a list or tuple of curves
-            A list or tuple is a list of curves if its first element has as many array dimensions
-            as P.
-        workers : int
-            Threads for a list, as for :func:`cdist`.
-
-        Returns
-        -------
-        float, or ndarray of shape (k,)
-            As Q is one curve or several.
-
-        Raises
-        ------
-        ValueError, TypeError
-            As for the measure, and for :func:`cdist`.
-        """
-        if self._is_list(Q):
-            for i, curve in enumerate(Q):
-                check_column_names(self._columns, "P", column_names(curve), f"Q[{i}]")
-            return self._prepared.values(as_curve_list(Q, "Q"), workers)
-        check_column_names(self._columns, "P", column_names(Q), "Q")
-        return self._prepared.value(as_curve(Q, "Q"))
-
-    def _is_list(self, Q: Any) -> bool:
-        if isinstance(Q, list | tuple):
-            if len(Q) == 0 or is_curve_of_another_package(Q[0]):
-                return True
-            return bool(np.ndim(Q[0]) == self._curve.ndim)
-        return np.ndim(Q) == 3
-
-
-def _prepare(
-    P: Array, columns: list[Any], measure: MeasureName, options: dict[str, Any]
-) -> Prepared:
-    prepared = Prepared(P, measure, **options)
-    prepared._columns = columns  # of the DataFrame that P once was
-    return prepared
+    else:
+        name = _check_names(measure, options)
+        _check_symmetric(name, options)
+        with reporting(progress) as report:
+            compiled_pdist(curves, name, options, out, workers, limit, report)
+    return labelled_triangle(out, labels)
 
 
 def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
@@ -329,6 +276,15 @@ def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
             f"points, one of {', '.join(metrics)}: use measure={metric!r}"
         )
     return str(measure)
+
+
+def _check_symmetric(name: str, options: dict[str, Any]) -> None:
+    if not is_symmetric(name, options):
+        given = "".join(f", {option}={value!r}" for option, value in options.items())
+        raise ValueError(
+            f"pdist needs a symmetric measure, and {name!r}{given} is not: use cdist, "
+            "which computes both directions"
+        )
 
 
 def _checked_out(out: Array | None, shape: tuple[int, ...], name: str) -> Array:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from ..drawing.bunch import bunch_figure
 from ..drawing.linked_curves import alignment_figure, matching_figure, placement_figure
 from ..showing.result import Result, Table
 
@@ -265,7 +266,7 @@ class Subsequence(_Record):
 
 
 @dataclass(frozen=True, repr=False)
-class DtwMean(_Record):
+class DtwMean(_Record, Result):
     """The mean of curves under dtw, or under soft_dtw.
 
     Attributes
@@ -277,8 +278,34 @@ class DtwMean(_Record):
         the curves: of the initial curve, and of the mean after every move. It never rises.
     converged : bool
         Whether the last move lowered the sum by no more than the tolerance.
+    curves : tuple of ndarrays
+        Copies of the curves for the picture, of many curves some; those of
+        :mod:`curvewise.reference` have none.
     """
 
     curve: npt.NDArray[np.float64]
     costs: npt.NDArray[np.float64]
     converged: bool
+    curves: tuple[npt.NDArray[np.float64], ...] = field(default=(), repr=False, compare=False)
+
+    def plot(self) -> Picture:
+        """Return a matplotlib Figure of the curves and their mean, in two coordinates at most.
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+        """
+        return bunch_figure(self.curves, self.curve, "mean")
+
+    picture_shows = "The curves and their mean"
+
+    def parts(self) -> Sequence[Table | str]:
+        """Return the sum at the beginning and at the end, and whether it still fell."""
+        rows = [
+            ["sum of distances", f"{self.costs[-1]:.6g}"],
+            ["of the initial curve", f"{self.costs[0]:.6g}"],
+            ["moves", f"{len(self.costs) - 1}"],
+            ["converged", "yes" if self.converged else "no"],
+        ]
+        return [Table(rows)]

@@ -132,53 +132,13 @@ def test_two_columns_and_what_prepares_curves_take_any_names() -> None:
     assert curves.resample(table, 7, by=0).shape == (7, 3)
 
 
-IN_ORDER = ", in whose order the answers come"
-
-
-def collections() -> dict[str, tuple[Any, str]]:
-    grouped = pd.concat([logged(P, id=[1] * 4), logged(Q, id=[2] * 4)]).groupby("id")
-    choice = "give [group[['strain', 'stress']] for _, group in {}]"
-    several = pd.concat([logged(P, id=[1] * 4), logged(Q, id=[2] * 4)]).groupby(["id"])
-    return {
-        "dict": ({"first": P, "second": Q}, f"give list({{}}.values()){IN_ORDER}"),
-        "DataFrameGroupBy": (grouped, choice),
-        "DataFrameGroupBy of a list": (several, choice),
-    }
-
-
-@pytest.mark.parametrize("kind", collections())
-def test_collections_name_what_makes_them_lists(kind: str) -> None:
-    given, instead = collections()[kind]
-    calls = {
-        "XA": lambda: curvewise.cdist(given),
-        "XB": lambda: curvewise.cdist([P], given),
-        "X": lambda: curvewise.pdist(given),
-        "curves": lambda: curvewise.Index(given),
-    }
-    for name, call in calls.items():
-        words = f"{name} is a {kind.split()[0]}; {instead.format(name)}"
-        with pytest.raises(TypeError, match=f"^{re.escape(words)}$"):
-            call()
-    for average in (curvewise.dtw_mean, curvewise.medoid):
-        with pytest.raises(TypeError, match=re.escape(instead.format("curves"))):
-            average(given)
-    written = instead.format("given").removeprefix("give ").removesuffix(IN_ORDER)
-    assert curvewise.pdist(eval(written, {"given": given})).tolist() == [curvewise.dtw(P, Q)]
-
-
-def test_groups_of_polars_and_a_table_of_lines() -> None:
+def test_groups_of_polars_are_a_dict_to_be() -> None:
     polars = pytest.importorskip("polars")
     grouped = polars.from_pandas(logged(P, id=[1] * 4)).group_by("id")
-    with pytest.raises(
-        TypeError, match=r"^XA is a GroupBy; give \[group\[\['strain', 'stress'\]\] for _"
-    ):
+    instead = "{key: group[['strain', 'stress']] for key, group in XA}"
+    with pytest.raises(TypeError, match=f"^XA is a GroupBy; give {re.escape(instead)}$"):
         curvewise.cdist(grouped)
-    shapely, geopandas = pytest.importorskip("shapely"), pytest.importorskip("geopandas")
-    table = geopandas.GeoDataFrame(geometry=[shapely.LineString(P), shapely.LineString(Q)])
-    for call in (curvewise.pdist, curvewise.Index, curvewise.dtw_mean):
-        with pytest.raises(TypeError, match=r"is a GeoDataFrame; give \w+\.geometry, its lines$"):
-            call(table)
-    assert curvewise.pdist(table.geometry).tolist() == [curvewise.dtw(P, Q)]
+    assert curvewise.cdist(eval(instead, {"XA": grouped})).index.tolist() == [(1,)]
 
 
 def test_a_dict_of_curves_is_no_curve() -> None:

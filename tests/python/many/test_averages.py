@@ -30,6 +30,7 @@ def waves(count: int, dim: int = 2) -> list[np.ndarray]:
     ],
 )
 @pytest.mark.parametrize("dim", [1, 3])
+@pytest.mark.filterwarnings("ignore:the mean has not converged")
 def test_equal_to_the_reference(options, dim):
     curves = waves(5, dim)
     expected = reference.nearest.dtw_mean(curves, curves[2][::2], **options)
@@ -90,6 +91,33 @@ def test_errors_of_the_mean():
         curvewise.dtw_mean([], initial=[1])
 
 
+def test_a_mean_that_could_still_be_moved_warns():
+    curves = waves(5)
+    said = r"the last of 2 moves lowered the sum by .* %; give more iterations, or a larger tol"
+    for average in (curvewise.dtw_mean, curvewise.soft_dtw_mean):
+        with pytest.warns(UserWarning, match=said):
+            mean = average(curves, iterations=2)
+        assert not mean.converged
+    assert not curvewise.dtw_mean(curves, iterations=0).converged  # which asks for no move
+
+
+def test_a_mean_shows_its_curves():
+    for curves, axes in [
+        (waves(70), ("x", "y")),
+        (waves(3, 1), ("index", "value")),
+        (waves(3, 3), ("coordinate 0", "coordinate 1")),
+    ]:
+        mean = curvewise.dtw_mean(iter(curves), initial=curves[0])
+        (ax,) = mean.plot().axes
+        assert (ax.get_xlabel(), ax.get_ylabel()) == axes
+        *drawn, line = ax.lines
+        assert len(drawn) == min(50, len(curves))
+        np.testing.assert_array_equal(line.get_ydata(), mean.curve[:, :2][:, -1])
+        assert "sum of distances" in str(mean.parts()[0].text())
+    assert len(reference.nearest.dtw_mean(curves, curves[0]).plot().axes[0].lines) == 1
+
+
+@pytest.mark.filterwarnings("ignore:the mean has not converged")
 def test_progress_of_the_mean():
     calls: list[tuple[int, int]] = []
     curves = waves(6) * 20

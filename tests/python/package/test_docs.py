@@ -25,7 +25,7 @@ HEADERS = ROOT / "cpp" / "include" / "curvewise"
 BUILT = {DOCS / "_build", DOCS / "gallery", DOCS / "api" / "generated"}
 PAGES = [page for page in sorted(DOCS.rglob("*.md")) if BUILT.isdisjoint({page, *page.parents})]
 # Pages show how to use these, and nobody has all of them.
-OPTIONAL = ("dask", "geopandas", "jax", "polars", "shapely", "sklearn", "torch", "xarray")
+OPTIONAL = ("dask", "geopandas", "jax", "polars", "shapely", "sklearn", "torch", "xarray", "zarr")
 # Examples of the gallery that take seconds: they run where the site is built.
 SLOW = {"plot_identification", "plot_million_points", "plot_two_tests"}
 PYTHON = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)

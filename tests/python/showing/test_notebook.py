@@ -40,6 +40,7 @@ def results(found):
         curvewise.dtw_path(np.column_stack([P, P]), np.column_stack([Q, Q])),
         curvewise.frechet_continuous_path(P, Q),
         curvewise.pcm_match(P, Q[20:80]),
+        curvewise.dtw_mean([P[:, 1], Q[:, 1]]),
         found,
         found.uncertainty(),
         identify_each(line, line({"a": 2.0}), measures=["area", "dtw"], **KEYWORDS),
@@ -89,7 +90,6 @@ def test_terminals_show_no_coordinates(results):
     others = [
         curvewise.area_quads(P, Q),
         curvewise.subsequence(P[20:40], P)[0],
-        curvewise.dtw_mean([P[:, 1], Q[:, 1]]),
         line_plot(line({"a": 2}), line, {"a": 1}, {"a": 3}, points=3, progress=False),
         folds,
         curvewise.compare(P, Q).deviations["area"],

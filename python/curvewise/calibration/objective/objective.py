@@ -9,7 +9,6 @@ parameters will cure. Cost: that of the measure, for every term.
 
 from __future__ import annotations
 
-import hashlib
 import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
@@ -18,7 +17,7 @@ import numpy as np
 
 from ...curves.inputs import Array
 from ...curves.named_curve import known_file
-from ...curves.several_curves import as_points, curve_list
+from ...curves.several_curves import as_points, curve_list, digest
 from ...curves.thinning import thinned_rows
 from ...measures.registry import Condition, default_measures
 from .criterion import LEAST_SQUARES, Criterion, Measure, Part, criterion_of
@@ -347,9 +346,6 @@ class Objective:
     @property
     def settings(self) -> dict[str, Any]:
         """What a record writes down, in values that JSON can hold: of functions their names."""
-        digest = hashlib.sha256()
-        for curve in self.experiments:
-            digest.update(repr(curve.shape).encode() + curve.tobytes())
         shared = self.criterion
         return {
             "measure": self.measure,
@@ -357,7 +353,7 @@ class Objective:
             "criterion": None if shared is None else shared.settings,
             "cases": [term.settings for term in self._terms] if shared is None else None,
             "weights": self.weights.tolist(),
-            "experiments": digest.hexdigest(),
+            "experiments": digest(self.experiments),
         }
 
     def axes(self, names: Sequence[str] | None = None) -> list[tuple[str, ...]]:

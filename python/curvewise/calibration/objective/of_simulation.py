@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from ...curves.inputs import Array
-from ...many.pairwise import Prepared
+from ...many.prepared import Prepared
 from ...measures import dtw, pcm_match, value_and_gradient
 from ...measures.registry import MEASURES
 from ...measures.results import PcmMatch

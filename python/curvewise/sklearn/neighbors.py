@@ -1,36 +1,29 @@
-"""Estimators of scikit-learn for lists of curves: a nearest-neighbour classifier.
+"""A classifier of scikit-learn for curves: the nearest known ones vote.
 
-The conventions are those of scikit-learn 1.6 and later (``pip install "curvewise[sklearn]"``), so
-that pipelines, grid searches and cross-validation take it. The neighbours are found by
-:class:`curvewise.Index`, exactly, without the table of all distances.
+The neighbours are found by :class:`curvewise.Index`, exactly, without the table of all distances.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, Literal, SupportsIndex, TypeAlias, get_args
 
 import numpy as np
 import numpy.typing as npt
 
-from ._extras import extra
-from ._options import Default, check_choice
-from .curves.inputs import Array
-from .many.nearest import Index, Places
-from .many.pairwise import Curves
-from .measures.registry import MeasureName
-
-with extra("sklearn", "curvewise.sklearn needs scikit-learn >= 1.6"):
-    # Absolute, so these are the packages of that name and not this module. They have no types.
-    from sklearn.base import BaseEstimator, ClassifierMixin  # type: ignore[import-untyped]
-    from sklearn.utils.multiclass import (  # type: ignore[import-untyped]
-        check_classification_targets,
-    )
-    from sklearn.utils.validation import (  # type: ignore[import-untyped]
-        check_is_fitted,
-        column_or_1d,
-        validate_data,
-    )
+from .._options import Default, check_choice
+from ..curves.inputs import Array
+from ..many.nearest import Index, Places
+from ..measures.registry import MeasureName
+from .inputs import (
+    BaseEstimator,
+    ClassifierMixin,
+    ManyCurves,
+    Options,
+    check_classification_targets,
+    column_or_1d,
+    curves_to_fit,
+    fitted_curves,
+)
 
 __all__ = ["CurveKNeighborsClassifier"]
 
@@ -84,7 +77,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         n_neighbors: SupportsIndex = 5,
         *,
         measure: MeasureName = "dtw",
-        options: Mapping[str, Any] | None = None,
+        options: Options = None,
         weights: Weights = "uniform",
         workers: SupportsIndex = Default.workers,
     ) -> None:
@@ -94,7 +87,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         self.weights = weights
         self.workers = workers
 
-    def fit(self, X: Curves, y: npt.ArrayLike) -> CurveKNeighborsClassifier:
+    def fit(self, X: ManyCurves, y: npt.ArrayLike) -> CurveKNeighborsClassifier:
         """Keep curves X of classes y.
 
         Parameters
@@ -119,12 +112,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
             raise ValueError(
                 "fit requires y to be passed, but the target y is None: give the classes"
             )
-        curves = X
-        if _is_list_of_curves(X):
-            self.__dict__.pop("n_features_in_", None)  # of rows that were fitted before
-        else:
-            rows, y = validate_data(self, X, y, dtype=np.float64)
-            curves = list(rows)
+        curves, y = curves_to_fit(self, X, y)
         labels = column_or_1d(y, warn=True)
         check_classification_targets(labels)
         if len(labels) != len(curves):
@@ -134,7 +122,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         return self
 
     def kneighbors(
-        self, X: Curves | None = None, n_neighbors: SupportsIndex | None = None
+        self, X: ManyCurves | None = None, n_neighbors: SupportsIndex | None = None
     ) -> tuple[Array, Places]:
         """Find the nearest known curves.
 
@@ -155,13 +143,12 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         ValueError, TypeError
             As for :meth:`curvewise.Index.kneighbors`.
         """
-        check_is_fitted(self)
+        curves = None if X is None else fitted_curves(self, X)
         count = self.n_neighbors if n_neighbors is None else n_neighbors
-        if X is not None and not _is_list_of_curves(X):
-            X = list(validate_data(self, X, reset=False, dtype=np.float64))
-        return self.index_.kneighbors(X, count, workers=self.workers)
+        distances, indices = self.index_.kneighbors(curves, count, workers=self.workers)
+        return distances, indices
 
-    def predict_proba(self, X: Curves) -> Array:
+    def predict_proba(self, X: ManyCurves) -> Array:
         """Return the share of each class in the votes.
 
         Parameters
@@ -192,7 +179,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
             shares[rows, voters] += column
         return np.asarray(shares / shares.sum(axis=1, keepdims=True))
 
-    def predict(self, X: Curves) -> npt.NDArray[Any]:
+    def predict(self, X: ManyCurves) -> npt.NDArray[Any]:
         """Return the class with most votes.
 
         Parameters
@@ -217,10 +204,3 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         tags = super().__sklearn_tags__()
         tags.input_tags.three_d_array = True
         return tags
-
-
-def _is_list_of_curves(X: Any) -> bool:
-    """Return whether X is no table of rows: tables, and errors, are scikit-learn's to check."""
-    if isinstance(X, np.ndarray):
-        return X.ndim == 3 or (X.ndim == 1 and X.dtype == object)
-    return isinstance(X, list | tuple) and len(X) > 0 and np.ndim(X[0]) > 0

@@ -1,0 +1,282 @@
+"""The matrix of all distances, or its upper triangle, block by block with dask.
+
+Without XB, a block of a symmetric measure below the diagonal is the transpose of the one above. The
+triangle is cut into runs of equal length, each of which is a few rows of the matrix.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+from collections.abc import Mapping
+from functools import partial
+from typing import Any, SupportsFloat, SupportsIndex
+
+import numpy as np
+
+from .._core import build_info, check_batch, is_symmetric
+from ..curves.inputs import Array, as_curve_list
+from ..curves.several_curves import digest
+from ..many import pairwise
+from ..many.pairwise import Curves, Measure
+from .block_store import begin_store
+from .cancelled import watch
+from .pieces import (
+    Piece,
+    block_size,
+    dask_array,
+    lazy_array,
+    pieces,
+    refuse_local_only,
+    tokenize,
+)
+
+__all__ = ["cdist", "pdist"]
+
+Store = str | os.PathLike[str]
+
+
+def cdist(
+    XA: Curves,
+    XB: Curves | None = None,
+    measure: Measure = "dtw",
+    *,
+    block: SupportsIndex | None = None,
+    cutoff: SupportsFloat | None = None,
+    store: Store | None = None,
+    **options: Any,
+) -> dask_array.Array:
+    """Compute a measure between every curve of one list and every curve of another, with dask.
+
+    Parameters
+    ----------
+    XA, XB, measure, cutoff, **options
+        As for :func:`curvewise.cdist`. A callable must be one that the scheduler's workers can
+        unpickle; cloudpickle takes lambdas to them too.
+    block : int, optional
+        Curves per block, at least 1: a block has this many rows and columns. If not given, as many
+        as have some 32,000 points together, at most 2048: about a second of dtw or frechet a block.
+    store : path, optional
+        A folder for the matrix, which is then computed at once, on the scheduler in use, and
+        written block by block as a zarr array of float64. A call that was ended by whatever means,
+        SIGKILL too, is repeated to go on: only the blocks that are not there are computed. Workers
+        of a cluster must see the same folder.
+
+    Returns
+    -------
+    dask.array.Array, shape (k, l)
+        Lazy: ``.compute()`` runs it on the scheduler in use; with `store` it reads what is there.
+        Entry (i, j) has the bits that :func:`curvewise.cdist` gives it.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`curvewise.cdist`, at once and not when the blocks are computed (except for a
+        `window` that admits no path); a `block` below 1; one of `out`, `progress` and `workers`. A
+        `store` that was begun for other curves or options, or by another version of curvewise; with
+        one, a callable, of which nobody knows whether it is still the same.
+    ImportError
+        dask is not installed: ``pip install "curvewise[dask]"``. For a store: zarr is not,
+        ``pip install "curvewise[zarr]"``.
+
+    Notes
+    -----
+    Time: that of curvewise.cdist, shared by the scheduler's workers, and some milliseconds a
+    block. Each block runs on one thread and releases the interpreter's lock, so that dask's threads
+    serve as well as its processes. Memory: the graph holds a copy of the curves; a worker holds
+    those of its blocks. A cluster warns of a graph above 10 MB
+    (``distributed.admin.large-graph-warning-threshold``); here that is the curves themselves, which
+    are sent once. The bar of ``dask.diagnostics.ProgressBar`` or the cluster's dashboard shows the
+    progress. Ctrl-C ends the blocks that have begun within 0.2 s, cancelling a task within 1 s.
+
+    A store takes 8 k l bytes of disk, and each thread the memory of two blocks. One program at a
+    time may fill it. ``zarr.open_array(store)`` reads it without dask.
+
+    Examples
+    --------
+    >>> import curvewise.dask
+    >>> curves = [[0, 1, 2, 3], [0, 0, 3, 3], [0, 3, 0]]
+    >>> lazy = curvewise.dask.cdist(curves, measure="dtw", block=2)
+    >>> lazy.chunks
+    ((2, 1), (2, 1))
+    >>> lazy.compute(scheduler="threads").tolist()
+    [[0.0, 2.0, 5.0], [2.0, 0.0, 3.0], [5.0, 3.0, 0.0]]
+    """
+    rows = as_curve_list(XA, "XA")
+    columns = rows if XB is None else as_curve_list(XB, "XB", like=XA)
+    limit = pairwise._checked_cutoff(cutoff)
+    refuse_local_only(options)
+    mirrored = False
+    if not callable(measure):
+        name = pairwise._check_names(measure, options)
+        mirrored = is_symmetric(name, options) and XB is None  # it checks the options too
+        # A block cannot say where in the whole list a curve is.
+        check_batch(rows, None if XB is None else columns, name, options)
+    size = block_size(block, rows, columns)
+    token = tokenize(rows, columns, measure, limit, options, size, mirrored)
+    compute = partial(_block, measure=measure, cutoff=limit, options=options)
+    lazy = _blocks(pieces(rows, size), None if mirrored else pieces(columns, size), token, compute)
+    if store is None:
+        return lazy
+    contents = _contents(measure, limit, options, XA=rows, XB=rows if XB is None else columns)
+    return begin_store(store, lazy.shape, (size, size), contents).filled(lazy)
+
+
+def pdist(
+    X: Curves,
+    measure: Measure = "dtw",
+    *,
+    block: SupportsIndex | None = None,
+    cutoff: SupportsFloat | None = None,
+    store: Store | None = None,
+    **options: Any,
+) -> dask_array.Array:
+    """Compute a symmetric measure between every two curves of a list, with dask.
+
+    Parameters
+    ----------
+    X, measure, cutoff, **options
+        As for :func:`curvewise.pdist`; a callable as for :func:`cdist`.
+    block : int, optional
+        As for :func:`cdist`: a block has as many distances as one of the matrix.
+    store : path, optional
+        As for :func:`cdist`; it takes half the disk.
+
+    Returns
+    -------
+    dask.array.Array, shape (k (k-1) / 2,)
+        Lazy, as that of :func:`cdist`, with the bits of :func:`curvewise.pdist`.
+
+    Raises
+    ------
+    ValueError, TypeError, ImportError
+        As for :func:`cdist`; ValueError for a measure that is not symmetric.
+
+    Notes
+    -----
+    As for :func:`cdist`, except that a block needs all curves behind its first one, and computes up
+    to two rows that it has only in part.
+
+    Examples
+    --------
+    >>> import curvewise.dask
+    >>> curves = [[0, 1, 2, 3], [0, 0, 3, 3], [0, 3, 0]]
+    >>> lazy = curvewise.dask.pdist(curves, "dtw", block=1)
+    >>> lazy.compute(scheduler="threads").tolist()
+    [2.0, 5.0, 3.0]
+    """
+    curves = as_curve_list(X, "X")
+    limit = pairwise._checked_cutoff(cutoff)
+    refuse_local_only(options)
+    if not callable(measure):
+        name = pairwise._check_names(measure, options)
+        pairwise._check_symmetric(name, options)
+        check_batch(curves, None, name, options)
+    size = block_size(block, curves)
+    token = tokenize(curves, measure, limit, options, size)
+    compute = partial(_run, measure=measure, cutoff=limit, options=options)
+    lazy = _runs(pieces(curves, size), size, token, compute)
+    if store is None:
+        return lazy
+    contents = _contents(measure, limit, options, X=curves)
+    return begin_store(store, lazy.shape, (size * size,), contents).filled(lazy)
+
+
+def _contents(
+    measure: Measure, limit: float, options: Mapping[str, Any], **lists: list[Array]
+) -> dict[str, str]:
+    """Return what a store is of, by the names that the caller knows."""
+    if callable(measure):
+        raise ValueError(
+            "a store needs a measure by its name: a function may be another one when the store is "
+            "begun again"
+        )
+    given = {name: digest(curves) for name, curves in lists.items()}
+    return given | {
+        "measure": measure,
+        "options": repr(sorted(options.items())),
+        "cutoff": repr(limit),
+        "version of curvewise": build_info()["version"],
+    }
+
+
+def _blocks(
+    rows: list[Piece], columns: list[Piece] | None, token: str, compute: partial[Array]
+) -> dask_array.Array:
+    """Return the lazy matrix: a task for each piece of curves, and one for each block.
+
+    Without columns it is that of the rows and themselves, of a symmetric measure.
+
+    The graph is written out, since no function of dask.array leaves blocks to their transposes:
+    see "Custom graphs" in dask's documentation.
+    """
+    name, P, Q = (f"{part}-{token}" for part in ("cdist", "cdist-P", "cdist-Q"))
+    graph: dict[Any, Any] = {(P, a): piece for a, piece in enumerate(rows)}
+    graph |= {(Q, b): piece for b, piece in enumerate(columns or [])}
+    chunks = tuple(tuple(map(len, pieces)) for pieces in (rows, columns or rows))
+    for a, b in itertools.product(*(range(len(lengths)) for lengths in chunks)):
+        if columns:
+            graph[name, a, b] = (compute, (P, a), (Q, b))
+        elif a == b:
+            graph[name, a, b] = (compute, (P, a))
+        elif a > b:
+            graph[name, a, b] = (np.transpose, (name, b, a))
+        else:
+            graph[name, a, b] = (compute, (P, a), (P, b))
+    return lazy_array(graph, name, chunks, np.float64)
+
+
+def _block(
+    rows: Piece,
+    columns: Piece | None = None,
+    *,
+    measure: Measure,
+    cutoff: float,
+    options: dict[str, Any],
+) -> Array:
+    """Compute a block; without columns one of the diagonal, each of its pairs once."""
+    others = None if columns is None else columns.curves
+    progress = watch() or False
+    wanted = {"cutoff": cutoff, "progress": progress, **options}
+    return np.asarray(pairwise.cdist(rows.curves, others, measure, **wanted))
+
+
+def _runs(parts: list[Piece], size: int, token: str, compute: partial[Array]) -> dask_array.Array:
+    """Return the lazy triangle, row by row, in runs of size * size distances."""
+    name, P = (f"{part}-{token}" for part in ("pdist", "pdist-P"))
+    graph: dict[Any, Any] = {(P, a): piece for a, piece in enumerate(parts)}
+    count = sum(map(len, parts))
+    begins = [*range(0, max(count * (count - 1) // 2, 1), size * size), count * (count - 1) // 2]
+    row_begins = np.cumsum([0, *range(count - 1, 0, -1)])  # where each row of the triangle begins
+    for run, (begin, end) in enumerate(itertools.pairwise(begins)):
+        first, last = np.searchsorted(row_begins, [begin, end - 1], side="right") - 1
+        behind = [(P, a) for a in range(first // size, len(parts))]
+        offset = first - first // size * size
+        part = partial(
+            compute,
+            rows=range(offset, offset + last - first + 1),
+            within=slice(begin - row_begins[first], end - row_begins[first]),
+        )
+        graph[name, run] = (part, behind)
+    lengths = tuple(end - begin for begin, end in itertools.pairwise(begins))
+    return lazy_array(graph, name, (lengths,), np.float64)
+
+
+def _run(
+    parts: list[Piece],
+    *,
+    rows: range,
+    within: slice,
+    measure: Measure,
+    cutoff: float,
+    options: dict[str, Any],
+) -> Array:
+    """Compute some rows of the triangle, of which a part is wanted."""
+    curves = [curve for piece in parts for curve in piece.curves]
+    ours, others = curves[rows.start : rows.stop], curves[rows.stop :]
+    wanted = {"measure": measure, "cutoff": cutoff, "progress": watch() or False, **options}
+    triangle, rectangle = pairwise.pdist(ours, **wanted), pairwise.cdist(ours, others, **wanted)
+    begins = np.cumsum([0, *range(len(ours) - 1, -1, -1)])
+    pairs = zip(itertools.pairwise(begins), rectangle, strict=True)
+    parts_of_rows = (part for (i, j), row in pairs for part in (triangle[i:j], row))
+    return np.concatenate([np.empty(0), *parts_of_rows])[within]

@@ -1,0 +1,130 @@
+"""One curve against others as they come: it is checked, packed and scaled once.
+
+The work is done by the compiled library.
+"""
+
+from __future__ import annotations
+
+from typing import Any, SupportsIndex, overload
+
+import numpy as np
+
+from .._core import Prepared as CompiledPrepared
+from .._docstrings import filled
+from .._options import Default
+from ..curves.foreign_curves import is_curve_of_another_package
+from ..curves.inputs import (
+    Array,
+    CurveLike,
+    as_curve,
+    as_curve_list,
+    check_column_names,
+    column_names,
+    copy_of,
+    warn_if_transposed,
+)
+from ..curves.labels import labelled_column, unlabelled
+from ..measures.registry import MeasureName
+from .pairwise import _check_names
+
+__all__ = ["Prepared"]
+
+
+@filled()
+class Prepared:
+    """A curve P ready to be compared with many: checked, packed and scaled once.
+
+    ``Prepared(P, measure, **options)(Q)`` has the bits of ``measure(P, Q, **options)``. May be
+    called from several threads at once. P is copied: changing the array later changes nothing.
+
+    Parameters
+    ----------
+    P : array_like, shape (n, d)
+        The reference, e.g. the experiment.
+    measure : {measures}
+        A measure by its name.
+    **options
+        Those of the measure's own function, except ``workers``.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for the measure.
+
+    Notes
+    -----
+    What is saved per call is of the order of O(n): the checks and the packing of P, for pcm its
+    scaling and arc lengths, for curve_length its arc lengths.
+
+    Examples
+    --------
+    >>> import curvewise
+    >>> against_ramp = curvewise.Prepared([0, 1, 2, 3], "dtw")
+    >>> against_ramp([0, 0, 3, 3])
+    2.0
+    >>> against_ramp([[0, 0, 3, 3], [0, 3, 0]]).tolist()
+    [2.0, 5.0]
+    """
+
+    def __init__(self, P: CurveLike, measure: MeasureName = "dtw", **options: Any) -> None:
+        self._curve = copy_of(as_curve(P, "P"))
+        warn_if_transposed(self._curve, "P")
+        self._columns = column_names(P)
+        self._measure = _check_names(measure, options)
+        self._options = options
+        self._prepared = CompiledPrepared(self._curve, self._measure, options)
+
+    def __repr__(self) -> str:
+        options = "".join(f", {name}={value!r}" for name, value in self._options.items())
+        return f"Prepared(<P of shape {self._curve.shape}>, {self._measure!r}{options})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _prepare, (self._curve, self._columns, self._measure, self._options)
+
+    @overload
+    def __call__(self, Q: Array, *, workers: SupportsIndex = Default.workers) -> float: ...
+    @overload
+    def __call__(self, Q: Any, *, workers: SupportsIndex = Default.workers) -> Any: ...
+    def __call__(self, Q: Any, *, workers: SupportsIndex = Default.workers) -> Any:
+        """Return the measure of P and Q, or of P and each curve of a list.
+
+        Parameters
+        ----------
+        Q : array_like, shape (m, d); or an array of shape (k, m, d), or a list or tuple of curves
+            A list or tuple is a list of curves if its first element has as many array dimensions
+            as P. So is whatever has labels for its curves, as for :func:`cdist`.
+        workers : int
+            Threads for a list, as for :func:`cdist`.
+
+        Returns
+        -------
+        float, or ndarray of shape (k,), or Series
+            As Q is one curve, several, or several with labels.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As for the measure, and for :func:`cdist`.
+        """
+        Q, labels = unlabelled(Q, "Q")
+        if labels is not None or self._is_list(Q):
+            for i, curve in enumerate(Q):
+                check_column_names(self._columns, "P", column_names(curve), f"Q[{i}]")
+            return labelled_column(self._prepared.values(as_curve_list(Q, "Q"), workers), labels)
+        check_column_names(self._columns, "P", column_names(Q), "Q")
+        return self._prepared.value(as_curve(Q, "Q"))
+
+    def _is_list(self, Q: Any) -> bool:
+        if isinstance(Q, list | tuple):
+            if len(Q) == 0 or is_curve_of_another_package(Q[0]):
+                return True
+            return bool(np.ndim(Q[0]) == self._curve.ndim)
+        return np.ndim(Q) == 3
+
+
+def _prepare(
+    P: Array, columns: list[Any], measure: MeasureName, options: dict[str, Any]
+) -> Prepared:
+    prepared = Prepared(P, measure, **options)
+    prepared._columns = columns  # of the DataFrame that P once was
+    return prepared

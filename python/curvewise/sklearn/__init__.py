@@ -1,0 +1,11 @@
+"""Estimators of scikit-learn for lists of curves: a classifier, and two kinds of clusters.
+
+The conventions are those of scikit-learn 1.6 and later (``pip install "curvewise[sklearn]"``), so
+that pipelines, grid searches and cross-validation take them.
+"""
+
+from .k_means import CurveKMeans
+from .k_medoids import CurveKMedoids
+from .neighbors import CurveKNeighborsClassifier
+
+__all__ = ["CurveKMeans", "CurveKMedoids", "CurveKNeighborsClassifier"]

@@ -1,0 +1,78 @@
+"""What an estimator is given: a list of curves, or scikit-learn's table whose rows are curves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from .._extras import extra
+from ..curves.labels import unlabelled
+from ..many.pairwise import Curves, LabelledCurves
+
+with extra("sklearn", "curvewise.sklearn needs scikit-learn >= 1.6"):
+    # Absolute, so these are the packages of that name and not this one. They have no types.
+    from sklearn.base import (  # type: ignore[import-untyped]
+        BaseEstimator,
+        ClassifierMixin,
+        ClusterMixin,
+    )
+    from sklearn.exceptions import ConvergenceWarning  # type: ignore[import-untyped]
+    from sklearn.utils import check_random_state  # type: ignore[import-untyped]
+    from sklearn.utils.multiclass import (  # type: ignore[import-untyped]
+        check_classification_targets,
+    )
+    from sklearn.utils.validation import (  # type: ignore[import-untyped]
+        check_is_fitted,
+        column_or_1d,
+        validate_data,
+    )
+
+__all__ = [
+    "BaseEstimator",
+    "ClassifierMixin",
+    "ClusterMixin",
+    "ConvergenceWarning",
+    "ManyCurves",
+    "Options",
+    "check_classification_targets",
+    "check_is_fitted",
+    "check_random_state",
+    "column_or_1d",
+    "curves_to_fit",
+    "fitted_curves",
+    "validate_data",
+]
+
+ManyCurves: TypeAlias = Curves | LabelledCurves
+Options: TypeAlias = Mapping[str, Any] | None
+
+
+def curves_to_fit(estimator: Any, X: Any, *y: Any) -> tuple[Any, ...]:
+    """Return the curves of X, and y if it is given, checked where X is a table of rows."""
+    X, _ = unlabelled(X, "X")
+    if _is_list_of_curves(X):
+        estimator.__dict__.pop("n_features_in_", None)  # of rows that were fitted before
+        return X, *y
+    checked = validate_data(estimator, X, *y, dtype=np.float64)
+    rows, *targets = checked if y else (checked,)
+    return list(rows), *targets
+
+
+def fitted_curves(estimator: Any, X: Any) -> Any:
+    """Return curves to be compared with those that were fitted."""
+    check_is_fitted(estimator)
+    X, _ = unlabelled(X, "X")
+    if _is_list_of_curves(X):
+        return X
+    return list(validate_data(estimator, X, reset=False, dtype=np.float64))
+
+
+def _is_list_of_curves(X: Any) -> bool:
+    """Return whether X is no table of rows: tables, and errors, are scikit-learn's to check."""
+    if isinstance(X, np.ndarray):
+        return X.ndim == 3 or (X.ndim == 1 and X.dtype == object)
+    if not isinstance(X, list | tuple) or len(X) == 0:
+        return False
+    return np.ndim(X[0]) > 0 or hasattr(X[0], "__geo_interface__")

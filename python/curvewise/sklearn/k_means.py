@@ -1,0 +1,353 @@
+"""Clusters of curves around means, as an estimator of scikit-learn.
+
+Lloyd's algorithm: every curve goes to the nearest centre, every centre moves to the mean of its
+curves, until the sum of distances falls no further. A mean is found from where it was, so that
+neither step raises the sum. First centres as k-means++ (Arthur & Vassilvitskii 2007). Cost of a
+round: k distances a curve, and those of ten moves of its mean; the distances of all pairs are never
+needed, except where the centres are medoids.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal, SupportsFloat, SupportsIndex, TypeAlias, get_args
+
+import numpy as np
+import numpy.typing as npt
+
+from .._core import dtw_mean as compiled_dtw_mean
+from .._options import Default, check_choice, real_number, whole_number
+from ..curves.foreign_curves import warn
+from ..curves.inputs import Array, as_curve_list, copy_of
+from ..many.averages import medoid, soft_mean
+from ..many.pairwise import cdist
+from ..measures.soft_dtw import soft_dtw
+from .inputs import (
+    BaseEstimator,
+    ClusterMixin,
+    ConvergenceWarning,
+    ManyCurves,
+    Options,
+    check_random_state,
+    curves_to_fit,
+    fitted_curves,
+)
+
+__all__ = ["CurveKMeans"]
+
+MeanName: TypeAlias = Literal["dtw", "soft_dtw", "frechet"]
+Curves: TypeAlias = list[Array]
+
+_MOVES = 10  # of a mean in a round
+_STILL = 1e-6  # a part of the sum that no move is made for
+
+
+@dataclass(frozen=True)
+class _Mean:
+    """A kind of mean.
+
+    Attributes
+    ----------
+    options : tuple of str
+        What it can be told; () for all options of the measure.
+    distances : callable
+        Of (curves, centers, workers, **options): the distances, shape (k, number of centers).
+    moved : callable
+        Of (center, its curves, workers, **options): the center, nearer to its curves.
+    """
+
+    options: tuple[str, ...]
+    distances: Callable[..., Array]
+    moved: Callable[..., Array]
+
+
+def _dtw_distances(curves: Curves, centers: Curves, workers: Any, **options: Any) -> Array:
+    return np.asarray(
+        cdist(curves, centers, "dtw", metric="sqeuclidean", workers=workers, **options)
+    )
+
+
+def _dtw_moved(center: Array, curves: Curves, workers: Any, *, window: Any = None) -> Array:
+    mean, _, _ = compiled_dtw_mean(curves, [], center, window, _MOVES, _STILL, workers, None)
+    return np.asarray(mean)
+
+
+def _soft_distances(curves: Curves, centers: Curves, workers: Any, **options: Any) -> Array:
+    return np.asarray(cdist(curves, centers, soft_dtw, **options))
+
+
+def _soft_moved(center: Array, curves: Curves, workers: Any, **options: Any) -> Array:
+    told = {"gamma": 1.0, "window": None, "workers": workers, **options}
+    mean, _, _ = soft_mean(curves, np.ones(len(curves)), center, _MOVES, _STILL, told)
+    return mean
+
+
+def _frechet_distances(curves: Curves, centers: Curves, workers: Any, **options: Any) -> Array:
+    return np.asarray(cdist(curves, centers, "frechet", workers=workers, **options))
+
+
+def _frechet_moved(center: Array, curves: Curves, workers: Any, **options: Any) -> Array:
+    return curves[medoid(curves, "frechet", workers=workers, **options)]
+
+
+_MEANS: dict[str, _Mean] = {
+    "dtw": _Mean(("window",), _dtw_distances, _dtw_moved),
+    "soft_dtw": _Mean(("gamma", "window"), _soft_distances, _soft_moved),
+    "frechet": _Mean((), _frechet_distances, _frechet_moved),
+}
+
+
+class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
+    """Divide curves into clusters, each around the mean of its curves.
+
+    Parameters
+    ----------
+    n_clusters : int
+        How many clusters.
+    measure : {"dtw", "soft_dtw", "frechet"}
+        What a mean is: that of :func:`curvewise.dtw_mean` (DTW barycentre averaging), whose sum is
+        of ``dtw(curve, mean, metric="sqeuclidean")``; that of :func:`curvewise.soft_dtw_mean`; or
+        the medoid under frechet, for which :class:`CurveKMedoids` finds smaller sums where all
+        distances can be had.
+    options : dict, optional
+        For dtw "window", for soft_dtw "gamma" and "window", for frechet those of its function.
+    n_init : int
+        From how many choices of first centres to begin; the smallest sum counts.
+    max_iter : int
+        How often the centres are moved at most.
+    tol : float >= 0
+        Ends where a move lowers the sum by no more than this part of it.
+    random_state : int, RandomState or None
+        Draws the first centres.
+    workers : int
+        Threads for a call: at least 1, or -1 for one per core. Never changes a result.
+
+    Attributes
+    ----------
+    cluster_centers_ : list of ndarray
+        The means; each has as many points as the curve that it began at.
+    labels_ : ndarray of int64, shape (k,)
+        The cluster of each curve; of equally near ones the first.
+    inertia_ : float
+        The sum of the distances from the means.
+    n_iter_ : int
+        How often they were moved.
+
+    Warns
+    -----
+    ConvergenceWarning
+        The sum still fell by more than `tol` after `max_iter` moves.
+
+    Notes
+    -----
+    k-means++ and Lloyd's algorithm; a cluster without curves gets the one that is farthest from its
+    centre. Curves as for :class:`CurveKMedoids`. Time: k distances and ten moves of a mean for each
+    curve and round, nothing of all pairs; memory that of the curves.
+
+    Examples
+    --------
+    >>> from curvewise.sklearn import CurveKMeans
+    >>> curves = [[0, 1, 2, 3], [0, 1, 3], [0, 2, 2, 3], [9, 8, 7], [9, 9, 7]]
+    >>> found = CurveKMeans(2, random_state=0).fit(curves)
+    >>> bool(found.labels_[0] == found.labels_[2] != found.labels_[3])
+    True
+    >>> bool(found.predict([[8, 8]])[0] == found.labels_[4])
+    True
+    """
+
+    def __init__(
+        self,
+        n_clusters: SupportsIndex = 8,
+        *,
+        measure: MeanName = "dtw",
+        options: Options = None,
+        n_init: SupportsIndex = 1,
+        max_iter: SupportsIndex = 50,
+        tol: SupportsFloat = 1e-6,
+        random_state: Any = None,
+        workers: SupportsIndex = Default.workers,
+    ) -> None:
+        self.n_clusters = n_clusters
+        self.measure = measure
+        self.options = options
+        self.n_init = n_init
+        self.max_iter = max_iter
+        self.tol = tol
+        self.random_state = random_state
+        self.workers = workers
+
+    def fit(self, X: ManyCurves, y: None = None) -> CurveKMeans:
+        """Find the clusters of curves X.
+
+        Parameters
+        ----------
+        X : array_like, shape (k, n, d) or (k, n), or a sequence of curves
+            The curves.
+        y : None
+            Not used.
+
+        Returns
+        -------
+        CurveKMeans
+            This one.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As for :func:`curvewise.dtw_mean`; more clusters than curves; an option that the mean
+            does not have.
+        """
+        mean, options = self._mean()
+        moves = whole_number("max_iter", self.max_iter, 1, "give a whole number >= 1")
+        starts = whole_number("n_init", self.n_init, 1, "give a whole number >= 1")
+        limit = real_number("tol", self.tol, 0.0, "give a number >= 0")
+        (given,) = curves_to_fit(self, X)
+        curves = as_curve_list(given, "X")
+        most = len(curves)
+        advice = f"give a whole number from 1 to {most}, the curves (n_samples={most})"
+        count = whole_number("n_clusters", self.n_clusters, 1, advice, most)
+        random = check_random_state(self.random_state)
+        begins = [_first_centers(curves, count, mean, options, random) for _ in range(starts)]
+        runs = [_lloyd(curves, centers, mean, options, moves, limit) for centers in begins]
+        best = min(runs, key=lambda run: run.cost)
+        if not best.converged:
+            warn(
+                ConvergenceWarning(
+                    f"the sum still fell by more than tol={limit} after max_iter={moves} moves; "
+                    "give more"
+                )
+            )
+        self.cluster_centers_ = best.centers
+        self.labels_ = best.labels
+        self.inertia_ = best.cost
+        self.n_iter_ = best.moves
+        return self
+
+    def predict(self, X: ManyCurves) -> npt.NDArray[np.int64]:
+        """Return the cluster whose mean is nearest.
+
+        Parameters
+        ----------
+        X : array_like, shape (q, n, d) or (q, n), or a sequence of curves
+            The curves that are asked for.
+
+        Returns
+        -------
+        ndarray of int64, shape (q,)
+            Their clusters.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As for :func:`curvewise.cdist`.
+        """
+        curves = as_curve_list(fitted_curves(self, X), "X")
+        mean, options = self._mean()
+        return _nearest(curves, self.cluster_centers_, mean, options)[0]
+
+    def _mean(self) -> tuple[_Mean, dict[str, Any]]:
+        """Return the kind of mean, and what its functions are told."""
+        check_choice("measure", self.measure, get_args(MeanName))
+        mean = _MEANS[self.measure]
+        options = dict(self.options or {})
+        for name in options:
+            if mean.options and name not in mean.options:
+                raise TypeError(
+                    f"the mean under {self.measure!r} has no option {name!r}; it has "
+                    f"{' and '.join(mean.options)}"
+                )
+        return mean, {"workers": self.workers, **options}
+
+    def __sklearn_tags__(self) -> Any:
+        tags = super().__sklearn_tags__()
+        tags.input_tags.three_d_array = True
+        return tags
+
+
+@dataclass(frozen=True)
+class _Run:
+    """Where a run of Lloyd's algorithm has ended."""
+
+    centers: Curves
+    labels: npt.NDArray[np.int64]
+    cost: float
+    moves: int
+    converged: bool
+
+
+def _first_centers(
+    curves: Curves, count: int, mean: _Mean, options: dict[str, Any], random: Any
+) -> Curves:
+    """Return curves, each drawn with the chance of its distance from those drawn before.
+
+    The distances are sums of squares under dtw; under frechet they are squared, and those of
+    soft_dtw, which may be below 0, are counted from the smallest.
+    """
+    chosen = [int(random.randint(len(curves)))]
+    nearest = np.full(len(curves), np.inf)
+    for _ in range(count - 1):
+        latest = mean.distances(curves, [curves[chosen[-1]]], **options)[:, 0]
+        if mean is _MEANS["frechet"]:
+            latest = latest * latest
+        nearest = np.minimum(nearest, latest)
+        chances = nearest - min(0.0, float(nearest.min()))
+        chances[chosen] = 0.0
+        if not chances.any():  # all others are equal to one that was drawn
+            chances = np.ones(len(curves))
+            chances[chosen] = 0.0
+        chosen.append(int(random.choice(len(curves), p=chances / chances.sum())))
+    return [copy_of(curves[i]) for i in chosen]
+
+
+def _lloyd(
+    curves: Curves,
+    centers: Curves,
+    mean: _Mean,
+    options: dict[str, Any],
+    most: int,
+    limit: float,
+) -> _Run:
+    """Move centers and labels in turn until the sum falls no further."""
+    labels, near = _nearest(curves, centers, mean, options)
+    for moves in range(1, most + 1):
+        moved = _moved(curves, centers, labels, near, mean, options)
+        moved_labels, moved_near = _nearest(curves, moved, mean, options)
+        cost = float(near.sum())
+        fell = cost - float(moved_near.sum())
+        if fell > 0.0:
+            centers, labels, near = moved, moved_labels, moved_near
+        if not fell > limit * abs(cost):
+            return _Run(centers, labels, float(near.sum()), moves, True)
+    return _Run(centers, labels, float(near.sum()), most, False)
+
+
+def _moved(
+    curves: Curves,
+    centers: Curves,
+    labels: npt.NDArray[np.int64],
+    near: Array,
+    mean: _Mean,
+    options: dict[str, Any],
+) -> Curves:
+    """Return the centers, nearer to their curves; one without any is where a curve is far off."""
+    far = near.copy()
+    moved = []
+    for k, center in enumerate(centers):
+        members = np.flatnonzero(labels == k)
+        if len(members) > 0:
+            moved.append(mean.moved(center, [curves[i] for i in members], **options))
+        else:
+            farthest = int(np.argmax(far))
+            far[farthest] = -np.inf
+            moved.append(copy_of(curves[farthest]))
+    return moved
+
+
+def _nearest(
+    curves: Curves, centers: Curves, mean: _Mean, options: dict[str, Any]
+) -> tuple[npt.NDArray[np.int64], Array]:
+    """Return the nearest center of each curve, and how far that is."""
+    distances = mean.distances(curves, centers, **options)
+    labels = np.argmin(distances, axis=1)
+    return labels, distances[np.arange(len(curves)), labels]

@@ -1,0 +1,189 @@
+"""Clusters of curves around medoids, for every measure, as an estimator of scikit-learn."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, SupportsIndex
+
+import numpy as np
+import numpy.typing as npt
+
+from .._options import Default, whole_number
+from ..curves.foreign_curves import warn
+from ..curves.inputs import as_curve_list, copy_of
+from ..many.k_medoids import k_medoids
+from ..many.pairwise import cdist
+from ..measures.registry import MeasureName
+from .inputs import (
+    BaseEstimator,
+    ClusterMixin,
+    ConvergenceWarning,
+    ManyCurves,
+    Options,
+    check_is_fitted,
+    curves_to_fit,
+    fitted_curves,
+    validate_data,
+)
+
+__all__ = ["CurveKMedoids"]
+
+
+class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
+    """Divide curves into clusters, each around one of them: its medoid.
+
+    The sum of the distances of all curves from their medoids is as small as no exchange of a medoid
+    for another curve makes it smaller.
+
+    Parameters
+    ----------
+    n_clusters : int
+        How many clusters.
+    measure : str
+        A measure by its name, see :func:`curvewise.available_measures`. Where it is not symmetric,
+        the medoid is Q. Or "precomputed": X is then the matrix of all distances, as
+        :func:`curvewise.cdist` returns it, which serves several numbers of clusters.
+    options : dict, optional
+        Those of the measure's own function, e.g. ``{"window": 10}``.
+    max_iter : int
+        How often each curve is tried as a medoid at most.
+    workers : int
+        Threads for a call: at least 1, or -1 for one per core. Never changes a result.
+
+    Attributes
+    ----------
+    medoid_indices_ : ndarray of int64, shape (n_clusters,)
+        Which curves are the medoids, in ascending order.
+    cluster_centers_ : list of ndarray
+        The medoids; not where the distances were given.
+    labels_ : ndarray of int64, shape (k,)
+        The cluster of each curve; of equally near ones the first.
+    inertia_ : float
+        The sum of the distances from the medoids.
+    n_iter_ : int
+        How often each curve was tried.
+
+    Warns
+    -----
+    ConvergenceWarning
+        After `max_iter` rounds an exchange still lowered the sum.
+
+    Notes
+    -----
+    FasterPAM (Schubert & Rousseeuw 2021), which begins with the medoids of BUILD (Kaufman &
+    Rousseeuw 1990): no randomness. Curves as for :class:`CurveKNeighborsClassifier`; a dict, a
+    groupby and a table of lines, whose labels are not kept, too. Time: that of all distances, and
+    O(k^2) a cluster and round; memory 8 k^2 bytes.
+
+    Examples
+    --------
+    >>> from curvewise.sklearn import CurveKMedoids
+    >>> curves = [[0, 1, 2, 3], [0, 1, 3], [0, 2, 2, 3], [9, 8, 7], [9, 9, 7]]
+    >>> found = CurveKMedoids(2, measure="frechet").fit(curves)
+    >>> found.labels_.tolist(), found.medoid_indices_.tolist()
+    ([0, 0, 0, 1, 1], [0, 3])
+    >>> found.predict([[8, 8], [1, 2]]).tolist()
+    [1, 0]
+    """
+
+    def __init__(
+        self,
+        n_clusters: SupportsIndex = 8,
+        *,
+        measure: MeasureName | Literal["precomputed"] = "dtw",
+        options: Options = None,
+        max_iter: SupportsIndex = 100,
+        workers: SupportsIndex = Default.workers,
+    ) -> None:
+        self.n_clusters = n_clusters
+        self.measure = measure
+        self.options = options
+        self.max_iter = max_iter
+        self.workers = workers
+
+    def fit(self, X: ManyCurves, y: None = None) -> CurveKMedoids:
+        """Find the clusters of curves X.
+
+        Parameters
+        ----------
+        X : array_like, shape (k, n, d) or (k, n), or a sequence of curves
+            The curves; or the matrix of their distances, shape (k, k).
+        y : None
+            Not used.
+
+        Returns
+        -------
+        CurveKMedoids
+            This one.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As for :func:`curvewise.cdist`; more clusters than curves.
+        """
+        rounds = whole_number("max_iter", self.max_iter, 1, "give a whole number >= 1")
+        if self.measure == "precomputed":
+            curves = None
+            distances = validate_data(self, X, dtype=np.float64)
+            if distances.shape[0] != distances.shape[1]:
+                raise ValueError(
+                    f"X has shape {distances.shape}; the distances of k curves have shape (k, k)"
+                )
+        else:
+            (given,) = curves_to_fit(self, X)
+            curves = as_curve_list(given, "X")
+            distances = self._distances(curves, None)
+        most = len(distances)
+        advice = f"give a whole number from 1 to {most}, the curves (n_samples={most})"
+        count = whole_number("n_clusters", self.n_clusters, 1, advice, most)
+        found = k_medoids(np.ascontiguousarray(distances.T), count, rounds)
+        if not found.converged:
+            warn(
+                ConvergenceWarning(
+                    f"an exchange still lowered the sum after max_iter={rounds} rounds; give more"
+                )
+            )
+        self.medoid_indices_ = found.medoids
+        self.labels_ = found.labels
+        self.inertia_ = found.cost
+        self.n_iter_ = found.rounds
+        self.__dict__.pop("cluster_centers_", None)
+        if curves is not None:
+            self.cluster_centers_ = [copy_of(curves[i]) for i in found.medoids]
+        return self
+
+    def predict(self, X: ManyCurves) -> npt.NDArray[np.int64]:
+        """Return the cluster whose medoid is nearest.
+
+        Parameters
+        ----------
+        X : array_like, shape (q, n, d) or (q, n), or a sequence of curves
+            The curves that are asked for; or their distances from those that were fitted, shape
+            (q, k).
+
+        Returns
+        -------
+        ndarray of int64, shape (q,)
+            Their clusters.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As for :func:`curvewise.cdist`.
+        """
+        check_is_fitted(self)
+        if self.measure == "precomputed":
+            distances = validate_data(self, X, reset=False, dtype=np.float64)
+            distances = distances[:, self.medoid_indices_]
+        else:
+            distances = self._distances(fitted_curves(self, X), self.cluster_centers_)
+        return np.asarray(np.argmin(distances, axis=1))
+
+    def _distances(self, X: Any, medoids: Any) -> Any:
+        measure: Any = self.measure
+        return cdist(X, medoids, measure, workers=self.workers, **dict(self.options or {}))
+
+    def __sklearn_tags__(self) -> Any:
+        tags = super().__sklearn_tags__()
+        tags.input_tags.three_d_array = True
+        tags.input_tags.pairwise = self.measure == "precomputed"
+        return tags
