@@ -6,7 +6,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-__all__ = ["Below", "Bounds", "Log", "Tied"]
+__all__ = ["DECADE", "Below", "Bounds", "Log", "Tied", "on_its_scale"]
+
+# Bounds that go further than this, the upper by the lower, are better searched as logarithms.
+DECADE = 10.0
 
 
 @dataclass(frozen=True)
@@ -71,3 +74,8 @@ class Tied:
 
 
 Bounds: TypeAlias = Mapping[str, "tuple[float, float] | float | Log | Below | Tied"]
+
+
+def on_its_scale(low: float, high: float) -> tuple[float, float] | Log:
+    """Return bounds above 0, logarithmic where they go over more than a decade."""
+    return Log(low, high) if high > DECADE * low else (low, high)

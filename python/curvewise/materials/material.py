@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from .._bounds import Bounds, Log
+from .._bounds import Bounds, Log, on_its_scale
 from .._names import did_you_mean
 from ..curves.inputs import Array, as_curve
 from ..curves.several_curves import curve_list
@@ -175,11 +175,13 @@ class Material(ABC):
 
     def _modulus_bounds(self, readings: Sequence[Reading]) -> Bounds:
         moduli = [modulus for reading in readings for modulus in reading.moduli]
-        around = (0.5 * min(moduli), 4.0 * max(moduli))
-        if "Ea" not in self.names:
-            return {"E": around}
-        path = max(reading.path for reading in readings)
-        return {"E": around, "Ea": (0.3 * min(moduli), around[1]), "xi": Log(1 / path, 1000 / path)}
+        low, high = min(moduli), 4.0 * max(moduli)
+        bounds: dict[str, Any] = {"E": on_its_scale(0.5 * low, high)}
+        if "Ea" in self.names:
+            path = max(reading.path for reading in readings)
+            bounds["Ea"] = on_its_scale(0.3 * low, high)
+            bounds["xi"] = Log(1 / path, 1000 / path)
+        return bounds
 
     def card(
         self,

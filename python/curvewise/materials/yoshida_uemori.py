@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from .._bounds import Below, Bounds, Log
+from .._bounds import Below, Bounds, Log, on_its_scale
 from .._core import yoshida_uemori_parameters, yoshida_uemori_stress
 from .material import Material
 from .readings import Span
@@ -64,7 +64,7 @@ class YoshidaUemori(Material):
 
     def _hardening_bounds(self, span: Span) -> Bounds:
         bounds: dict[str, Any] = {
-            "CB": (0.3 * span.lowest_yield, 1.5 * span.stress),
+            "CB": on_its_scale(0.3 * span.lowest_yield, 1.5 * span.stress),
             "Y": Below("CB", 0.01 * span.lowest_yield, 1.2 * span.highest_yield),
             "C": Log(1.0 / span.longest_branch, 1e4 / span.shortest_branch),
             "K": Log(0.005 / span.longest_branch, 500.0 / span.shortest_branch),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from curvewise.calibration import Log
 from curvewise.calibration.problem.space import Space
 from curvewise.materials import ChabocheVoce, YoshidaUemori
 from curvewise.materials.readings import reading_of, thinned
@@ -76,6 +78,22 @@ def test_several_tests_widen_the_bounds() -> None:
     assert both["yield"].low <= alone["yield"].low
 
 
+@pytest.mark.parametrize("material", [ChabocheVoce(modulus="decaying"), YoshidaUemori()])
+def test_bounds_over_a_decade_are_logarithmic(material) -> None:
+    # The second test says half the modulus of the first: 0.5 of the one to 4 of the other.
+    stiff = loop(CHABOCHE, STEEL, 0.02, -0.02)
+    soft = loop(CHABOCHE, STEEL | {"E": 100e3}, 0.02, -0.02)
+    alone, both = material.bounds_from(stiff), material.bounds_from([stiff, soft])
+    assert isinstance(alone["E"], tuple)
+    assert isinstance(both["E"], Log)
+    assert both["E"].low < alone["E"][0]
+    assert both["E"].high == alone["E"][1]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for bounds in (alone, both):
+            Space(bounds).warn_of_wide_bounds()
+
+
 @pytest.mark.parametrize(
     ("test", "message"),
     [
@@ -109,4 +127,6 @@ def test_measured_loops_are_read_as_steel(name: str, data_dir: Path) -> None:
     assert all(80e3 < modulus < 320e3 for modulus in reading.moduli)
     assert 100.0 < reading.yield_stress < reading.stress
     for material in (CHABOCHE, YoshidaUemori()):
-        Space(material.bounds_from(test))  # which checks them
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            Space(material.bounds_from(test)).warn_of_wide_bounds()  # of which there are none

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ..._bounds import Below, Bounds, Log, Tied
+from ..._bounds import DECADE, Below, Bounds, Log, Tied
 from ...curves.foreign_curves import warn
 from ...curves.inputs import Array
 from ..models.identity import fingerprint
@@ -27,9 +27,6 @@ _RESERVED = ("evaluation", "value", "failed", "seconds", "message")
 
 # How far a parameter stays below another one, as a fraction of its bounds' range.
 _GAP = 1e-6
-
-# Bounds that go further than this, the upper by the lower, are better searched as logarithms.
-_DECADE = 10.0
 
 # A parameter this near to a bound, as a fraction of the range, is said to be at the bound.
 _AT_BOUND = 1e-3
@@ -127,9 +124,7 @@ class Space:
         wide = [
             f"{name} ({low:g} to {high:g})"
             for (name, (low, high)), is_log in zip(self.bounds.items(), self.is_log, strict=True)
-            if not is_log
-            and not isinstance(self._given[name], Below)
-            and 0.0 < _DECADE * low < high
+            if not is_log and not isinstance(self._given[name], Below) and 0.0 < DECADE * low < high
         ]
         if wide:
             warn(
