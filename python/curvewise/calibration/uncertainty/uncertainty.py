@@ -24,6 +24,7 @@ from ..objective.noisy_tests import advice_against_noise
 from ..problem.space import Space
 from ..problem.tables import digits, parameter_table, per_cent
 from .determined import determined
+from .followed import followed_spread
 from .noise import noise_of
 from .sensitivity import Optimum, sensitivity_of
 from .spread import ADDED_UP, bootstrapped_spread, linear_spread
@@ -237,7 +238,10 @@ def uncertainty_of(
     space, objective = optimum.problem.space, optimum.problem.objective
     noise = noise_of(optimum, sigma)
     differential = space.differential(optimum.unit)
-    if samples == 0:
+    if samples == 0 and optimum.problem.has_slopes:
+        spread, more = followed_spread(optimum, noise, level)
+        runs += more
+    elif samples == 0:
         spread = linear_spread(optimum, noise, level)
     else:
         spread = bootstrapped_spread(optimum, noise, level, samples, seed)
