@@ -54,7 +54,14 @@ BOUNDS = {
 MARGIN = 0.05  # of the bounds' ranges, that truths keep to
 
 CHOSEN_ON = ("dp780_tct_3pct", "dp780_tct_6pct", "eddq_tct_3pct", "eddq_tct_5pct")
-SHOWN = ("tr1180_tct_3pct", "resslab_random_protocol", "resslab_cyclic_2pct", "paper_loop_3")
+SHOWN = (
+    "tr1180_tct_3pct",
+    "resslab_random_protocol",
+    "resslab_cyclic_2pct",
+    "paper_loop_3",
+    "paper_loop_4",
+    "paper_loop_5",
+)
 
 
 class Case(NamedTuple):

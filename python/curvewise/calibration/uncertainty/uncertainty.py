@@ -1,10 +1,11 @@
 """What the tests determine, as one report: errors, intervals, the weakest direction, what is loose.
 
 The noise is that of the residuals, or of a deviation that is given (`noise`), correlated as they
-are (`correlation`); how far the parameters would move with other noise is said by sensitivities, or
-by a bootstrap on response surfaces (`spread`); what the loops do not notice has nothing to do with
-noise (`sensitivity`); `determined` is the verdict on both. Cost: no runs, or 2 k of them where the
-search has left no surfaces; some 30 k evaluations of the measure, and with a bootstrap as many for
+are (`correlation`); how far the parameters would move with other noise is said by sensitivities,
+along the model where it says its slopes (`followed`), or by a bootstrap on response surfaces
+(`spread`); what the loops do not notice has nothing to do with noise (`sensitivity`); `determined`
+is the verdict on both. Cost: no runs, 2 k of them where the search has left no surfaces, or some
+10 k of a model with slopes; some 30 k evaluations of the measure, and with a bootstrap as many for
 each of its `samples`. Sources: see those modules.
 """
 
