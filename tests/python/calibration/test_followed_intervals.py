@@ -195,4 +195,4 @@ def test_the_lower_end_goes_further_where_the_curve_notices_less():
     low, high = uncertainty.intervals["a"]
     half = 1.959964 * 0.8 / math.sqrt(float(X @ X))
     assert high == pytest.approx(half, rel=0.01)  # exp bends up: the linear end is further
-    assert low == pytest.approx(math.log(1.0 - half), rel=0.02)
+    assert low == pytest.approx(math.log(1.0 - half), rel=0.05)

@@ -88,7 +88,7 @@ class Compared(NamedTuple):
 
 
 def _follow(ends: Sequence[End], optimum: Optimum, compared: Compared) -> int:
-    """Let all ends arrive, side by side, and return how many runs that took."""
+    """Let all ends arrive, side by side, and return in how many runs, made now or before."""
     fitted = compared.points(optimum)
     with optimum.problem.simulator() as simulator:
         while steps := [(end, place) for end in ends if (place := end.next_place()) is not None]:
@@ -98,7 +98,7 @@ def _follow(ends: Sequence[End], optimum: Optimum, compared: Compared) -> int:
                     end.tell(place, None, None)
                 else:
                     end.tell(place, compared.points(there) - fitted, compared.slopes(there))
-        return simulator.runs
+        return simulator.runs + simulator.looked_up
 
 
 def _run(optimum: Optimum, simulator: Simulator, places: Sequence[Array]) -> list[Optimum | None]:

@@ -87,7 +87,7 @@ class Uncertainty(Result):
     level, samples, measure
         As asked for.
     runs : int
-        How many runs of the model it took.
+        How many runs of the model it took, those that a store held included.
     """
 
     parameters: dict[str, float]
