@@ -27,9 +27,9 @@ from .methods.method import Method
 from .methods.search import Plan
 from .methods.trust_region import TrustRegion
 from .problem.tables import digits
-from .uncertainty.noise import noise_of
-from .uncertainty.spread import rise_at
-from .uncertainty.uncertainty import Uncertainty
+from .uncertainty.noise import Noise, noise_of
+from .uncertainty.sensitivity import Optimum
+from .uncertainty.spread import linear_spread, rise_at
 
 if TYPE_CHECKING:
     from ..drawing.picture import Picture
@@ -58,7 +58,8 @@ class Profile(Result):
     is_open : (bool, bool)
         Whether the interval goes further than `values` on either side.
     by_sensitivities : (float, float)
-        The interval of :meth:`Identification.uncertainty`.
+        The interval by sensitivities alone, as those of :meth:`Identification.uncertainty` of a
+        model that does not say its slopes.
     rise : float
         Of the objective, at the ends of the interval.
     level : float
@@ -169,7 +170,12 @@ def profile(
     if points < 5 or points % 2 == 0:
         raise ValueError(f"points is {points}; give an odd number, at least 5")
     uncertainty = found.uncertainty(level=level)
-    values = _values(found, uncertainty, name, points)
+    optimum, index = uncertainty.optimum, space.names.index(name)
+    noise = noise_of(optimum, None)
+    linear = linear_spread(optimum, noise, level).intervals[index]
+    # Half the interval, as it is on the side where no bound cuts it.
+    half = max(abs(end - found.parameters[name]) for end in linear)
+    values = _values(found, half, name, points)
     search = method or TrustRegion(initial_range=0.05)
     at_values = [found.parameters] * points
     lowest, runs = np.full(points, found.value), uncertainty.runs
@@ -182,7 +188,7 @@ def profile(
         start = {key: near[key] for key in held.space.names}
         best = identification_of(held, Plan(search, found.seed, start, False, None, None))
         at_values[i], lowest[i], runs = best.parameters, best.value, runs + best.runs
-    rise = _rise(found, uncertainty, name)
+    rise = _rise(optimum, noise, index, half)
     sides = [(values[middle::-1], lowest[middle::-1]), (values[middle:], lowest[middle:])]
     crossings = [_crossing(*side, rise) for side in sides]
     kept = [i for i in range(points) if i == middle or values[i] != values[middle]]
@@ -193,35 +199,26 @@ def profile(
         tuple({key: at_values[i][key] for key in space.names} for i in kept),
         (crossings[0][0], crossings[1][0]),
         (crossings[0][1], crossings[1][1]),
-        uncertainty.intervals[name],
+        linear,
         rise,
         level,
         runs,
     )
 
 
-def _half(uncertainty: Uncertainty, name: str) -> float:
-    """Return half the interval, as it is on the side where no bound cuts it."""
-    best = uncertainty.parameters[name]
-    return max(abs(end - best) for end in uncertainty.intervals[name])
-
-
-def _values(found: Identification, uncertainty: Uncertainty, name: str, points: int) -> Array:
+def _values(found: Identification, half: float, name: str, points: int) -> Array:
     """Return at what values the parameter is held, within its bounds."""
     low, high = found.bounds[name]
-    best, reach = found.parameters[name], _BEYOND * _half(uncertainty, name)
+    best, reach = found.parameters[name], _BEYOND * half
     below = np.linspace(max(low, best - reach), best, points // 2 + 1)
     above = np.linspace(best, min(high, best + reach), points // 2 + 1)
     return np.concatenate((below, above[1:]))
 
 
-def _rise(found: Identification, uncertainty: Uncertainty, name: str) -> float:
+def _rise(optimum: Optimum, noise: Noise, index: int, half: float) -> float:
     """Return the rise of the objective at the ends of the interval by sensitivities."""
-    optimum = uncertainty.optimum
-    index = found.problem.space.names.index(name)
-    differential = found.problem.space.differential(optimum.unit)
-    change = _half(uncertainty, name) / abs(float(differential[index, index]))
-    return rise_at(optimum, noise_of(optimum, None), index, change)
+    differential = optimum.problem.space.differential(optimum.unit)
+    return rise_at(optimum, noise, index, half / abs(float(differential[index, index])))
 
 
 def _crossing(values: Array, lowest: Array, rise: float) -> tuple[float, bool]:

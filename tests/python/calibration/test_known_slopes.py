@@ -48,9 +48,9 @@ def test_the_trust_region_needs_no_runs_for_slopes(found) -> None:
     assert blind.evaluations == 2 * found.evaluations
 
 
-def test_neither_does_the_uncertainty(found) -> None:
+def test_the_uncertainty_needs_no_runs_for_slopes(found) -> None:
     assert found.uncertainty_runs == 0
-    assert found.uncertainty(sigma=1.0).runs == 0
+    assert found.uncertainty(sigma=1.0, samples=20).runs == 0
 
 
 def test_known_slopes_give_the_errors_that_differences_give(found) -> None:

@@ -157,7 +157,10 @@ class Identification(Result):
 
     @property
     def uncertainty_runs(self) -> int:
-        """How many runs of the model `uncertainty` will make: 0, or 2 for every parameter."""
+        """How many runs of the model slopes will take: 0, or 2 for every parameter.
+
+        A model that says its slopes is run by `uncertainty` besides, some ten times a parameter.
+        """
         return design_runs(self.problem, self._unit, self.runs_with_curves)
 
     @property
@@ -210,10 +213,14 @@ class Identification(Result):
         -----
         Runs of the model: `uncertainty_runs`, which is 0 after "trust-region" and "sdrm". Time:
         some 30 evaluations of the measure a parameter; with samples, as many for each of them.
+        Sensitivities take curves for linear. Of a model with a ``jacobian`` each end is therefore
+        followed along the model, in some 3 to 6 runs and at most 15, to where its curves have moved
+        as far as they would by the linear interval; an interval then need not be symmetric, and is
+        never narrower than the linear one.
         Residuals that go on alike from point to point, since the model is wrong, are taken for an
         autoregression of the first order in each branch, with white noise upon it, and widen the
-        intervals. The surfaces are linear: intervals that are a large part of the bounds say "not
-        determined", and no more. Sources: see the modules of
+        intervals. Where the model does not say its slopes, intervals that are a large part of the
+        bounds say "not determined", and no more. Sources: see the modules of
         ``curvewise.calibration.uncertainty``.
 
         Examples
@@ -262,8 +269,8 @@ class Identification(Result):
             The file; what is there is replaced.
         uncertainty : Uncertainty, optional
             What the page says of the parameters. By default what :meth:`uncertainty` has given
-            last; or would give, where it was not called and takes no runs of the model
-            (`uncertainty_runs`): if it does, the page is without intervals.
+            last; or would give, where it was not called and slopes take no runs of the model
+            (`uncertainty_runs`): if they do, the page is without intervals.
 
         Raises
         ------

@@ -1,10 +1,11 @@
 """What the tests determine, as one report: errors, intervals, the weakest direction, what is loose.
 
 The noise is that of the residuals, or of a deviation that is given (`noise`), correlated as they
-are (`correlation`); how far the parameters would move with other noise is said by sensitivities, or
-by a bootstrap on response surfaces (`spread`); what the loops do not notice has nothing to do with
-noise (`sensitivity`); `determined` is the verdict on both. Cost: no runs, or 2 k of them where the
-search has left no surfaces; some 30 k evaluations of the measure, and with a bootstrap as many for
+are (`correlation`); how far the parameters would move with other noise is said by sensitivities,
+along the model where it says its slopes (`followed`), or by a bootstrap on response surfaces
+(`spread`); what the loops do not notice has nothing to do with noise (`sensitivity`); `determined`
+is the verdict on both. Cost: no runs, 2 k of them where the search has left no surfaces, or some
+10 k of a model with slopes; some 30 k evaluations of the measure, and with a bootstrap as many for
 each of its `samples`. Sources: see those modules.
 """
 
@@ -24,6 +25,7 @@ from ..objective.noisy_tests import advice_against_noise
 from ..problem.space import Space
 from ..problem.tables import digits, parameter_table, per_cent
 from .determined import determined
+from .followed import followed_spread
 from .noise import noise_of
 from .sensitivity import Optimum, sensitivity_of
 from .spread import ADDED_UP, bootstrapped_spread, linear_spread
@@ -85,7 +87,7 @@ class Uncertainty(Result):
     level, samples, measure
         As asked for.
     runs : int
-        How many runs of the model it took.
+        How many runs of the model it took, those that a store held included.
     """
 
     parameters: dict[str, float]
@@ -237,7 +239,10 @@ def uncertainty_of(
     space, objective = optimum.problem.space, optimum.problem.objective
     noise = noise_of(optimum, sigma)
     differential = space.differential(optimum.unit)
-    if samples == 0:
+    if samples == 0 and optimum.problem.has_slopes:
+        spread, more = followed_spread(optimum, noise, level)
+        runs += more
+    elif samples == 0:
         spread = linear_spread(optimum, noise, level)
     else:
         spread = bootstrapped_spread(optimum, noise, level, samples, seed)

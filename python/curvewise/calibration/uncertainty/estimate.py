@@ -1,0 +1,163 @@
+"""How an estimate moves with the noise of every point: slopes, weights, and their sandwich.
+
+To the first order an estimate moves with the noise of a point by what the slopes of the curves
+there and the weight that the measure gives to the point say. For a sum of squares that is the
+linear theory of least squares. A measure that adds up distances rather than their squares has the
+weights of its gradient, and takes, as a median does, pi / 2 of the variance of white noise, and
+pi / 2 log 2 of that of noise that goes on alike (the sums over all lags of an autoregression's
+correlations, and of their arcsines). Cost: two evaluations of the residuals a parameter, or one
+gradient; and that of `correlation_of`.
+
+P. J. Huber, "The behavior of maximum likelihood estimates under nonstandard conditions", Proc. 5th
+Berkeley Symp. Math. Stat. Prob. 1 (1967) 221-233.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..._extras import required
+from ...curves.inputs import Array
+from .correlation import Correlation, branches_of_tests, correlation_of, white
+from .noise import Noise
+from .sensitivity import Optimum
+
+__all__ = ["Estimate", "estimate_of", "point_slopes", "points_of_tests"]
+
+# Variances of a median in units of a mean's, of white noise and of noise that goes on alike.
+_WHITE, _ALIKE = math.pi / 2.0, math.pi / 2.0 * math.log(2.0)
+# Where the noise goes on alike, hardly more independent points are left than parameters: the fewest
+# degrees of freedom with which Student's t has a variance.
+_LEAST_FREEDOM = 3.0
+
+
+class Estimate(NamedTuple):
+    """How an estimate moves with the noise of the points of all tests, in their deviations.
+
+    Attributes
+    ----------
+    moves : ndarray, shape (points, k)
+        By how much the place in the unit cube moves with the noise of each point.
+    slopes : ndarray, shape (points, k)
+        Of the curves, at the measured points.
+    factors : ndarray, shape (points,)
+        By what a difference in y at each point is multiplied in the squares that are added up.
+    inverse : ndarray, shape (k, k)
+        Of the normal matrix: how far the estimate moves with white noise of those squares.
+    correlation : Correlation
+        Of the noise.
+    freedom : float
+        The degrees of freedom of its deviation: of points that are independent; infinite where it
+        is given.
+    is_median : bool
+        Whether it is that of distances, and not of their squares.
+    """
+
+    moves: Array
+    slopes: Array
+    factors: Array
+    inverse: Array
+    correlation: Correlation
+    freedom: float
+    is_median: bool
+
+    @property
+    def covariance(self) -> Array:
+        """Of the place in the unit cube, shape (k, k)."""
+        white, alike = (_WHITE, _ALIKE) if self.is_median else (1.0, 1.0)
+        return self.correlation.scatter(self.moves, white, alike)
+
+    def quantile(self, level: float) -> float:
+        """Return how many standard errors half an interval has."""
+        stats, upper = required("scipy.stats"), (1.0 + level) / 2.0
+        distribution = stats.norm if math.isinf(self.freedom) else stats.t(self.freedom)
+        return float(distribution.ppf(upper))
+
+
+def estimate_of(optimum: Optimum, noise: Noise) -> Estimate:
+    """Return how the parameters at an optimum move with the noise."""
+    objective = optimum.problem.objective
+    branches = branches_of_tests(objective.experiments)
+    counts = [len(fitted) for fitted in noise.fitted]
+    # A test that is fitted to the last digit has no noise that could be divided by.
+    sizes = [
+        float(extent[y]) for extent, y in zip(objective.extents, objective.y_columns, strict=True)
+    ]
+    sigma = np.maximum(noise.sigma, np.maximum(1e-12 * np.array(sizes), 1e-150))
+    deviations = np.repeat(sigma, counts)
+    if objective.is_least_squares:
+        weights = np.repeat(objective.residual_factors, counts) * deviations
+        slopes = _residual_slopes(optimum) / weights[:, np.newaxis]
+    else:
+        weights = np.sqrt(_weights(optimum, sigma, counts))
+        slopes = point_slopes(optimum, counts) / deviations[:, np.newaxis]
+    if noise.residuals is None:
+        correlation = white(branches)
+        freedom = math.inf
+    else:
+        residuals = np.concatenate([r / s for r, s in zip(noise.residuals, sigma, strict=True)])
+        correlation = correlation_of(residuals, slopes, branches)
+        over = correlation.independent - slopes.shape[1]
+        freedom = min(float(noise.freedom), max(over, _LEAST_FREEDOM))
+    left, values, right = np.linalg.svd(weights[:, np.newaxis] * slopes, full_matrices=False)
+    # What no point notices is as uncertain as the bounds are wide, and no more.
+    noticed = np.maximum(values, float(np.sqrt(np.mean(weights**2))))
+    moves = weights[:, np.newaxis] * (left / noticed) @ right
+    inverse, factors = (right.T / noticed**2) @ right, weights / deviations
+    is_median = not objective.is_least_squares
+    return Estimate(moves, slopes, factors, inverse, correlation, freedom, is_median)
+
+
+def _residual_slopes(optimum: Optimum) -> Array:
+    """Return the derivatives of the residuals by the place in the unit cube."""
+    residuals, step = optimum.problem.objective.residuals, 1e-4
+    return np.column_stack(
+        [
+            residuals(optimum.curves(optimum.unit + step * axis))
+            - residuals(optimum.curves(optimum.unit - step * axis))
+            for axis in np.eye(optimum.unit.size)
+        ]
+    ) / (2.0 * step)
+
+
+def points_of_tests(optimum: Optimum, curves: Sequence[Array], counts: Sequence[int]) -> Array:
+    """Return y of curves, or of their slopes, at as many points as were measured of each test."""
+    ys = optimum.problem.objective.y_columns
+    parts = [_at_points(curve[:, y], n) for curve, y, n in zip(curves, ys, counts, strict=True)]
+    return np.concatenate(parts)
+
+
+def point_slopes(optimum: Optimum, counts: Sequence[int]) -> Array:
+    """Return the slopes of the simulated y at these points."""
+    return np.column_stack([points_of_tests(optimum, one, counts) for one in optimum.slopes])
+
+
+def _at_points(values: Array, count: int) -> Array:
+    places = np.linspace(0.0, len(values) - 1.0, count)
+    return np.interp(places, np.arange(len(values)), values)
+
+
+def _weights(optimum: Optimum, sigma: Array, counts: Sequence[int]) -> Array:
+    """Return what a deviation at each point costs, where all are alike; 1 in the mean.
+
+    1 everywhere where the measure has no gradient, such as that of the worst point alone.
+    """
+    objective, curves = optimum.problem.objective, optimum.curves(optimum.unit)
+    total = sum(counts)
+    if not objective.has_gradient:
+        return np.ones(total)
+    tests = [curve.copy() for curve in curves]
+    for test, deviation, y in zip(tests, sigma, objective.y_columns, strict=True):
+        test[:, y] += deviation
+    _, gradients = objective.of_other_tests(tests).value_and_gradient(curves)
+    parts = [
+        _at_points(np.abs(g[:, y]), n) * (s * len(g) / n)
+        for g, y, n, s in zip(gradients, objective.y_columns, counts, sigma, strict=True)
+    ]
+    weights = np.concatenate(parts)
+    mean = float(weights.mean())
+    return weights / mean if mean > 0.0 else np.ones(total)

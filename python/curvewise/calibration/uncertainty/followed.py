@@ -1,0 +1,212 @@
+"""Intervals as far as the model's own curves go, where it says its slopes.
+
+Sensitivities take the curves for linear in the parameters. With errors as large as those of a model
+that is wrong they are not: a parameter may go further than its slope at the optimum says before its
+curves have moved as far, or meets a bound. So each end of each interval is followed along the
+model: to the place where the parameter is greatest, or least, of all places within the bounds whose
+curves are no further from the fitted ones, in the sense of weighted squares, than on the linear
+surfaces at the end of the linear interval. Of a linear model that is the same end. It is a profile
+of the expected deviance, its height adjusted for correlated noise.
+
+Each step is exact for the linear model of the curves at its start: an ellipsoid's furthest point,
+with parameters that would leave the bounds held there. An end that has not settled after `_MOST`
+runs counts as far as it has come. No interval is narrower than the linear one. Cost: some 3 to 6
+runs of the model with slopes for each end, those of all ends side by side; O(n k^2) a run.
+
+D. J. Venzon, S. H. Moolgavkar, Applied Statistics 37 (1988) 87-94 (following a profile's ends);
+R. E. Chandler, S. Bate, "Inference for clustered data using the independence loglikelihood",
+Biometrika 94 (2007) 167-183 (adjusting its height).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ...curves.inputs import Array
+from ...curves.several_curves import points_of
+from ..problem.simulator import Simulator
+from ..surfaces.surfaces import Surfaces
+from .estimate import estimate_of, point_slopes, points_of_tests
+from .noise import Noise
+from .sensitivity import Optimum
+from .spread import Spread, spread_of
+
+__all__ = ["End", "followed_spread"]
+
+_MOST = 15  # runs for an end
+_FURTHEST, _NEAREST = 0.3, 1e-3  # steps, in parts of the bounds' ranges
+_OUTSIDE = 4.0  # times the square of the distance, beyond which a step has gone too far
+# An end has settled where the square of the distance, and that by which the next step would move
+# the curves, are known to these parts of the square that is wanted.
+_NEAR, _STILL = 0.1, 0.01
+
+
+def followed_spread(optimum: Optimum, noise: Noise, level: float) -> tuple[Spread, int]:
+    """Return the spread by sensitivities with its intervals followed, and the runs it took."""
+    estimate, space = estimate_of(optimum, noise), optimum.problem.space
+    spread = spread_of(estimate, optimum, level)
+    widths = estimate.quantile(level) * np.sqrt(np.diag(estimate.covariance))
+    squares = widths**2 / np.diag(estimate.inverse)
+    compared = Compared(estimate.factors, [len(fitted) for fitted in noise.fitted])
+    slopes = compared.slopes(optimum)
+    ends = [
+        End(optimum.unit, slopes, index, way, float(square))
+        for index, square in enumerate(squares)
+        for way in (-1.0, 1.0)
+    ]
+    runs = _follow(ends, optimum, compared)
+    reached = [space.point(end.furthest) for end in ends]
+    intervals = [
+        (min(low, first[i], last[i]), max(high, first[i], last[i]))
+        for i, ((low, high), first, last) in enumerate(
+            zip(spread.intervals, reached[::2], reached[1::2], strict=True)
+        )
+    ]
+    return spread._replace(intervals=intervals), runs
+
+
+class Compared(NamedTuple):
+    """What is compared of curves: y at as many points as were measured, each with its factor."""
+
+    factors: Array
+    counts: list[int]
+
+    def points(self, optimum: Optimum) -> Array:
+        """Return it of the curves at the place of an optimum, shape (points,)."""
+        y = points_of_tests(optimum, optimum.curves(optimum.unit), self.counts)
+        compared: Array = self.factors * y
+        return compared
+
+    def slopes(self, optimum: Optimum) -> Array:
+        """Return its slopes there, shape (points, k)."""
+        return self.factors[:, np.newaxis] * point_slopes(optimum, self.counts)
+
+
+def _follow(ends: Sequence[End], optimum: Optimum, compared: Compared) -> int:
+    """Let all ends arrive, side by side, and return in how many runs, made now or before."""
+    fitted = compared.points(optimum)
+    with optimum.problem.simulator() as simulator:
+        while steps := [(end, place) for end in ends if (place := end.next_place()) is not None]:
+            places = [place for _, place in steps]
+            for (end, place), there in zip(steps, _run(optimum, simulator, places), strict=True):
+                if there is None:
+                    end.tell(place, None, None)
+                else:
+                    end.tell(place, compared.points(there) - fitted, compared.slopes(there))
+        return simulator.runs + simulator.looked_up
+
+
+def _run(optimum: Optimum, simulator: Simulator, places: Sequence[Array]) -> list[Optimum | None]:
+    """Return curves and slopes at places; None where a run fails."""
+    problem, space = optimum.problem, optimum.problem.space
+    outcomes = dict(simulator.run([space.dictionary(space.point(place)) for place in places]))
+    found: list[Optimum | None] = []
+    for i, place in enumerate(places):
+        simulations = outcomes[i].simulations
+        if outcomes[i].message or problem.objective.predicted(simulations).failures:
+            found.append(None)
+            continue
+        base = optimum.responses.vector(points_of(simulations))
+        slopes = optimum.responses.slopes(problem.slopes(place))
+        if slopes is None:  # of another number of points than the fitted curves
+            found.append(None)
+        else:
+            surfaces = Surfaces(place, base, slopes)
+            found.append(replace(optimum, unit=place, surfaces=surfaces))
+    return found
+
+
+class End:
+    """One end of one interval, on its way.
+
+    Parameters
+    ----------
+    start : ndarray, shape (k,)
+        The optimum in the unit cube.
+    slopes : ndarray, shape (n, k)
+        Of what is compared there.
+    index : int
+        Of the parameter.
+    way : float
+        1 for the upper end, -1 for the lower one.
+    square : float
+        By how much, squared, what is compared may move.
+
+    Attributes
+    ----------
+    furthest : ndarray, shape (k,)
+        Where the parameter has come furthest so far.
+    """
+
+    def __init__(self, start: Array, slopes: Array, index: int, way: float, square: float) -> None:
+        self._start, self._index, self._way, self._square = start, index, way, square
+        self._radius, self._runs = _FURTHEST, 0
+        self.furthest = start
+        self._stand(start, np.zeros(len(slopes)), slopes)
+
+    def _stand(self, place: Array, moved: Array, slopes: Array) -> None:
+        self._place, self._distance = place, float(moved @ moved)
+        self._normal, self._gradient = slopes.T @ slopes, slopes.T @ moved
+
+    def next_place(self) -> Array | None:
+        """Return where the model is to be run next, or None where the end has arrived."""
+        if self._runs >= _MOST or self._radius < _NEAREST:
+            return None
+        at_bound = self._place[self._index] == (self._way > 0.0)
+        if at_bound and self._distance <= self._square:
+            return None
+        step = self._step()
+        moves = float(step @ self._normal @ step)
+        is_near = abs(self._distance - self._square) <= _NEAR * self._square
+        if is_near and moves <= _STILL * self._square:
+            return None
+        size = float(np.abs(step).max())
+        place: Array = np.clip(self._place + step * min(1.0, self._radius / size), 0.0, 1.0)
+        return place
+
+    def tell(self, place: Array, moved: Array | None, slopes: Array | None) -> None:
+        """Take what a run has given: by how much what is compared has moved, and its slopes."""
+        self._runs += 1
+        distance = math.inf if moved is None else float(moved @ moved)
+        too_far = distance > max(_OUTSIDE * self._square, 0.5 * self._distance)
+        if moved is None or slopes is None or too_far:
+            self._radius = float(np.abs(place - self._place).max()) / 2.0
+            return
+        self._radius = min(2.0 * self._radius, _FURTHEST)
+        self._stand(place, moved, slopes)
+        # Beyond the distance that is wanted the way back is taken for that of a linear model.
+        back = math.sqrt(self._square / distance) if distance > self._square else 1.0
+        reached = self._start + back * (place - self._start)
+        if self._way * (reached - self.furthest)[self._index] > 0.0:
+            self.furthest = reached
+
+    def _step(self) -> Array:
+        """Return the step to the furthest point of the linear model's ellipsoid in the bounds."""
+        count, held = len(self._place), dict[int, float]()
+        step = np.zeros(count)
+        tiny = 1e-10 * float(np.trace(self._normal)) / count
+        while len(held) < count:
+            free = [i for i in range(count) if i not in held]
+            step = np.zeros(count)
+            step[list(held)] = list(held.values())
+            pulled = self._gradient + self._normal @ step
+            distance = self._distance + float(step @ (self._gradient + pulled))
+            inverse = np.linalg.inv(self._normal[np.ix_(free, free)] + tiny * np.eye(len(free)))
+            nearest = -inverse @ pulled[free]
+            if self._index in free:
+                own = inverse[free.index(self._index)]
+                left = max(self._square - distance - float(pulled[free] @ nearest), 0.0)
+                nearest += self._way * math.sqrt(left / own[free.index(self._index)]) * own
+            step[free] = nearest
+            outside = np.maximum(self._place + step - 1.0, -(self._place + step))
+            outside[list(held)] = 0.0
+            worst = int(np.argmax(outside))
+            if outside[worst] <= 0.0:
+                break
+            held[worst] = float(self._place[worst] + step[worst] > 0.5) - float(self._place[worst])
+        return step
