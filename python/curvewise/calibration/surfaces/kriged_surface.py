@@ -69,7 +69,9 @@ class KrigedSurface:
         known[:count] = residuals
         solved = np.linalg.solve(system, known)
         self._weights, self._level, self._slopes = (
-            solved[:count], solved[count : count + 1], solved[count + 1 :]
+            solved[:count],
+            solved[count : count + 1],
+            solved[count + 1 :],
         )
 
     def at(self, point: Array) -> Array:
