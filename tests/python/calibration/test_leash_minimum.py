@@ -57,6 +57,19 @@ def test_the_best_line_through_a_parabola_is_chebyshevs(points, preset):
     assert leash.value(surface, found) == pytest.approx(0.5, rel=1e-3)
 
 
+def test_eight_parameters_have_nine_pairs_that_are_equally_far_apart():
+    # Of polynomials of degree 7 the nearest to t^8 is 2^-7 away (Chebyshev). A simplex halts above.
+    t = np.linspace(-1.0, 1.0, 201)
+    test = np.column_stack((100.0 * np.arange(t.size), t**8))
+    by_p = np.zeros((*test.shape, 8))
+    by_p[:, 1] = np.polynomial.chebyshev.chebvander(t, 7)
+    base = np.column_stack((test[:, 0], -0.5 * by_p[:, 1].sum(axis=1)))
+    surface = Surfaces(np.zeros(8), base.ravel(), by_p.reshape(test.size, 8))
+    leash = minimum([test], Criterion("frechet", preset="raw"))
+    found = leash.lowest(surface, np.full(8, 0.7), (np.zeros(8), np.ones(8)))
+    assert leash.value(surface, found) == pytest.approx(2.0**-7, rel=0.01)
+
+
 def test_a_bound_stops_it():
     tests = [parabola(21)]
     leash, surface = minimum(tests, Criterion("frechet", preset="raw")), plane(tests)
