@@ -107,9 +107,12 @@ def test_gauss_newton_steps_in_a_box():
         return np.array([10.0 * (y - x * x), 1.0 - x]), np.array([[-20.0 * x, 10.0], [-1.0, 0.0]])
 
     start, low = np.array([0.4, 0.5]), np.full(2, -2.0)
-    np.testing.assert_allclose(squares_minimum(rosenbrock, start, low, np.full(2, 2.0)), 1.0)
-    at_bound = squares_minimum(rosenbrock, start, low, np.array([0.5, 2.0]))
+    lowest, least = squares_minimum(rosenbrock, start, low, np.full(2, 2.0))
+    np.testing.assert_allclose(lowest, 1.0)
+    np.testing.assert_allclose(least, 0.0, atol=1e-20)
+    at_bound, least = squares_minimum(rosenbrock, start, low, np.array([0.5, 2.0]))
     np.testing.assert_allclose(at_bound, [0.5, 0.25], atol=1e-6)
+    np.testing.assert_allclose(least, 0.25)
 
 
 @pytest.mark.parametrize("loss", LOSSES)

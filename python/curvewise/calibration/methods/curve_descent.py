@@ -10,6 +10,7 @@ import numpy as np
 from ...curves.inputs import Array
 from ..problem.ledger import Finish, Ledger
 from ..records.evaluation import Evaluation
+from ..surfaces.leash_minimum import minimum_on_surfaces
 from ..surfaces.surface_minimum import SurfaceMinimum
 from ..surfaces.surfaces import Responses, Surface, Surfaces
 from .descent import FAR, Descent, Rules
@@ -70,7 +71,7 @@ def promising_place(
     """
     best = ledger.best_unit
     surface = runs.through_nearest(best, np.inf, reduced=False, most=_MOST_RUNS)
-    minimum = SurfaceMinimum(ledger.objective, runs.responses, random, ledger.show_activity)
+    minimum = minimum_on_surfaces(ledger.objective, runs.responses, random, ledger.show_activity)
     box = np.zeros_like(best), np.ones_like(best)
     return minimum.elsewhere(surface, box, places=_PLACES, avoid=[end.place for end in ends])
 
@@ -89,7 +90,7 @@ class CurveDescent(Descent):
 
     @cached_property
     def _minimum(self) -> SurfaceMinimum:
-        return SurfaceMinimum(
+        return minimum_on_surfaces(
             self._ledger.objective,
             self._runs.responses,
             self._random,

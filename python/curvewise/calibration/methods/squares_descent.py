@@ -118,9 +118,8 @@ class SquaresDescent(Descent):
         centre = self.centre
         surface = self._runs.surface(self._best, FAR * radius)
         low, high = np.clip(centre - radius, 0.0, 1.0), np.clip(centre + radius, 0.0, 1.0)
-        point = squares_minimum(surface, centre, low, high)
-        residuals, _ = surface(point)
-        return point, self.value - float(residuals @ residuals)
+        point, sum_of_squares = squares_minimum(surface, centre, low, high)
+        return point, self.value - sum_of_squares
 
     def _end(self, radius: float, promised: float, least: float) -> Finish:
         if promised <= least:

@@ -24,6 +24,7 @@ __all__ = ["ResidualsAndSlopes", "linear_minimum", "squares_minimum"]
 ResidualsAndSlopes: TypeAlias = Callable[[Array], tuple[Array, Array]]
 """Residuals at a point, shape (m,), and their derivatives, shape (m, k)."""
 
+_TINY = np.finfo(float).tiny
 _ROUNDING = 1e-12  # of the gradient at the start, and of the mean of the diagonal
 _STEPS = 12  # of Gauss and Newton
 _POOR, _GOOD = 0.1, 0.7  # of what linear residuals promise: cut back below, go further above
@@ -44,40 +45,66 @@ def linear_minimum(residuals: Array, slopes: Array, low: Array, high: Array) -> 
     k = low.size
     gradient = slopes.T @ residuals
     curvature = slopes.T @ slopes
-    curvature += _ROUNDING * max(np.trace(curvature) / k, np.finfo(float).tiny) * np.eye(k)
+    curvature.ravel()[:: k + 1] += _ROUNDING * max(curvature.trace() / k, _TINY)
     enough = _ROUNDING * float(np.abs(gradient).max())
-    step, is_free = np.zeros(k), low < high
+    box = list(zip(low.tolist(), high.tolist(), strict=True))
+    inside = [i for i in range(k) if box[i][0] < box[i][1]]
+    free, step = inside, [0.0] * k
+    downhill = -gradient
     for _ in range(8 * k):
-        free = is_free.nonzero()[0]
-        downhill = -gradient - curvature @ step
-        move = np.zeros(k)
-        if free.size:
-            move[free] = np.linalg.solve(curvature[free][:, free], downhill[free])
-        target = step + move
-        beyond = ((target < low) | (target > high)).nonzero()[0]
-        if beyond.size:
-            walls = np.where(move[beyond] > 0, high[beyond], low[beyond])
-            shares = (walls - step[beyond]) / move[beyond]
-            first = int(shares.argmin())
-            step = np.minimum(np.maximum(step + shares[first] * move, low), high)
-            step[beyond[first]] = walls[first]
-            is_free[beyond[first]] = False
+        move = dict(zip(free, _newton(curvature, downhill, free), strict=True))
+        wall = _first_wall(step, move, box)
+        if wall is not None:
+            share, first, side = wall
+            for i, by in move.items():
+                step[i] = min(max(step[i] + share * by, box[i][0]), box[i][1])
+            step[first] = box[first][side]
+            free = [i for i in free if i != first]
+        else:
+            for i, by in move.items():
+                step[i] += by
+        downhill = -gradient - curvature @ np.array(step)
+        if wall is not None:
             continue
-        step = target
-        held = (~is_free & (low < high)).nonzero()[0]
-        if not held.size:
+        held = [i for i in inside if i not in move]
+        inwards = [downhill[i] if step[i] <= box[i][0] else -downhill[i] for i in held]
+        if not held or max(inwards) <= enough:
             break
-        downhill = -gradient - curvature @ step
-        inwards = np.where(step[held] <= low[held], downhill[held], -downhill[held])
-        first = int(inwards.argmax())
-        if inwards[first] <= enough:
-            break
-        is_free[held[first]] = True
+        free = sorted([*free, held[inwards.index(max(inwards))]])
+    return np.array(step)
+
+
+def _newton(curvature: Array, downhill: Array, free: list[int]) -> list[float]:
+    """Return the step to the minimum over some coordinates."""
+    if not free:
+        return []
+    if len(free) < downhill.size:
+        curvature, downhill = curvature[free][:, free], downhill[free]
+    step: list[float] = np.linalg.solve(curvature, downhill).tolist()
     return step
 
 
-def squares_minimum(function: ResidualsAndSlopes, start: Array, low: Array, high: Array) -> Array:
-    """Return where in a box the sum of squares of residuals is smallest, from a point of it.
+def _first_wall(
+    step: list[float], move: dict[int, float], box: list[tuple[float, float]]
+) -> tuple[float, int, int] | None:
+    """Return after which share of a move which coordinate is the first at which side, if any.
+
+    In plain numbers, of which there are too few for arrays to be faster.
+    """
+    walls = []
+    for i, by in move.items():
+        low, high = box[i]
+        if step[i] + by < low:
+            walls.append(((low - step[i]) / by, i, 0))
+        elif step[i] + by > high:
+            walls.append(((high - step[i]) / by, i, 1))
+    return min(walls, default=None)
+
+
+def squares_minimum(
+    function: ResidualsAndSlopes, start: Array, low: Array, high: Array
+) -> tuple[Array, float]:
+    """Return where in a box the sum of squares of residuals is smallest, and that, from a point.
 
     Parameters
     ----------
@@ -92,7 +119,8 @@ def squares_minimum(function: ResidualsAndSlopes, start: Array, low: Array, high
         step = linear_minimum(
             residuals, slopes, np.maximum(low - point, -reach), np.minimum(high - point, reach)
         )
-        promised = value - float(np.sum((residuals + slopes @ step) ** 2))
+        linear = residuals + slopes @ step
+        promised = value - float(np.add.reduce(linear * linear))
         trial = np.minimum(np.maximum(point + step, low), high)
         there, slopes_there = function(trial)
         gain = value - float(there @ there)
@@ -106,4 +134,4 @@ def squares_minimum(function: ResidualsAndSlopes, start: Array, low: Array, high
         point, residuals, slopes, value = trial, there, slopes_there, value - gain
         if promised <= _SMALL * value:  # what is left is the square of that
             break
-    return point
+    return point, float(residuals @ residuals)

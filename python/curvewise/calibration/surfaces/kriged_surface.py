@@ -15,6 +15,7 @@ trust-regions", SIAM J. Sci. Comput. 30 (2008) 3197-3219.
 
 from __future__ import annotations
 
+import math
 from copy import copy
 
 import numpy as np
@@ -25,7 +26,9 @@ from .surfaces import ChainRule
 
 __all__ = ["KrigedSurface"]
 
+_ROOT = math.sqrt(5.0)
 _LENGTH = 4.0  # of the kernel, in distances of the farthest run from the centre
+_SLOPE = -5.0 / (3.0 * _LENGTH**2)  # of the kernel, divided by the distance
 _NUGGET = 1e-8  # of the kernel: what a solver that prints few digits may be off
 _LEVEL = 1e-8  # the inverse of the variance of the trend's coefficients: none are unlikely
 
@@ -49,33 +52,39 @@ class KrigedSurface:
         count, k = points.shape
         if reduced and count < residuals.shape[1]:
             residuals = np.asarray(np.linalg.qr(residuals.T, mode="r")).T
+        away = points - centre
         self._centre = centre
-        self._extent = float(np.linalg.norm(points - centre, axis=1).max()) or 1.0
-        self._places = (points - centre) / self._extent
-        trend = np.column_stack((np.ones(count), self._places))
-        distances = np.linalg.norm(self._places[:, np.newaxis] - self._places, axis=2)
+        self._extent = float(_lengths(away).max()) or 1.0
+        self._places = away / self._extent
+        kernel, _ = _kernel(_lengths(self._places[:, np.newaxis] - self._places))
         # The surface passes through the run at the centre exactly: gains are counted from it.
-        nugget = np.where(np.any(self._places != 0.0, axis=1), _NUGGET, 0.0)
+        kernel.ravel()[:: count + 1] += np.where(self._places.any(axis=1), _NUGGET, 0.0)
         system = np.zeros((count + k + 1, count + k + 1))
-        system[:count, :count] = _kernel(distances)[0] + np.diag(nugget)
-        system[:count, count:] = trend
-        system[count:, :count] = trend.T
-        system[count:, count:] = -_LEVEL * np.eye(k + 1)
-        known = np.vstack((residuals, np.zeros((k + 1, residuals.shape[1]))))
+        system[:count, :count] = kernel
+        system[:count, count] = system[count, :count] = 1.0
+        system[:count, count + 1 :] = self._places
+        system[count + 1 :, :count] = self._places.T
+        system.ravel()[count * (count + k + 2) :: count + k + 2] = -_LEVEL
+        known = np.zeros((count + k + 1, residuals.shape[1]))
+        known[:count] = residuals
         solved = np.linalg.solve(system, known)
-        self._weights, self._level, self._slopes = np.split(solved, (count, count + 1))
+        self._weights, self._level, self._slopes = (
+            solved[:count],
+            solved[count : count + 1],
+            solved[count + 1 :],
+        )
 
     def at(self, point: Array) -> Array:
         """Return the residuals at a point, shape (m,)."""
         place = (point - self._centre) / self._extent
-        kernel, _ = _kernel(np.linalg.norm(place - self._places, axis=1))
+        kernel, _ = _kernel(_lengths(place - self._places))
         return self._residuals(place, kernel)
 
     def with_slopes(self, point: Array) -> tuple[Array, Array]:
         """Return the residuals at a point, and their slopes, shape (m, k)."""
         place = (point - self._centre) / self._extent
         away = place - self._places
-        kernel, by_distance = _kernel(np.linalg.norm(away, axis=1))
+        kernel, by_distance = _kernel(_lengths(away))
         slopes = self._slopes + (by_distance[:, np.newaxis] * away).T @ self._weights
         return self._residuals(place, kernel), slopes.T / self._extent
 
@@ -83,7 +92,7 @@ class KrigedSurface:
         """Return the residuals at a point, and what turns a gradient by them into one by it."""
         place = (point - self._centre) / self._extent
         away = place - self._places
-        kernel, by_distance = _kernel(np.linalg.norm(away, axis=1))
+        kernel, by_distance = _kernel(_lengths(away))
 
         def chain_rule(gradient: Array) -> Array:
             bent: Array = (by_distance * (self._weights @ gradient)) @ away
@@ -106,10 +115,15 @@ class KrigedSurface:
         return residuals
 
 
+def _lengths(vectors: Array) -> Array:
+    """Return the lengths of vectors along the last axis: norm's bits, without its checks."""
+    lengths: Array = np.sqrt(np.add.reduce(vectors * vectors, axis=-1))
+    return lengths
+
+
 def _kernel(distance: Array) -> tuple[Array, Array]:
     """Return the kernel at distances, and its derivative divided by the distance."""
-    scaled = np.sqrt(5.0) / _LENGTH * distance
+    scaled = _ROOT / _LENGTH * distance
     decay = np.exp(-scaled)
-    return (1.0 + scaled + scaled**2 / 3.0) * decay, -5.0 / (3.0 * _LENGTH**2) * (
-        1.0 + scaled
-    ) * decay
+    linear = 1.0 + scaled
+    return (linear + scaled * scaled / 3.0) * decay, _SLOPE * linear * decay

@@ -10,7 +10,7 @@ measure.
 Cost: some 50 to 100 evaluations of the measure on thinned curves and 10 on all points, and 40 k
 more for k parameters where a simplex search confirms the minimum. For measures without a gradient
 (pcm, functions, and frechet, whose gradient is that of one point alone) differences and a simplex
-search take their place, some 50 k evaluations.
+search take their place, some 50 k evaluations; `leash_minimum` does better by frechet.
 """
 
 from __future__ import annotations
