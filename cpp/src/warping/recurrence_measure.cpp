@@ -65,6 +65,18 @@ double quarter_of_deviation(const CurveView& P, const CurveView& Q) {
     return std::max(deviation(P), deviation(Q)) / 4.0;
 }
 
+// The largest cost of a step that does not come from the points.
+double largest_constant(const Recurrence& recurrence) noexcept {
+    double largest = 0.0;
+    for (const Step& step : recurrence.steps) {
+        largest = std::max(largest, step.constant);
+        for (const StepTerm& term : step.terms) {
+            if (term.from == CostFrom::offset) largest = std::max(largest, term.weight);
+        }
+    }
+    return largest;
+}
+
 class RecurrenceMeasure {
    public:
     using Memory = warping::RecurrenceMemory;
@@ -101,7 +113,8 @@ class RecurrenceMeasure {
     template <class Use>
     auto with_curves(const PreparedP& P, const PreparedQ& Q, Poller& poller, Use use) const {
         const RangeScale range =
-            warping::range_of(recurrence_.ground, std::max(P.checked.largest, Q.checked.largest));
+            warping::range_of(recurrence_.ground, std::max(P.checked.largest, Q.checked.largest))
+                .beside(largest_constant(recurrence_), warping::degree(recurrence_.ground.metric));
         std::optional<Recurrence> own;
         if (recurrence_.pair == PairCost::apart && recurrence_.threshold == infinity) {
             own = recurrence_;

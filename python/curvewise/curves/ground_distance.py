@@ -7,6 +7,7 @@ other bits. Time O(n m d), memory O(n m).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple, cast, get_args
 
@@ -46,15 +47,19 @@ def check_metric(metric: Metric, p: Any) -> tuple[Metric, float]:
     return _SAME_AS_MINKOWSKI.get(order, metric), order
 
 
-def in_range(P: Array, Q: Array, metric: Metric) -> tuple[Array, Array, int]:
+def in_range(P: Array, Q: Array, metric: Metric, constant: float = 0.0) -> tuple[Array, Array, int]:
     """Return both curves in the range of what can be squared, and the exponent of the distances.
 
     A distance between the curves is one between those that are returned, times 2**exponent. For a
     metric of degree 0, for which what is small beside the largest coordinate counts too, the curves
-    stay as they are.
+    stay as they are. A constant that is added to distances is not enlarged beyond 2**1000: curves
+    that are so small beside it keep fewer bits.
     """
     degree = _ROWS[metric].degree
     exponent = range_exponent(P, Q) if degree > 0 else 0
+    if exponent < 0 < constant:
+        least = -((1000 - math.frexp(constant)[1]) // degree)
+        exponent = min(0, max(exponent, least))
     P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
     return P, Q, exponent * degree
 

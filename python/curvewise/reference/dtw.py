@@ -131,7 +131,7 @@ def _accumulate(
     _check_steps(steps, window, open_begin, open_end)
     P, Q = check_pair(P, Q, "dtw")
     radius = checked_radius(window, len(P), len(Q))
-    P, Q, exponent = in_range(P, Q, metric)
+    P, Q, exponent = in_range(P, Q, metric, steps.penalty)
     ground = ground_distances(P[:, np.newaxis], Q, metric, order)
     inside = sakoe_chiba_band(len(P), len(Q), radius)
     weight = steps.diagonal_weight
