@@ -23,14 +23,14 @@ namespace curvewise::materials {
 
 // What the flow begins with, and all that its derivatives at a given time need.
 enum : std::size_t {
-    START,     // u
-    GROWTH,    // a' / (C a)
-    BASE,      // of a power law 1 / (C (C1 + p)), otherwise bend
-    EXPONENT,  // bend over base
-    LEFT,      // slope of the bounding surface's centre, over C a: from here on for a modulus
-    DECAY,     // that decays; K / C
-    SOFTENING, // xi / C
-    LIMIT,     // Ea over the modulus
+    START,      // u
+    GROWTH,     // a' / (C a)
+    BASE,       // of a power law 1 / (C (C1 + p)), otherwise bend
+    EXPONENT,   // bend over base
+    LEFT,       // slope of the bounding surface's centre, over C a: from here on for a modulus
+    DECAY,      // that decays; K / C
+    SOFTENING,  // xi / C
+    LIMIT,      // Ea over the modulus
     flow_numbers
 };
 template <class Number>

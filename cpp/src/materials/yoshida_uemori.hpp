@@ -1,5 +1,5 @@
-// The Yoshida-Uemori point: elastic steps, the stagnation surface, and flow (yoshida_uemori_flow.hpp)
-// in between. O(1) a step.
+// The Yoshida-Uemori point: elastic steps, the stagnation surface, and flow
+// (yoshida_uemori_flow.hpp) in between. O(1) a step.
 #pragma once
 
 #include <cstddef>
@@ -45,10 +45,10 @@ class YoshidaUemoriPoint {
         if constexpr (std::is_same_v<Number, double>) {
             Follower<Number>(course, course, series_).run();
         } else {
-            Course<double> plain(plain_,
-                                 {plain_, value_of(R_), n * value_of(centre_), value_of(p_),
-                                  value_of(reached)},
-                                 n * value_of(u_), value_of(strain));
+            Course<double> plain(
+                plain_,
+                {plain_, value_of(R_), n * value_of(centre_), value_of(p_), value_of(reached)},
+                n * value_of(u_), value_of(strain));
             Follower<Number>(course, plain, series_).run();
         }
         return flowed(n, bound, course);

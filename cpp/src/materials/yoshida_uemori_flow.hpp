@@ -8,9 +8,9 @@
 //     yield surface's centre to c's   dt = C (a - sign(t) sqrt(a |t|)) dp
 //
 // The last has no closed form, and a root in it. With t = a u |u| and the time T in which
-// dp = |u| dT / C, it is smooth where u keeps its sign, and a Taylor series (flow_series.hpp). A leg
-// goes along one series: to u = 0, to where R begins to grow, to the strain wanted, or as far as the
-// terms left out are below rtol. The time of an event is found by Newton's method in double
+// dp = |u| dT / C, it is smooth where u keeps its sign, and a Taylor series (flow_series.hpp). A
+// leg goes along one series: to u = 0, to where R begins to grow, to the strain wanted, or as far
+// as the terms left out are below rtol. The time of an event is found by Newton's method in double
 // precision; for that time the series gives u and p with their slopes, by the few numbers that the
 // flow begins with, of which those by the parameters follow; and what is left to the event, next to
 // nothing, moves them along the flow. O(1) a leg; a step of a metal takes one or two.
@@ -265,8 +265,7 @@ class Follower {
         const FlowState<double> rates = c.rates();
         const double left = c.target - c.state.strain, u = c.state.u;
         const double by_p = u == 0.0 ? 1.0 + c.k.C * compliance_ : rates.strain / rates.p;
-        const double second =
-            rates.u * (sign * by_p * c.unit - std::abs(u) * compliance_);
+        const double second = rates.u * (sign * by_p * c.unit - std::abs(u) * compliance_);
         const double square = rates.strain * rates.strain + 2.0 * left * second;
         return 2.0 * left / (rates.strain + std::sqrt(std::max(0.0, square)));
     }
@@ -314,8 +313,8 @@ class Follower {
         const auto sum = series.at(leg.share);
         const Number rise = chained(sum.p, start) * c.unit;
         if (leg.kind.softens) {
-            c.state.strain += rise + c.bound.size / c.branch.modulus(c.state.p) *
-                                         chained(sum.rise, start);
+            c.state.strain +=
+                rise + c.bound.size / c.branch.modulus(c.state.p) * chained(sum.rise, start);
         }
         c.state.u = chained(sum.u, start);
         c.state.p += rise;
