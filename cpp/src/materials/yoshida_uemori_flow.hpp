@@ -196,12 +196,14 @@ double root_of(Excess excess, double guess, double high) {
         if (found.first >= 0.0) {
             high = at;
             is_enclosed = true;
-        } else if (at == high) {
-            return never;
         } else {
             low = at;
         }
         const double next = at - found.first / found.second;
+        if (low == high && !is_enclosed) {  // rounding decides on a root at the end, of which
+                                            // nothing would be left
+            return next - high <= 1e-10 * high ? next : never;
+        }
         if (std::abs(next - at) <= 1e-6 * at && (is_enclosed || next <= high)) return next;
         at = next > low && next < high ? next : is_enclosed ? 0.5 * (low + high) : high;
     }
