@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -32,11 +33,17 @@ class YoshidaUemoriPoint {
         const Number middle = size * u_ * (value_of(u_) < 0.0 ? -u_ : u_) + centre_;
         const double n = value_of(trial) < value_of(middle) ? -1.0 : 1.0;
         const Number excess = n * (trial - middle) - k_.Y;
-        if (value_of(excess) <= 0.0) return stress_ = trial;
+        if (value_of(excess) <= rounding()) return stress_ = trial;
         return stress_ = flow(n, excess / slope);
     }
 
    private:
+    // Of stresses, in units of the largest that hardening leads to. Where a strain is held, the
+    // trial stress is behind the yield point by no more, and no flow can be told from it.
+    double rounding() const {
+        constexpr double share = 64.0 * std::numeric_limits<double>::epsilon();
+        return share * (plain_.CB + value_of(R_) + plain_.SB);
+    }
     // The stress after plastic flow in the direction n, by `strain` behind the yield point.
     Number flow(double n, const Number& strain) {
         const Number bound = stagnation_size_ + n * stagnation_centre_;
