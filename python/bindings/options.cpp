@@ -39,6 +39,16 @@ class ChoiceCollector {
     py::dict& choices_;
 };
 
+// Throws where an option of one metric is given with another.
+void check_metric_of(const char* option, Metric its, Metric metric) {
+    if (metric == its) return;
+    const auto name = [](Metric of) {
+        return "'" + std::string(choice_names(of)[static_cast<std::size_t>(of)]) + "'";
+    };
+    throw py::value_error(std::string(option) + " applies to metric=" + name(its) +
+                          " only, not to " + name(metric));
+}
+
 template <class Options>
 py::dict changed_options(const Options& options) {
     const py::dict defaults = written(Options{}), all = written(options);
@@ -99,17 +109,23 @@ bool is_true(const py::object& given) {
 }
 
 double minkowski_order(const py::object& p, Metric metric) {
-    if (metric != Metric::minkowski) {
-        const char* const name = choice_names(metric)[static_cast<std::size_t>(metric)];
-        throw py::value_error("p applies to metric='minkowski' only, not to '" + std::string(name) +
-                              "'");
-    }
+    check_metric_of("p", Metric::minkowski, metric);
     const double order = PyFloat_AsDouble(p.ptr());
     if (PyErr_Occurred() || !(order >= 1.0)) {
         PyErr_Clear();
         throw py::value_error("p is " + repr(p) + "; minkowski needs 1 <= p <= inf");
     }
     return order;
+}
+
+double sphere_radius(const py::object& radius, Metric metric) {
+    check_metric_of("radius", Metric::haversine, metric);
+    const double length = PyFloat_AsDouble(radius.ptr());
+    if (PyErr_Occurred() || !(length > 0.0 && std::isfinite(length))) {
+        PyErr_Clear();
+        throw py::value_error("radius is " + repr(radius) + "; give a finite number > 0");
+    }
+    return length;
 }
 
 constexpr const char* normalizations[] = {"NA", "N", "M", "N+M"};  // in the order of Per

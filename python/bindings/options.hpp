@@ -41,6 +41,9 @@ bool is_true(const py::object& given);
 // The order of minkowski; no other metric takes one.
 double minkowski_order(const py::object& p, Metric metric);
 
+// The radius of haversine; no other metric takes one.
+double sphere_radius(const py::object& radius, Metric metric);
+
 // Whether the options are those of a batch, which has workers and a cutoff of its own.
 enum class OptionsOf { pair, batch };
 
@@ -105,6 +108,8 @@ class OptionReader {
         if (metric) ground.metric = choose<Metric>("metric", metric);
         const py::object p = take("p");
         if (p && !p.is_none()) ground.p = minkowski_order(p, ground.metric);
+        const py::object radius = take("radius");
+        if (radius && !radius.is_none()) ground.radius = sphere_radius(radius, ground.metric);
     }
 
     // Whether a number is not the measure's but the batch's.
@@ -172,6 +177,9 @@ class OptionWriter {
         (*this)("metric", ground.metric);
         const bool has_order = ground.metric == Metric::minkowski;
         options_["p"] = has_order ? py::object(py::float_(ground.p)) : py::object(py::none());
+        const bool has_radius = ground.metric == Metric::haversine;
+        options_["radius"] =
+            has_radius ? py::object(py::float_(ground.radius)) : py::object(py::none());
     }
 
    private:

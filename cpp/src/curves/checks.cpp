@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <stdexcept>
 
+#include "curves/sphere.hpp"
+
 namespace curvewise {
 
 std::string CurveView::shape() const {
@@ -131,10 +133,24 @@ double largest_magnitude(const CurveView& curve, const std::string& name, runtim
 
 }  // namespace
 
-CheckedCurve::CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller)
+CheckedCurve::CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller,
+                           bool on_sphere)
     : curve(curve),
       name(std::move(name)),
-      largest(largest_magnitude(this->curve, this->name, poller)) {}
+      largest(largest_magnitude(this->curve, this->name, poller)) {
+    if (!on_sphere) return;
+    check_on_sphere(curve, this->name);
+    auto points = std::make_shared<std::vector<double>>();
+    points->reserve(static_cast<std::size_t>(curve.size() * sphere_dim));
+    poller.in_runs(curve.size(), sphere_dim, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = first; i < end; ++i) {
+            for (const double x : curves::on_sphere(curve(i, 0), curve(i, 1))) points->push_back(x);
+        }
+    });
+    this->curve = CurveView(points->data(), curve.size(), sphere_dim);
+    largest = 0.5;
+    points_ = std::move(points);
+}
 
 void check_shapes(const Requirements& needs, const CurveList& first, const CurveList& second) {
     const CurveList& with_first = first.size() > 0 ? first : second;
@@ -146,8 +162,11 @@ void check_shapes(const Requirements& needs, const CurveList& first, const Curve
         refuse_shapes(both(example, named), "both need the same number of coordinates",
                       {example.curve(), named.curve()});
     });
-    if (needs.planar && example.curve().dim() != 2) {
-        const std::string need = std::string(needs.measure) + " needs 2 coordinates, x and y";
+    if ((needs.planar || needs.on_sphere) && example.curve().dim() != 2) {
+        const std::string need =
+            std::string(needs.measure) +
+            (needs.planar ? " needs 2 coordinates, x and y"
+                          : " with metric='haversine' needs 2 coordinates, longitude and latitude");
         const auto refuse_with = [&](const Named& other) {
             refuse_shapes(both(example, other), need, {example.curve(), other.curve()});
         };

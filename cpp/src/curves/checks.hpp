@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,7 +19,8 @@ namespace curvewise::curves {
 struct Requirements {
     const char* measure;
     std::ptrdiff_t min_points;
-    bool planar;  // exactly two coordinates, x and y
+    bool planar;             // exactly two coordinates, x and y
+    bool on_sphere = false;  // or longitude and latitude
 };
 
 // One curve, "P", or the curves of a list, "XA[0]", "XA[1]", ...: the caller's, with the names
@@ -43,13 +45,18 @@ class CurveList {
     bool is_list_ = false;
 };
 
-// A curve found finite, with the largest |coordinate|. Refers to the caller's points.
+// A curve found finite, with the largest |coordinate|. Refers to the caller's points; one on the
+// sphere has points of its own, in space (sphere.hpp), which its copies share.
 struct CheckedCurve {
-    CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller);
+    CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller,
+                 bool on_sphere = false);
 
     CurveView curve;
     std::string name;
     double largest;
+
+   private:
+    std::shared_ptr<const std::vector<double>> points_;
 };
 
 // The shapes of the curves of both sides, which must agree in their number of coordinates. A list

@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "curves/sphere.hpp"
 
 namespace curvewise::warping {
 
@@ -13,10 +16,23 @@ void check_ground_distance(const GroundDistance& ground) {
         std::snprintf(p, sizeof p, "%.17g", ground.p);
         throw std::invalid_argument("p is " + std::string(p) + "; minkowski needs 1 <= p <= inf");
     }
+    if (ground.metric == Metric::haversine &&
+        !(ground.radius > 0.0 && std::isfinite(ground.radius))) {
+        throw std::invalid_argument("radius is " + std::to_string(ground.radius) +
+                                    "; give a finite number > 0");
+    }
+}
+
+Metric metric_of_boxes(Metric metric) noexcept {
+    const bool is_of_root = with_row(metric, [](auto row) {
+        using Row = decltype(row);
+        return Row::is_root && !Row::is_norm;
+    });
+    return is_of_root ? Metric::sqeuclidean : metric;
 }
 
 bool has_box_bounds(Metric metric) noexcept {
-    return with_row(metric, [](auto row) { return decltype(row)::is_norm; });
+    return with_row(metric_of_boxes(metric), [](auto row) { return decltype(row)::is_norm; });
 }
 
 Metric named_metric(const GroundDistance& ground) noexcept {
@@ -37,10 +53,34 @@ kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& cur
     return {canonical_metric(ground, curves.dim()), curves.squares_are_in_domain()};
 }
 
-bool put_off_root(kernels::Cost& cost) noexcept {
-    const bool is_root = with_row(cost.metric, [](auto row) { return decltype(row)::is_root; });
-    if (is_root) cost.metric = Metric::sqeuclidean;
-    return is_root;
+double PutOffRoot::operator()(double value) const noexcept {
+    return is_arc_ ? Haversine<DoubleArithmetic, DoubleRoot>::finish(value, radius_)
+                   : std::sqrt(value);
+}
+
+double PutOffRoot::most_under(double value) const noexcept {
+    constexpr double quarter_turn = 1.5707963267948966;
+    if (!is_arc_) return value * value * (1.0 + 1e-15);
+    const double half = value / radius_ / 2.0;
+    const double sine = std::sin(std::min(half, quarter_turn));
+    return half < quarter_turn ? sine * sine * (1.0 + 1e-14)
+                               : std::numeric_limits<double>::infinity();
+}
+
+std::optional<PutOffRoot> put_off_root(kernels::Cost& cost, const GroundDistance& ground) noexcept {
+    if (!with_row(cost.metric, [](auto row) { return decltype(row)::is_root; })) return {};
+    const PutOffRoot root(cost.metric, ground.parameter());
+    cost.metric = Metric::sqeuclidean;
+    return root;
+}
+
+double coordinate_of_equal(const GroundDistance& ground, double x, std::ptrdiff_t c) noexcept {
+    if (ground.metric != Metric::haversine) return x;
+    return curves::on_sphere(x, x)[static_cast<std::size_t>(c)];
+}
+
+curves::Requirements requirements(const char* measure, const GroundDistance& ground) noexcept {
+    return {measure, 1, false, ground.metric == Metric::haversine};
 }
 
 int degree(Metric metric) noexcept {

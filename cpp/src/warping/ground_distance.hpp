@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
+#include "curves/checks.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/ground_distance.hpp"
 #include "warping/kernels/strip.hpp"
@@ -16,7 +18,13 @@ struct DoubleArithmetic {
     using Number = double;
     static double sum(double a, double b) noexcept { return a + b; }
     static double product(double a, double b) noexcept { return a * b; }
+    static double difference(double a, double b) noexcept { return a - b; }
     static double larger(double a, double b) noexcept { return std::max(a, b); }
+    static double smaller(double a, double b) noexcept { return std::min(a, b); }
+    static double number(double x) noexcept { return x; }
+    static double where_at_most(double a, double b, double yes, double no) noexcept {
+        return a <= b ? yes : no;
+    }
     static double absolute(double a) noexcept { return std::abs(a); }
 };
 
@@ -44,7 +52,11 @@ auto with_norm(Metric metric, Use use) {
     });
 }
 
-// Whether with_norm() calls.
+// The metric whose distances of boxes bound those of points: itself, or of an arc what is under it;
+// then the kernels' arcs() make bounds of them.
+Metric metric_of_boxes(Metric metric) noexcept;
+
+// Whether with_norm() calls, of metric_of_boxes().
 bool has_box_bounds(Metric metric) noexcept;
 
 // Throws std::invalid_argument for an order of minkowski outside [1, inf].
@@ -57,9 +69,29 @@ Metric named_metric(const GroundDistance& ground) noexcept;
 Metric canonical_metric(const GroundDistance& ground, std::ptrdiff_t dim) noexcept;
 kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& curves) noexcept;
 
-// Makes of a distance that is a root the one under it, for a table of largest distances, which a
-// root at the end leaves as they are. Whether it is one.
-bool put_off_root(kernels::Cost& cost) noexcept;
+// A root that is taken at the end, of a table of largest distances, which it leaves as they are.
+class PutOffRoot {
+   public:
+    explicit PutOffRoot(Metric metric, double parameter) noexcept
+        : is_arc_(metric == Metric::haversine), radius_(parameter) {}
+    double operator()(double value) const noexcept;
+    // A little more than what is under the root of a value, so that the rounding of squares and
+    // roots gives nothing up.
+    double most_under(double value) const noexcept;
+
+   private:
+    bool is_arc_;
+    double radius_;
+};
+
+// Makes of a distance that is a root the one under it. Nothing where it is none.
+std::optional<PutOffRoot> put_off_root(kernels::Cost& cost, const GroundDistance& ground) noexcept;
+
+// Coordinate c, as it is packed, of the point whose coordinates all are x.
+double coordinate_of_equal(const GroundDistance& ground, double x, std::ptrdiff_t c) noexcept;
+
+// Of every curve of such a measure.
+curves::Requirements requirements(const char* measure, const GroundDistance& ground) noexcept;
 
 // By which power of a factor the distance grows when both curves do.
 int degree(Metric metric) noexcept;

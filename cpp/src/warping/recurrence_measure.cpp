@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -33,9 +34,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // A curve with a point before its first, all of whose coordinates are 0.
 class LedCurve {
    public:
-    explicit LedCurve(const CurveView& curve)
-        : points_(static_cast<std::size_t>((curve.size() + 1) * curve.dim()), 0.0),
+    LedCurve(const CurveView& curve, const GroundDistance& ground)
+        : points_(static_cast<std::size_t>((curve.size() + 1) * curve.dim())),
           view_(points_.data(), curve.size() + 1, curve.dim()) {
+        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
+            points_[static_cast<std::size_t>(c)] = warping::coordinate_of_equal(ground, 0.0, c);
+        }
         double* next = points_.data() + curve.dim();
         for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
             for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) *next++ = curve(i, c);
@@ -98,9 +102,12 @@ class RecurrenceMeasure {
         curves::check_cutoff(recurrence_.cutoff);
         window().check();
         check_number("gap", recurrence_.gap);
+        if (recurrence_.ground.metric == Metric::haversine) check_on_sphere();
         check_number("steepness", recurrence_.steepness);
     }
-    curves::Requirements requirements() const noexcept { return {recurrence_.measure, 1, false}; }
+    curves::Requirements requirements() const noexcept {
+        return warping::requirements(recurrence_.measure, recurrence_.ground);
+    }
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const { window().check_sizes(n, m); }
     static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
     static std::ptrdiff_t workers() noexcept { return 1; }
@@ -126,7 +133,8 @@ class RecurrenceMeasure {
             return use(recurrence, steps_, warping::PackedPair{P.packed, Q.packed}, range);
         }
         const auto pack = [&](const CurveView& curve, PointOrder order) {
-            return is_led ? PackedCurve(LedCurve(curve).view(), range, order, poller)
+            return is_led ? PackedCurve(LedCurve(curve, recurrence.ground).view(), range, order,
+                                        poller)
                           : PackedCurve(curve, range, order, poller);
         };
         const PackedCurve p = pack(P.checked.curve, PointOrder::forward);
@@ -212,6 +220,21 @@ class RecurrenceMeasure {
         if (!std::isfinite(value)) {
             throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
                                         "; give a number");
+        }
+    }
+
+    void check_on_sphere() const {
+        if (recurrence_.gaps == Gaps::to_point && !(std::abs(recurrence_.gap) <= 90.0)) {
+            char number[32];
+            std::snprintf(number, sizeof number, "%.10g", recurrence_.gap);
+            throw std::invalid_argument(std::string("gap is ") + number +
+                                        "; metric='haversine' takes it for a longitude and a "
+                                        "latitude: give a number from -90 to 90");
+        }
+        if (recurrence_.pair == PairCost::apart && recurrence_.threshold == infinity) {
+            throw std::invalid_argument(std::string(recurrence_.measure) +
+                                        " with metric='haversine' needs epsilon: degrees have no "
+                                        "deviation in metres");
         }
     }
 

@@ -59,7 +59,7 @@ RecurrenceSweep::RecurrenceSweep(const Recurrence& recurrence, const StepTable& 
     ground.p_stride = curves.p.stride();
     ground.q_stride = curves.q.stride();
     ground.dim = coordinate < 0 ? curves.dim() : 1;
-    ground.minkowski_p = recurrence.ground.p;
+    ground.metric_parameter = recurrence.ground.parameter();
     const kernels::Cost cost{canonical_metric(recurrence.ground, ground.dim),
                              curves.squares_are_in_domain()};
     fill_ = active_level().recurrences->fill(cost, ground.dim);
@@ -137,9 +137,12 @@ void RecurrenceSweep::prepare_gaps(double gap, double* rows, double* columns) {
     const double* const p = whole_.ground.p;
     const double* const q = whole_.ground.q;
     if (recurrence_.gaps == Gaps::to_point) {
-        const std::vector<double> point(static_cast<std::size_t>(std::max(n, m) + kernels::padding),
-                                        gap);
-        strip.q_stride = 0;
+        strip.q_stride = std::max(n, m) + kernels::padding;
+        std::vector<double> point(static_cast<std::size_t>(strip.dim * strip.q_stride));
+        for (std::ptrdiff_t c = 0; c < strip.dim; ++c) {
+            std::fill_n(point.data() + c * strip.q_stride, strip.q_stride,
+                        coordinate_of_equal(recurrence_.ground, gap, c));
+        }
         fill(p, whole_.ground.p_stride, point.data(), n, rows);
         fill(q, whole_.ground.q_stride, point.data(), m, columns);
     } else {

@@ -84,7 +84,7 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, 
     strip_.q_stride = curves.q.stride();
     strip_.dim = curves.dim();
     strip_.columns = region.columns;
-    strip_.minkowski_p = plan.problem_->minkowski_p;
+    strip_.metric_parameter = plan.problem_->metric_parameter;
     strip_.first_column = columns_;
     strip_.last_column = columns_ + plan.height_;
     strip_.boundary = boundary;

@@ -49,7 +49,7 @@ struct SweepProblem {
     PackedPair curves;
     kernels::Recurrence recurrence;
     kernels::Cost cost;
-    double minkowski_p;
+    double metric_parameter;
     LiveColumns columns;
     bool open_begin;
     std::ptrdiff_t workers;

@@ -48,7 +48,9 @@ class WarpingMeasure {
     // Of dtw, or of frechet.
     template <class Options>
     explicit WarpingMeasure(const Options& options) : options_(warping::checked_options(options)) {}
-    curves::Requirements requirements() const noexcept { return {options_.measure, 1, false}; }
+    curves::Requirements requirements() const noexcept {
+        return warping::requirements(options_.measure, options_.ground);
+    }
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const {
         options_.window.check_sizes(n, m);
     }

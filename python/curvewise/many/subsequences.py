@@ -14,7 +14,7 @@ import numpy as np
 
 from .._core import dtw_subsequences, frechet_subsequences
 from .._docstrings import filled, listed
-from .._options import Default, Metric, Order, WarpingName, check_choice, whole_number
+from .._options import Default, Metric, Order, Radius, WarpingName, check_choice, whole_number
 from ..curves.inputs import Array, CurveLike, as_curves, warn_if_transposed
 from ..measures.registry import WARPINGS
 from ..measures.results import Subsequence
@@ -31,6 +31,7 @@ def subsequence(
     measure: WarpingName = "dtw",
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     cutoff: SupportsFloat | None = Default.cutoff,
     path: bool = False,
     workers: SupportsIndex = Default.workers,
@@ -53,6 +54,7 @@ def subsequence(
         dtw has the step pattern "symmetric1" and no window.
     {metric}
     {p}
+    {radius}
     cutoff : float >= 0, optional
         Runs with a distance above it are no answers.
     path : bool
@@ -92,17 +94,23 @@ def subsequence(
     count = min(whole_number("k", k, 1, "give a whole number >= 1"), sys.maxsize)
     check_choice("measure", measure, get_args(WarpingName))
     find = dtw_subsequences if measure == "dtw" else frechet_subsequences
-    how = {"metric": metric, "p": p, "workers": workers, "cutoff": cutoff}
+    how = {"metric": metric, "p": p, "radius": radius, "workers": workers, "cutoff": cutoff}
     answers = [Subsequence(*answer) for answer in find(P, Q, count, how)]
     if not path:
         return answers
-    return [_with_path(P, Q, measure, metric, p, answer) for answer in answers]
+    return [_with_path(P, Q, measure, metric, p, radius, answer) for answer in answers]
 
 
 def _with_path(
-    P: Array, Q: Array, measure: WarpingName, metric: Metric, p: Order, answer: Subsequence
+    P: Array,
+    Q: Array,
+    measure: WarpingName,
+    metric: Metric,
+    p: Order,
+    radius: Radius,
+    answer: Subsequence,
 ) -> Subsequence:
     """Return an answer with its path, which begins and ends with the run."""
     run = Q[answer.start : answer.stop + 1]
-    alignment = WARPINGS[measure].path(P, run, metric=metric, p=p)
+    alignment = WARPINGS[measure].path(P, run, metric=metric, p=p, radius=radius)
     return replace(answer, path=alignment.path + np.array([0, answer.start]))
