@@ -137,19 +137,9 @@ CheckedCurve::CheckedCurve(const CurveView& curve, std::string name, runtime::Po
                            bool on_sphere)
     : curve(curve),
       name(std::move(name)),
-      largest(largest_magnitude(this->curve, this->name, poller)) {
-    if (!on_sphere) return;
-    check_on_sphere(curve, this->name);
-    auto points = std::make_shared<std::vector<double>>();
-    points->reserve(static_cast<std::size_t>(curve.size() * sphere_dim));
-    poller.in_runs(curve.size(), sphere_dim, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-        for (std::ptrdiff_t i = first; i < end; ++i) {
-            for (const double x : curves::on_sphere(curve(i, 0), curve(i, 1))) points->push_back(x);
-        }
-    });
-    this->curve = CurveView(points->data(), curve.size(), sphere_dim);
-    largest = 0.5;
-    points_ = std::move(points);
+      largest(largest_magnitude(this->curve, this->name, poller)),
+      on_sphere(on_sphere) {
+    if (on_sphere) check_on_sphere(curve, this->name);
 }
 
 void check_shapes(const Requirements& needs, const CurveList& first, const CurveList& second) {

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,8 +44,8 @@ class CurveList {
     bool is_list_ = false;
 };
 
-// A curve found finite, with the largest |coordinate|. Refers to the caller's points; one on the
-// sphere has points of its own, in space (sphere.hpp), which its copies share.
+// A curve found finite, and on the sphere where that is asked for, with the largest |coordinate|.
+// Refers to the caller's points.
 struct CheckedCurve {
     CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller,
                  bool on_sphere = false);
@@ -54,9 +53,7 @@ struct CheckedCurve {
     CurveView curve;
     std::string name;
     double largest;
-
-   private:
-    std::shared_ptr<const std::vector<double>> points_;
+    bool on_sphere;
 };
 
 // The shapes of the curves of both sides, which must agree in their number of coordinates. A list

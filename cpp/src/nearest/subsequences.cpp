@@ -110,9 +110,8 @@ class SubsequenceSearch {
     // began.
     void sweep_piece(std::ptrdiff_t first, std::ptrdiff_t columns, Row& values, Row& origins) {
         sweep_table(first, columns, values, origins);
-        if (!root_) return;
         // Before any are compared: roots may be equal where squares are not.
-        for (std::ptrdiff_t j = 0; j < columns; ++j) values[j] = (*root_)(values[j]);
+        if (root_) root_->take(values.data(), columns);
     }
 
     void sweep_table(std::ptrdiff_t first, std::ptrdiff_t columns, Row& values, Row& origins) {
@@ -171,9 +170,9 @@ std::vector<Subsequence> find_subsequences(const CurveView& P, const CurveView& 
     poller.begin(P.size() * Q.size());
     const curves::RangeScale range =
         warping::range_of(options.ground, std::max(checked_p.largest, checked_q.largest));
-    const PackedCurve p(checked_p.curve, range, PointOrder::forward, poller);
+    const PackedCurve p(P, range, PointOrder::forward, poller, needs.on_sphere);
     poller.poll_in_loop(0);
-    const PackedCurve q(checked_q.curve, range, PointOrder::reversed, poller);
+    const PackedCurve q(Q, range, PointOrder::reversed, poller, needs.on_sphere);
     std::vector<Subsequence> found = SubsequenceSearch(options, {p, q}, range, poller).find(count);
     poller.finish();
     return found;

@@ -1,5 +1,6 @@
 #include "warping/ground_distance.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -53,9 +54,16 @@ kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& cur
     return {canonical_metric(ground, curves.dim()), curves.squares_are_in_domain()};
 }
 
-double PutOffRoot::operator()(double value) const noexcept {
-    return is_arc_ ? Haversine<DoubleArithmetic, DoubleRoot>::finish(value, radius_)
-                   : std::sqrt(value);
+double PutOffRoot::arc(double square) const noexcept {
+    return Haversine<DoubleArithmetic, DoubleRoot>::finish(square, radius_);
+}
+
+void PutOffRoot::take(double* values, std::ptrdiff_t count) const noexcept {
+    if (is_arc_) {
+        std::transform(values, values + count, values, [=](double x) { return arc(x); });
+    } else {
+        std::transform(values, values + count, values, [](double x) { return std::sqrt(x); });
+    }
 }
 
 double PutOffRoot::most_under(double value) const noexcept {

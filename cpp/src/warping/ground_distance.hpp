@@ -72,14 +72,20 @@ kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& cur
 // A root that is taken at the end, of a table of largest distances, which it leaves as they are.
 class PutOffRoot {
    public:
-    explicit PutOffRoot(Metric metric, double parameter) noexcept
+    PutOffRoot(Metric metric, double parameter) noexcept
         : is_arc_(metric == Metric::haversine), radius_(parameter) {}
-    double operator()(double value) const noexcept;
+    double operator()(double value) const noexcept {
+        return is_arc_ ? arc(value) : std::sqrt(value);
+    }
+    // Of many, in place.
+    void take(double* values, std::ptrdiff_t count) const noexcept;
     // A little more than what is under the root of a value, so that the rounding of squares and
     // roots gives nothing up.
     double most_under(double value) const noexcept;
 
    private:
+    double arc(double square) const noexcept;
+
     bool is_arc_;
     double radius_;
 };

@@ -33,7 +33,8 @@ class HausdorffMeasure {
     static constexpr bool is_swept = true;
     struct Side {
         Side(const curves::CheckedCurve& curve, Poller& poller)
-            : checked(curve), packed(curve.curve, RangeScale(1.0), PointOrder::forward, poller) {}
+            : checked(curve),
+              packed(curve.curve, RangeScale(1.0), PointOrder::forward, poller, curve.on_sphere) {}
         curves::CheckedCurve checked;
         PackedCurve packed;
     };

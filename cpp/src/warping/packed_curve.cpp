@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "curves/sphere.hpp"
 #include "warping/kernels/strip.hpp"
 
 namespace curvewise::warping {
@@ -31,11 +32,15 @@ std::uint64_t write(std::ptrdiff_t count, double* to, std::ptrdiff_t step, Value
 }  // namespace
 
 PackedCurve::PackedCurve(const CurveView& curve, const RangeScale& range, PointOrder order,
-                         Poller& poller)
+                         Poller& poller, bool on_sphere)
     : n_(curve.size()),
-      dim_(curve.dim()),
+      dim_(on_sphere ? curves::sphere_dim : curve.dim()),
       stride_(AlignedBuffer::rounded(n_ + kernels::padding)),
       storage_(dim_ * stride_) {
+    if (on_sphere) {
+        pack_on_sphere(curve, order, poller);
+        return;
+    }
     const double* const row_major = range.is_identity() ? curve.row_major() : nullptr;
     const std::ptrdiff_t step = order == PointOrder::reversed ? -1 : 1;
     std::uint64_t least = rank(0.0);
@@ -53,6 +58,25 @@ PackedCurve::PackedCurve(const CurveView& curve, const RangeScale& range, PointO
                                                          : write(end - first, to, step, strided));
         });
         std::fill_n(begin + n_, kernels::padding, 0.0);
+    }
+    squares_are_in_domain_ = least >= rank(0x1p-400);
+}
+
+void PackedCurve::pack_on_sphere(const CurveView& curve, PointOrder order, Poller& poller) {
+    std::uint64_t least = rank(0.0);
+    poller.in_runs(n_, dim_, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = first; i < end; ++i) {
+            const auto point = curves::on_sphere(curve(i, 0), curve(i, 1));
+            double* to = storage_.data() + (order == PointOrder::reversed ? n_ - 1 - i : i);
+            for (const double x : point) {
+                least = std::min(least, rank(x));
+                *to = x;
+                to += stride_;
+            }
+        }
+    });
+    for (std::ptrdiff_t c = 0; c < dim_; ++c) {
+        std::fill_n(storage_.data() + c * stride_ + n_, kernels::padding, 0.0);
     }
     squares_are_in_domain_ = least >= rank(0x1p-400);
 }

@@ -19,7 +19,9 @@ enum class PointOrder { forward, reversed };
 
 class PackedCurve {
    public:
-    PackedCurve(const CurveView& curve, const RangeScale& range, PointOrder order, Poller& poller);
+    // One on the sphere is not scaled: its points go into space (curves/sphere.hpp).
+    PackedCurve(const CurveView& curve, const RangeScale& range, PointOrder order, Poller& poller,
+                bool on_sphere = false);
 
     std::ptrdiff_t size() const noexcept { return n_; }
     std::ptrdiff_t dim() const noexcept { return dim_; }
@@ -35,6 +37,8 @@ class PackedCurve {
     bool squares_are_in_domain() const noexcept { return squares_are_in_domain_; }
 
    private:
+    void pack_on_sphere(const CurveView& curve, PointOrder order, Poller& poller);
+
     std::ptrdiff_t n_;
     std::ptrdiff_t dim_;
     std::ptrdiff_t stride_;

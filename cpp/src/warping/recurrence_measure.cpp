@@ -34,12 +34,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // A curve with a point before its first, all of whose coordinates are 0.
 class LedCurve {
    public:
-    LedCurve(const CurveView& curve, const GroundDistance& ground)
-        : points_(static_cast<std::size_t>((curve.size() + 1) * curve.dim())),
+    explicit LedCurve(const CurveView& curve)
+        : points_(static_cast<std::size_t>((curve.size() + 1) * curve.dim()), 0.0),
           view_(points_.data(), curve.size() + 1, curve.dim()) {
-        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
-            points_[static_cast<std::size_t>(c)] = warping::coordinate_of_equal(ground, 0.0, c);
-        }
         double* next = points_.data() + curve.dim();
         for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
             for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) *next++ = curve(i, c);
@@ -89,7 +86,8 @@ class RecurrenceMeasure {
     template <PointOrder order>
     struct Side {
         Side(const curves::CheckedCurve& curve, Poller& poller)
-            : checked(curve), packed(curve.curve, RangeScale(1.0), order, poller) {}
+            : checked(curve),
+              packed(curve.curve, RangeScale(1.0), order, poller, curve.on_sphere) {}
         curves::CheckedCurve checked;
         PackedCurve packed;
     };
@@ -132,13 +130,13 @@ class RecurrenceMeasure {
         if (range.is_identity() && !is_led) {
             return use(recurrence, steps_, warping::PackedPair{P.packed, Q.packed}, range);
         }
-        const auto pack = [&](const CurveView& curve, PointOrder order) {
-            return is_led ? PackedCurve(LedCurve(curve, recurrence.ground).view(), range, order,
-                                        poller)
-                          : PackedCurve(curve, range, order, poller);
+        const auto pack = [&](const curves::CheckedCurve& checked, PointOrder order) {
+            return is_led ? PackedCurve(LedCurve(checked.curve).view(), range, order, poller,
+                                        checked.on_sphere)
+                          : PackedCurve(checked.curve, range, order, poller, checked.on_sphere);
         };
-        const PackedCurve p = pack(P.checked.curve, PointOrder::forward);
-        const PackedCurve q = pack(Q.checked.curve, PointOrder::reversed);
+        const PackedCurve p = pack(P.checked, PointOrder::forward);
+        const PackedCurve q = pack(Q.checked, PointOrder::reversed);
         return use(recurrence, StepTable(recurrence, range), warping::PackedPair{p, q}, range);
     }
 

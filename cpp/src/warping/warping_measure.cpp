@@ -38,7 +38,8 @@ class WarpingMeasure {
     template <PointOrder order>
     struct Side {
         Side(const curves::CheckedCurve& curve, Poller& poller)
-            : checked(curve), packed(curve.curve, RangeScale(1.0), order, poller) {}
+            : checked(curve),
+              packed(curve.curve, RangeScale(1.0), order, poller, curve.on_sphere) {}
         curves::CheckedCurve checked;
         PackedCurve packed;
     };

@@ -144,7 +144,11 @@ void WarpingProblem::write_table(double* out) const {
     if (range_.is_identity() && !root_) return;
     const std::ptrdiff_t n = sweep_.curves.rows(), m = sweep_.curves.columns();
     for (std::ptrdiff_t i = 0; i < n; ++i) {
-        for (std::ptrdiff_t j = 0; j < m; ++j) out[i * m + j] = restore(out[i * m + j]);
+        double* const row = out + i * m;
+        if (root_) root_->take(row, m);
+        for (std::ptrdiff_t j = 0; j < m && !range_.is_identity(); ++j) {
+            row[j] = range_.restore(row[j], degree_);
+        }
         if (sweep_.poller.poll()) throw Stopped();
     }
 }
