@@ -155,10 +155,24 @@ py::tuple as_tuple(const StepRows& pattern) {
 }
 
 py::object OptionReader::take(const char* name) {
-    PyObject* const value = is_tuple_ ? PyTuple_GET_ITEM(given_.ptr(), taken_)
-                                      : PyDict_GetItemString(given_.ptr(), name);
+    PyObject* value = nullptr;
+    if (is_tuple_) {
+        value = PyTuple_GET_ITEM(given_.ptr(), taken_);
+    } else if (taken_ < PyDict_GET_SIZE(given_.ptr())) {
+        value = take_next(name);
+        if (value == nullptr) value = PyDict_GetItemString(given_.ptr(), name);
+    }
     if (value != nullptr) ++taken_;
     return py::reinterpret_borrow<py::object>(value);
+}
+
+PyObject* OptionReader::take_next(const char* name) noexcept {
+    PyObject *key = nullptr, *value = nullptr;
+    py::ssize_t place = place_;
+    if (!PyDict_Next(given_.ptr(), &place, &key, &value)) return nullptr;
+    if (!PyUnicode_Check(key) || PyUnicode_CompareWithASCIIString(key, name) != 0) return nullptr;
+    place_ = place;
+    return value;
 }
 
 bool are_defaults(const py::tuple& values, const py::tuple& defaults) {

@@ -50,9 +50,8 @@ struct GroundDistance {
             case Metric::sqeuclidean:
             case Metric::cityblock:
             case Metric::chebyshev:
-                return dim;
             case Metric::haversine:
-                return 8.0 * dim;
+                return dim;
             case Metric::minkowski:
                 break;
         }

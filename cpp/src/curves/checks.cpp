@@ -133,13 +133,14 @@ double largest_magnitude(const CurveView& curve, const std::string& name, runtim
 
 }  // namespace
 
-CheckedCurve::CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller,
-                           bool on_sphere)
+CheckedCurve::CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller)
     : curve(curve),
       name(std::move(name)),
-      largest(largest_magnitude(this->curve, this->name, poller)),
-      on_sphere(on_sphere) {
-    if (on_sphere) check_on_sphere(curve, this->name);
+      largest(largest_magnitude(this->curve, this->name, poller)) {}
+
+void CheckedCurve::put_on_sphere() {
+    check_on_sphere(curve, name);
+    on_sphere = true;
 }
 
 void check_shapes(const Requirements& needs, const CurveList& first, const CurveList& second) {
@@ -152,7 +153,7 @@ void check_shapes(const Requirements& needs, const CurveList& first, const Curve
         refuse_shapes(both(example, named), "both need the same number of coordinates",
                       {example.curve(), named.curve()});
     });
-    if ((needs.planar || needs.on_sphere) && example.curve().dim() != 2) {
+    if (example.curve().dim() != 2 && (needs.planar || needs.on_sphere)) {
         const std::string need =
             std::string(needs.measure) +
             (needs.planar ? " needs 2 coordinates, x and y"

@@ -47,13 +47,21 @@ class CurveList {
 // A curve found finite, and on the sphere where that is asked for, with the largest |coordinate|.
 // Refers to the caller's points.
 struct CheckedCurve {
-    CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller,
-                 bool on_sphere = false);
+    CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller);
+    // Asked here, and not in a call: where no measure of a kind is on the sphere, it costs nothing.
+    template <class Name>
+    CheckedCurve(const CurveView& curve, Name&& name, runtime::Poller& poller, bool on_sphere)
+        : CheckedCurve(curve, std::string(std::forward<Name>(name)), poller) {
+        if (on_sphere) put_on_sphere();
+    }
 
     CurveView curve;
     std::string name;
     double largest;
-    bool on_sphere;
+    bool on_sphere = false;
+
+   private:
+    void put_on_sphere();
 };
 
 // The shapes of the curves of both sides, which must agree in their number of coordinates. A list

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 
 #include "curves/checks.hpp"
@@ -111,7 +110,7 @@ class SubsequenceSearch {
     void sweep_piece(std::ptrdiff_t first, std::ptrdiff_t columns, Row& values, Row& origins) {
         sweep_table(first, columns, values, origins);
         // Before any are compared: roots may be equal where squares are not.
-        if (root_) root_->take(values.data(), columns);
+        root_.take(values.data(), columns);
     }
 
     void sweep_table(std::ptrdiff_t first, std::ptrdiff_t columns, Row& values, Row& origins) {
@@ -147,7 +146,7 @@ class SubsequenceSearch {
     curves::RangeScale range_;
     int degree_;  // of homogeneity in the coordinates
     double cutoff_;
-    std::optional<warping::PutOffRoot> root_;  // of the values that the table holds
+    warping::PutOffRoot root_;  // of the values that the table holds
     Poller& poller_;
     warping::SweepMemory memory_;
     warping::SweepProblem problem_;
@@ -170,9 +169,12 @@ std::vector<Subsequence> find_subsequences(const CurveView& P, const CurveView& 
     poller.begin(P.size() * Q.size());
     const curves::RangeScale range =
         warping::range_of(options.ground, std::max(checked_p.largest, checked_q.largest));
-    const PackedCurve p(P, range, PointOrder::forward, poller, needs.on_sphere);
+    const auto pack = [&](const CurveView& curve, PointOrder order) {
+        return PackedCurve::of(curve, needs.on_sphere, range, order, poller);
+    };
+    const PackedCurve p = pack(P, PointOrder::forward);
     poller.poll_in_loop(0);
-    const PackedCurve q(Q, range, PointOrder::reversed, poller, needs.on_sphere);
+    const PackedCurve q = pack(Q, PointOrder::reversed);
     std::vector<Subsequence> found = SubsequenceSearch(options, {p, q}, range, poller).find(count);
     poller.finish();
     return found;

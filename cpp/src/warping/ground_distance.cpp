@@ -10,17 +10,23 @@
 #include "curves/sphere.hpp"
 
 namespace curvewise::warping {
+namespace {
+
+[[noreturn]] void refuse(const char* option, double given, const char* need) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.17g", given);
+    throw std::invalid_argument(std::string(option) + " is " + number + "; " + need);
+}
+
+}  // namespace
 
 void check_ground_distance(const GroundDistance& ground) {
     if (ground.metric == Metric::minkowski && !(ground.p >= 1.0)) {
-        char p[32];
-        std::snprintf(p, sizeof p, "%.17g", ground.p);
-        throw std::invalid_argument("p is " + std::string(p) + "; minkowski needs 1 <= p <= inf");
+        refuse("p", ground.p, "minkowski needs 1 <= p <= inf");
     }
     if (ground.metric == Metric::haversine &&
         !(ground.radius > 0.0 && std::isfinite(ground.radius))) {
-        throw std::invalid_argument("radius is " + std::to_string(ground.radius) +
-                                    "; give a finite number > 0");
+        refuse("radius", ground.radius, "give a finite number > 0");
     }
 }
 
@@ -33,7 +39,8 @@ Metric metric_of_boxes(Metric metric) noexcept {
 }
 
 bool has_box_bounds(Metric metric) noexcept {
-    return with_row(metric_of_boxes(metric), [](auto row) { return decltype(row)::is_norm; });
+    return with_row(metric,
+                    [](auto row) { return decltype(row)::is_norm || decltype(row)::is_root; });
 }
 
 Metric named_metric(const GroundDistance& ground) noexcept {
@@ -59,36 +66,26 @@ double PutOffRoot::arc(double square) const noexcept {
 }
 
 void PutOffRoot::take(double* values, std::ptrdiff_t count) const noexcept {
-    if (is_arc_) {
+    if (metric_ == Metric::haversine) {
         std::transform(values, values + count, values, [=](double x) { return arc(x); });
-    } else {
+    } else if (*this) {
         std::transform(values, values + count, values, [](double x) { return std::sqrt(x); });
     }
 }
 
 double PutOffRoot::most_under(double value) const noexcept {
     constexpr double quarter_turn = 1.5707963267948966;
-    if (!is_arc_) return value * value * (1.0 + 1e-15);
+    if (!*this) return value;
+    if (metric_ != Metric::haversine) return value * value * (1.0 + 1e-15);
     const double half = value / radius_ / 2.0;
     const double sine = std::sin(std::min(half, quarter_turn));
     return half < quarter_turn ? sine * sine * (1.0 + 1e-14)
                                : std::numeric_limits<double>::infinity();
 }
 
-std::optional<PutOffRoot> put_off_root(kernels::Cost& cost, const GroundDistance& ground) noexcept {
-    if (!with_row(cost.metric, [](auto row) { return decltype(row)::is_root; })) return {};
-    const PutOffRoot root(cost.metric, ground.parameter());
-    cost.metric = Metric::sqeuclidean;
-    return root;
-}
-
 double coordinate_of_equal(const GroundDistance& ground, double x, std::ptrdiff_t c) noexcept {
     if (ground.metric != Metric::haversine) return x;
     return curves::on_sphere(x, x)[static_cast<std::size_t>(c)];
-}
-
-curves::Requirements requirements(const char* measure, const GroundDistance& ground) noexcept {
-    return {measure, 1, false, ground.metric == Metric::haversine};
 }
 
 int degree(Metric metric) noexcept {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 
 #include "curves/checks.hpp"
 #include "curves/range_scale.hpp"
@@ -69,13 +68,16 @@ Metric named_metric(const GroundDistance& ground) noexcept;
 Metric canonical_metric(const GroundDistance& ground, std::ptrdiff_t dim) noexcept;
 kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& curves) noexcept;
 
-// A root that is taken at the end, of a table of largest distances, which it leaves as they are.
+// The root that is taken at the end, of a table of largest distances, which it leaves as they are;
+// or none. Inline, since a call of few points takes most of its time for what is asked once.
 class PutOffRoot {
    public:
-    PutOffRoot(Metric metric, double parameter) noexcept
-        : is_arc_(metric == Metric::haversine), radius_(parameter) {}
+    PutOffRoot() noexcept = default;
+    PutOffRoot(Metric metric, double radius) noexcept : metric_(metric), radius_(radius) {}
+    explicit operator bool() const noexcept { return metric_ != Metric::sqeuclidean; }
     double operator()(double value) const noexcept {
-        return is_arc_ ? arc(value) : std::sqrt(value);
+        if (!*this) return value;
+        return metric_ == Metric::haversine ? arc(value) : std::sqrt(value);
     }
     // Of many, in place.
     void take(double* values, std::ptrdiff_t count) const noexcept;
@@ -86,18 +88,26 @@ class PutOffRoot {
    private:
     double arc(double square) const noexcept;
 
-    bool is_arc_;
-    double radius_;
+    Metric metric_ = Metric::sqeuclidean;  // its own root
+    double radius_ = 0.0;
 };
 
-// Makes of a distance that is a root the one under it. Nothing where it is none.
-std::optional<PutOffRoot> put_off_root(kernels::Cost& cost, const GroundDistance& ground) noexcept;
+// Makes of a distance that is a root the one under it.
+inline PutOffRoot put_off_root(kernels::Cost& cost, const GroundDistance& ground) noexcept {
+    if (!with_row(cost.metric, [](auto row) { return decltype(row)::is_root; })) return {};
+    const PutOffRoot root(cost.metric, ground.radius);
+    cost.metric = Metric::sqeuclidean;
+    return root;
+}
 
 // Coordinate c, as it is packed, of the point whose coordinates all are x.
 double coordinate_of_equal(const GroundDistance& ground, double x, std::ptrdiff_t c) noexcept;
 
 // Of every curve of such a measure.
-curves::Requirements requirements(const char* measure, const GroundDistance& ground) noexcept;
+inline curves::Requirements requirements(const char* measure,
+                                         const GroundDistance& ground) noexcept {
+    return {measure, 1, false, ground.metric == Metric::haversine};
+}
 
 // By which power of a factor the distance grows when both curves do.
 int degree(Metric metric) noexcept;

@@ -34,7 +34,8 @@ class HausdorffMeasure {
     struct Side {
         Side(const curves::CheckedCurve& curve, Poller& poller)
             : checked(curve),
-              packed(curve.curve, RangeScale(1.0), PointOrder::forward, poller, curve.on_sphere) {}
+              packed(PackedCurve::of(curve.curve, curve.on_sphere, RangeScale(1.0),
+                                     PointOrder::forward, poller)) {}
         curves::CheckedCurve checked;
         PackedCurve packed;
     };
@@ -79,7 +80,7 @@ class HausdorffMeasure {
         memory.distances.resize(room);
         memory.nearest.assign(room, infinity);
         kernels::Cost cost = warping::canonical_cost(options_.ground, curves);
-        const auto root = warping::put_off_root(cost, options_.ground);
+        const warping::PutOffRoot root = warping::put_off_root(cost, options_.ground);
         const kernels::CostFunction fill = warping::active_level().kernels->fill(cost);
         kernels::Strip strip{};
         strip.p = curves.p.data();
@@ -108,7 +109,7 @@ class HausdorffMeasure {
             if (call.poller.count_steps(n, dim)) throw Stopped();
         }
         for (std::ptrdiff_t i = 0; i < n; ++i) farthest = std::max(farthest, nearest[i]);
-        return root ? (*root)(farthest) : farthest;
+        return root(farthest);
     }
 
     HausdorffOptions options_;

@@ -32,15 +32,11 @@ std::uint64_t write(std::ptrdiff_t count, double* to, std::ptrdiff_t step, Value
 }  // namespace
 
 PackedCurve::PackedCurve(const CurveView& curve, const RangeScale& range, PointOrder order,
-                         Poller& poller, bool on_sphere)
+                         Poller& poller)
     : n_(curve.size()),
-      dim_(on_sphere ? curves::sphere_dim : curve.dim()),
+      dim_(curve.dim()),
       stride_(AlignedBuffer::rounded(n_ + kernels::padding)),
       storage_(dim_ * stride_) {
-    if (on_sphere) {
-        pack_on_sphere(curve, order, poller);
-        return;
-    }
     const double* const row_major = range.is_identity() ? curve.row_major() : nullptr;
     const std::ptrdiff_t step = order == PointOrder::reversed ? -1 : 1;
     std::uint64_t least = rank(0.0);
@@ -62,7 +58,11 @@ PackedCurve::PackedCurve(const CurveView& curve, const RangeScale& range, PointO
     squares_are_in_domain_ = least >= rank(0x1p-400);
 }
 
-void PackedCurve::pack_on_sphere(const CurveView& curve, PointOrder order, Poller& poller) {
+PackedCurve::PackedCurve(const CurveView& curve, PointOrder order, Poller& poller)
+    : n_(curve.size()),
+      dim_(curves::sphere_dim),
+      stride_(AlignedBuffer::rounded(n_ + kernels::padding)),
+      storage_(dim_ * stride_) {
     std::uint64_t least = rank(0.0);
     poller.in_runs(n_, dim_, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
         for (std::ptrdiff_t i = first; i < end; ++i) {

@@ -87,7 +87,8 @@ class RecurrenceMeasure {
     struct Side {
         Side(const curves::CheckedCurve& curve, Poller& poller)
             : checked(curve),
-              packed(curve.curve, RangeScale(1.0), order, poller, curve.on_sphere) {}
+              packed(
+                  PackedCurve::of(curve.curve, curve.on_sphere, RangeScale(1.0), order, poller)) {}
         curves::CheckedCurve checked;
         PackedCurve packed;
     };
@@ -131,9 +132,9 @@ class RecurrenceMeasure {
             return use(recurrence, steps_, warping::PackedPair{P.packed, Q.packed}, range);
         }
         const auto pack = [&](const curves::CheckedCurve& checked, PointOrder order) {
-            return is_led ? PackedCurve(LedCurve(checked.curve).view(), range, order, poller,
-                                        checked.on_sphere)
-                          : PackedCurve(checked.curve, range, order, poller, checked.on_sphere);
+            return is_led ? PackedCurve::of(LedCurve(checked.curve).view(), checked.on_sphere,
+                                            range, order, poller)
+                          : PackedCurve::of(checked.curve, checked.on_sphere, range, order, poller);
         };
         const PackedCurve p = pack(P.checked, PointOrder::forward);
         const PackedCurve q = pack(Q.checked, PointOrder::reversed);

@@ -74,9 +74,8 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, 
     const std::ptrdiff_t gap = plan.workers_ > 1 ? gap_between_threads : 0;
     const bool has_origins = plan.output_ == kernels::Output::origins;
     memory.lanes.reserve(2 * gap + lane_stride_ * (has_origins ? count : origins));
-    memory.columns.resize(static_cast<std::size_t>(2 * plan.height_));
     lanes_ = memory.lanes.data() + gap;
-    columns_ = memory.columns.data();
+    columns_ = memory.columns(static_cast<std::size_t>(2 * plan.height_));
     const PackedPair& curves = plan.problem_->curves;
     const Region& region = plan.region_;
     strip_.p_stride = curves.p.stride();

@@ -1,6 +1,7 @@
 // What is swept: a table, the part of it that is wanted, and where the results go.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -39,9 +40,20 @@ class Row {
 // What one thread needs to sweep, kept from one sweep to the next: where curves are short, getting
 // it anew takes as long as a good part of the sweep. O(m).
 struct SweepMemory {
+    SweepMemory() noexcept {}  // NOLINT(modernize-use-equals-default): which would write zeros
     AlignedBuffer lanes;
-    std::vector<std::ptrdiff_t> columns;
     Row row;
+
+    // Room for so many columns, of any content: of a few, as short curves have, none of the heap's.
+    std::ptrdiff_t* columns(std::size_t count) {
+        if (count <= few_columns_.size()) return few_columns_.data();
+        many_columns_.resize(count);
+        return many_columns_.data();
+    }
+
+   private:
+    std::array<std::ptrdiff_t, 64> few_columns_;
+    std::vector<std::ptrdiff_t> many_columns_;
 };
 
 struct SweepProblem {

@@ -39,7 +39,8 @@ class WarpingMeasure {
     struct Side {
         Side(const curves::CheckedCurve& curve, Poller& poller)
             : checked(curve),
-              packed(curve.curve, RangeScale(1.0), order, poller, curve.on_sphere) {}
+              packed(
+                  PackedCurve::of(curve.curve, curve.on_sphere, RangeScale(1.0), order, poller)) {}
         curves::CheckedCurve checked;
         PackedCurve packed;
     };

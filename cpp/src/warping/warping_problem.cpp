@@ -145,7 +145,7 @@ void WarpingProblem::write_table(double* out) const {
     const std::ptrdiff_t n = sweep_.curves.rows(), m = sweep_.curves.columns();
     for (std::ptrdiff_t i = 0; i < n; ++i) {
         double* const row = out + i * m;
-        if (root_) root_->take(row, m);
+        root_.take(row, m);
         for (std::ptrdiff_t j = 0; j < m && !range_.is_identity(); ++j) {
             row[j] = range_.restore(row[j], degree_);
         }

@@ -58,9 +58,7 @@ class WarpingProblem {
     double narrowed_distance(const CostToGo& cost_to_go);
     // A little above the cutoff in the unit of the table, so that the rounding of squares and roots
     // gives nothing up.
-    double most_in_table(double cutoff) const noexcept {
-        return root_ ? root_->most_under(cutoff) : cutoff;
-    }
+    double most_in_table(double cutoff) const noexcept { return root_.most_under(cutoff); }
 
     // The distance, and how it was found.
     WarpingInfo info();
@@ -71,9 +69,7 @@ class WarpingProblem {
    private:
     std::optional<double> frechet_with_info(WarpingInfo& info) const;
     std::optional<double> dtw_with_info(WarpingInfo& info) const;
-    double restore(double value) const noexcept {
-        return range_.restore(root_ ? (*root_)(value) : value, degree_);
-    }
+    double restore(double value) const noexcept { return range_.restore(root_(value), degree_); }
     bool is_frechet() const noexcept { return sweep_.recurrence == kernels::Recurrence::frechet; }
     double last_value(const SweepProblem& problem) const;
     std::optional<double> pruned_value() const;
@@ -82,8 +78,8 @@ class WarpingProblem {
     bool ends_are_within(double cutoff) const;
 
     RangeScale range_;
-    int degree_;                      // of homogeneity in the coordinates
-    std::optional<PutOffRoot> root_;  // of the values that the table holds
+    int degree_;       // of homogeneity in the coordinates
+    PutOffRoot root_;  // of the values that the table holds
     bool open_end_;
     bool prune_;
     SweepProblem sweep_;
