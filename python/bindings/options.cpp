@@ -159,20 +159,27 @@ py::object OptionReader::take(const char* name) {
     if (is_tuple_) {
         value = PyTuple_GET_ITEM(given_.ptr(), taken_);
     } else if (taken_ < PyDict_GET_SIZE(given_.ptr())) {
-        value = take_next(name);
-        if (value == nullptr) value = PyDict_GetItemString(given_.ptr(), name);
+        value = find(name);
     }
     if (value != nullptr) ++taken_;
     return py::reinterpret_borrow<py::object>(value);
 }
 
-PyObject* OptionReader::take_next(const char* name) noexcept {
+PyObject* OptionReader::find(const char* name) noexcept {
+    const py::ssize_t start = place_;
     PyObject *key = nullptr, *value = nullptr;
-    py::ssize_t place = place_;
-    if (!PyDict_Next(given_.ptr(), &place, &key, &value)) return nullptr;
-    if (!PyUnicode_Check(key) || PyUnicode_CompareWithASCIIString(key, name) != 0) return nullptr;
-    place_ = place;
-    return value;
+    const auto is_next = [&] {
+        return PyUnicode_Check(key) && PyUnicode_CompareWithASCIIString(key, name) == 0;
+    };
+    while (PyDict_Next(given_.ptr(), &place_, &key, &value)) {
+        if (is_next()) return value;
+    }
+    place_ = 0;
+    while (place_ < start && PyDict_Next(given_.ptr(), &place_, &key, &value)) {
+        if (is_next()) return value;
+    }
+    place_ = start;
+    return nullptr;
 }
 
 bool are_defaults(const py::tuple& values, const py::tuple& defaults) {

@@ -83,8 +83,7 @@ double PutOffRoot::most_under(double value) const noexcept {
                                : std::numeric_limits<double>::infinity();
 }
 
-double coordinate_of_equal(const GroundDistance& ground, double x, std::ptrdiff_t c) noexcept {
-    if (ground.metric != Metric::haversine) return x;
+double coordinate_on_sphere(double x, std::ptrdiff_t c) noexcept {
     return curves::on_sphere(x, x)[static_cast<std::size_t>(c)];
 }
 

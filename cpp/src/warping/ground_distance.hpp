@@ -100,8 +100,8 @@ inline PutOffRoot put_off_root(kernels::Cost& cost, const GroundDistance& ground
     return root;
 }
 
-// Coordinate c, as it is packed, of the point whose coordinates all are x.
-double coordinate_of_equal(const GroundDistance& ground, double x, std::ptrdiff_t c) noexcept;
+// Coordinate c, as it is packed, of the point whose longitude and latitude both are x.
+double coordinate_on_sphere(double x, std::ptrdiff_t c) noexcept;
 
 // Of every curve of such a measure.
 inline curves::Requirements requirements(const char* measure,

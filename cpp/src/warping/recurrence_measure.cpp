@@ -31,6 +31,20 @@ using warping::StepTable;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+[[noreturn]] void refuse_gap(double gap) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.10g", gap);
+    throw std::invalid_argument(std::string("gap is ") + number +
+                                "; metric='haversine' takes it for a longitude and a latitude: "
+                                "give a number from -90 to 90");
+}
+
+[[noreturn]] void refuse_no_epsilon(const std::string& measure) {
+    throw std::invalid_argument(measure +
+                                " with metric='haversine' needs epsilon: degrees have "
+                                "no deviation in metres");
+}
+
 // A curve with a point before its first, all of whose coordinates are 0.
 class LedCurve {
    public:
@@ -224,16 +238,10 @@ class RecurrenceMeasure {
 
     void check_on_sphere() const {
         if (recurrence_.gaps == Gaps::to_point && !(std::abs(recurrence_.gap) <= 90.0)) {
-            char number[32];
-            std::snprintf(number, sizeof number, "%.10g", recurrence_.gap);
-            throw std::invalid_argument(std::string("gap is ") + number +
-                                        "; metric='haversine' takes it for a longitude and a "
-                                        "latitude: give a number from -90 to 90");
+            refuse_gap(recurrence_.gap);
         }
         if (recurrence_.pair == PairCost::apart && recurrence_.threshold == infinity) {
-            throw std::invalid_argument(std::string(recurrence_.measure) +
-                                        " with metric='haversine' needs epsilon: degrees have no "
-                                        "deviation in metres");
+            refuse_no_epsilon(recurrence_.measure);
         }
     }
 

@@ -137,11 +137,13 @@ void RecurrenceSweep::prepare_gaps(double gap, double* rows, double* columns) {
     const double* const p = whole_.ground.p;
     const double* const q = whole_.ground.q;
     if (recurrence_.gaps == Gaps::to_point) {
-        strip.q_stride = std::max(n, m) + kernels::padding;
-        std::vector<double> point(static_cast<std::size_t>(strip.dim * strip.q_stride));
-        for (std::ptrdiff_t c = 0; c < strip.dim; ++c) {
-            std::fill_n(point.data() + c * strip.q_stride, strip.q_stride,
-                        coordinate_of_equal(recurrence_.ground, gap, c));
+        const bool is_on_sphere = recurrence_.ground.metric == Metric::haversine;
+        const std::ptrdiff_t lanes = std::max(n, m) + kernels::padding;
+        std::vector<double> point(
+            static_cast<std::size_t>(is_on_sphere ? strip.dim * lanes : lanes), gap);
+        strip.q_stride = is_on_sphere ? lanes : 0;
+        for (std::ptrdiff_t c = 0; is_on_sphere && c < strip.dim; ++c) {
+            std::fill_n(point.data() + c * lanes, lanes, coordinate_on_sphere(gap, c));
         }
         fill(p, whole_.ground.p_stride, point.data(), n, rows);
         fill(q, whole_.ground.q_stride, point.data(), m, columns);
