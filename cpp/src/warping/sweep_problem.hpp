@@ -40,7 +40,6 @@ class Row {
 // What one thread needs to sweep, kept from one sweep to the next: where curves are short, getting
 // it anew takes as long as a good part of the sweep. O(m).
 struct SweepMemory {
-    SweepMemory() noexcept {}  // NOLINT(modernize-use-equals-default): which would write zeros
     AlignedBuffer lanes;
     Row row;
 
@@ -52,7 +51,7 @@ struct SweepMemory {
     }
 
    private:
-    std::array<std::ptrdiff_t, 64> few_columns_;
+    std::array<std::ptrdiff_t, 64> few_columns_{};
     std::vector<std::ptrdiff_t> many_columns_;
 };
 
