@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from curvewise.calibration.methods.curve_descent import CurveDescent, CurveRuns
-from curvewise.calibration.methods.descent import Descent, Rules
+from curvewise.calibration.methods.descent import AFTER_FAILURE, Descent, Rules
 from curvewise.calibration.methods.side_by_side import Part
 from curvewise.calibration.methods.starts import End, simplex_around
 from curvewise.calibration.objective.criterion import Criterion
@@ -31,10 +31,16 @@ class Scripted(Descent):
     value = 10.0  # type: ignore[assignment]
 
     def __init__(
-        self, gains: Sequence[float], rules: Rules = RULES, *, unknown: int = 0, valleys: int = 0
+        self,
+        gains: Sequence[float],
+        rules: Rules = RULES,
+        *,
+        unknown: int = 0,
+        valleys: int = 0,
+        after_failure: float = AFTER_FAILURE,
     ) -> None:
         runs: Any = SimpleNamespace(negligible=0.0)
-        super().__init__(np.random.default_rng(1), rules, runs)
+        super().__init__(np.random.default_rng(1), rules, runs, after_failure)
         self.gains, self.unknown, self.valleys = list(gains), unknown, valleys
         self.radii: list[float] = []
 
@@ -84,6 +90,22 @@ def test_the_region_follows_how_well_gains_are_predicted(gain, factor):
     search = Scripted([gain])
     assert finish_of(search) == (True, "0 0.01")
     assert search.radii == pytest.approx([0.2, 0.2 * factor])
+
+
+@pytest.mark.parametrize(
+    ("gain", "factor"), [(0.31, 1.0), (0.29, 0.8 * REACH), (0.09, 0.8 * REACH)]
+)
+def test_where_failures_are_forgiven_no_region_shrinks_more(gain, factor):
+    search = Scripted([gain], after_failure=0.8)
+    finish_of(search)
+    assert search.radii == pytest.approx([0.2, 0.2 * factor])
+
+
+@pytest.mark.parametrize(("measure", "after"), [("frechet", 0.8), ("area", 0.5), ("dtw", 0.5)])
+def test_by_frechet_a_failure_shrinks_the_region_less(measure, after):
+    ledger: Any = Known()
+    ledger.objective = Objective(curve_at(TRUE), Criterion(measure))
+    assert descent(ledger, CurveRuns(ledger))._after_failure == after
 
 
 def test_the_region_is_never_more_than_the_bounds():

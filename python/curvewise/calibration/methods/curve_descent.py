@@ -10,16 +10,20 @@ import numpy as np
 from ...curves.inputs import Array
 from ..problem.ledger import Finish, Ledger
 from ..records.evaluation import Evaluation
-from ..surfaces.leash_minimum import minimum_on_surfaces
+from ..surfaces.leash_minimum import is_leash, minimum_on_surfaces
 from ..surfaces.surface_minimum import SurfaceMinimum
 from ..surfaces.surfaces import Responses, Surface, Surfaces
-from .descent import FAR, Descent, Rules
+from .descent import AFTER_FAILURE, FAR, Descent, Rules
 from .shared_runs import SharedRuns
 from .side_by_side import Part
 from .starts import End
 
 __all__ = ["CurveDescent", "CurveRuns", "promising_place"]
 
+# By frechet the region shrinks less after a step that has failed. The largest of many distances is
+# off as far as the worst of them is, which the surface learns from the run, and of the many valleys
+# beside each other a small region has one alone.
+_AFTER_FAILURE_OF_LEASH = 0.8
 # Before it ends, a search looks for other minima of the surface, which costs no runs, and tries so
 # many of those that it finds, over this much of the bounds' range to each side.
 _ATTEMPTS, _ELSEWHERE = 3, 0.5
@@ -63,16 +67,20 @@ class CurveRuns(SharedRuns):
 
 
 def promising_place(
-    ledger: Ledger, random: np.random.Generator, runs: CurveRuns, ends: Sequence[End]
+    ledger: Ledger,
+    random: np.random.Generator,
+    runs: CurveRuns,
+    ends: Sequence[End],
+    reach: float,
 ) -> Array | None:
     """Return where on the surface through all runs the measure is lowest, away from all ends.
 
-    None where it has no minimum there.
+    Within a reach of the best run, along each axis. None where it has no minimum there.
     """
     best = ledger.best_unit
     surface = runs.through_nearest(best, np.inf, reduced=False, most=_MOST_RUNS)
     minimum = minimum_on_surfaces(ledger.objective, runs.responses, random, ledger.show_activity)
-    box = np.zeros_like(best), np.ones_like(best)
+    box = np.clip(best - reach, 0.0, 1.0), np.clip(best + reach, 0.0, 1.0)
     return minimum.elsewhere(surface, box, places=_PLACES, avoid=[end.place for end in ends])
 
 
@@ -85,7 +93,8 @@ class CurveDescent(Descent):
     def __init__(
         self, ledger: Ledger, random: np.random.Generator, rules: Rules, runs: CurveRuns
     ) -> None:
-        super().__init__(random, rules, runs)
+        after_failure = _AFTER_FAILURE_OF_LEASH if is_leash(ledger.objective) else AFTER_FAILURE
+        super().__init__(random, rules, runs, after_failure)
         self._ledger = ledger
 
     @cached_property

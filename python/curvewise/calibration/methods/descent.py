@@ -22,12 +22,14 @@ from .shared_runs import SharedRuns
 from .side_by_side import Part
 from .starts import End, simplex_around
 
-__all__ = ["FAR", "Descent", "Rules"]
+__all__ = ["AFTER_FAILURE", "FAR", "Descent", "Rules"]
 
 FAR = 5.0  # how far the runs may be from which a surface is made, in regions of trust
 # Of what was promised, a step that gains less than _POOR has failed; from _GOOD on the region
 # grows.
 _POOR, _FAIR, _GOOD = 0.1, 0.3, 0.7
+# Of the length of a step, the region after one that has failed, and after one that was poor.
+AFTER_FAILURE, _AFTER_POOR = 0.5, 0.7
 _AFTER_LOOK = 5.0  # a surface that has learnt more deserves trust again, so many times as far
 _AFTER_LEAVING = 0.15  # and so does one in another valley, so far
 
@@ -49,8 +51,15 @@ class Descent(ABC):
 
     looks_at_once: ClassVar[bool]  # in all directions, or in one after the other
 
-    def __init__(self, random: np.random.Generator, rules: Rules, runs: SharedRuns) -> None:
+    def __init__(
+        self,
+        random: np.random.Generator,
+        rules: Rules,
+        runs: SharedRuns,
+        after_failure: float = AFTER_FAILURE,
+    ) -> None:
         self._random, self._rules, self._runs = random, rules, runs
+        self._after_failure = after_failure
         self._best: int | None = None
         self._tried: set[tuple[float, ...]] = set()
 
@@ -117,9 +126,9 @@ class Descent(ABC):
             if ratio >= _GOOD:
                 radius = min(1.0, max(radius, 2.0 * length))
             elif ratio < _POOR:
-                radius = 0.5 * length
+                radius = self._after_failure * length
             elif ratio < _FAIR:
-                radius = 0.7 * length
+                radius = max(_AFTER_POOR, self._after_failure) * length
         return Finish(False, f"{rules.maxiter} steps")
 
     def _run(self, points: Array) -> Part[None]:

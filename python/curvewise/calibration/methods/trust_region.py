@@ -31,6 +31,7 @@ import numpy as np
 
 from ...curves.inputs import Array
 from ..problem.ledger import Course, Ledger
+from ..surfaces.leash_minimum import is_leash
 from .curve_descent import CurveDescent, CurveRuns, promising_place
 from .descent import Rules
 from .method import Method, with_other_defaults
@@ -42,7 +43,8 @@ __all__ = ["TrustRegion"]
 # Starts that have to come to the best value beyond `starts`: of all that there are, and where
 # others have ended elsewhere.
 _SURE, _NOT_SO = 2, 3
-_ON_FLAT_GROUND = 3  # times as many starts, where the measure is flat
+# Times as many starts, where the measure is flat, or has many valleys beside each other (frechet).
+_OF_SHORT_ONES = 3
 
 _log = logging.getLogger("curvewise.calibration")
 
@@ -70,7 +72,9 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
     most_starts : int, default 10
         Others follow until two more than `starts` have ended alike; where some have ended more than
         1 % above the best, until three more have come to it, or so many have been made in all.
-        Every second of them begins where a surface through all runs so far promises most.
+        Every second of them begins where a surface through all runs so far promises most. By
+        "frechet" all do, near the best run, and where the measure is flat or by "frechet" there are
+        three times as many.
     initial_range : float, optional
         Half the size of the first region of trust, as a fraction of the bounds' range; the first
         differences are over half of that. By default 0.5, and 0.1 where :func:`identify_each`
@@ -172,6 +176,7 @@ class _Starts:
         self._random = np.random.default_rng(seed)
         self._places = places(ledger.dimensions, self._random)
         self._runs = CurveRuns(ledger)
+        self._is_leash = is_leash(ledger.objective)
         self.begun, self._running = 0, 0
         self.ends: list[End] = []
 
@@ -190,8 +195,10 @@ class _Starts:
         flat = is_flat(ends, self._ledger.negligible)
         if not flat and alike >= options.starts + (_SURE if alike == len(ends) else _NOT_SO):
             return []
-        # On flat ground a start is short, and the way down is found by chance.
-        most = _ON_FLAT_GROUND * options.most_starts if flat else options.most_starts
+        # On flat ground a start is short, and the way down is found by chance; and so it is among
+        # many valleys, where later starts have the surfaces of those before.
+        is_short = flat or self._is_leash
+        most = _OF_SHORT_ONES * options.most_starts if is_short else options.most_starts
         count = min(options.starts - self._running, most - self.begun)
         if count > 0 and self.begun == options.starts and alike < len(ends):
             _log.info(
@@ -204,12 +211,17 @@ class _Starts:
     def _next(self) -> Part[None]:
         """Begin the next start: every second of the later ones where the runs so far promise most.
 
-        And beside the best run where they promise nothing but where starts have ended.
+        And beside the best run where they promise nothing but where starts have ended. Of the many
+        valleys of frechet the lowest are beside each other: there all later starts are such, and
+        near the best run, unless the ground is flat.
         """
         rules = self._options.rules
         later = self.begun - self._options.starts
-        if later >= 0 and later % 2 == 0:
-            place = promising_place(self._ledger, self._random, self._runs, self.ends)
+        is_near = later >= 0 and self._is_leash
+        is_near = is_near and not is_flat(self.ends, self._ledger.negligible)
+        if later >= 0 and (later % 2 == 0 or is_near):
+            reach = HOP if is_near else 1.0
+            place = promising_place(self._ledger, self._random, self._runs, self.ends, reach)
             if place is None:
                 place = hop(self._ledger.best_unit, self._random)
             smaller = replace(rules, first_radius=min(HOP, rules.first_radius))
