@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -16,44 +17,58 @@ from curvewise.calibration.uncertainty.correlation import (
     Correlation,
     Model,
     _likelihood,
-    branches_of_tests,
     correlation_of,
     white,
 )
 from curvewise.calibration.uncertainty.noise import noise_of
+from curvewise.calibration.uncertainty.repeats import PARTS, Branches, branches_of_tests
 from curvewise.calibration.uncertainty.sensitivity import Optimum
 from curvewise.calibration.uncertainty.spread import linear_spread
 
-BRANCHES = [slice(0, 1), slice(1, 14), slice(14, 40)]
+SLICES = [slice(0, 1), slice(1, 14), slice(14, 40)]
+BRANCHES = Branches(SLICES)
+# The last branch goes against the second one, at twice as many points.
+PLACES = np.concatenate(([-1], np.arange(13), np.arange(26) // 2))
+SIGNS = np.concatenate((np.ones(14), -np.ones(26)))
+REPEATED = Branches(SLICES, PLACES, SIGNS, 1)
 X = np.linspace(0.0, 1.0, 40)
 DESIGN = np.column_stack((np.ones_like(X), X, X**2))
 
 
-def dense(branches, reach, share):
+def dense(branches, reach, share, common=0.0):
     """Return the covariance matrix of a model, of the variance 1."""
-    count = branches[-1].stop
+    count = branches.slices[-1].stop
     matrix = np.zeros((count, count))
-    for branch in branches:
+    for branch in branches.slices:
         size = branch.stop - branch.start
         lags = np.abs(np.subtract.outer(np.arange(size), np.arange(size)))
-        matrix[branch, branch] = np.exp(-lags / (reach * size))
+        matrix[branch, branch] = (1.0 - common) * np.exp(-lags / (reach * size))
+    if common:
+        lags = np.abs(np.subtract.outer(PLACES[1:], PLACES[1:]))
+        signs = np.outer(SIGNS[1:], SIGNS[1:])
+        matrix[1:, 1:] += common * signs * np.exp(-lags / (reach * PARTS))
     return (1.0 - share) * matrix + share * np.eye(count)
 
 
-MODELS = st.tuples(st.floats(0.01, 1.0), st.floats(0.003, 0.9), st.integers(0, 2**32 - 1))
+MODELS = st.tuples(
+    st.floats(0.01, 1.0),
+    st.floats(0.003, 0.9),
+    st.sampled_from([0.0, 0.5, 0.9]),
+    st.integers(0, 2**32 - 1),
+)
 
 
 @given(MODELS)
 @settings(max_examples=20, deadline=None)
 def test_the_restricted_likelihood_is_that_of_dense_matrices(model):
     """Of the differences that no parameter can make, whose covariance is K' V K."""
-    reach, share, seed = model
+    reach, share, common, seed = model
     residuals = np.random.default_rng(seed).normal(size=40)
     basis, _ = np.linalg.qr(DESIGN)
     outside = np.linalg.svd(basis, full_matrices=True)[0][:, 3:]
     left = residuals - basis @ (basis.T @ residuals)
-    found, variance = _likelihood(left, basis, BRANCHES, reach, share)
-    covariance = outside.T @ dense(BRANCHES, reach, share) @ outside
+    found, variance = _likelihood(left, basis, REPEATED, reach, share, common)
+    covariance = outside.T @ dense(REPEATED, reach, share, common) @ outside
     seen = outside.T @ residuals
     square = seen @ np.linalg.solve(covariance, seen)
     expected = -0.5 * (37 * math.log(square) + np.linalg.slogdet(covariance)[1])
@@ -64,28 +79,29 @@ def test_the_restricted_likelihood_is_that_of_dense_matrices(model):
 @given(MODELS)
 @settings(max_examples=20, deadline=None)
 def test_the_scatter_is_that_of_dense_matrices(model):
-    reach, share, seed = model
+    reach, share, common, seed = model
     columns = np.random.default_rng(seed).normal(size=(40, 2))
     correlation = Correlation(
-        [Model(0.25, reach, share, 4.0), Model(0.75, 0.0, 1.0, 9.0)], BRANCHES
+        [Model(0.25, reach, share, common, 4.0), Model(0.75, 0.0, 1.0, 0.0, 9.0)], REPEATED
     )
-    alike = dense(BRANCHES, reach, share) - share * np.eye(40)
+    alike = dense(REPEATED, reach, share, common) - share * np.eye(40)
     expected = 0.25 * 4.0 * (3.0 * share * columns.T @ columns + 2.0 * columns.T @ alike @ columns)
     expected += 0.75 * 9.0 * 3.0 * columns.T @ columns
     assert correlation.scatter(columns, 3.0, 2.0) == pytest.approx(expected, rel=1e-9)
-    ones = 0.25 * dense(BRANCHES, reach, share).sum() + 0.75 * 40
+    ones = 0.25 * dense(REPEATED, reach, share, common).sum() + 0.75 * 40
     assert correlation.independent == pytest.approx(40**2 / ones, rel=1e-9)
 
 
-def test_draws_have_the_covariance_of_their_model():
-    correlation = Correlation([Model(1.0, 0.3, 0.2, 4.0)], BRANCHES)
+@pytest.mark.parametrize("common", [0.0, 0.9])
+def test_draws_have_the_covariance_of_their_model(common):
+    correlation = Correlation([Model(1.0, 0.3, 0.2, common, 4.0)], REPEATED)
     random = np.random.default_rng(0)
     drawn = np.array([correlation.draw(random) for _ in range(4000)])
-    assert np.cov(drawn.T) == pytest.approx(4.0 * dense(BRANCHES, 0.3, 0.2), abs=0.45)
+    assert np.cov(drawn.T) == pytest.approx(4.0 * dense(REPEATED, 0.3, 0.2, common), abs=0.45)
 
 
 def test_white_noise_is_white_and_a_wave_is_not():
-    slopes, branches = DESIGN, [slice(0, 40)]
+    slopes, branches = DESIGN, Branches([slice(0, 40)])
     noise = [np.random.default_rng(seed).normal(size=40) for seed in range(60)]
     told = [correlation_of(one, slopes, branches).models[0].share == 1.0 for one in noise]
     assert np.mean(told) > 0.9
@@ -97,15 +113,63 @@ def test_white_noise_is_white_and_a_wave_is_not():
 
 
 def test_residuals_of_nothing_are_white():
-    assert correlation_of(np.zeros(40), DESIGN, [slice(0, 40)]).models == [
-        Model(1.0, 0.0, 1.0, 1.0)
-    ]
+    assert correlation_of(np.zeros(40), DESIGN, BRANCHES).models == [Model(1.0, 0.0, 1.0, 0.0, 1.0)]
 
 
 def test_branches_end_where_the_strain_turns():
     strain = np.concatenate([np.linspace(0, 1, 10), np.linspace(1, -1, 20)[1:]])
     loop = np.column_stack((strain, strain))
-    assert branches_of_tests([loop, np.ones((1, 1))]) == [slice(0, 9), slice(9, 29), slice(29, 30)]
+    found = branches_of_tests([loop, np.ones((1, 1))])
+    assert found == Branches([slice(0, 9), slice(9, 29), slice(29, 30)])
+
+
+def cycles_of(turns, each=30):
+    """Return strain that turns at given places, and a wave of its place in the branch."""
+    parts = [np.linspace(a, b, each, endpoint=False) for a, b in itertools.pairwise(turns)]
+    way = np.tile(np.linspace(0.0, 1.0, each, endpoint=False), len(parts))
+    signs = np.repeat(np.sign(np.diff(turns)), each)
+    return np.concatenate(parts), signs * np.sin(9.0 * way)
+
+
+def test_cycles_share_places_whichever_way_they_go():
+    strain, _ = cycles_of([0.0, 1.0, -1.0, 1.02, -0.98, 1.0, -1.0])
+    found = branches_of_tests([np.column_stack((strain, strain))])
+    assert found.ways == 1
+    assert (found.places[:30] == -1).all()
+    for branch in found.slices[1:]:
+        places = found.places[branch]
+        assert places[0] == 0
+        assert places[-1] == PARTS - 1
+        assert (np.diff(places) >= 0).all()
+    signs = [found.signs[branch].tolist() for branch in found.slices[1:]]
+    assert all(set(one) == {way} for one, way in zip(signs, [1, -1, 1, -1, 1], strict=True))
+
+
+@pytest.mark.parametrize(
+    "turns", [[0.0, 1.0, -1.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 1.0, -1.5, 2.0, -2.5, 3.0, -3.5]]
+)
+def test_single_cycles_and_growing_ones_have_no_places(turns):
+    strain, _ = cycles_of(turns)
+    assert branches_of_tests([np.column_stack((strain, strain))]).places is None
+
+
+def test_an_error_that_comes_back_in_each_cycle_is_worth_one_cycle():
+    """The mean error along the way spreads as that of one branch does, and not of twelve."""
+    random, turns = np.random.default_rng(0), [(-1.0) ** i for i in range(13)]
+    strain, wave = cycles_of(turns)
+    branches = branches_of_tests([np.column_stack((strain, strain))])
+    along = np.column_stack((strain, strain**3))
+    own = np.concatenate(
+        [
+            np.sign(b - a) * np.sin(9.0 * random.random() + 9.0 * X[:30])
+            for a, b in itertools.pairwise(turns)
+        ]
+    )
+    noise = random.normal(0.0, 0.1, len(strain))
+    repeated = correlation_of(0.9 * wave + 0.1 * own + noise, along, branches)
+    other = correlation_of(own + noise, along, branches)
+    assert sum(model.probability * model.common for model in repeated.models) > 0.5
+    assert sum(model.probability * model.common for model in other.models) < 0.2
 
 
 def parabola(p):

@@ -9,30 +9,37 @@ the residuals give it. Restricted likelihood allows exactly for the parameters t
 Cost: O(n k) for each of `_MODELS`, since the inverse of an autoregression's covariance has three
 diagonals.
 
+Where branches repeat (`repeats`), a model that is wrong is wrong alike in each of them, and many
+cycles say hardly more than one. There a share of the autoregression is common to all like branches,
+and this share is a third number of the grid. Cost: O(n m (k + m)) a model, of m places, by
+Woodbury's identity.
+
 H. D. Patterson, R. Thompson, "Recovery of inter-block information when block sizes are unequal",
 Biometrika 58 (1971) 545-554; D. A. Harville, "Bayesian inference for variance components using only
-error contrasts", Biometrika 61 (1974) 383-385 (that it is the likelihood without the parameters).
+error contrasts", Biometrika 61 (1974) 383-385 (that it is the likelihood without the parameters);
+M. A. Woodbury, "Inverting modified matrices", Princeton, Statist. Research Group, report 42 (1950).
 """
 
 from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from ..._extras import required
-from ...curves import turning_points
 from ...curves.inputs import Array
+from .repeats import PARTS, Branches
 
-__all__ = ["Correlation", "branches_of_tests", "correlation_of", "white"]
+__all__ = ["Correlation", "correlation_of", "white"]
 
-# How far an autoregression reaches, in parts of its branch, and the share of white noise.
+# How far an autoregression reaches, in parts of its branch, the share of white noise, and of the
+# rest the share that like branches have in common.
 _REACHES = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
 _SHARES = (0.003, 0.03, 0.2)
-_MODELS = ((0.0, 1.0), *itertools.product(_REACHES, _SHARES))  # the first is white alone
+_COMMON = (0.0, 0.25, 0.5, 0.75)
+_WHITE = (0.0, 1.0, 0.0)
 _IMPOSSIBLE = 1e-4  # models of a smaller probability are left out
 # White noise alone is believed where no model is more likely by exp(4), as for 1 in 50 draws of
 # white noise (a likelihood ratio of two parameters): its errors are then those of least squares.
@@ -40,11 +47,24 @@ _BETTER = 4.0
 
 
 class Model(NamedTuple):
-    """One model of the noise: its probability, reach, share of white noise, and variance."""
+    """One model of the noise.
+
+    Attributes
+    ----------
+    probability : float
+    reach : float
+        Of the autoregression, in parts of a branch.
+    share : float
+        Of white noise in the variance.
+    common : float
+        Which share of the autoregression like branches have in common.
+    variance : float
+    """
 
     probability: float
     reach: float
     share: float
+    common: float
     variance: float
 
 
@@ -55,12 +75,11 @@ class Correlation(NamedTuple):
     ----------
     models : list of Model
         Whose probabilities add up to 1.
-    branches : list of slice
-        Of the points of all tests, one test after the other.
+    branches : Branches
     """
 
     models: list[Model]
-    branches: list[slice]
+    branches: Branches
 
     def scatter(self, columns: Array, white: float = 1.0, alike: float = 1.0) -> Array:
         """Return columns' V columns for the covariance V of the noise, in the mean of the models.
@@ -76,61 +95,59 @@ class Correlation(NamedTuple):
         for model in self.models:
             one = white * model.share * square
             if model.share < 1.0:
-                for branch in self.branches:
-                    part = columns[branch]
-                    rho = _neighbours(model.reach, len(part))
-                    one += alike * (1.0 - model.share) * (part.T @ _correlated(part, rho))
+                one += alike * (1.0 - model.share) * self._along(columns, model)
             total += model.probability * model.variance * one
+        return total
+
+    def _along(self, columns: Array, model: Model) -> Array:
+        """Return columns' R columns for the covariance R of the autoregressions."""
+        total = np.zeros((columns.shape[1], columns.shape[1]))
+        for branch in self.branches.slices:
+            part = columns[branch]
+            total += part.T @ _correlated(part, _neighbours(model.reach, len(part)))
+        if model.common > 0.0:
+            total *= 1.0 - model.common
+            rho = _neighbours(model.reach, PARTS)
+            for sums in self.branches.gathered(columns):
+                total += model.common * (sums.T @ _correlated(sums, rho))
         return total
 
     def draw(self, random: np.random.Generator) -> Array:
         """Return noise drawn anew, of one of the models."""
         chances = [model.probability for model in self.models]
         model = self.models[random.choice(len(chances), p=chances)]
-        count = self.branches[-1].stop
+        count = self.branches.slices[-1].stop
         noise: Array = math.sqrt(model.share) * random.normal(size=count)
         if model.share < 1.0:
-            for branch in self.branches:
-                rho = _neighbours(model.reach, branch.stop - branch.start)
-                noise[branch] += math.sqrt(1.0 - model.share) * _autoregression(
-                    random.normal(size=branch.stop - branch.start), rho
-                )
+            own = math.sqrt((1.0 - model.share) * (1.0 - model.common))
+            for branch in self.branches.slices:
+                size = branch.stop - branch.start
+                rho = _neighbours(model.reach, size)
+                noise[branch] += own * _autoregression(random.normal(size=size), rho)
+        if model.common > 0.0:
+            factor = _shared_factor(model.reach, model.share, model.common, self.branches)
+            noise += factor @ random.normal(size=factor.shape[1])
         return math.sqrt(model.variance) * noise
 
     @property
     def independent(self) -> float:
         """How many independent points would say as much: points by the sum of correlations."""
+        ones = np.ones((self.branches.slices[-1].stop, 1))
         alike = 0.0
         for model in self.models:
-            for branch in self.branches:
-                count = branch.stop - branch.start
-                together = model.share * count
-                if model.share < 1.0:
-                    rho = _neighbours(model.reach, count)
-                    ones = np.ones((count, 1))
-                    together += (1.0 - model.share) * float(_correlated(ones, rho).sum())
-                alike += model.probability * together
-        return float(self.branches[-1].stop) ** 2 / alike
+            together = model.share * len(ones)
+            if model.share < 1.0:
+                together += (1.0 - model.share) * float(self._along(ones, model)[0, 0])
+            alike += model.probability * together
+        return float(len(ones)) ** 2 / alike
 
 
-def white(branches: list[slice], variance: float = 1.0) -> Correlation:
+def white(branches: Branches, variance: float = 1.0) -> Correlation:
     """Return noise without correlation."""
-    return Correlation([Model(1.0, 0.0, 1.0, variance)], branches)
+    return Correlation([Model(1.0, *_WHITE, variance)], branches)
 
 
-def branches_of_tests(tests: Sequence[Array]) -> list[slice]:
-    """Return the branches between turning points, of all points one test after the other."""
-    branches, first = [], 0
-    for test in tests:
-        turns = [0, len(test)]
-        if test.shape[1] > 1 and np.ptp(test[:, 0]) > 0:
-            turns[1:1] = turning_points(test).tolist()
-        branches += [slice(first + a, first + b) for a, b in itertools.pairwise(turns)]
-        first += len(test)
-    return branches
-
-
-def correlation_of(residuals: Array, slopes: Array, branches: list[slice]) -> Correlation:
+def correlation_of(residuals: Array, slopes: Array, branches: Branches) -> Correlation:
     """Return what the residuals of a fit say of the noise.
 
     Parameters
@@ -139,7 +156,7 @@ def correlation_of(residuals: Array, slopes: Array, branches: list[slice]) -> Co
         Of all tests, each in units of its test's deviation.
     slopes : ndarray, shape (points, k)
         Of the fitted values, in the same units: what the fit has taken from the residuals.
-    branches : list of slice
+    branches : Branches
     """
     basis, values, _ = np.linalg.svd(slopes, full_matrices=False)
     basis = basis[:, values > 1e-9 * values[0]]
@@ -147,7 +164,9 @@ def correlation_of(residuals: Array, slopes: Array, branches: list[slice]) -> Co
     square = float(left @ left)
     if not square > 0.0:  # fitted to the last digit
         return white(branches)
-    found = [_likelihood(left / math.sqrt(square), basis, branches, *model) for model in _MODELS]
+    common = _COMMON if branches.ways else (0.0,)
+    tried = [_WHITE, *itertools.product(_REACHES, _SHARES, common)]
+    found = [_likelihood(left / math.sqrt(square), basis, branches, *model) for model in tried]
     logarithms = np.array([logarithm for logarithm, _ in found])
     if logarithms.max() < logarithms[0] + _BETTER:
         return white(branches, square * found[0][1])
@@ -157,7 +176,7 @@ def correlation_of(residuals: Array, slopes: Array, branches: list[slice]) -> Co
     return Correlation(
         [
             Model(float(chance), *model, square * variance)
-            for chance, model, (_, variance) in zip(chances, _MODELS, found, strict=True)
+            for chance, model, (_, variance) in zip(chances, tried, found, strict=True)
             if chance > 0.0
         ],
         branches,
@@ -165,7 +184,7 @@ def correlation_of(residuals: Array, slopes: Array, branches: list[slice]) -> Co
 
 
 def _likelihood(
-    residuals: Array, basis: Array, branches: list[slice], reach: float, share: float
+    residuals: Array, basis: Array, branches: Branches, reach: float, share: float, common: float
 ) -> tuple[float, float]:
     """Return the logarithm of the restricted likelihood of a model, and its variance."""
     freedom = len(residuals) - basis.shape[1]
@@ -175,7 +194,7 @@ def _likelihood(
     linalg = required("scipy.linalg")
     diagonal, beside = np.ones(len(residuals)), np.zeros(len(residuals))
     logarithm = 0.0
-    for branch in branches:  # T, the inverse of the autoregression's covariance R
+    for branch in branches.slices:  # T, the inverse of the autoregression's covariance R
         count = branch.stop - branch.start
         if count < 2:
             continue
@@ -185,20 +204,39 @@ def _likelihood(
         diagonal[[branch.start, branch.stop - 1]] = 1.0 / new
         beside[branch.start + 1 : branch.stop] = -rho / new
         logarithm += (count - 1) * math.log(new)
-    # V = a R + b I has the inverse (a I + b T)^-1 T.
-    columns = np.column_stack((residuals, basis))
+    # A = a R + b I has the inverse (a I + b T)^-1 T.
+    shared_factor = _shared_factor(reach, share, common, branches)
+    columns = np.column_stack((residuals, basis, shared_factor))
     right = diagonal[:, np.newaxis] * columns
     right[1:] += beside[1:, np.newaxis] * columns[:-1]
     right[:-1] += beside[1:, np.newaxis] * columns[1:]
     factor = linalg.cholesky_banded(
-        np.vstack((share * beside, (1.0 - share) + share * diagonal)), check_finite=False
+        np.vstack((share * beside, (1.0 - share) * (1.0 - common) + share * diagonal)),
+        check_finite=False,
     )
     solved = linalg.cho_solve_banded((factor, False), right, check_finite=False)
     logarithm += 2.0 * float(np.log(factor[1]).sum())
-    of_basis, shared = basis.T @ solved[:, 1:], basis.T @ solved[:, 0]
-    square = float(residuals @ solved[:, 0] - shared @ np.linalg.solve(of_basis, shared))
+    count = 1 + basis.shape[1]
+    products = columns[:, :count].T @ solved[:, :count]
+    if common > 0.0:  # V = A + F F', of the factor F
+        beside_factor = shared_factor.T @ solved
+        inner = np.eye(shared_factor.shape[1]) + beside_factor[:, count:]
+        seen = beside_factor[:, :count]
+        products -= seen.T @ np.linalg.solve(inner, seen)
+        logarithm += float(np.linalg.slogdet(inner)[1])
+    of_basis, shared = products[1:, 1:], products[1:, 0]
+    square = float(products[0, 0] - shared @ np.linalg.solve(of_basis, shared))
     logarithm += float(np.linalg.slogdet(of_basis)[1])
     return -0.5 * (freedom * math.log(square) + logarithm), square / freedom
+
+
+def _shared_factor(reach: float, share: float, common: float, branches: Branches) -> Array:
+    """Return F, whose F F' is the covariance of what like branches have in common."""
+    if common == 0.0:
+        return np.empty((branches.slices[-1].stop, 0))
+    powers = _neighbours(reach, PARTS) ** np.abs(np.subtract.outer(range(PARTS), range(PARTS)))
+    one_way = math.sqrt((1.0 - share) * common) * np.linalg.cholesky(powers)
+    return branches.spread(np.kron(np.eye(branches.ways), one_way))
 
 
 def _neighbours(reach: float, count: int) -> float:

@@ -22,8 +22,9 @@ import numpy as np
 
 from ..._extras import required
 from ...curves.inputs import Array
-from .correlation import Correlation, branches_of_tests, correlation_of, white
+from .correlation import Correlation, correlation_of, white
 from .noise import Noise
+from .repeats import branches_of_tests
 from .sensitivity import Optimum
 
 __all__ = ["Estimate", "estimate_of", "point_slopes", "points_of_tests"]
