@@ -25,7 +25,7 @@ class TimeColumnWarning(UserWarning):
     found : str
         Which file, and which columns.
     wanted : list of str
-        The two columns after time.
+        Those that are called strain and stress, or the two columns after time.
     """
 
     def __init__(self, found: str, wanted: list[str]) -> None:
@@ -66,13 +66,21 @@ def choose_columns(
         if width > 2 and names and is_time(names[0]):
             others = [column_name(names, column) for column in range(1, width)]
             found = f"the first two of the {width} columns of {file} are {names[0]} and {others[0]}"
-            warn(TimeColumnWarning(found, others[:2]))
+            warn(TimeColumnWarning(found, _likely(others)))
         return list(range(min(2, width)))
     if isinstance(columns, str):
         raise TypeError(f"columns is {columns!r}; give a list, even for one column")
     if len(columns) == 0:
         raise ValueError("columns is empty; name at least one column")
     return [_find_column(file, names, width, column) for column in columns]
+
+
+def _likely(names: list[str]) -> list[str]:
+    """Return the two columns that are likeliest wanted."""
+    called = [
+        next((name for name in names if word in name.lower()), "") for word in ("strain", "stress")
+    ]
+    return called if all(called) else names[:2]
 
 
 def choose_names(header: Sequence[Sequence[Any]], columns: Sequence[str | int] | None) -> list[str]:

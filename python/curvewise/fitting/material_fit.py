@@ -11,6 +11,7 @@ import csv
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +24,11 @@ from ..calibration.problem.tables import digits
 from ..curves.inputs import Array
 from ..curves.named_curve import NamedCurve
 from ..curves.several_curves import curve_list
+from ..curves.turns import turning_points
 from ..materials import DrivenModel, Material
 from ..materials.readings import reading_of
 from .driven_tests import Cycles, DrivenTests, fit_criterion, fit_method
+from .wider_bounds import Beyond, search_within
 
 __all__ = ["MaterialFit", "fit_material"]
 
@@ -52,6 +55,8 @@ class MaterialFit:
         The slope with which the tests unload, or that of first loading where none unloads.
     units : str
         Of the stresses.
+    beyond : Beyond, optional
+        The parameters at bounds that were read off the tests, and what wider ones would gain.
     """
 
     model: DrivenModel = field(repr=False)
@@ -60,6 +65,7 @@ class MaterialFit:
     uncertainty: Uncertainty | None
     modulus_read: float
     units: str = "MPa"
+    beyond: Beyond | None = None
 
     @property
     def material(self) -> Material:
@@ -72,13 +78,25 @@ class MaterialFit:
         return self.found.parameters
 
     def __str__(self) -> str:
-        parts = [str(self.found), *(str(one) for one in (self.uncertainty, self.remark) if one)]
+        said = (self.uncertainty, self.beyond, self.one_way, self.remark)
+        parts = [str(self.found), *(str(one) for one in said if one)]
         if failures := self.found.failures:
             parts.append(
                 f"{len(failures)} of {self.found.evaluations} runs failed, the first: "
                 f"{failures[0][1]}"
             )
         return "\n\n".join(parts)
+
+    @property
+    def one_way(self) -> str:
+        """A sentence where no test turns back, or ""."""
+        if any(turning_points(test).size for test in self.tests):
+            return ""
+        return (
+            "No test turns back: they do not tell hardening that grows the yield surface from "
+            "hardening that moves it, whatever the intervals are. Do not use these parameters "
+            "under reversed load, or add a test that turns"
+        )
 
     @property
     def remark(self) -> str:
@@ -213,7 +231,8 @@ def fit_material(
     fixed : mapping of str to float, optional
         Parameters that are known and not searched for, such as ``{"E": 206e3}``.
     bounds : mapping, optional
-        As for `identify`; by default what ``material.bounds_from(tests)`` reads off the tests.
+        As for `identify`; by default what ``material.bounds_from(tests)`` reads off the tests, ten
+        times as wide where a parameter ends at one of them and anything is gained beyond.
     cycles : {"all", "last"}
         "last": of each test its last complete cycle alone is compared
         (:func:`curvewise.curves.last_cycle`), the stabilised one of a test of many; the material
@@ -269,18 +288,22 @@ def fit_material(
             f"fixed has no parameter of the material: {unknown[0]!r}"
             f"{did_you_mean(unknown, material.names)} ({', '.join(material.names)})"
         )
-    found = identify(
+    search = partial(
+        identify,
         driven.model,
         [NamedCurve(test, ("strain [-]", f"stress [{units}]")) for test in driven.compared],
-        {**read_off, **known},
         measure=fit_criterion(measure),
         method=fit_method(measure),
         seed=seed,
         max_runs=max_runs,
         progress=progress,
     )
+    if bounds is None:
+        found, beyond = search_within(search, {**read_off, **known})
+    else:
+        found, beyond = search({**read_off, **known}), None
     return MaterialFit(
-        driven.model, driven.compared, found, found.uncertainty(), modulus_of(given), units
+        driven.model, driven.compared, found, found.uncertainty(), modulus_of(given), units, beyond
     )
 
 

@@ -120,6 +120,12 @@ def test_a_first_column_of_time_is_not_taken_without_a_word(read, name):
     read(header + "0;1;2\n", [1, 2])  # asked for
 
 
+def test_columns_that_are_called_strain_and_stress_are_the_example(read):
+    header = "Total Time (s);Cycle;Force (kN);Strain 1 (%);;Stress\n"
+    with pytest.warns(TimeColumnWarning, match=r"columns=\['Strain 1 \(%\)', 'Stress'\]"):
+        read(header + "0;1;2;3;;4\n1;2;3;4;;5\n")
+
+
 @pytest.mark.parametrize(
     "header",
     ["T;strain;stress", "lifetime;a;b", "thickness;a;b", "timeout;a;b", "a;time;b", "time;force"],

@@ -10,9 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from curvewise import read_curve
 from curvewise.commands import main
 from curvewise.fitting import MaterialFit, fit_material
-from curvewise.materials import ChabocheVoce
+from curvewise.materials import ChabocheVoce, YoshidaUemori
 from curvewise.solvers import read_card
 
 MATERIAL = ChabocheVoce(backstresses=1)
@@ -99,6 +100,82 @@ def test_a_modulus_that_is_not_that_of_unloading_is_spoken_of(fit: MaterialFit) 
     assert "is 33 % below 3" in str(ratio)
     known = fit_material(LOOP, MATERIAL, fixed={"E": 150e3}, max_runs=20, progress=False)
     assert not known.remark  # whoever gives it knows
+
+
+class Narrow(ChabocheVoce):
+    """Reads off a test what is far too low for its modulus."""
+
+    def bounds_from(self, experiments):
+        return {**super().bounds_from(experiments), "E": (20e3, 150e3)}
+
+
+def test_bounds_that_were_assumed_are_widened_where_that_gains() -> None:
+    fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=80, progress=False)
+    assert fit.found.bounds["E"] == (20e3, 1500e3)
+    assert fit.parameters["E"] == pytest.approx(200e3, rel=0.02)
+    assert fit.beyond is None
+    given = Narrow(backstresses=1).bounds_from(LOOP)
+    kept = fit_material(LOOP, Narrow(backstresses=1), bounds=given, max_runs=60, progress=False)
+    assert kept.found.bounds["E"] == (20e3, 150e3)
+    assert kept.beyond is None  # nothing is assumed
+
+
+def test_where_wider_bounds_would_never_do_it_is_said(monkeypatch) -> None:
+    monkeypatch.setattr("curvewise.fitting.wider_bounds._MOST_WIDENINGS", 0)
+    fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=60, progress=False)
+    assert fit.beyond.sides == {"E": "upper"}
+    assert "E at its upper bound; with bounds ten times as wide the value falls by" in str(fit)
+
+
+def test_what_hardens_along_a_line_has_no_saturation_and_that_is_said(data_dir: Path) -> None:
+    test = np.loadtxt(data_dir / "cyclic" / "eddq_tc_3pct.csv", delimiter=",")
+    fit = fit_material(test, ChabocheVoce(), points=100, progress=False)
+    assert fit.beyond is not None
+    assert not fit.beyond.matters
+    assert "not determined by these tests: Q at its upper bound; with bounds ten times" in str(fit)
+    assert not fit.uncertainty.determined["Q"]
+
+
+def test_a_search_does_not_end_in_a_corner_of_its_bounds(data_dir: Path) -> None:
+    # Of two surfaces one is as large as the other here, and none moves: 4.79 to 5.6 MPa, five
+    # starts in six, where steps went to the bounds. scipy's best of fifty starts: 4.661 MPa.
+    name = data_dir / "cyclic" / "resslab_example_3.csv"
+    fit = fit_material(read_curve(name, ["e_true", "Sigma_true"]), YoshidaUemori(), progress=False)
+    residuals = fit.found.simulations[0] - fit.tests[0]
+    assert np.sqrt((residuals[:, 1] ** 2).mean()) < 4.67
+
+
+def test_tension_alone_does_not_tell_one_hardening_from_the_other(fit: MaterialFit) -> None:
+    tension = fit_material(LOOP[:41], MATERIAL, progress=False)
+    assert "No test turns back" in str(tension)
+    assert {"Q", "b"} <= {n for n, good in tension.uncertainty.determined.items() if not good}
+    assert "No test turns back" not in str(fit)
+
+
+def test_a_cycle_that_is_cut_short_is_followed_as_far_as_it_goes() -> None:
+    fit = fit_material(LOOP[:101], MATERIAL, progress=False)  # in the middle of the last branch
+    assert fit.parameters["C1"] == pytest.approx(80e3, rel=0.05)
+    with pytest.raises(ValueError, match="no complete cycle"):
+        fit_material(LOOP[:75], MATERIAL, cycles="last", progress=False)
+
+
+@pytest.mark.parametrize("points", [40, 400])  # as they are; thinned
+def test_branches_that_run_back_and_forth_by_noise_are_followed(points: int) -> None:
+    strain = np.interp(np.arange(3 * points + 1) / points, range(4), (0.0, 0.02, -0.02, 0.02))
+    clean = np.column_stack((strain, MATERIAL.stress(strain, MADE_OF)))
+    noise = np.random.default_rng(2).normal(0.0, 1.0, clean.shape)
+    noisy = clean + noise * ((3e-4, 3.0) if points == 40 else (1e-4, 3.0))
+    assert (np.diff(noisy[:points, 0]) < 0.0).any()
+    fit = fit_material(noisy, MATERIAL, progress=False)
+    assert fit.parameters["yield"] == pytest.approx(300.0, rel=0.1)
+    assert fit.parameters["C1"] == pytest.approx(80e3, rel=0.2)
+
+
+def test_parameters_that_make_no_sense_are_refused_with_the_reason() -> None:
+    with pytest.raises(RuntimeError, match="would soften to nothing; give Q > -yield"):
+        fit_material(LOOP, MATERIAL, fixed={"Q": -1e4}, progress=False)
+    with pytest.raises(RuntimeError, match="E is -1"):
+        fit_material(LOOP, MATERIAL, fixed={"E": -1.0}, progress=False)
 
 
 def write_test(path: Path, header: str = "strain,stress", factor: float = 1.0) -> str:

@@ -19,6 +19,10 @@ __all__ = ["SquaresDescent", "SquaresRules", "SquaresRuns"]
 _DIFFERENCE = 1e-6  # of a place in the unit cube, along slopes that the model knows
 # Of what is negligible elsewhere: near a perfect fit squares are smaller than distances.
 _OF_SQUARES = 1e-3
+# Planes of exact slopes lead right into the corners of the bounds, and a search that comes to one
+# too early does not leave it where the model changes abruptly there. No step goes further than
+# this part of the way to a bound, as in interior methods; three are as good as at it.
+_OF_WAY = 0.9
 # An end where steps gain nothing of what is promised is none if that is more than this fraction.
 _PROMISING = 0.01
 
@@ -118,6 +122,9 @@ class SquaresDescent(Descent):
         centre = self.centre
         surface = self._runs.surface(self._best, FAR * radius)
         low, high = np.clip(centre - radius, 0.0, 1.0), np.clip(centre + radius, 0.0, 1.0)
+        if self._runs.has_slopes:
+            low = np.maximum(low, (1.0 - _OF_WAY) * centre)
+            high = np.minimum(high, centre + _OF_WAY * (1.0 - centre))
         point, sum_of_squares = squares_minimum(surface, centre, low, high)
         return point, self.value - sum_of_squares
 
