@@ -27,6 +27,7 @@ from .measures.edit_distances import *  # noqa: F403  # which type checkers do n
 from .measures.results import *  # noqa: F403  # likewise
 
 if TYPE_CHECKING:
+    from . import aeon as aeon
     from . import calibration as calibration
     from . import compat as compat
     from . import dask as dask
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from . import plotting as plotting
     from . import reference as reference
     from . import sklearn as sklearn
+    from . import sktime as sktime
     from . import solvers as solvers
     from . import studies as studies
     from . import torch as torch
@@ -61,6 +63,7 @@ __all__ = [
 ]
 
 _LAZY = (
+    "aeon",
     "calibration",
     "compat",
     "dask",
@@ -71,6 +74,7 @@ _LAZY = (
     "plotting",
     "reference",
     "sklearn",
+    "sktime",
     "solvers",
     "studies",
     "torch",
@@ -88,7 +92,7 @@ if not TYPE_CHECKING:
 
 def __dir__() -> list[str]:
     # help() imports all of these, and the import of some fails where their packages are missing.
-    return sorted({*__all__, *_LAZY} - {"dask", "jax", "sklearn", "torch"})
+    return sorted({*__all__, *_LAZY} - {"dask", "jax", "sklearn", "sktime", "torch"})
 
 
 __version__: str = _build_info()["version"]
