@@ -33,5 +33,4 @@ CHECKS = {
 }
 NOTES = {
     "dtw-squared-root": "the squares overflow or vanish before the root that the adapter takes",
-    "dtw-penalty": "curves below 2^-500 are scaled up, and the penalty with them, which overflows",
 }

@@ -20,7 +20,7 @@ module curvewise
         frechet_continuous, normalize, pcm, pdist, yoshida_uemori_stress
 
     integer(c_int), parameter, public :: euclidean = 0, sqeuclidean = 1, cityblock = 2, &
-        chebyshev = 3, minkowski = 4                        ! metric
+        chebyshev = 3, minkowski = 4, haversine = 5         ! metric
     ! step_pattern; the others by their places in curvewise.h
     integer(c_int), parameter, public :: symmetric1 = 0, symmetric2 = 1
     integer(c_int), parameter, public :: spacing_distance = 0, spacing_x = 1, &
@@ -51,6 +51,7 @@ module curvewise
         integer(c_ptrdiff_t) :: workers = 1     ! threads, -1 for one per core
         integer(c_int) :: prune = 1             ! not 0: leave out what cannot matter
         real(c_double) :: cutoff = huge(1.0_c_double)  ! a value above it becomes infinity
+        real(c_double) :: radius = 6371008.8_c_double  ! of the sphere of haversine
     end type
 
     type, bind(C), public :: dtw_options
@@ -66,6 +67,7 @@ module curvewise
         real(c_double) :: window_fraction = 0   ! not 0: of the longer curve's points, as window
         integer(c_int) :: normalize = 0         ! not 0: divide by the weight of all paths
         real(c_double) :: penalty = 0           ! of each step that leaves the diagonal
+        real(c_double) :: radius = 6371008.8_c_double
     end type
 
     type, bind(C), public :: curve_length_options

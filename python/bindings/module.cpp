@@ -5,6 +5,7 @@
 
 #include "bind_topics.hpp"
 #include "curvewise/build_info.hpp"
+#include "curvewise/ground_distance.hpp"
 
 // No global state except what is set once: safe without the interpreter's lock.
 PYBIND11_MODULE(_core, module, pybind11::mod_gil_not_used()) {
@@ -14,6 +15,7 @@ PYBIND11_MODULE(_core, module, pybind11::mod_gil_not_used()) {
         throw pybind11::import_error(error.what());
     }
     module.doc() = "The compiled library behind curvewise; private.";
+    module.attr("earth_radius") = curvewise::earth_radius;
     curvewise::bindings::bind_measures(module);
     curvewise::bindings::bind_pointwise(module);
     curvewise::bindings::bind_pairwise(module);

@@ -39,6 +39,16 @@ class ChoiceCollector {
     py::dict& choices_;
 };
 
+// Throws where an option of one metric is given with another.
+void check_metric_of(const char* option, Metric its, Metric metric) {
+    if (metric == its) return;
+    const auto name = [](Metric of) {
+        return "'" + std::string(choice_names(of)[static_cast<std::size_t>(of)]) + "'";
+    };
+    throw py::value_error(std::string(option) + " applies to metric=" + name(its) +
+                          " only, not to " + name(metric));
+}
+
 template <class Options>
 py::dict changed_options(const Options& options) {
     const py::dict defaults = written(Options{}), all = written(options);
@@ -99,17 +109,23 @@ bool is_true(const py::object& given) {
 }
 
 double minkowski_order(const py::object& p, Metric metric) {
-    if (metric != Metric::minkowski) {
-        const char* const name = choice_names(metric)[static_cast<std::size_t>(metric)];
-        throw py::value_error("p applies to metric='minkowski' only, not to '" + std::string(name) +
-                              "'");
-    }
+    check_metric_of("p", Metric::minkowski, metric);
     const double order = PyFloat_AsDouble(p.ptr());
     if (PyErr_Occurred() || !(order >= 1.0)) {
         PyErr_Clear();
         throw py::value_error("p is " + repr(p) + "; minkowski needs 1 <= p <= inf");
     }
     return order;
+}
+
+double sphere_radius(const py::object& radius, Metric metric) {
+    check_metric_of("radius", Metric::haversine, metric);
+    const double length = PyFloat_AsDouble(radius.ptr());
+    if (PyErr_Occurred() || !(length > 0.0 && std::isfinite(length))) {
+        PyErr_Clear();
+        throw py::value_error("radius is " + repr(radius) + "; give a finite number > 0");
+    }
+    return length;
 }
 
 constexpr const char* normalizations[] = {"NA", "N", "M", "N+M"};  // in the order of Per
@@ -139,10 +155,31 @@ py::tuple as_tuple(const StepRows& pattern) {
 }
 
 py::object OptionReader::take(const char* name) {
-    PyObject* const value = is_tuple_ ? PyTuple_GET_ITEM(given_.ptr(), taken_)
-                                      : PyDict_GetItemString(given_.ptr(), name);
+    PyObject* value = nullptr;
+    if (is_tuple_) {
+        value = PyTuple_GET_ITEM(given_.ptr(), taken_);
+    } else if (taken_ < PyDict_GET_SIZE(given_.ptr())) {
+        value = find(name);
+    }
     if (value != nullptr) ++taken_;
     return py::reinterpret_borrow<py::object>(value);
+}
+
+PyObject* OptionReader::find(const char* name) noexcept {
+    const py::ssize_t start = place_;
+    PyObject *key = nullptr, *value = nullptr;
+    const auto is_next = [&] {
+        return PyUnicode_Check(key) && PyUnicode_CompareWithASCIIString(key, name) == 0;
+    };
+    while (PyDict_Next(given_.ptr(), &place_, &key, &value)) {
+        if (is_next()) return value;
+    }
+    place_ = 0;
+    while (place_ < start && PyDict_Next(given_.ptr(), &place_, &key, &value)) {
+        if (is_next()) return value;
+    }
+    place_ = start;
+    return nullptr;
 }
 
 bool are_defaults(const py::tuple& values, const py::tuple& defaults) {

@@ -41,6 +41,9 @@ bool is_true(const py::object& given);
 // The order of minkowski; no other metric takes one.
 double minkowski_order(const py::object& p, Metric metric);
 
+// The radius of haversine; no other metric takes one.
+double sphere_radius(const py::object& radius, Metric metric);
+
 // Whether the options are those of a batch, which has workers and a cutoff of its own.
 enum class OptionsOf { pair, batch };
 
@@ -105,6 +108,8 @@ class OptionReader {
         if (metric) ground.metric = choose<Metric>("metric", metric);
         const py::object p = take("p");
         if (p && !p.is_none()) ground.p = minkowski_order(p, ground.metric);
+        const py::object radius = take("radius");
+        if (radius && !radius.is_none()) ground.radius = sphere_radius(radius, ground.metric);
     }
 
     // Whether a number is not the measure's but the batch's.
@@ -116,6 +121,9 @@ class OptionReader {
    private:
     // An option's value, or a null object where it is not given.
     py::object take(const char* name);
+    // In a dict, from behind the option that was found last: most are in the measure's order. To
+    // make a str of each name and look that up takes ten times as long.
+    PyObject* find(const char* name) noexcept;
 
     template <class Enum>
     static Enum choose(const char* option, const py::object& given) {
@@ -130,6 +138,7 @@ class OptionReader {
     OptionsOf what_;
     bool is_tuple_ = false;
     py::ssize_t taken_ = 0;
+    py::ssize_t place_ = 0;  // behind the option of the dict that was found last
 };
 
 // TypeError: "dtw has no option 'foo'; it has metric, p, ..."
@@ -172,6 +181,9 @@ class OptionWriter {
         (*this)("metric", ground.metric);
         const bool has_order = ground.metric == Metric::minkowski;
         options_["p"] = has_order ? py::object(py::float_(ground.p)) : py::object(py::none());
+        const bool has_radius = ground.metric == Metric::haversine;
+        options_["radius"] =
+            has_radius ? py::object(py::float_(ground.radius)) : py::object(py::none());
     }
 
    private:

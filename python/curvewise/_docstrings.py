@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, TypeVar, get_args
 
 from ._core import measures
-from ._options import Metric
+from ._options import EARTH_RADIUS, Metric
 
 __all__ = ["filled", "inherit", "listed"]
 
@@ -29,10 +29,15 @@ _SHARED = {
     "measures": listed(measures()),
     "metric": f"""\
 metric : {listed(get_args(Metric))}
-    The ground distance between points.""",
+    The ground distance between points; "haversine" is that along the great circle, of points
+    (longitude, latitude) in degrees.""",
     "p": """\
 p : float, 1 <= p <= inf, optional
     The order of "minkowski"; 2 if not given.""",
+    "radius": f"""\
+radius : float > 0, optional
+    Of the sphere of "haversine", in whose unit distances are; {EARTH_RADIUS}, the mean radius of
+    the Earth in metres, if not given.""",
     "workers": """\
 workers : int
     Threads for this call: at least 1, or -1 for one per core. Never changes the result.""",

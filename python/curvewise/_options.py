@@ -12,9 +12,11 @@ import operator
 from collections.abc import Collection
 from typing import Any, Final, Literal, SupportsFloat, SupportsIndex, TypeAlias
 
-from ._core import measures
+from ._core import earth_radius, measures
 
 __all__ = [
+    "EARTH_RADIUS",
+    "CoordinateMetric",
     "Crossing",
     "Default",
     "Differentiable",
@@ -23,6 +25,7 @@ __all__ = [
     "Offsets",
     "Order",
     "Preset",
+    "Radius",
     "Spacing",
     "StepPatternName",
     "WarpingName",
@@ -38,8 +41,12 @@ Differentiable: TypeAlias = Literal[
 WarpingName: TypeAlias = Literal["dtw", "frechet"]
 Preset: TypeAlias = Literal["scaled", "paper", "raw"]
 
-Metric: TypeAlias = Literal["euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"]
+CoordinateMetric: TypeAlias = Literal[
+    "euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"
+]  # of differences of coordinates
+Metric: TypeAlias = Literal[CoordinateMetric, "haversine"]
 Order: TypeAlias = SupportsFloat | None
+Radius: TypeAlias = SupportsFloat | None
 StepPatternName: TypeAlias = Literal[
     "symmetric1",
     "symmetric2",
@@ -76,6 +83,8 @@ Offsets: TypeAlias = SupportsIndex | Literal["continuous"]
 LengthScale: TypeAlias = Literal["mean", "mean_abs", "range"]
 
 
+EARTH_RADIUS: Final[float] = earth_radius
+
 _DEFAULTS: dict[str, Any] = {
     option: value
     for options in reversed(measures().values())  # of the same option, the first measure's
@@ -88,6 +97,7 @@ class Default:
 
     metric: Final[Metric] = _DEFAULTS["metric"]
     p: Final[Order] = _DEFAULTS["p"]
+    radius: Final[Radius] = _DEFAULTS["radius"]
     step_pattern: Final[StepPatternName] = _DEFAULTS["step_pattern"]
     penalty: Final[SupportsFloat] = _DEFAULTS["penalty"]
     window: Final[Window] = _DEFAULTS["window"]

@@ -1,7 +1,7 @@
 // Random points of material against a textbook's integration in 10^5 increments, and their slopes
 // against central differences in quadruple precision of the same formulas.
 //
-//   material_points [sets] [seed]          1,000 sets of parameters, five loops each
+//   material_points [draws] [seed]         1,000 draws of five sets of parameters, one a loop
 //
 // Prints the largest errors: of the stress, relative to the largest stress; of the slopes by each
 // parameter, relative to the largest by that parameter. A point at which
@@ -14,9 +14,9 @@
 #include "materials/check_materials.hpp"
 
 int main(int argc, char** argv) {
-    const int sets = argc > 1 ? std::atoi(argv[1]) : 1000;
+    const int draws = argc > 1 ? std::atoi(argv[1]) : 1000;
     test::Generator generator(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1);
-    const std::vector<test::Errors> found = test::errors_of_all(generator, sets, 100000);
+    const std::vector<test::Errors> found = test::errors_of_all(generator, draws, 100000);
     bool is_wrong = false;
     for (const test::Errors& one : found) {
         std::printf("%-38s %4d sets: stress %.1e, slopes %.1e (%ld of %ld at kinks)\n",

@@ -57,7 +57,8 @@ enum curvewise_metric {
     CURVEWISE_SQEUCLIDEAN,
     CURVEWISE_CITYBLOCK,
     CURVEWISE_CHEBYSHEV,
-    CURVEWISE_MINKOWSKI
+    CURVEWISE_MINKOWSKI,
+    CURVEWISE_HAVERSINE /**< longitude and latitude in degrees, along the great circle */
 };
 /** Values of curvewise_dtw_options.step_pattern. */
 enum curvewise_step_pattern {
@@ -127,10 +128,11 @@ typedef struct curvewise_frechet_options {
     ptrdiff_t workers; /**< threads, -1 for one per core */
     int prune;         /**< not 0: leave out what cannot matter of the table */
     double cutoff;     /**< a value above it becomes infinity */
+    double radius;     /**< of the sphere of CURVEWISE_HAVERSINE; not used by other metrics */
 } curvewise_frechet_options;
 /** What NULL stands for. */
 #define CURVEWISE_FRECHET_DEFAULTS \
-    { CURVEWISE_EUCLIDEAN, 2.0, 1, 1, HUGE_VAL }
+    { CURVEWISE_EUCLIDEAN, 2.0, 1, 1, HUGE_VAL, 6371008.8 }
 
 /** Options of curvewise_dtw(), as in dtw.hpp. */
 typedef struct curvewise_dtw_options {
@@ -146,6 +148,7 @@ typedef struct curvewise_dtw_options {
     double window_fraction; /**< not 0: in place of window, a fraction of the longer curve */
     int normalize;          /**< not 0: divide by the weight of all paths, e.g. n + m */
     double penalty;         /**< of each step that leaves the diagonal */
+    double radius;
 } curvewise_dtw_options;
 /** As the window: no band. */
 #define CURVEWISE_NO_WINDOW (-1)
@@ -153,7 +156,7 @@ typedef struct curvewise_dtw_options {
 #define CURVEWISE_DTW_DEFAULTS                                                                     \
     {                                                                                              \
         CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL, \
-            0.0, 0, 0.0                                                                            \
+            0.0, 0, 0.0, 6371008.8                                                                 \
     }
 
 /** Options of curvewise_curve_length(), as in curve_length.hpp. */

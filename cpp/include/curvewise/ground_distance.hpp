@@ -1,7 +1,7 @@
 /// \file
 /// The ground distance: how far apart two points are, for dtw and frechet, in any number of
-/// coordinates. A p below 1, or nan, makes the function that is given it throw
-/// std::invalid_argument.
+/// coordinates, or on the sphere. A p below 1, or nan, or a radius that is not above 0 and finite,
+/// makes the function that is given it throw std::invalid_argument.
 ///
 ///     curvewise::FrechetOptions options;
 ///     options.ground = {curvewise::Metric::minkowski, 3.0};
@@ -17,21 +17,31 @@ enum class Metric {
     sqeuclidean,  ///< sum of squared differences
     cityblock,    ///< sum of absolute differences
     chebyshev,    ///< largest absolute difference
-    minkowski     ///< M (sum (|difference| / M)^p)^(1/p), M the largest |difference|
+    minkowski,    ///< M (sum (|difference| / M)^p)^(1/p), M the largest |difference|
+    haversine     ///< along the great circle, of points (longitude, latitude) in degrees
 };
 
 /// The names of the enumerators, in their order.
 constexpr auto choice_names(Metric /*metric*/) noexcept {
-    return names_up_to<Metric::minkowski>("euclidean", "sqeuclidean", "cityblock", "chebyshev",
-                                          "minkowski");
+    return names_up_to<Metric::haversine>("euclidean", "sqeuclidean", "cityblock", "chebyshev",
+                                          "minkowski", "haversine");
 }
 
-/// A metric, with its order.
+/// The mean radius of the Earth in metres, (2 a + b) / 3 of its ellipsoid GRS 80 (Moritz, Geodetic
+/// Reference System 1980, Journal of Geodesy 74, 2000).
+inline constexpr double earth_radius = 6371008.8;
+
+/// A metric, with its order, or its radius.
 struct GroundDistance {
     Metric metric = Metric::euclidean;
     /// The order of minkowski, 1 <= p <= inf; p = 1, 2 and inf are computed as cityblock,
     /// euclidean and chebyshev. Not used by the other metrics.
     double p = 2.0;
+    /// Of the sphere of haversine, above 0; distances are in its unit. Not used by the others.
+    double radius = earth_radius;
+
+    /// The number that the metric asks for.
+    constexpr double parameter() const noexcept { return metric == Metric::haversine ? radius : p; }
 
     /// The time that one distance in `dim` coordinates takes, roughly, in that of the fastest.
     constexpr double weight(double dim) const noexcept {
@@ -40,6 +50,7 @@ struct GroundDistance {
             case Metric::sqeuclidean:
             case Metric::cityblock:
             case Metric::chebyshev:
+            case Metric::haversine:
                 return dim;
             case Metric::minkowski:
                 break;

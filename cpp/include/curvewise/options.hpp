@@ -4,7 +4,8 @@
 /// every struct of options a function visit_options() that calls a visitor with each of them:
 ///
 ///     visit(name, value)                     an enumeration or a bool
-///     visit(ground)                          a GroundDistance: the options "metric" and "p"
+///     visit(ground)                          a GroundDistance: the options "metric", "p" and
+///                                            "radius"
 ///     visit(name, number, range)             a whole number
 ///     visit(name, optional_number, optional_fraction, range)
 ///                                            a whole number, a fraction between 0 and 1, or none

@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <stdexcept>
 
+#include "curves/sphere.hpp"
+
 namespace curvewise {
 
 std::string CurveView::shape() const {
@@ -136,6 +138,11 @@ CheckedCurve::CheckedCurve(const CurveView& curve, std::string name, runtime::Po
       name(std::move(name)),
       largest(largest_magnitude(this->curve, this->name, poller)) {}
 
+void CheckedCurve::put_on_sphere() {
+    check_on_sphere(curve, name);
+    on_sphere = true;
+}
+
 void check_shapes(const Requirements& needs, const CurveList& first, const CurveList& second) {
     const CurveList& with_first = first.size() > 0 ? first : second;
     if (with_first.size() == 0) return;
@@ -146,8 +153,11 @@ void check_shapes(const Requirements& needs, const CurveList& first, const Curve
         refuse_shapes(both(example, named), "both need the same number of coordinates",
                       {example.curve(), named.curve()});
     });
-    if (needs.planar && example.curve().dim() != 2) {
-        const std::string need = std::string(needs.measure) + " needs 2 coordinates, x and y";
+    if (example.curve().dim() != 2 && (needs.planar || needs.on_sphere)) {
+        const std::string need =
+            std::string(needs.measure) +
+            (needs.planar ? " needs 2 coordinates, x and y"
+                          : " with metric='haversine' needs 2 coordinates, longitude and latitude");
         const auto refuse_with = [&](const Named& other) {
             refuse_shapes(both(example, other), need, {example.curve(), other.curve()});
         };

@@ -18,7 +18,8 @@ namespace curvewise::curves {
 struct Requirements {
     const char* measure;
     std::ptrdiff_t min_points;
-    bool planar;  // exactly two coordinates, x and y
+    bool planar;             // exactly two coordinates, x and y
+    bool on_sphere = false;  // or longitude and latitude
 };
 
 // One curve, "P", or the curves of a list, "XA[0]", "XA[1]", ...: the caller's, with the names
@@ -43,13 +44,24 @@ class CurveList {
     bool is_list_ = false;
 };
 
-// A curve found finite, with the largest |coordinate|. Refers to the caller's points.
+// A curve found finite, and on the sphere where that is asked for, with the largest |coordinate|.
+// Refers to the caller's points.
 struct CheckedCurve {
     CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller);
+    // Asked here, and not in a call: where no measure of a kind is on the sphere, it costs nothing.
+    template <class Name>
+    CheckedCurve(const CurveView& curve, Name&& name, runtime::Poller& poller, bool on_sphere)
+        : CheckedCurve(curve, std::string(std::forward<Name>(name)), poller) {
+        if (on_sphere) put_on_sphere();
+    }
 
     CurveView curve;
     std::string name;
     double largest;
+    bool on_sphere = false;
+
+   private:
+    void put_on_sphere();
 };
 
 // The shapes of the curves of both sides, which must agree in their number of coordinates. A list

@@ -1,5 +1,7 @@
 #include "curves/range_scale.hpp"
 
+#include <algorithm>
+
 namespace curvewise::curves {
 
 RangeScale::RangeScale(double largest_magnitude) noexcept {
@@ -12,6 +14,15 @@ RangeScale::RangeScale(double largest_magnitude) noexcept {
 RangeScale RangeScale::to_unity(double magnitude) noexcept {
     RangeScale range;
     std::frexp(magnitude, &range.exponent_);
+    return range;
+}
+
+RangeScale RangeScale::beside(double constant, int degree) const noexcept {
+    RangeScale range = *this;
+    if (exponent_ >= 0 || constant <= 0.0 || degree == 0) return range;
+    int exponent = 0;
+    std::frexp(constant, &exponent);
+    range.exponent_ = std::min(0, std::max(exponent_, (exponent - 1000) / degree));
     return range;
 }
 

@@ -12,6 +12,10 @@ class RangeScale {
     explicit RangeScale(double largest_magnitude) noexcept;
     // To where `magnitude`, if not 0, comes to lie between 1/2 and 1, whatever it is.
     static RangeScale to_unity(double magnitude) noexcept;
+    // This scale, except that a constant among results of that degree is not enlarged beyond
+    // 2^1000: curves that are so small beside a constant then keep fewer bits, and sums stay
+    // finite.
+    RangeScale beside(double constant, int degree) const noexcept;
     bool is_identity() const noexcept { return exponent_ == 0; }
     double shrink(double coordinate) const noexcept {
         return is_identity() ? coordinate : std::ldexp(coordinate, -exponent_);

@@ -64,8 +64,8 @@ Enum choice(const char* option, int given) {
     return static_cast<Enum>(given);
 }
 
-curvewise::GroundDistance ground_distance(int metric, double p) {
-    return {choice<Metric>("metric", metric), p};
+curvewise::GroundDistance ground_distance(int metric, double p, double radius) {
+    return {choice<Metric>("metric", metric), p, radius};
 }
 
 curvewise::AreaOptions translate(const curvewise_area_options& given) {
@@ -79,7 +79,7 @@ curvewise::PcmOptions translate(const curvewise_pcm_options& given) {
 
 curvewise::FrechetOptions translate(const curvewise_frechet_options& given) {
     curvewise::FrechetOptions options;
-    options.ground = ground_distance(given.metric, given.p);
+    options.ground = ground_distance(given.metric, given.p, given.radius);
     options.workers = given.workers;
     options.prune = given.prune != 0;
     options.cutoff = given.cutoff;
@@ -88,7 +88,7 @@ curvewise::FrechetOptions translate(const curvewise_frechet_options& given) {
 
 curvewise::DtwOptions translate(const curvewise_dtw_options& given) {
     curvewise::DtwOptions options;
-    options.ground = ground_distance(given.metric, given.p);
+    options.ground = ground_distance(given.metric, given.p, given.radius);
     options.step_pattern = choice<StepPattern>("step_pattern", given.step_pattern);
     options.penalty = given.penalty;
     if (given.window != CURVEWISE_NO_WINDOW) options.window = given.window;

@@ -5,9 +5,10 @@
 //
 //     strain(p) = p + integral of (n s)'(p) / E(p)
 //
-// A step is the root of strain(p) = what is left of the step. Newton's iterates, held between
+// A step is the root of strain(p) = what is left of the step. Halley's iterates, held between
 // bounds that close in, end to rounding; the slopes are those of the implicit function. With a
-// constant modulus there is no integral to compute. O(back stresses) a step.
+// constant modulus there is no integral to compute. O(back stresses) a step: some two exponentials
+// a back stress, which the slopes share.
 #pragma once
 
 #include <algorithm>
@@ -28,16 +29,6 @@ template <class Number>
 struct Term {
     Number start, amplitude, rate;
 };
-
-// What the stress has risen by, and its derivative by p: one exponential a term.
-struct Rise {
-    double height = 0.0, steepness = 0.0;
-};
-
-inline Rise rise_of(const Term<double>& term, double p) {
-    const double z = term.rate * p, share = saturation(z);
-    return {term.amplitude * p * share, term.amplitude * (1.0 - z * share)};
-}
 
 template <class Number>
 struct Flow {
@@ -61,40 +52,64 @@ struct Flow {
     }
 };
 
-// The strain behind the yield point, and its derivative.
-inline Rise strain_of(const Flow<double>& flow, double p) {
-    Rise sum;
-    for (const Term<double>& term : flow.terms) {
-        const Rise rise = rise_of(term, p);
-        sum.height += rise.height;
-        sum.steepness += rise.steepness;
+// The strain behind the yield point, and its derivatives by p.
+struct Behind {
+    double strain, slope, bend;
+};
+
+// That of a flow, and to `falls` exp(-rate p) - 1 of each term.
+inline Behind strain_of(const Flow<double>& flow, double p, std::vector<double>& falls) {
+    double height = 0.0, steepness = 0.0, bend = 0.0;
+    for (std::size_t k = 0; k < falls.size(); ++k) {
+        const Term<double>& term = flow.terms[k];
+        const double z = term.rate * p,
+                     slope = term.amplitude * (1.0 + (falls[k] = std::expm1(-z)));
+        height += term.amplitude * p * saturation(z, falls[k]);
+        steepness += slope;
+        bend -= term.rate * slope;
     }
-    const double slope = 1.0 + sum.steepness / flow.modulus.after(flow.p0 + p);
-    return {flow.modulus.is_constant ? p + sum.height / flow.modulus.initial : flow.strain(p),
-            slope};
+    const YoungsModulus<double>& modulus = flow.modulus;
+    const double E = modulus.after(flow.p0 + p);
+    if (modulus.is_constant) return {p + height / E, 1.0 + steepness / E, bend / E};
+    return {flow.strain(p), 1.0 + steepness / E,
+            (bend + steepness * modulus.rate * (E - modulus.limit) / E) / E};
 }
 
-// The root of the flow's strain = target > 0, nearly: Newton's next iterate is it to rounding. R
-// alone can fall, by `fall` at most.
-inline double plastic_strain(const Flow<double>& flow, double target, double fall) {
+// The root of the flow's strain = target > 0, nearly: the next iterate is it to rounding. R alone
+// can fall, by `fall` at most. `falls` are those of the root.
+inline double plastic_strain(const Flow<double>& flow, double target, double fall,
+                             std::vector<double>& falls) {
     const YoungsModulus<double>& modulus = flow.modulus;
     const double softest =
         modulus.is_constant ? modulus.initial : std::min(modulus.initial, modulus.limit);
     double low = 0.0, high = target + fall / softest;
-    double steepness = 0.0;
-    for (const Term<double>& term : flow.terms) steepness += term.amplitude;
-    double p = target / std::max(1.0, 1.0 + steepness / modulus.after(flow.p0));
+    double slope = 0.0, bend = 0.0;
+    for (const Term<double>& term : flow.terms) {
+        slope += term.amplitude;
+        bend -= term.rate * term.amplitude;
+    }
+    const double E = modulus.after(flow.p0), first = std::max(1.0, 1.0 + slope / E);
+    const double square = first * first + 2.0 * target * bend / E;
+    double p =
+        square > 0.0 ? std::min(high, 2.0 * target / (first + std::sqrt(square))) : target / first;
     constexpr int most_iterations = 200;  // 60 halvings would do
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
-        const auto [strain, slope] = strain_of(flow, p);
-        const double excess = strain - target;
+        const Behind found = strain_of(flow, p, falls);
+        const double excess = found.strain - target, newton = excess / found.slope;
         (excess > 0.0 ? high : low) = p;
-        const double next = p - excess / slope;
-        // The error of the next iterate is some multiple of the square of this step. Asked before
+        const double next =
+            p - newton / std::max(0.5, 1.0 - 0.5 * newton * found.bend / found.slope);
+        // The error of the next iterate is some multiple of the cube of this step. Asked before
         // the bounds are, one of which the root itself may be.
-        const bool is_near = slope > 0.0 && std::abs(next - p) <= 1e-6 * p;
-        p = is_near || (slope > 0.0 && next > low && next < high) ? next : 0.5 * (low + high);
-        if (is_near) break;
+        const double step = next - p;
+        const bool is_near = found.slope > 0.0 && std::abs(step) <= 1e-5 * p;
+        p = is_near || (found.slope > 0.0 && next > low && next < high) ? next : 0.5 * (low + high);
+        if (!is_near) continue;
+        for (std::size_t k = 0; k < falls.size(); ++k) {  // exp(-z) - 1, z small
+            const double z = flow.terms[k].rate * step;
+            falls[k] -= (1.0 + falls[k]) * z * (1.0 - 0.5 * z * (1.0 - z / 3.0));
+        }
+        break;
     }
     return p;
 }
@@ -108,7 +123,8 @@ class ChabocheVocePoint {
           state_((constants_.size() - 1) / 2, Number(0.0)),
           flow_{std::vector<Term<Number>>(state_.size()), modulus_},
           plain_{std::vector<Term<double>>(state_.size()), modulus_.plain()},
-          rises_(state_.size()) {}
+          rises_(state_.size()),
+          falls_(state_.size()) {}
 
     // The stress after a further increment of strain.
     Number advance(double increment) {
@@ -136,23 +152,26 @@ class ChabocheVocePoint {
         }
         plain_.p0 = value_of(p_);
         const double fall = std::max(0.0, value_of(state_[0]) - value_of(constants_[1]));
-        const double p = plastic_strain(plain_, value_of(strain), fall);
+        const double p = plastic_strain(plain_, value_of(strain), fall, falls_);
 
-        // Newton's last step, of which the derivatives are those of the implicit function; what it
-        // moves p by is so little that the rest is linear in it.
+        // The last step to the root, of which the derivatives are those of the implicit function;
+        // what it moves p by is so little that the rest is linear in it.
         Number risen(0.0);
+        double steepness = 0.0;
         for (std::size_t k = 0; k < state_.size(); ++k) {
             const Term<Number>& term = flow_.terms[k];
-            rises_[k] = term.amplitude * p * saturation(term.rate * p);
+            rises_[k] = term.amplitude * p * saturation(term.rate * p, falls_[k]);
             risen += rises_[k];
+            steepness += plain_.terms[k].amplitude * (1.0 + falls_[k]);
         }
         const Number reached =
             modulus_.is_constant ? p + risen / modulus_.initial : flow_.strain(Number(p));
-        const Number rest = (strain - reached) / strain_of(plain_, p).steepness;
+        const Number rest =
+            (strain - reached) / (1.0 + steepness / plain_.modulus.after(plain_.p0 + p));
         Number stress = constants_[0];
         for (std::size_t k = 0; k < state_.size(); ++k) {
-            const Number after =
-                flow_.terms[k].start + rises_[k] + rise_of(plain_.terms[k], p).steepness * rest;
+            const Number after = flow_.terms[k].start + rises_[k] +
+                                 plain_.terms[k].amplitude * (1.0 + falls_[k]) * rest;
             state_[k] = k == 0 ? after : n * after;
             stress += after;
         }
@@ -166,6 +185,7 @@ class ChabocheVocePoint {
     Flow<Number> flow_;
     Flow<double> plain_;
     std::vector<Number> rises_;
+    std::vector<double> falls_;  // exp(-rate p) - 1 of each term
     Number stress_{}, p_{};
 };
 

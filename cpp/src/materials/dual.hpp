@@ -98,13 +98,13 @@ Dual<N> pow(const Dual<N>& x, const Dual<N>& y) noexcept {
     return result;
 }
 
-// (1 - exp(-z)) / z, which is 1 at 0; z >= 0.
-inline double saturation(double z) noexcept { return z == 0.0 ? 1.0 : -std::expm1(-z) / z; }
+// (1 - exp(-z)) / z, which is 1 at 0; z >= 0. `fall` is exp(-z) - 1.
+inline double saturation(double z, double fall) noexcept { return z == 0.0 ? 1.0 : -fall / z; }
 template <int N>
-Dual<N> saturation(const Dual<N>& z) noexcept {
-    const double x = z.value, f = saturation(x);
+Dual<N> saturation(const Dual<N>& z, double fall) noexcept {
+    const double x = z.value, f = saturation(x, fall);
     // (exp(-x) - f) / x cancels near 0: there the series, the sum of -k (-x)^(k-1) / (k+1)!.
-    if (x > 0.3) return z.mapped(f, (std::exp(-x) - f) / x);
+    if (x > 0.3) return z.mapped(f, (1.0 + fall - f) / x);
     double derivative = 0.0, factorial = 6227020800.0;  // 13!
     for (int k = 12; k >= 1; factorial /= k + 1, --k) derivative = derivative * -x - k / factorial;
     return z.mapped(f, derivative);

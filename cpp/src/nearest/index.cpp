@@ -137,7 +137,7 @@ class Index::State {
         for (std::size_t i = 0; i < curves.size(); ++i) {
             owned.emplace_back(curves[i], poller);
             const std::string name = CurveList(curves, "curves").name_of(i);
-            added->add(CheckedCurve(owned.back().view(), name, poller), poller);
+            added->add(checked_curve(owned.back().view(), name, poller), poller);
             if (poller.count_steps(curves[i].size())) throw Stopped();
         }
         poller.finish();  // the last that may throw Stopped
@@ -226,14 +226,14 @@ class Index::State {
         Queries queries{{}, X == nullptr};
         if (X == nullptr) {
             for (std::size_t i = 0; i < curves_.size(); ++i) {
-                queries.curves.emplace_back(curves_[i].view(), "curves[" + std::to_string(i) + "]",
-                                            poller);
+                queries.curves.push_back(
+                    checked_curve(curves_[i].view(), "curves[" + std::to_string(i) + "]", poller));
             }
         } else {
             const CurveList list(*X, "X");
             check_like_first(list);
             for (std::size_t i = 0; i < X->size(); ++i) {
-                queries.curves.emplace_back(list[i], list.name_of(i), poller);
+                queries.curves.push_back(checked_curve(list[i], list.name_of(i), poller));
             }
         }
         std::set<std::ptrdiff_t> sizes;
@@ -245,6 +245,10 @@ class Index::State {
             for (const std::ptrdiff_t m : sizes_) measure_->check_sizes(n, m);
         }
         return queries;
+    }
+
+    CheckedCurve checked_curve(const CurveView& curve, std::string name, Poller& poller) const {
+        return {curve, std::move(name), poller, measure_->requirements().on_sphere};
     }
 
     // The shapes of a list, which must agree with those of the index.

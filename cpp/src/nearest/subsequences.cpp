@@ -74,15 +74,16 @@ class SubsequenceSearch {
                    curves,
                    options.recurrence,
                    warping::canonical_cost(options.ground, curves),
-                   options.ground.p,
+                   options.ground.parameter(),
                    warping::Band(curves.rows(), curves.columns(), std::nullopt),
                    true,
                    options.workers,
                    poller,
                    memory_},
           least_(curves.columns()) {
-        squared_ = options.recurrence == kernels::Recurrence::frechet &&
-                   warping::put_off_root(problem_.cost);
+        if (options.recurrence == kernels::Recurrence::frechet) {
+            root_ = warping::put_off_root(problem_.cost, options.ground);
+        }
     }
 
     std::vector<Subsequence> find(std::ptrdiff_t count) {
@@ -108,9 +109,8 @@ class SubsequenceSearch {
     // began.
     void sweep_piece(std::ptrdiff_t first, std::ptrdiff_t columns, Row& values, Row& origins) {
         sweep_table(first, columns, values, origins);
-        if (!squared_) return;
         // Before any are compared: roots may be equal where squares are not.
-        for (std::ptrdiff_t j = 0; j < columns; ++j) values[j] = std::sqrt(values[j]);
+        root_.take(values.data(), columns);
     }
 
     void sweep_table(std::ptrdiff_t first, std::ptrdiff_t columns, Row& values, Row& origins) {
@@ -146,7 +146,7 @@ class SubsequenceSearch {
     curves::RangeScale range_;
     int degree_;  // of homogeneity in the coordinates
     double cutoff_;
-    bool squared_ = false;  // the table holds squares of the values
+    warping::PutOffRoot root_;  // of the values that the table holds
     Poller& poller_;
     warping::SweepMemory memory_;
     warping::SweepProblem problem_;
@@ -161,15 +161,20 @@ std::vector<Subsequence> find_subsequences(const CurveView& P, const CurveView& 
                                            std::ptrdiff_t count, const WarpingOptions& options,
                                            Control* control) {
     curves::check_whole_number("k", count, count_range);
-    curves::check_shapes({options.measure, 1, false}, {P, "P"}, {Q, "Q"});
+    const curves::Requirements needs = warping::requirements(options.measure, options.ground);
+    curves::check_shapes(needs, {P, "P"}, {Q, "Q"});
     Poller poller(control);
-    const curves::CheckedCurve checked_p(P, "P", poller), checked_q(Q, "Q", poller);
+    const curves::CheckedCurve checked_p(P, "P", poller, needs.on_sphere);
+    const curves::CheckedCurve checked_q(Q, "Q", poller, needs.on_sphere);
     poller.begin(P.size() * Q.size());
     const curves::RangeScale range =
         warping::range_of(options.ground, std::max(checked_p.largest, checked_q.largest));
-    const PackedCurve p(P, range, PointOrder::forward, poller);
+    const auto pack = [&](const CurveView& curve, PointOrder order) {
+        return PackedCurve::of(curve, needs.on_sphere, range, order, poller);
+    };
+    const PackedCurve p = pack(P, PointOrder::forward);
     poller.poll_in_loop(0);
-    const PackedCurve q(Q, range, PointOrder::reversed, poller);
+    const PackedCurve q = pack(Q, PointOrder::reversed);
     std::vector<Subsequence> found = SubsequenceSearch(options, {p, q}, range, poller).find(count);
     poller.finish();
     return found;

@@ -9,12 +9,14 @@ namespace curvewise::pairwise {
 namespace {
 
 // The curves of a list, found finite; their shapes have been checked.
-std::vector<CheckedCurve> checked(const CurveList& list, Poller& poller) {
+std::vector<CheckedCurve> checked(const BatchMeasure& measure, const CurveList& list,
+                                  Poller& poller) {
+    const bool on_sphere = measure.requirements().on_sphere;
     std::vector<CheckedCurve> result;
     result.reserve(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
         poller.poll_in_loop(i);
-        result.emplace_back(list[i], list.name_of(i), poller);
+        result.emplace_back(list[i], list.name_of(i), poller, on_sphere);
     }
     return result;
 }
@@ -39,10 +41,10 @@ Sizes distinct(const std::vector<CheckedCurve>& curves) {
 // Both sides, checked and prepared; their shapes have been checked.
 struct Sides {
     Sides(const BatchMeasure& measure, const CurveList& XA, const CurveList& XB, Poller& poller)
-        : Sides(measure, checked(XA, poller), checked(XB, poller), poller) {}
+        : Sides(measure, checked(measure, XA, poller), checked(measure, XB, poller), poller) {}
     // Of one list with itself.
     Sides(const BatchMeasure& measure, const CurveList& X, Poller& poller)
-        : Sides(measure, checked(X, poller), poller) {}
+        : Sides(measure, checked(measure, X, poller), poller) {}
 
     std::unique_ptr<const BatchMeasure::Rows> rows;
     std::unique_ptr<const PairValues> pairs;
@@ -140,7 +142,7 @@ PreparedCurve::PreparedCurve(std::unique_ptr<const BatchMeasure> measure, const 
       points_((check_shapes(measure_->requirements(), {P, "P"}), contiguous(P, poller))),
       P_(P.is_flat() ? CurveView(points_.data(), P.size(), 1, 1, 0)
                      : CurveView(points_.data(), P.size(), P.dim())),
-      rows_(measure_->prepare_rows({CheckedCurve(P_, "P", poller)}, poller)) {
+      rows_(measure_->prepare_rows(checked(*measure_, {P_, "P"}, poller), poller)) {
     measure_->check_rows(*rows_, poller);
 }
 
@@ -148,7 +150,7 @@ double PreparedCurve::value(const CurveView& Q, Control* control) const {
     check_shapes(measure_->requirements(), {P_, "P"}, {Q, "Q"});
     Poller poller(control);
     poller.begin(measure_->steps()(P_.size(), 1, Q.size()));
-    const CheckedCurve checked_q(Q, "Q", poller);
+    const CheckedCurve checked_q(Q, "Q", poller, measure_->requirements().on_sphere);
     measure_->check_sizes(P_.size(), Q.size());
     const double value = measure_->value(*rows_, checked_q, poller);
     poller.finish();
@@ -162,7 +164,7 @@ void PreparedCurve::values(const CurveList& Qs, const BatchOutput& output) const
         tiles_of(*measure_, {P_.size()}, sizes_of(Qs), PairSet::rectangle, output);
     Poller poller(output.control);
     poller.begin(tiles.total());
-    const std::vector<CheckedCurve> columns = checked(Qs, poller);
+    const std::vector<CheckedCurve> columns = checked(*measure_, Qs, poller);
     for (const std::ptrdiff_t m : distinct(columns)) measure_->check_sizes(P_.size(), m);
     const auto pairs = measure_->pairs(*rows_, columns, poller);
     run(*pairs, tiles, output, poller);

@@ -15,7 +15,8 @@ auto with_pair(const M& measure, const CurveView& P, const CurveView& Q, Control
     check_shapes(measure.requirements(), {P, "P"}, {Q, "Q"});
     Poller poller(control);
     poller.begin(M::steps(P.size(), 1, Q.size()));
-    const CheckedCurve checked_p(P, "P", poller), checked_q(Q, "Q", poller);
+    const bool on_sphere = measure.requirements().on_sphere;
+    const CheckedCurve checked_p(P, "P", poller, on_sphere), checked_q(Q, "Q", poller, on_sphere);
     measure.check_sizes(P.size(), Q.size());
     const typename M::PreparedP p(checked_p, poller);
     const typename M::PreparedQ q(checked_q, poller);

@@ -56,9 +56,14 @@ CostSums cost_bounds(const SweepProblem& problem, bool open_end) {
                 problem.recurrence == kernels::Recurrence::dtw_symmetric2);
     const BoxTree P(problem.curves.p, PointOrder::forward);
     const BoxTree Q(problem.curves.q, PointOrder::reversed);
-    const Metric metric = problem.cost.metric;
-    least_distances(P, Q, metric, problem.poller, sums.rows());
-    if (!open_end) least_distances(Q, P, metric, problem.poller, sums.columns());
+    const Metric metric = metric_of_boxes(problem.cost.metric);
+    const auto least = [&](const BoxTree& from, const BoxTree& to, double* bounds) {
+        least_distances(from, to, metric, problem.poller, bounds);
+        if (metric == problem.cost.metric) return;
+        problem.kernels.arcs(bounds, from.size(), problem.metric_parameter);
+    };
+    least(P, Q, sums.rows());
+    if (!open_end) least(Q, P, sums.columns());
     sums.add_up();
     return sums;
 }
@@ -71,9 +76,9 @@ class CoarseProblem {
           q_points_(decimated(fine.curves.q, PointOrder::reversed, decimation)),
           p_(view(p_points_, fine), RangeScale(1.0), PointOrder::forward, fine.poller),
           q_(view(q_points_, fine), RangeScale(1.0), PointOrder::reversed, fine.poller),
-          problem_{fine.kernels,     {p_, q_},      fine.recurrence, fine.cost,
-                   fine.minkowski_p, columns(fine), false,           1,
-                   fine.poller,      fine.memory} {}
+          problem_{fine.kernels,          {p_, q_},      fine.recurrence, fine.cost,
+                   fine.metric_parameter, columns(fine), false,           1,
+                   fine.poller,           fine.memory} {}
 
     SweepProblem& problem() noexcept { return problem_; }
 

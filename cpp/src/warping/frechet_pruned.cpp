@@ -46,7 +46,7 @@ double decimated_distance(const SweepProblem& problem, std::ptrdiff_t step) {
                              {p, q},
                              problem.recurrence,
                              problem.cost,
-                             problem.minkowski_p,
+                             problem.metric_parameter,
                              Band(p.size(), q.size(), std::nullopt),
                              false,
                              1,

@@ -1,22 +1,46 @@
 #include "warping/ground_distance.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "curves/sphere.hpp"
+
 namespace curvewise::warping {
+namespace {
+
+[[noreturn]] void refuse(const char* option, double given, const char* need) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.17g", given);
+    throw std::invalid_argument(std::string(option) + " is " + number + "; " + need);
+}
+
+}  // namespace
 
 void check_ground_distance(const GroundDistance& ground) {
     if (ground.metric == Metric::minkowski && !(ground.p >= 1.0)) {
-        char p[32];
-        std::snprintf(p, sizeof p, "%.17g", ground.p);
-        throw std::invalid_argument("p is " + std::string(p) + "; minkowski needs 1 <= p <= inf");
+        refuse("p", ground.p, "minkowski needs 1 <= p <= inf");
+    }
+    if (ground.metric == Metric::haversine &&
+        !(ground.radius > 0.0 && std::isfinite(ground.radius))) {
+        refuse("radius", ground.radius, "give a finite number > 0");
     }
 }
 
+Metric metric_of_boxes(Metric metric) noexcept {
+    const bool is_of_root = with_row(metric, [](auto row) {
+        using Row = decltype(row);
+        return Row::is_root && !Row::is_norm;
+    });
+    return is_of_root ? Metric::sqeuclidean : metric;
+}
+
 bool has_box_bounds(Metric metric) noexcept {
-    return with_row(metric, [](auto row) { return decltype(row)::is_norm; });
+    return with_row(metric,
+                    [](auto row) { return decltype(row)::is_norm || decltype(row)::is_root; });
 }
 
 Metric named_metric(const GroundDistance& ground) noexcept {
@@ -37,10 +61,30 @@ kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& cur
     return {canonical_metric(ground, curves.dim()), curves.squares_are_in_domain()};
 }
 
-bool put_off_root(kernels::Cost& cost) noexcept {
-    const bool is_root = with_row(cost.metric, [](auto row) { return decltype(row)::is_root; });
-    if (is_root) cost.metric = Metric::sqeuclidean;
-    return is_root;
+double PutOffRoot::arc(double square) const noexcept {
+    return Haversine<DoubleArithmetic, DoubleRoot>::finish(square, radius_);
+}
+
+void PutOffRoot::take(double* values, std::ptrdiff_t count) const noexcept {
+    if (metric_ == Metric::haversine) {
+        std::transform(values, values + count, values, [=](double x) { return arc(x); });
+    } else if (*this) {
+        std::transform(values, values + count, values, [](double x) { return std::sqrt(x); });
+    }
+}
+
+double PutOffRoot::most_under(double value) const noexcept {
+    constexpr double quarter_turn = 1.5707963267948966;
+    if (!*this) return value;
+    if (metric_ != Metric::haversine) return value * value * (1.0 + 1e-15);
+    const double half = value / radius_ / 2.0;
+    const double sine = std::sin(std::min(half, quarter_turn));
+    return half < quarter_turn ? sine * sine * (1.0 + 1e-14)
+                               : std::numeric_limits<double>::infinity();
+}
+
+double coordinate_on_sphere(double x, std::ptrdiff_t c) noexcept {
+    return curves::on_sphere(x, x)[static_cast<std::size_t>(c)];
 }
 
 int degree(Metric metric) noexcept {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "curves/checks.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/ground_distance.hpp"
 #include "warping/kernels/strip.hpp"
@@ -16,7 +17,13 @@ struct DoubleArithmetic {
     using Number = double;
     static double sum(double a, double b) noexcept { return a + b; }
     static double product(double a, double b) noexcept { return a * b; }
+    static double difference(double a, double b) noexcept { return a - b; }
     static double larger(double a, double b) noexcept { return std::max(a, b); }
+    static double smaller(double a, double b) noexcept { return std::min(a, b); }
+    static double number(double x) noexcept { return x; }
+    static double where_at_most(double a, double b, double yes, double no) noexcept {
+        return a <= b ? yes : no;
+    }
     static double absolute(double a) noexcept { return std::abs(a); }
 };
 
@@ -44,7 +51,11 @@ auto with_norm(Metric metric, Use use) {
     });
 }
 
-// Whether with_norm() calls.
+// The metric whose distances of boxes bound those of points: itself, or of an arc what is under it;
+// then the kernels' arcs() make bounds of them.
+Metric metric_of_boxes(Metric metric) noexcept;
+
+// Whether with_norm() calls, of metric_of_boxes().
 bool has_box_bounds(Metric metric) noexcept;
 
 // Throws std::invalid_argument for an order of minkowski outside [1, inf].
@@ -57,9 +68,46 @@ Metric named_metric(const GroundDistance& ground) noexcept;
 Metric canonical_metric(const GroundDistance& ground, std::ptrdiff_t dim) noexcept;
 kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& curves) noexcept;
 
-// Makes of a distance that is a root the one under it, for a table of largest distances, which a
-// root at the end leaves as they are. Whether it is one.
-bool put_off_root(kernels::Cost& cost) noexcept;
+// The root that is taken at the end, of a table of largest distances, which it leaves as they are;
+// or none. Inline, since a call of few points takes most of its time for what is asked once.
+class PutOffRoot {
+   public:
+    PutOffRoot() noexcept = default;
+    PutOffRoot(Metric metric, double radius) noexcept : metric_(metric), radius_(radius) {}
+    explicit operator bool() const noexcept { return metric_ != Metric::sqeuclidean; }
+    double operator()(double value) const noexcept {
+        if (!*this) return value;
+        return metric_ == Metric::haversine ? arc(value) : std::sqrt(value);
+    }
+    // Of many, in place.
+    void take(double* values, std::ptrdiff_t count) const noexcept;
+    // A little more than what is under the root of a value, so that the rounding of squares and
+    // roots gives nothing up.
+    double most_under(double value) const noexcept;
+
+   private:
+    double arc(double square) const noexcept;
+
+    Metric metric_ = Metric::sqeuclidean;  // its own root
+    double radius_ = 0.0;
+};
+
+// Makes of a distance that is a root the one under it.
+inline PutOffRoot put_off_root(kernels::Cost& cost, const GroundDistance& ground) noexcept {
+    if (!with_row(cost.metric, [](auto row) { return decltype(row)::is_root; })) return {};
+    const PutOffRoot root(cost.metric, ground.radius);
+    cost.metric = Metric::sqeuclidean;
+    return root;
+}
+
+// Coordinate c, as it is packed, of the point whose longitude and latitude both are x.
+double coordinate_on_sphere(double x, std::ptrdiff_t c) noexcept;
+
+// Of every curve of such a measure.
+inline curves::Requirements requirements(const char* measure,
+                                         const GroundDistance& ground) noexcept {
+    return {measure, 1, false, ground.metric == Metric::haversine};
+}
 
 // By which power of a factor the distance grows when both curves do.
 int degree(Metric metric) noexcept;

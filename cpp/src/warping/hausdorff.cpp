@@ -33,7 +33,9 @@ class HausdorffMeasure {
     static constexpr bool is_swept = true;
     struct Side {
         Side(const curves::CheckedCurve& curve, Poller& poller)
-            : checked(curve), packed(curve.curve, RangeScale(1.0), PointOrder::forward, poller) {}
+            : checked(curve),
+              packed(PackedCurve::of(curve.curve, curve.on_sphere, RangeScale(1.0),
+                                     PointOrder::forward, poller)) {}
         curves::CheckedCurve checked;
         PackedCurve packed;
     };
@@ -44,8 +46,8 @@ class HausdorffMeasure {
         warping::check_ground_distance(options_.ground);
         curves::check_cutoff(options_.cutoff);
     }
-    static curves::Requirements requirements() noexcept {
-        return {HausdorffOptions::measure, 1, false};
+    curves::Requirements requirements() const noexcept {
+        return warping::requirements(HausdorffOptions::measure, options_.ground);
     }
     static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
     static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
@@ -78,7 +80,7 @@ class HausdorffMeasure {
         memory.distances.resize(room);
         memory.nearest.assign(room, infinity);
         kernels::Cost cost = warping::canonical_cost(options_.ground, curves);
-        const bool is_squared = warping::put_off_root(cost);
+        const warping::PutOffRoot root = warping::put_off_root(cost, options_.ground);
         const kernels::CostFunction fill = warping::active_level().kernels->fill(cost);
         kernels::Strip strip{};
         strip.p = curves.p.data();
@@ -86,7 +88,7 @@ class HausdorffMeasure {
         strip.q_stride = n + kernels::padding;
         strip.columns = 1;
         strip.dim = dim;
-        strip.minkowski_p = options_.ground.p;
+        strip.metric_parameter = options_.ground.parameter();
         strip.cost = memory.distances.data();
         memory.point.resize(static_cast<std::size_t>(dim * strip.q_stride));
         strip.q = memory.point.data();
@@ -107,7 +109,7 @@ class HausdorffMeasure {
             if (call.poller.count_steps(n, dim)) throw Stopped();
         }
         for (std::ptrdiff_t i = 0; i < n; ++i) farthest = std::max(farthest, nearest[i]);
-        return is_squared ? std::sqrt(farthest) : farthest;
+        return root(farthest);
     }
 
     HausdorffOptions options_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "curves/sphere.hpp"
 #include "warping/kernels/strip.hpp"
 
 namespace curvewise::warping {
@@ -53,6 +54,29 @@ PackedCurve::PackedCurve(const CurveView& curve, const RangeScale& range, PointO
                                                          : write(end - first, to, step, strided));
         });
         std::fill_n(begin + n_, kernels::padding, 0.0);
+    }
+    squares_are_in_domain_ = least >= rank(0x1p-400);
+}
+
+PackedCurve::PackedCurve(const CurveView& curve, PointOrder order, Poller& poller)
+    : n_(curve.size()),
+      dim_(curves::sphere_dim),
+      stride_(AlignedBuffer::rounded(n_ + kernels::padding)),
+      storage_(dim_ * stride_) {
+    std::uint64_t least = rank(0.0);
+    poller.in_runs(n_, dim_, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = first; i < end; ++i) {
+            const auto point = curves::on_sphere(curve(i, 0), curve(i, 1));
+            double* to = storage_.data() + (order == PointOrder::reversed ? n_ - 1 - i : i);
+            for (const double x : point) {
+                least = std::min(least, rank(x));
+                *to = x;
+                to += stride_;
+            }
+        }
+    });
+    for (std::ptrdiff_t c = 0; c < dim_; ++c) {
+        std::fill_n(storage_.data() + c * stride_ + n_, kernels::padding, 0.0);
     }
     squares_are_in_domain_ = least >= rank(0x1p-400);
 }

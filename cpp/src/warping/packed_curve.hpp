@@ -20,6 +20,12 @@ enum class PointOrder { forward, reversed };
 class PackedCurve {
    public:
     PackedCurve(const CurveView& curve, const RangeScale& range, PointOrder order, Poller& poller);
+    // One on the sphere is not scaled: its points go into space (curves/sphere.hpp).
+    static PackedCurve of(const CurveView& curve, bool on_sphere, const RangeScale& range,
+                          PointOrder order, Poller& poller) {
+        if (on_sphere) return PackedCurve(curve, order, poller);
+        return PackedCurve(curve, range, order, poller);
+    }
 
     std::ptrdiff_t size() const noexcept { return n_; }
     std::ptrdiff_t dim() const noexcept { return dim_; }
@@ -35,6 +41,8 @@ class PackedCurve {
     bool squares_are_in_domain() const noexcept { return squares_are_in_domain_; }
 
    private:
+    PackedCurve(const CurveView& curve, PointOrder order, Poller& poller);  // on the sphere
+
     std::ptrdiff_t n_;
     std::ptrdiff_t dim_;
     std::ptrdiff_t stride_;

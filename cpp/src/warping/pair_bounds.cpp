@@ -104,7 +104,8 @@ PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, co
       kept_(kept),
       P_(packed),
       metric_(canonical_metric(options.ground, packed.dim())),
-      kernel_(active_level().kernels->least(metric_, packed.dim())),
+      box_metric_(metric_of_boxes(metric_)),
+      kernel_(active_level().kernels->least(box_metric_, packed.dim())),
       largest_(P.largest),
       tree_(packed, PointOrder::forward) {
     append_summary(tree_, summary_);
@@ -112,6 +113,11 @@ PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, co
 
 bool PairBounds::is_bounded(std::ptrdiff_t j) const noexcept {
     return kernel_ != nullptr && RangeScale(std::max(largest_, kept_.largest(j))).is_identity();
+}
+
+void PairBounds::finish(double* bounds, std::ptrdiff_t count) const noexcept {
+    if (box_metric_ == metric_) return;
+    active_level().kernels->arcs(bounds, count, options_.ground.parameter());
 }
 
 template <class Norm>
@@ -122,8 +128,6 @@ double PairBounds::quick_bound(std::ptrdiff_t j) const noexcept {
     const double* const q = kept_.summary(j);
     const double first = options_.open_begin ? 0.0 : distance<Norm>(p, q, dim);
     const double last = options_.open_end ? 0.0 : distance<Norm>(p + dim, q + dim, dim);
-    const bool is_one_cell = tree_.size() == 1 && kept_.tree(j).size() == 1;
-    const double ends = is_frechet() || is_one_cell ? std::max(first, last) : first + last;
     // Some point of the one curve lies so far beyond all points of the other.
     double beyond = 0.0;
     for (std::ptrdiff_t c = 2 * dim; c < 3 * dim; ++c) {
@@ -131,13 +135,21 @@ double PairBounds::quick_bound(std::ptrdiff_t j) const noexcept {
         beyond = std::max(beyond, std::max(low, high));
         if (!is_open()) beyond = std::max(beyond, std::max(-low, -high));
     }
-    const double bound = std::max(ends, Norm::finish(Norm::add(0.0, beyond)));
+    const bool is_one_cell = tree_.size() == 1 && kept_.tree(j).size() == 1;
+    const bool is_sum = !is_frechet() && !is_one_cell;
+    double bounds[] = {first, last, Norm::finish(Norm::add(0.0, beyond))};
+    if (is_sum) {
+        finish(bounds, 3);
+        bounds[0] += bounds[1];
+    }
+    double bound = *std::max_element(bounds, bounds + 3);
+    if (!is_sum) finish(&bound, 1);
     return bound / options_.divisor(tree_.size(), kept_.tree(j).size());
 }
 
 void PairBounds::quick(double* bounds) const {
     std::fill_n(bounds, kept_.size(), 0.0);
-    with_norm(metric_, [&](auto norm) {
+    with_norm(box_metric_, [&](auto norm) {
         for (std::ptrdiff_t j = 0; j < kept_.size(); ++j) {
             bounds[j] = quick_bound<decltype(norm)>(j);
         }
@@ -199,6 +211,7 @@ double PairBounds::run_bound(const BoxTree& Q, std::ptrdiff_t most_runs) {
         row_terms[a] = least;
     }
     for (double& term : run_terms_) term = Norm::finish(term);
+    finish(run_terms_.data(), rows + columns);
     if (is_frechet()) return *std::max_element(run_terms_.begin(), run_terms_.end());
     const double rest_of_rows = sum_but_one(row_terms, rows, row_points, tree_.size());
     if (is_open()) return combined(rest_of_rows, 0.0, row_terms[0], 0.0);
@@ -223,7 +236,7 @@ double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
     const std::ptrdiff_t n = P_.size(), m = q.size();
     if (!is_bounded(j) || n * m < fewest_cells) return 0.0;
     const double bound =
-        level == point_level ? point_bound(j, q) : with_norm(metric_, [&](auto norm) {
+        level == point_level ? point_bound(j, q) : with_norm(box_metric_, [&](auto norm) {
             return run_bound<decltype(norm)>(kept_.tree(j), most_boxes[level]);
         });
     if (is_frechet()) return bound;
@@ -241,6 +254,7 @@ void PairBounds::compute_terms(std::ptrdiff_t j, const PackedCurve& q) {
         out.reserve(AlignedBuffer::rounded(points.size() + kernels::padding));
         kernel_({points.data(), points.stride(), points.size(), points.dim(), boxes.box(level, 0),
                  boxes.boxes(level), banded.first(), banded.last(), out.data()});
+        finish(out.data(), points.size());
     };
     least(P_, PointOrder::forward, kept_.tree(j), boxes_of_rows_, row_terms_);
     if (!is_open()) least(q, PointOrder::reversed, tree_, boxes_of_columns_, column_terms_);

@@ -111,6 +111,8 @@ class PairBounds {
     double run_bound(const BoxTree& Q, std::ptrdiff_t most_runs);
     double point_bound(std::ptrdiff_t j, const PackedCurve& q);
     void compute_terms(std::ptrdiff_t j, const PackedCurve& q);
+    // Makes bounds of distances of boxes.
+    void finish(double* bounds, std::ptrdiff_t count) const noexcept;
     // The larger of what P's parts cost and what Q's do, or their sum.
     double combined(double rows, double columns, double first_row, double first_column) const;
 
@@ -118,6 +120,7 @@ class PairBounds {
     const KeptBounds& kept_;
     const PackedCurve& P_;
     Metric metric_;
+    Metric box_metric_;
     kernels::LeastFunction kernel_;  // null where there are no bounds
     double largest_;
     BoxTree tree_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -29,6 +30,20 @@ using warping::RecurrenceSweep;
 using warping::StepTable;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void refuse_gap(double gap) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.10g", gap);
+    throw std::invalid_argument(std::string("gap is ") + number +
+                                "; metric='haversine' takes it for a longitude and a latitude: "
+                                "give a number from -90 to 90");
+}
+
+[[noreturn]] void refuse_no_epsilon(const std::string& measure) {
+    throw std::invalid_argument(measure +
+                                " with metric='haversine' needs epsilon: degrees have "
+                                "no deviation in metres");
+}
 
 // A curve with a point before its first, all of whose coordinates are 0.
 class LedCurve {
@@ -65,6 +80,18 @@ double quarter_of_deviation(const CurveView& P, const CurveView& Q) {
     return std::max(deviation(P), deviation(Q)) / 4.0;
 }
 
+// The largest cost of a step that does not come from the points.
+double largest_constant(const Recurrence& recurrence) noexcept {
+    double largest = 0.0;
+    for (const Step& step : recurrence.steps) {
+        largest = std::max(largest, step.constant);
+        for (const StepTerm& term : step.terms) {
+            if (term.from == CostFrom::offset) largest = std::max(largest, term.weight);
+        }
+    }
+    return largest;
+}
+
 class RecurrenceMeasure {
    public:
     using Memory = warping::RecurrenceMemory;
@@ -73,7 +100,9 @@ class RecurrenceMeasure {
     template <PointOrder order>
     struct Side {
         Side(const curves::CheckedCurve& curve, Poller& poller)
-            : checked(curve), packed(curve.curve, RangeScale(1.0), order, poller) {}
+            : checked(curve),
+              packed(
+                  PackedCurve::of(curve.curve, curve.on_sphere, RangeScale(1.0), order, poller)) {}
         curves::CheckedCurve checked;
         PackedCurve packed;
     };
@@ -86,9 +115,12 @@ class RecurrenceMeasure {
         curves::check_cutoff(recurrence_.cutoff);
         window().check();
         check_number("gap", recurrence_.gap);
+        if (recurrence_.ground.metric == Metric::haversine) check_on_sphere();
         check_number("steepness", recurrence_.steepness);
     }
-    curves::Requirements requirements() const noexcept { return {recurrence_.measure, 1, false}; }
+    curves::Requirements requirements() const noexcept {
+        return warping::requirements(recurrence_.measure, recurrence_.ground);
+    }
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const { window().check_sizes(n, m); }
     static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
     static std::ptrdiff_t workers() noexcept { return 1; }
@@ -101,7 +133,8 @@ class RecurrenceMeasure {
     template <class Use>
     auto with_curves(const PreparedP& P, const PreparedQ& Q, Poller& poller, Use use) const {
         const RangeScale range =
-            warping::range_of(recurrence_.ground, std::max(P.checked.largest, Q.checked.largest));
+            warping::range_of(recurrence_.ground, std::max(P.checked.largest, Q.checked.largest))
+                .beside(largest_constant(recurrence_), warping::degree(recurrence_.ground.metric));
         std::optional<Recurrence> own;
         if (recurrence_.pair == PairCost::apart && recurrence_.threshold == infinity) {
             own = recurrence_;
@@ -112,12 +145,13 @@ class RecurrenceMeasure {
         if (range.is_identity() && !is_led) {
             return use(recurrence, steps_, warping::PackedPair{P.packed, Q.packed}, range);
         }
-        const auto pack = [&](const CurveView& curve, PointOrder order) {
-            return is_led ? PackedCurve(LedCurve(curve).view(), range, order, poller)
-                          : PackedCurve(curve, range, order, poller);
+        const auto pack = [&](const curves::CheckedCurve& checked, PointOrder order) {
+            return is_led ? PackedCurve::of(LedCurve(checked.curve).view(), checked.on_sphere,
+                                            range, order, poller)
+                          : PackedCurve::of(checked.curve, checked.on_sphere, range, order, poller);
         };
-        const PackedCurve p = pack(P.checked.curve, PointOrder::forward);
-        const PackedCurve q = pack(Q.checked.curve, PointOrder::reversed);
+        const PackedCurve p = pack(P.checked, PointOrder::forward);
+        const PackedCurve q = pack(Q.checked, PointOrder::reversed);
         return use(recurrence, StepTable(recurrence, range), warping::PackedPair{p, q}, range);
     }
 
@@ -199,6 +233,15 @@ class RecurrenceMeasure {
         if (!std::isfinite(value)) {
             throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
                                         "; give a number");
+        }
+    }
+
+    void check_on_sphere() const {
+        if (recurrence_.gaps == Gaps::to_point && !(std::abs(recurrence_.gap) <= 90.0)) {
+            refuse_gap(recurrence_.gap);
+        }
+        if (recurrence_.pair == PairCost::apart && recurrence_.threshold == infinity) {
+            refuse_no_epsilon(recurrence_.measure);
         }
     }
 

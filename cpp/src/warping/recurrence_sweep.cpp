@@ -59,7 +59,7 @@ RecurrenceSweep::RecurrenceSweep(const Recurrence& recurrence, const StepTable& 
     ground.p_stride = curves.p.stride();
     ground.q_stride = curves.q.stride();
     ground.dim = coordinate < 0 ? curves.dim() : 1;
-    ground.minkowski_p = recurrence.ground.p;
+    ground.metric_parameter = recurrence.ground.parameter();
     const kernels::Cost cost{canonical_metric(recurrence.ground, ground.dim),
                              curves.squares_are_in_domain()};
     fill_ = active_level().recurrences->fill(cost, ground.dim);
@@ -137,9 +137,14 @@ void RecurrenceSweep::prepare_gaps(double gap, double* rows, double* columns) {
     const double* const p = whole_.ground.p;
     const double* const q = whole_.ground.q;
     if (recurrence_.gaps == Gaps::to_point) {
-        const std::vector<double> point(static_cast<std::size_t>(std::max(n, m) + kernels::padding),
-                                        gap);
-        strip.q_stride = 0;
+        const bool is_on_sphere = recurrence_.ground.metric == Metric::haversine;
+        const std::ptrdiff_t lanes = std::max(n, m) + kernels::padding;
+        std::vector<double> point(
+            static_cast<std::size_t>(is_on_sphere ? strip.dim * lanes : lanes), gap);
+        strip.q_stride = is_on_sphere ? lanes : 0;
+        for (std::ptrdiff_t c = 0; is_on_sphere && c < strip.dim; ++c) {
+            std::fill_n(point.data() + c * lanes, lanes, coordinate_on_sphere(gap, c));
+        }
         fill(p, whole_.ground.p_stride, point.data(), n, rows);
         fill(q, whole_.ground.q_stride, point.data(), m, columns);
     } else {

@@ -74,9 +74,8 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, 
     const std::ptrdiff_t gap = plan.workers_ > 1 ? gap_between_threads : 0;
     const bool has_origins = plan.output_ == kernels::Output::origins;
     memory.lanes.reserve(2 * gap + lane_stride_ * (has_origins ? count : origins));
-    memory.columns.resize(static_cast<std::size_t>(2 * plan.height_));
     lanes_ = memory.lanes.data() + gap;
-    columns_ = memory.columns.data();
+    columns_ = memory.columns(static_cast<std::size_t>(2 * plan.height_));
     const PackedPair& curves = plan.problem_->curves;
     const Region& region = plan.region_;
     strip_.p_stride = curves.p.stride();
@@ -84,7 +83,7 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, 
     strip_.q_stride = curves.q.stride();
     strip_.dim = curves.dim();
     strip_.columns = region.columns;
-    strip_.minkowski_p = plan.problem_->minkowski_p;
+    strip_.metric_parameter = plan.problem_->metric_parameter;
     strip_.first_column = columns_;
     strip_.last_column = columns_ + plan.height_;
     strip_.boundary = boundary;

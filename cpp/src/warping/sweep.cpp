@@ -14,7 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The time a cell takes, roughly, in that of the fastest.
 std::ptrdiff_t cell_weight(const SweepProblem& problem) noexcept {
-    const GroundDistance ground{problem.cost.metric, problem.minkowski_p};
+    const GroundDistance ground{problem.cost.metric};
     return static_cast<std::ptrdiff_t>(ground.weight(static_cast<double>(problem.curves.dim())));
 }
 

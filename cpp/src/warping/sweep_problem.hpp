@@ -1,6 +1,7 @@
 // What is swept: a table, the part of it that is wanted, and where the results go.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -40,8 +41,18 @@ class Row {
 // it anew takes as long as a good part of the sweep. O(m).
 struct SweepMemory {
     AlignedBuffer lanes;
-    std::vector<std::ptrdiff_t> columns;
     Row row;
+
+    // Room for so many columns, of any content: of a few, as short curves have, none of the heap's.
+    std::ptrdiff_t* columns(std::size_t count) {
+        if (count <= few_columns_.size()) return few_columns_.data();
+        many_columns_.resize(count);
+        return many_columns_.data();
+    }
+
+   private:
+    std::array<std::ptrdiff_t, 64> few_columns_{};
+    std::vector<std::ptrdiff_t> many_columns_;
 };
 
 struct SweepProblem {
@@ -49,7 +60,7 @@ struct SweepProblem {
     PackedPair curves;
     kernels::Recurrence recurrence;
     kernels::Cost cost;
-    double minkowski_p;
+    double metric_parameter;
     LiveColumns columns;
     bool open_begin;
     std::ptrdiff_t workers;

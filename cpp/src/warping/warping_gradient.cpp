@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "curves/sphere.hpp"
 #include "curvewise/gradient.hpp"
 #include "warping/dtw_recurrence.hpp"
 #include "warping/ground_distance.hpp"
@@ -39,6 +40,17 @@ class PointPair {
     double largest() const noexcept { return largest_; }  // |difference|, and the first of them
     std::ptrdiff_t place_of_largest() const noexcept { return place_of_largest_; }
 
+    // Of longitudes and latitudes: by coordinate c of the point of Q.
+    double half_chord() const noexcept {
+        const auto p = curves::on_sphere(p_[0], p_[1]), q = curves::on_sphere(q_[0], q_[1]);
+        return std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+    }
+    double slope_on_sphere(std::ptrdiff_t c) const noexcept {
+        const curves::SlopeOnSphere slope = curves::slope_on_sphere(p_.data(), q_.data());
+        return order_ * (c == 0 ? slope.by_longitude : slope.by_latitude);
+    }
+    void turn() noexcept { p_.swap(q_); }
+
     // The sum of term(|difference| / largest).
     template <class Term>
     double sum_of(Term term) const noexcept {
@@ -69,15 +81,23 @@ class Sums {
     }
 
     // Weight times the derivative by both points; nothing where they coincide. All ground distances
-    // depend on differences alone.
+    // are symmetric, and depend on differences alone, except for those of degree 0.
     template <class Row>
-    void add(const PointPair& at, std::ptrdiff_t i, std::ptrdiff_t j, double weight) noexcept {
+    void add(PointPair& at, std::ptrdiff_t i, std::ptrdiff_t j, double weight) noexcept {
         if (at.largest() == 0.0) return;
         const double size = Row::magnitude(at);
+        if (!(size > 0.0)) return;
         for (std::ptrdiff_t c = 0; c < dim_; ++c) {
             const double slope = Row::slope(at, c, weight, size);
-            if (out_.by_p != nullptr) out_.by_p[i * dim_ + c] -= slope;
             if (out_.by_q != nullptr) out_.by_q[j * dim_ + c] += slope;
+            if (out_.by_p == nullptr) continue;
+            if constexpr (Row::degree == 0) {
+                at.turn();
+                out_.by_p[i * dim_ + c] += Row::slope(at, c, weight, size);
+                at.turn();
+            } else {
+                out_.by_p[i * dim_ + c] -= slope;
+            }
         }
     }
 
@@ -103,7 +123,7 @@ double value_and_gradients(const DtwOptions& options, const CurveView& P, const 
     const double divisor =
         options.normalize ? static_cast<double>(P.size()) + static_cast<double>(Q.size()) : 1.0;
     const double diagonal = options.step_pattern == StepPattern::symmetric2 ? 2.0 : 1.0;
-    PointPair at(options.ground.p, Q.dim());
+    PointPair at(options.ground.parameter(), Q.dim());
     warping::with_row(warping::named_metric(options.ground), [&](auto row) {
         for (std::size_t k = 0; k < alignment.path.size(); ++k) {
             const auto [i, j] = alignment.path[k];
@@ -120,7 +140,7 @@ double value_and_gradients(const FrechetOptions& options, const CurveView& P, co
                            const Gradients& out, Control* control) {
     const Alignment alignment = frechet_path(P, Q, options, control);
     Sums sums(out, P, Q);
-    PointPair at(options.ground.p, Q.dim());
+    PointPair at(options.ground.parameter(), Q.dim());
     warping::with_row(warping::named_metric(options.ground), [&](auto row) {
         using Row = decltype(row);
         auto decisive = alignment.path.front();

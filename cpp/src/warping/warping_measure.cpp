@@ -38,7 +38,9 @@ class WarpingMeasure {
     template <PointOrder order>
     struct Side {
         Side(const curves::CheckedCurve& curve, Poller& poller)
-            : checked(curve), packed(curve.curve, RangeScale(1.0), order, poller) {}
+            : checked(curve),
+              packed(
+                  PackedCurve::of(curve.curve, curve.on_sphere, RangeScale(1.0), order, poller)) {}
         curves::CheckedCurve checked;
         PackedCurve packed;
     };
@@ -48,7 +50,9 @@ class WarpingMeasure {
     // Of dtw, or of frechet.
     template <class Options>
     explicit WarpingMeasure(const Options& options) : options_(warping::checked_options(options)) {}
-    curves::Requirements requirements() const noexcept { return {options_.measure, 1, false}; }
+    curves::Requirements requirements() const noexcept {
+        return warping::requirements(options_.measure, options_.ground);
+    }
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const {
         options_.window.check_sizes(n, m);
     }

@@ -76,14 +76,14 @@ WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& 
              curves,
              options.recurrence,
              canonical_cost(options.ground, curves),
-             options.ground.p,
+             options.ground.parameter(),
              Band(curves.rows(), curves.columns(),
                   options.window.between(curves.rows(), curves.columns())),
              options.open_begin,
              call.workers,
              call.poller,
              call.memory} {
-    squared_ = is_frechet() && put_off_root(sweep_.cost);
+    if (is_frechet()) root_ = put_off_root(sweep_.cost, options.ground);
 }
 
 double WarpingProblem::distance(double cutoff) {
@@ -141,10 +141,14 @@ Alignment WarpingProblem::alignment() const {
 
 void WarpingProblem::write_table(double* out) const {
     sweep_table(sweep_, out);
-    if (range_.is_identity() && !squared_) return;
+    if (range_.is_identity() && !root_) return;
     const std::ptrdiff_t n = sweep_.curves.rows(), m = sweep_.curves.columns();
     for (std::ptrdiff_t i = 0; i < n; ++i) {
-        for (std::ptrdiff_t j = 0; j < m; ++j) out[i * m + j] = restore(out[i * m + j]);
+        double* const row = out + i * m;
+        root_.take(row, m);
+        for (std::ptrdiff_t j = 0; j < m && !range_.is_identity(); ++j) {
+            row[j] = range_.restore(row[j], degree_);
+        }
         if (sweep_.poller.poll()) throw Stopped();
     }
 }

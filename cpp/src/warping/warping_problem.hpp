@@ -1,14 +1,13 @@
 // dtw or frechet of two packed curves: the cumulative table between them, and what is read off it,
 // the value, the path, or all of it.
 //
-// For Fréchet with the Euclidean distance the table holds squares and one sqrt is taken at the end:
-// sqrt is monotone, so the value has the same bits. The path is decided on the squares, that is
-// before the rounding of sqrt can make two of them equal. Time O(n m), memory O(n + m), except for
-// the table.
+// For Fréchet with the Euclidean distance, or on the sphere, the table holds squares and one root,
+// or arc, is taken at the end: both are monotone, so the value has the same bits. The path is
+// decided on the squares, that is before the rounding of a root can make two of them equal. Time
+// O(n m), memory O(n + m), except for the table.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "curvewise/frechet.hpp"
 #include "curvewise/warping_info.hpp"
 #include "pairwise/measure.hpp"
+#include "warping/ground_distance.hpp"
 #include "warping/path.hpp"
 #include "warping/sweep_problem.hpp"
 #include "warping/window.hpp"
@@ -58,9 +58,7 @@ class WarpingProblem {
     double narrowed_distance(const CostToGo& cost_to_go);
     // A little above the cutoff in the unit of the table, so that the rounding of squares and roots
     // gives nothing up.
-    double most_in_table(double cutoff) const noexcept {
-        return squared_ ? cutoff * cutoff * (1.0 + 1e-15) : cutoff;
-    }
+    double most_in_table(double cutoff) const noexcept { return root_.most_under(cutoff); }
 
     // The distance, and how it was found.
     WarpingInfo info();
@@ -71,9 +69,7 @@ class WarpingProblem {
    private:
     std::optional<double> frechet_with_info(WarpingInfo& info) const;
     std::optional<double> dtw_with_info(WarpingInfo& info) const;
-    double restore(double value) const noexcept {
-        return range_.restore(squared_ ? std::sqrt(value) : value, degree_);
-    }
+    double restore(double value) const noexcept { return range_.restore(root_(value), degree_); }
     bool is_frechet() const noexcept { return sweep_.recurrence == kernels::Recurrence::frechet; }
     double last_value(const SweepProblem& problem) const;
     std::optional<double> pruned_value() const;
@@ -82,8 +78,8 @@ class WarpingProblem {
     bool ends_are_within(double cutoff) const;
 
     RangeScale range_;
-    int degree_;            // of homogeneity in the coordinates
-    bool squared_ = false;  // the table holds squares of the values
+    int degree_;       // of homogeneity in the coordinates
+    PutOffRoot root_;  // of the values that the table holds
     bool open_end_;
     bool prune_;
     SweepProblem sweep_;

@@ -140,7 +140,12 @@ def _functions(info: MeasureInfo) -> list[Callable[..., Any]]:
 
 
 def _arguments(options: dict[str, Any]) -> dict[str, Any]:
-    return {**options, "p": 3.0} if options.get("metric") == "minkowski" else options
+    more: dict[str, Any] = {}
+    if options.get("metric") == "minkowski":
+        more = {"p": 3.0}
+    elif options.get("metric") == "haversine" and "epsilon" in options:
+        more = {"epsilon": options["epsilon"] or 2e5}  # of points that are some degrees apart
+    return {**options, **more}
 
 
 def _results(info: MeasureInfo, options: dict[str, Any], P: Array, Q: Array) -> list[Any]:
@@ -192,7 +197,7 @@ def _equal(ours: Any, theirs: Any, exact: bool) -> bool:
 def _pairs(info: MeasureInfo, seed: str) -> Iterator[tuple[Array, Array]]:
     rng = np.random.default_rng(sum(seed.encode()))
     sizes = tuple(n for n in _SIZES if n > 1) if info.planar else _SIZES
-    dimensions = (2,) if info.planar else _DIMENSIONS
+    dimensions = (2,) if info.planar or "haversine" in seed else _DIMENSIONS
     shapes = [(int(rng.choice(sizes)), int(rng.choice(sizes))) for _ in range(6)]
     shapes += [(300, 170)] if info.planar else _TALL
     if "matched" in seed:  # noise travels far, and is sampled as densely as it does

@@ -17,7 +17,7 @@ from typing import Any, cast, get_args
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Metric
+from .._options import CoordinateMetric, Metric
 from ..curves.inputs import Array, CurveLike, as_numbers, in_columns
 from ..measures import dtw_table, frechet
 from ._arrays import RealArray
@@ -217,7 +217,7 @@ def _is_compiled(metric: str | Callable[..., float], options: dict[str, Any]) ->
     if metric == "minkowski" and options.keys() == {"p"}:
         p = options["p"]
         return isinstance(p, (int, float, np.integer, np.floating)) and bool(p >= 1)
-    return not options and metric in get_args(Metric)
+    return not options and metric in get_args(CoordinateMetric)  # what scipy has, too
 
 
 def _is_finite(P: Array, Q: Array) -> bool:

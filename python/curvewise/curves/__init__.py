@@ -12,6 +12,7 @@ from .resampling import resample, trim
 from .smoothing import smooth
 from .stress_strain import engineering_to_true, shift_to_origin
 from .turns import last_cycle, turning_points
+from .z_normalization import z_normalized
 
 __all__ = [
     "engineering_to_true",
@@ -21,4 +22,5 @@ __all__ = [
     "smooth",
     "trim",
     "turning_points",
+    "z_normalized",
 ]

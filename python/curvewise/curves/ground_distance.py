@@ -7,16 +7,19 @@ other bits. Time O(n m d), memory O(n m).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from typing import Any, NamedTuple, cast, get_args
+from functools import partial
+from typing import Any, NamedTuple, TypeAlias, cast, get_args
 
 import numpy as np
 
-from .._options import Metric, check_choice, real_number
+from .._options import EARTH_RADIUS, Metric, check_choice, real_number
 from .inputs import Array
 from .scaling import range_exponent, times_power_of_two
+from .sphere import arcs, in_space
 
-__all__ = ["check_metric", "ground_distances", "in_range", "without_root"]
+__all__ = ["before_root", "check_metric", "ground_distances", "in_range"]
 
 
 _SAME_AS_MINKOWSKI: dict[float, Metric] = {
@@ -26,8 +29,8 @@ _SAME_AS_MINKOWSKI: dict[float, Metric] = {
 }
 
 
-def check_metric(metric: Metric, p: Any) -> tuple[Metric, float]:
-    """Check a metric and its order, and return those that are computed.
+def check_metric(metric: Metric, p: Any, radius: Any = None) -> tuple[Metric, float]:
+    """Check a metric and its order, or radius, and return what is computed: both as one number.
 
     "minkowski" with p = 1, 2 or inf is computed as the metric that it is; the order of a metric
     that has none is returned as 2.
@@ -35,9 +38,17 @@ def check_metric(metric: Metric, p: Any) -> tuple[Metric, float]:
     Raises
     ------
     ValueError
-        An unknown metric, p with a metric that has none, or p < 1.
+        An unknown metric, p or radius with a metric that has none, p < 1, or radius <= 0.
     """
     check_choice("metric", metric, get_args(Metric))
+    if radius is not None and metric != "haversine":
+        raise ValueError(f"radius applies to metric='haversine' only, not to {metric!r}")
+    if metric == "haversine" and p is None:
+        length = EARTH_RADIUS if radius is None else radius
+        length = real_number("radius", length, math.ulp(0.0), "give a finite number > 0")
+        if math.isinf(length):
+            raise ValueError(f"radius is {radius!r}; give a finite number > 0")
+        return metric, length
     if p is None:
         return ("euclidean", 2.0) if metric == "minkowski" else (metric, 2.0)
     if metric != "minkowski":
@@ -46,25 +57,38 @@ def check_metric(metric: Metric, p: Any) -> tuple[Metric, float]:
     return _SAME_AS_MINKOWSKI.get(order, metric), order
 
 
-def in_range(P: Array, Q: Array, metric: Metric) -> tuple[Array, Array, int]:
+def in_range(P: Array, Q: Array, metric: Metric, constant: float = 0.0) -> tuple[Array, Array, int]:
     """Return both curves in the range of what can be squared, and the exponent of the distances.
 
     A distance between the curves is one between those that are returned, times 2**exponent. For a
     metric of degree 0, for which what is small beside the largest coordinate counts too, the curves
-    stay as they are.
+    stay as they are. A constant that is added to distances is not enlarged beyond 2**1000: curves
+    that are so small beside it keep fewer bits.
     """
     degree = _ROWS[metric].degree
     exponent = range_exponent(P, Q) if degree > 0 else 0
+    if exponent < 0 < constant:
+        least = -((1000 - math.frexp(constant)[1]) // degree)
+        exponent = min(0, max(exponent, least))
     P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
     return P, Q, exponent * degree
 
 
-def without_root(metric: Metric, dim: int) -> Metric:
-    """Return what is under the root of a metric that takes one, and else the metric.
+Root: TypeAlias = Callable[[Array], Array]
 
-    Where distances are only compared, the root may come last. In one dimension there is none.
+
+def before_root(P: Array, Q: Array, metric: Metric, p: float) -> tuple[Array, Root | None]:
+    """Return what is under the root of ground distances, and the root, which may then come last.
+
+    Where distances are only compared, that is: it is monotone. Else, and in one dimension, the
+    ground distances, and None.
     """
-    return (_ROWS[metric].under_root if dim > 1 else None) or metric
+    points = _points(P, Q, metric)
+    root = _ROWS[metric].root
+    if root is None or len(points) == 1:
+        return ground_distances(P, Q, metric, p), None
+    with np.errstate(under="ignore"):
+        return _squares(points, p), partial(root, p)
 
 
 def ground_distances(P: Array, Q: Array, metric: Metric, p: float) -> Array:
@@ -74,7 +98,7 @@ def ground_distances(P: Array, Q: Array, metric: Metric, p: float) -> Array:
     (n, 1, d) and (m, d) give the (n, m) table, and (k, d) twice the distances of k pairs.
     """
     row = _ROWS[metric]
-    points = [(P[..., c], Q[..., c]) for c in range(P.shape[-1])]
+    points = _points(P, Q, metric)
     if len(points) == 1 and row.is_absolute_in_one_dimension:
         row = _ROWS["cityblock"]
     with np.errstate(under="ignore"):
@@ -83,6 +107,12 @@ def ground_distances(P: Array, Q: Array, metric: Metric, p: float) -> Array:
 
 # The coordinates of the points, one pair of arrays for each.
 _Points = list[tuple[Array, Array]]
+
+
+def _points(P: Array, Q: Array, metric: Metric) -> _Points:
+    if metric == "haversine":
+        P, Q = in_space(P), in_space(Q)
+    return [(P[..., c], Q[..., c]) for c in range(P.shape[-1])]
 
 
 def _deltas(points: _Points) -> list[Array]:
@@ -102,6 +132,10 @@ def _squares(points: _Points, _: float) -> Array:
 
 def _euclidean(points: _Points, order: float) -> Array:
     return np.sqrt(_squares(points, order))
+
+
+def _haversine(points: _Points, radius: float) -> Array:
+    return arcs(_squares(points, radius), radius)
 
 
 def _cityblock(points: _Points, _: float) -> Array:
@@ -127,13 +161,14 @@ class _Row(NamedTuple):
     distances: Callable[[_Points, float], Array]
     degree: int  # by which power of a factor a distance grows when both curves do
     is_absolute_in_one_dimension: bool  # |difference|, and computed as that
-    under_root: Metric | None = None  # of a root
+    root: Callable[[float, Array], Array] | None = None  # of squares, where it is one
 
 
 _ROWS: dict[Metric, _Row] = {
-    "euclidean": _Row(_euclidean, 1, True, under_root="sqeuclidean"),
+    "euclidean": _Row(_euclidean, 1, True, root=lambda _, squares: np.sqrt(squares)),
     "sqeuclidean": _Row(_squares, 2, False),
     "cityblock": _Row(_cityblock, 1, True),
     "chebyshev": _Row(_chebyshev, 1, True),
     "minkowski": _Row(_minkowski, 1, True),
+    "haversine": _Row(_haversine, 0, False, root=lambda radius, squares: arcs(squares, radius)),
 }

@@ -6,20 +6,36 @@ and for several answers that do not overlap. The work is done by the compiled li
 
 from __future__ import annotations
 
+import math
 import sys
 from dataclasses import replace
-from typing import SupportsFloat, SupportsIndex, get_args
+from typing import Any, SupportsFloat, SupportsIndex, get_args
 
 import numpy as np
 
 from .._core import dtw_subsequences, frechet_subsequences
 from .._docstrings import filled, listed
-from .._options import Default, Metric, Order, WarpingName, check_choice, whole_number
-from ..curves.inputs import Array, CurveLike, as_curves, warn_if_transposed
+from .._options import (
+    Default,
+    Metric,
+    Order,
+    Radius,
+    WarpingName,
+    check_choice,
+    real_number,
+    whole_number,
+)
+from ..curves.checks import check_finite
+from ..curves.ground_distance import check_metric
+from ..curves.inputs import Array, CurveLike, as_curves, in_columns, warn_if_transposed
+from ..curves.z_normalization import z_normalized
 from ..measures.registry import WARPINGS
 from ..measures.results import Subsequence
+from .normalized_runs import NormalizedRuns
 
 __all__ = ["subsequence"]
+
+_CUTOFF_ADVICE = "give a number >= 0, or None"
 
 
 @filled(warpings=listed(get_args(WarpingName)))
@@ -31,8 +47,11 @@ def subsequence(
     measure: WarpingName = "dtw",
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     cutoff: SupportsFloat | None = Default.cutoff,
     path: bool = False,
+    normalize: bool = False,
+    window: SupportsIndex | None = None,
     workers: SupportsIndex = Default.workers,
 ) -> list[Subsequence]:
     """Find the runs of Q that are most like P.
@@ -50,13 +69,20 @@ def subsequence(
     k : int >= 1
         The most answers to return.
     measure : {warpings}
-        dtw has the step pattern "symmetric1" and no window.
+        dtw has the step pattern "symmetric1", and no window except with `normalize`.
     {metric}
     {p}
+    {radius}
     cutoff : float >= 0, optional
         Runs with a distance above it are no answers.
     path : bool
         Whether the answers come with their paths.
+    normalize : bool
+        Look for runs that differ by a shift and a scale, too: every run has as many points as P,
+        and both are compared after :func:`curvewise.curves.z_normalized`.
+    window : int >= 0, optional
+        With `normalize` and dtw, the half-width of the Sakoe-Chiba band; 0 compares point by
+        point. No limit if not given.
     {workers}
 
     Returns
@@ -78,6 +104,12 @@ def subsequence(
     after each answer, only the ends behind it whose paths began before its end are swept again.
     Memory O(n + m). A path takes that of dtw_path, or frechet_path, for its run.
 
+    With `normalize`, the search of Rakthanmanon et al. ("Searching and mining trillions of time
+    series subsequences under dynamic time warping", 2012): every window gets a lower bound in O(n)
+    by the envelope of P, and only those are computed whose bound is not above the best distance.
+    Mean and deviation are those of the window's own numbers, in two passes; of a coordinate that
+    stands still in a window, the normalised one is 0. Memory O(m).
+
     Examples
     --------
     >>> import curvewise
@@ -91,18 +123,56 @@ def subsequence(
     warn_if_transposed(P, "P")
     count = min(whole_number("k", k, 1, "give a whole number >= 1"), sys.maxsize)
     check_choice("measure", measure, get_args(WarpingName))
+    ground: dict[str, Any] = {"metric": metric, "p": p, "radius": radius}
+    if normalize:
+        return _normalized(P, Q, count, measure, ground, window, cutoff, path, workers)
+    if window is not None:
+        raise ValueError("window needs normalize=True: other runs have no length of their own")
     find = dtw_subsequences if measure == "dtw" else frechet_subsequences
-    how = {"metric": metric, "p": p, "workers": workers, "cutoff": cutoff}
+    how = {**ground, "workers": workers, "cutoff": cutoff}
     answers = [Subsequence(*answer) for answer in find(P, Q, count, how)]
     if not path:
         return answers
-    return [_with_path(P, Q, measure, metric, p, answer) for answer in answers]
+    runs = ((answer, Q[answer.start : answer.stop + 1]) for answer in answers)
+    return [_with_path(P, run, measure, ground, answer) for answer, run in runs]
 
 
 def _with_path(
-    P: Array, Q: Array, measure: WarpingName, metric: Metric, p: Order, answer: Subsequence
+    P: Array, run: Array, measure: WarpingName, options: dict[str, Any], answer: Subsequence
 ) -> Subsequence:
     """Return an answer with its path, which begins and ends with the run."""
-    run = Q[answer.start : answer.stop + 1]
-    alignment = WARPINGS[measure].path(P, run, metric=metric, p=p)
+    alignment = WARPINGS[measure].path(P, run, **options)
     return replace(answer, path=alignment.path + np.array([0, answer.start]))
+
+
+def _normalized(
+    P: Array,
+    Q: Array,
+    count: int,
+    measure: WarpingName,
+    options: dict[str, Any],
+    window: Any,
+    cutoff: Any,
+    path: bool,
+    workers: Any,
+) -> list[Subsequence]:
+    """Return the answers of runs that are normalised."""
+    metric, order = check_metric(**options)
+    if metric == "haversine":
+        raise ValueError("normalize needs coordinates to scale; metric='haversine' has none")
+    if window is not None:
+        if measure != "dtw":
+            raise ValueError("window needs measure='dtw'")
+        window = whole_number("window", window, 0, "give a whole number >= 0, or None")
+        options = {**options, "window": window}
+    WARPINGS[measure].path(P[:1], Q[:1])  # what both refuse: shapes, and curves without points
+    limit = math.inf if cutoff is None else real_number("cutoff", cutoff, 0.0, _CUTOFF_ADVICE)
+    P, columns = z_normalized(P), in_columns(Q)
+    check_finite(Q, "Q")
+    runs = NormalizedRuns(in_columns(P), columns, measure, metric, order, window, options, workers)
+    n = len(P)
+    answers = [Subsequence(*found, found[1] + n - 1) for found in runs.best(count, limit)]
+    if not path:
+        return answers
+    windows = ((answer, z_normalized(Q[answer.start : answer.stop + 1])) for answer in answers)
+    return [_with_path(P, run, measure, options, answer) for answer, run in windows]

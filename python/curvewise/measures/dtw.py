@@ -12,7 +12,7 @@ from .._core import dtw_info as compiled_dtw_info
 from .._core import dtw_path as compiled_dtw_path
 from .._core import dtw_table as compiled_dtw_table
 from .._docstrings import filled
-from .._options import Default, Metric, Order, Window
+from .._options import Default, Metric, Order, Radius, Window
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.named_curve import copied
 from .results import Alignment, WarpingInfo
@@ -28,6 +28,7 @@ def dtw(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
     penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
@@ -46,6 +47,7 @@ def dtw(
         The curves, of any d.
     {metric}
     {p}
+    {radius}
     step_pattern : str or StepPattern
         "symmetric2" counts a diagonal step twice; it is R's default, with which the paper's
         tables were made. The others of R's dtw: "asymmetric", "symmetricP0", "symmetricP05",
@@ -123,6 +125,7 @@ def dtw(
     options = (
         metric,
         p,
+        radius,
         step_pattern,
         penalty,
         window,
@@ -142,6 +145,7 @@ def dtw_info(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
     penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
@@ -154,7 +158,7 @@ def dtw_info(
 
     Parameters
     ----------
-    P, Q, metric, p, step_pattern, penalty, window, open_begin, open_end, workers, prune
+    P, Q, metric, p, radius, step_pattern, penalty, window, open_begin, open_end, workers, prune
         As for :func:`dtw`.
 
     Returns
@@ -180,7 +184,13 @@ def dtw_info(
     (1.0, 12, 1.0)
     """
     P, Q = as_curves(P, Q)
-    steps = {"metric": metric, "p": p, "step_pattern": step_pattern, "penalty": penalty}
+    steps = {
+        "metric": metric,
+        "p": p,
+        "radius": radius,
+        "step_pattern": step_pattern,
+        "penalty": penalty,
+    }
     ends = {"window": window, "open_begin": open_begin, "open_end": open_end}
     how = {"workers": workers, "prune": prune}
     return WarpingInfo(*compiled_dtw_info(P, Q, steps | ends | how))
@@ -192,6 +202,7 @@ def dtw_path(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
     penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
@@ -204,7 +215,7 @@ def dtw_path(
 
     Parameters
     ----------
-    P, Q, metric, p, step_pattern, penalty, window, open_begin, open_end, workers, prune
+    P, Q, metric, p, radius, step_pattern, penalty, window, open_begin, open_end, workers, prune
         As for :func:`dtw`.
 
     Returns
@@ -232,7 +243,13 @@ def dtw_path(
     [[0, 0], [1, 0], [2, 1], [3, 2]]
     """
     A, B = as_curves(P, Q)
-    steps = {"metric": metric, "p": p, "step_pattern": step_pattern, "penalty": penalty}
+    steps = {
+        "metric": metric,
+        "p": p,
+        "radius": radius,
+        "step_pattern": step_pattern,
+        "penalty": penalty,
+    }
     ends = {"window": window, "open_begin": open_begin, "open_end": open_end}
     how = {"workers": workers, "prune": prune}
     found = compiled_dtw_path(A, B, steps | ends | how)
@@ -245,6 +262,7 @@ def dtw_table(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
     penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
@@ -255,7 +273,7 @@ def dtw_table(
 
     Parameters
     ----------
-    P, Q, metric, p, step_pattern, penalty, window, open_begin, open_end
+    P, Q, metric, p, radius, step_pattern, penalty, window, open_begin, open_end
         As for :func:`dtw`. An open end does not change the table: the value is then the smallest
         entry of its last row.
 
@@ -282,6 +300,12 @@ def dtw_table(
     [[0.0, 2.0, 5.0], [1.0, 1.0, 3.0]]
     """
     P, Q = as_curves(P, Q)
-    steps = {"metric": metric, "p": p, "step_pattern": step_pattern, "penalty": penalty}
+    steps = {
+        "metric": metric,
+        "p": p,
+        "radius": radius,
+        "step_pattern": step_pattern,
+        "penalty": penalty,
+    }
     ends = {"window": window, "open_begin": open_begin, "open_end": open_end}
     return compiled_dtw_table(P, Q, steps | ends)

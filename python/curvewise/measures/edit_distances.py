@@ -17,7 +17,7 @@ from .._core import msm as compiled_msm
 from .._core import twe as compiled_twe
 from .._core import wdtw as compiled_wdtw
 from .._docstrings import filled, listed
-from .._options import Default, Metric, Order, Window, check_choice
+from .._options import Default, Metric, Order, Radius, Window, check_choice
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.named_curve import copied
 from .results import Alignment
@@ -49,6 +49,7 @@ def erp(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     gap: SupportsFloat = 0.0,
     window: Window = Default.window,
     cutoff: SupportsFloat | None = Default.cutoff,
@@ -60,6 +61,7 @@ def erp(
     {curves}
     {metric}
     {p}
+    {radius}
     gap : float
         All coordinates of the point from which a point that is left out has its distance.
     {window}
@@ -88,7 +90,7 @@ def erp(
     >>> curvewise.erp([0, 1, 2, 3], [0, 2, 3])
     1.0
     """
-    return compiled_erp(P, Q, (metric, p, gap, window, cutoff))
+    return compiled_erp(P, Q, (metric, p, radius, gap, window, cutoff))
 
 
 @filled(**_SHARED)
@@ -98,6 +100,7 @@ def edr(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     epsilon: SupportsFloat | None = None,
     window: Window = Default.window,
     cutoff: SupportsFloat | None = Default.cutoff,
@@ -109,6 +112,7 @@ def edr(
     {curves}
     {metric}
     {p}
+    {radius}
     epsilon : float >= 0, optional
         Points nearer than this are equal. If not given, a quarter of the larger standard
         deviation of all coordinates of P and of Q.
@@ -137,7 +141,7 @@ def edr(
     >>> curvewise.edr([0, 1, 2, 3], [0, 1, 7, 3], epsilon=0.5)
     0.25
     """
-    return compiled_edr(P, Q, (metric, p, epsilon, window, cutoff))
+    return compiled_edr(P, Q, (metric, p, radius, epsilon, window, cutoff))
 
 
 @filled(**_SHARED)
@@ -147,6 +151,7 @@ def lcss(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     epsilon: SupportsFloat = 1.0,
     window: Window = Default.window,
     cutoff: SupportsFloat | None = Default.cutoff,
@@ -158,6 +163,7 @@ def lcss(
     {curves}
     {metric}
     {p}
+    {radius}
     epsilon : float >= 0
         Points at most so far apart match.
     {window}
@@ -183,7 +189,7 @@ def lcss(
     >>> curvewise.lcss([0, 1, 2, 3], [0, 9, 2, 3], epsilon=0.5)
     0.25
     """
-    return compiled_lcss(P, Q, (metric, p, epsilon, window, cutoff))
+    return compiled_lcss(P, Q, (metric, p, radius, epsilon, window, cutoff))
 
 
 @filled(**_SHARED)
@@ -237,6 +243,7 @@ def twe(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     stiffness: SupportsFloat = 0.001,
     penalty: SupportsFloat = 1.0,
     window: Window = Default.window,
@@ -249,6 +256,7 @@ def twe(
     {curves}
     {metric}
     {p}
+    {radius}
     stiffness : float >= 0
         What each unit of time between matched points costs; points are one unit apart.
     penalty : float >= 0
@@ -277,7 +285,7 @@ def twe(
     >>> curvewise.twe([0, 1, 2, 3], [0, 2, 3], penalty=0.5)
     2.5029999999999997
     """
-    return compiled_twe(P, Q, (metric, p, stiffness, penalty, window, cutoff))
+    return compiled_twe(P, Q, (metric, p, radius, stiffness, penalty, window, cutoff))
 
 
 @filled(**_SHARED)
@@ -287,6 +295,7 @@ def wdtw(
     *,
     metric: Metric = "sqeuclidean",
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     steepness: SupportsFloat = 0.05,
     window: Window = Default.window,
     cutoff: SupportsFloat | None = Default.cutoff,
@@ -298,6 +307,7 @@ def wdtw(
     {curves}
     {metric}
     {p}
+    {radius}
     steepness : float >= 0
         How sharply the weight rises about half of the longer curve.
     {window}
@@ -324,7 +334,7 @@ def wdtw(
     >>> round(curvewise.wdtw([0, 1, 2, 3], [0, 2, 3]), 6)
     0.475021
     """
-    return compiled_wdtw(P, Q, (metric, p, steepness, window, cutoff))
+    return compiled_wdtw(P, Q, (metric, p, radius, steepness, window, cutoff))
 
 
 @filled(distances=listed(get_args(EditDistance)))

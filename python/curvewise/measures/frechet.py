@@ -12,7 +12,7 @@ from .._core import frechet_info as compiled_frechet_info
 from .._core import frechet_path as compiled_frechet_path
 from .._core import frechet_table as compiled_frechet_table
 from .._docstrings import filled
-from .._options import Default, Metric, Order
+from .._options import Default, Metric, Order, Radius
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.named_curve import copied
 from .results import Alignment, WarpingInfo
@@ -27,6 +27,7 @@ def frechet(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
     cutoff: SupportsFloat | None = Default.cutoff,
@@ -39,6 +40,7 @@ def frechet(
         The curves, of any d.
     {metric}
     {p}
+    {radius}
     {workers}
     {prune}
     {cutoff}
@@ -68,7 +70,7 @@ def frechet(
     >>> curvewise.frechet([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 3)])
     3.0
     """
-    return compiled_frechet(P, Q, (metric, p, workers, prune, cutoff))
+    return compiled_frechet(P, Q, (metric, p, radius, workers, prune, cutoff))
 
 
 def frechet_info(
@@ -77,6 +79,7 @@ def frechet_info(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
 ) -> WarpingInfo:
@@ -84,7 +87,7 @@ def frechet_info(
 
     Parameters
     ----------
-    P, Q, metric, p, workers, prune
+    P, Q, metric, p, radius, workers, prune
         As for :func:`frechet`.
 
     Returns
@@ -110,7 +113,7 @@ def frechet_info(
     (3.0, 6, 1.0)
     """
     P, Q = as_curves(P, Q)
-    how = {"metric": metric, "p": p, "workers": workers, "prune": prune}
+    how = {"metric": metric, "p": p, "radius": radius, "workers": workers, "prune": prune}
     return WarpingInfo(*compiled_frechet_info(P, Q, how))
 
 
@@ -120,6 +123,7 @@ def frechet_path(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
 ) -> Alignment:
@@ -127,7 +131,7 @@ def frechet_path(
 
     Parameters
     ----------
-    P, Q, metric, p, workers, prune
+    P, Q, metric, p, radius, workers, prune
         As for :func:`frechet`.
 
     Returns
@@ -154,18 +158,23 @@ def frechet_path(
     [[0, 0], [1, 0], [2, 1]]
     """
     A, B = as_curves(P, Q)
-    how = {"metric": metric, "p": p, "workers": workers, "prune": prune}
+    how = {"metric": metric, "p": p, "radius": radius, "workers": workers, "prune": prune}
     return Alignment(*compiled_frechet_path(A, B, how), (copied(P, A), copied(Q, B)))
 
 
 def frechet_table(
-    P: CurveLike, Q: CurveLike, *, metric: Metric = Default.metric, p: Order = Default.p
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    radius: Radius = Default.radius,
 ) -> Array:
     """Return the cumulative table of the discrete Fréchet distance.
 
     Parameters
     ----------
-    P, Q, metric, p
+    P, Q, metric, p, radius
         As for :func:`frechet`.
 
     Returns
@@ -191,4 +200,4 @@ def frechet_table(
     [[0.0, 2.0], [1.0, 1.0], [2.0, 1.0]]
     """
     P, Q = as_curves(P, Q)
-    return compiled_frechet_table(P, Q, {"metric": metric, "p": p})
+    return compiled_frechet_table(P, Q, {"metric": metric, "p": p, "radius": radius})

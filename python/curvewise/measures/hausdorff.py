@@ -6,7 +6,7 @@ from typing import SupportsFloat
 
 from .._core import hausdorff as compiled_hausdorff
 from .._docstrings import filled
-from .._options import Default, Metric, Order
+from .._options import Default, Metric, Order, Radius
 from ..curves.inputs import CurveLike
 
 __all__ = ["hausdorff"]
@@ -19,6 +19,7 @@ def hausdorff(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     cutoff: SupportsFloat | None = Default.cutoff,
 ) -> float:
     """How far the point of either curve is from the other curve's points that is farthest from it.
@@ -29,6 +30,7 @@ def hausdorff(
         The curves, of any d.
     {metric}
     {p}
+    {radius}
     {cutoff}
 
     Returns
@@ -55,4 +57,4 @@ def hausdorff(
     >>> curvewise.hausdorff([0, 1, 2, 3], [3, 0, 1])
     1.0
     """
-    return compiled_hausdorff(P, Q, (metric, p, cutoff))
+    return compiled_hausdorff(P, Q, (metric, p, radius, cutoff))

@@ -88,7 +88,11 @@ def plot_alignment(
     if measure != "frechet":
         return artists
     # The first place on the path where the ground distance is largest.
-    metric = check_metric(options.get("metric", Default.metric), options.get("p", Default.p))
+    metric = check_metric(
+        options.get("metric", Default.metric),
+        options.get("p", Default.p),
+        options.get("radius", Default.radius),
+    )
     points = [curve[path[:, k]].reshape(len(path), -1) for k, curve in enumerate(measured)]
     farthest = path[np.argmax(ground_distances(points[0], points[1], *metric))]
     ends = [

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._options import Default, Metric, Order
+from .._options import Default, Metric, Order, Radius
 from ..curves.ground_distance import check_metric, ground_distances
 from ..curves.inputs import CurveLike
 from ..drawing.figures import CurveArtists
@@ -27,6 +27,7 @@ def plot_farthest(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     normalized: bool = False,
     names: Sequence[str] | None = None,
 ) -> CurveArtists:
@@ -38,7 +39,7 @@ def plot_farthest(
         The curves.
     ax : matplotlib.axes.Axes
         Where to draw.
-    metric, p
+    metric, p, radius
         As for :func:`curvewise.hausdorff`.
     normalized, names
         As in `plot_area`.
@@ -66,7 +67,7 @@ def plot_farthest(
     >>> plot_farthest([0, 1, 2], [0, 2], ax).accent.get_label()
     'Hausdorff distance'
     """
-    metric, order = check_metric(metric, p)
+    metric, order = check_metric(metric, p, radius)
     refused = "plot_farthest draws 1 or 2 coordinates"
     (A, B), drawn, labels = measured_and_drawn(P, Q, normalized, names, refused)
     A, B = A.reshape(len(A), -1), B.reshape(len(B), -1)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..curves.checks import check_finite
 from ..curves.inputs import Array, in_columns
+from ..curves.sphere import check_on_sphere
 
 __all__ = ["check_length", "check_pair", "check_same_shape"]
 
@@ -21,6 +22,7 @@ def check_pair(
     *,
     least_points: int = 1,
     planar: bool = False,
+    on_sphere: bool = False,
     name: str = "Q",
 ) -> tuple[Array, Array]:
     """Check P and Q, which goes by `name`, and return both with shape (n, d)."""
@@ -29,8 +31,13 @@ def check_pair(
     if in_columns(P).shape[1] != in_columns(Q).shape[1]:
         need = "both need the same number of coordinates"
         raise ValueError(f"{_shapes(P, Q, name)}; {need}{_transposed(P, Q)}")
-    if planar and in_columns(P).shape[1] != 2:
-        need = f"{measure} needs 2 coordinates, x and y"
+    if (planar or on_sphere) and in_columns(P).shape[1] != 2:
+        needed = (
+            "needs 2 coordinates, x and y"
+            if planar
+            else "with metric='haversine' needs 2 coordinates, longitude and latitude"
+        )
+        need = f"{measure} {needed}"
         raise ValueError(f"{_shapes(P, Q, name)}; {need}{_transposed(P, Q)}")
     for curve, its_name in named:
         if len(curve) < least_points:
@@ -38,6 +45,8 @@ def check_pair(
             raise ValueError(f"{its_name} has shape {curve.shape}; {need}")
     for curve, its_name in named:
         check_finite(curve, its_name)
+        if on_sphere:
+            check_on_sphere(curve, its_name)
     return in_columns(P), in_columns(Q)
 
 

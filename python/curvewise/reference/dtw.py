@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, SupportsFloat
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, Metric, Order, Window, real_number, whole_number
+from .._options import Default, Metric, Order, Radius, Window, real_number, whole_number
 from ..curves.ground_distance import check_metric, ground_distances, in_range
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
@@ -36,6 +36,7 @@ def dtw(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
     penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
@@ -51,7 +52,7 @@ def dtw(
     steps = _Steps.checked(step_pattern, penalty)
     if normalize:
         steps.check_normalization()
-    table = _accumulate(P, Q, metric, p, steps, window, open_begin, open_end)
+    table = _accumulate(P, Q, metric, p, radius, steps, window, open_begin, open_end)
     distance = float(table.restored(table.costs[-1, table.end]))
     n, m = table.costs.shape
     return distance / {"N": n, "M": m, "N+M": n + m}[steps.per] if normalize else distance
@@ -63,6 +64,7 @@ def dtw_path(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
     penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
@@ -71,7 +73,7 @@ def dtw_path(
 ) -> Alignment:
     """As for :func:`dtw`."""
     steps = _Steps.checked(step_pattern, penalty)
-    table = _accumulate(P, Q, metric, p, steps, window, open_begin, open_end)
+    table = _accumulate(P, Q, metric, p, radius, steps, window, open_begin, open_end)
     distance = float(table.restored(table.costs[-1, table.end]))
     if table.path is not None:
         return Alignment(distance, table.path)
@@ -89,6 +91,7 @@ def dtw_table(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
     penalty: SupportsFloat = Default.penalty,
     window: Window = Default.window,
@@ -97,7 +100,7 @@ def dtw_table(
 ) -> Array:
     """As for :func:`dtw`."""
     steps = _Steps.checked(step_pattern, penalty)
-    table = _accumulate(P, Q, metric, p, steps, window, open_begin, open_end)
+    table = _accumulate(P, Q, metric, p, radius, steps, window, open_begin, open_end)
     return np.array(table.restored(table.costs))
 
 
@@ -120,6 +123,7 @@ def _accumulate(
     Q: CurveLike,
     metric: Metric,
     p: Order,
+    radius: Radius,
     steps: _Steps,
     window: Window,
     open_begin: bool,
@@ -127,13 +131,13 @@ def _accumulate(
 ) -> _Table:
     """Check everything and fill the table."""
     P, Q = as_curves(P, Q)
-    metric, order = check_metric(metric, p)
+    metric, order = check_metric(metric, p, radius)
     _check_steps(steps, window, open_begin, open_end)
-    P, Q = check_pair(P, Q, "dtw")
-    radius = checked_radius(window, len(P), len(Q))
-    P, Q, exponent = in_range(P, Q, metric)
+    P, Q = check_pair(P, Q, "dtw", on_sphere=metric == "haversine")
+    reach = checked_radius(window, len(P), len(Q))
+    P, Q, exponent = in_range(P, Q, metric, steps.penalty)
     ground = ground_distances(P[:, np.newaxis], Q, metric, order)
-    inside = sakoe_chiba_band(len(P), len(Q), radius)
+    inside = sakoe_chiba_band(len(P), len(Q), reach)
     weight = steps.diagonal_weight
     if weight is None:
         penalty = float(times_power_of_two(np.array(steps.penalty), -exponent))

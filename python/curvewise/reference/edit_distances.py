@@ -12,7 +12,7 @@ from typing import Any, Literal, NamedTuple, SupportsFloat, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, Metric, Order, Window, real_number
+from .._options import Default, Metric, Order, Radius, Window, real_number
 from ..curves.ground_distance import check_metric, ground_distances
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..measures.results import Alignment
@@ -32,11 +32,12 @@ def erp(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     gap: SupportsFloat = 0.0,
     window: Window = Default.window,
 ) -> float:
     """Time and memory O(n m)."""
-    return _erp(P, Q, metric, p, gap, window).value()
+    return _erp(P, Q, metric, p, radius, gap, window).value()
 
 
 def edr(
@@ -45,11 +46,12 @@ def edr(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     epsilon: SupportsFloat | None = None,
     window: Window = Default.window,
 ) -> float:
     """Time and memory O(n m)."""
-    return _edr(P, Q, metric, p, epsilon, window).value()
+    return _edr(P, Q, metric, p, radius, epsilon, window).value()
 
 
 def lcss(
@@ -58,11 +60,12 @@ def lcss(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     epsilon: SupportsFloat = 1.0,
     window: Window = Default.window,
 ) -> float:
     """Time and memory O(n m)."""
-    found = _lcss(P, Q, metric, p, epsilon, window)
+    found = _lcss(P, Q, metric, p, radius, epsilon, window)
     n, m = found.table.shape
     return float(max(0.0, 1.0 + found.last() / min(n, m)))
 
@@ -80,12 +83,13 @@ def twe(
     *,
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     stiffness: SupportsFloat = 0.001,
     penalty: SupportsFloat = 1.0,
     window: Window = Default.window,
 ) -> float:
     """Time and memory O(n m)."""
-    return _twe(P, Q, metric, p, stiffness, penalty, window).value()
+    return _twe(P, Q, metric, p, radius, stiffness, penalty, window).value()
 
 
 def wdtw(
@@ -94,11 +98,12 @@ def wdtw(
     *,
     metric: Metric = "sqeuclidean",
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     steepness: SupportsFloat = 0.05,
     window: Window = Default.window,
 ) -> float:
     """Time and memory O(n m)."""
-    return _wdtw(P, Q, metric, p, steepness, window).value()
+    return _wdtw(P, Q, metric, p, radius, steepness, window).value()
 
 
 def edit_path(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any) -> Alignment:
@@ -148,13 +153,20 @@ class _Pair(NamedTuple):
 
     @classmethod
     def checked(
-        cls, P: CurveLike, Q: CurveLike, metric: Metric, p: Order, window: Any, measure: str
+        cls,
+        P: CurveLike,
+        Q: CurveLike,
+        metric: Metric,
+        p: Order,
+        radius: Radius,
+        window: Any,
+        measure: str,
     ) -> _Pair:
         P, Q = as_curves(P, Q)
-        metric, order = check_metric(metric, p)
-        P, Q = check_pair(P, Q, measure)
-        radius = checked_radius(window, len(P), len(Q))
-        return cls(P, Q, metric, order, sakoe_chiba_band(len(P), len(Q), radius))
+        metric, order = check_metric(metric, p, radius)
+        P, Q = check_pair(P, Q, measure, on_sphere=metric == "haversine")
+        reach = checked_radius(window, len(P), len(Q))
+        return cls(P, Q, metric, order, sakoe_chiba_band(len(P), len(Q), reach))
 
     def ground(self) -> Array:
         """Return d(P[i], Q[j])."""
@@ -184,9 +196,15 @@ def _cell(table: Array) -> CellCost:
     return lambda i, j: float(table[i, j])
 
 
-def _erp(P: Any, Q: Any, metric: Metric, p: Order, gap: Any, window: Any) -> _Found:
-    pair = _Pair.checked(P, Q, metric, p, window, "erp")
-    point = np.full((1, pair.P.shape[1]), real_number("gap", gap, -math.inf, "give a number"))
+def _erp(P: Any, Q: Any, metric: Metric, p: Order, radius: Radius, gap: Any, window: Any) -> _Found:
+    pair = _Pair.checked(P, Q, metric, p, radius, window, "erp")
+    number = real_number("gap", gap, -math.inf, "give a number")
+    if pair.metric == "haversine" and abs(number) > 90:
+        raise ValueError(
+            f"gap is {number:.10g}; metric='haversine' takes it for a longitude and a latitude: "
+            "give a number from -90 to 90"
+        )
+    point = np.full((1, pair.P.shape[1]), number)
     rows, columns = pair.between(pair.P, point), pair.between(pair.Q, point)
     steps = _steps(
         _cell(pair.ground()),
@@ -198,8 +216,14 @@ def _erp(P: Any, Q: Any, metric: Metric, p: Order, gap: Any, window: Any) -> _Fo
     return pair.found(Recurrence(steps, None, sum(columns.tolist()), sum(rows.tolist())))
 
 
-def _edr(P: Any, Q: Any, metric: Metric, p: Order, epsilon: Any, window: Any) -> _Found:
-    pair = _Pair.checked(P, Q, metric, p, window, "edr")
+def _edr(
+    P: Any, Q: Any, metric: Metric, p: Order, radius: Radius, epsilon: Any, window: Any
+) -> _Found:
+    pair = _Pair.checked(P, Q, metric, p, radius, window, "edr")
+    if epsilon is None and pair.metric == "haversine":
+        raise ValueError(
+            "edr with metric='haversine' needs epsilon: degrees have no deviation in metres"
+        )
     quarter = max(float(np.std(curve)) for curve in (pair.P, pair.Q)) / 4
     least = quarter if epsilon is None else epsilon
     least = real_number("epsilon", least, 0.0, "give a number >= 0, or None")
@@ -208,15 +232,17 @@ def _edr(P: Any, Q: Any, metric: Metric, p: Order, epsilon: Any, window: Any) ->
     return pair.found(recurrence, max(pair.inside.shape))
 
 
-def _lcss(P: Any, Q: Any, metric: Metric, p: Order, epsilon: Any, window: Any) -> _Found:
-    pair = _Pair.checked(P, Q, metric, p, window, "lcss")
+def _lcss(
+    P: Any, Q: Any, metric: Metric, p: Order, radius: Radius, epsilon: Any, window: Any
+) -> _Found:
+    pair = _Pair.checked(P, Q, metric, p, radius, window, "lcss")
     most = real_number("epsilon", epsilon, 0.0, "give a number >= 0")
     together = np.where(pair.ground() <= most, -1.0, 0.0)
     return pair.found(Recurrence(_steps(_cell(together), 0.0, 0.0), None, 0.0, 0.0))
 
 
 def _msm(P: Any, Q: Any, cost: Any, window: Any) -> _Found:
-    pair = _Pair.checked(P, Q, "cityblock", None, window, "msm")
+    pair = _Pair.checked(P, Q, "cityblock", None, None, window, "msm")
     constant = real_number("cost", cost, 0.0, "give a number >= 0")
     found = [_msm_of_one(pair, c, constant) for c in range(pair.P.shape[1])]
     table = sum((one.table for one in found[1:]), found[0].table)
@@ -242,9 +268,16 @@ def _msm_of_one(pair: _Pair, coordinate: int, cost: float) -> _Found:
 
 
 def _twe(
-    P: Any, Q: Any, metric: Metric, p: Order, stiffness: Any, penalty: Any, window: Any
+    P: Any,
+    Q: Any,
+    metric: Metric,
+    p: Order,
+    radius: Radius,
+    stiffness: Any,
+    penalty: Any,
+    window: Any,
 ) -> _Found:
-    pair = _Pair.checked(P, Q, metric, p, window, "twe")
+    pair = _Pair.checked(P, Q, metric, p, radius, window, "twe")
     stiff = real_number("stiffness", stiffness, 0.0, "give a number >= 0")
     deletion = stiff + real_number("penalty", penalty, 0.0, "give a number >= 0")
     led_P, led_Q = (
@@ -267,8 +300,10 @@ def _twe(
     return pair.found(Recurrence([match, above, left]))
 
 
-def _wdtw(P: Any, Q: Any, metric: Metric, p: Order, steepness: Any, window: Any) -> _Found:
-    pair = _Pair.checked(P, Q, metric, p, window, "wdtw")
+def _wdtw(
+    P: Any, Q: Any, metric: Metric, p: Order, radius: Radius, steepness: Any, window: Any
+) -> _Found:
+    pair = _Pair.checked(P, Q, metric, p, radius, window, "wdtw")
     steep = real_number("steepness", steepness, 0.0, "give a number >= 0")
     n, m = pair.inside.shape
     apart = np.abs(np.arange(n)[:, np.newaxis] - np.arange(m))

@@ -5,10 +5,10 @@ The table c[i, j] holds the shortest leash for a coupling that ends at (i, j):
     c[i, j] = max(d(P[i], Q[j]), min(c[i-1, j], c[i, j-1], c[i-1, j-1]))
 
 (Eiter & Mannila, 1994). It is filled along anti-diagonals i + j = s, whose cells depend on earlier
-ones only. For the Euclidean distance the table is that of the squares, and roots are taken at the
-end: sqrt is monotone, so max and min choose the same cells and the values have the same bits. The
-coupling is read off the squares too, because the rounding of sqrt can make two of them equal that
-are not. Time and memory O(n m).
+ones only. For the Euclidean distance, or arcs, the table is that of the squares, and roots are
+taken at the end: they are monotone, so max and min choose the same cells and the values have the
+same bits. The coupling is read off the squares too, because the rounding of roots can make two of
+them equal that are not. Time and memory O(n m).
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._options import Default, Metric, Order
-from ..curves.ground_distance import check_metric, ground_distances, in_range, without_root
+from .._options import Default, Metric, Order, Radius
+from ..curves.ground_distance import Root, before_root, check_metric, in_range
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
@@ -29,18 +29,28 @@ __all__ = ["frechet", "frechet_path", "frechet_table"]
 
 
 def frechet(
-    P: CurveLike, Q: CurveLike, *, metric: Metric = Default.metric, p: Order = Default.p
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    radius: Radius = Default.radius,
 ) -> float:
     """Time and memory O(n m). Eiter & Mannila, "Computing discrete Fréchet distance" (1994)."""
-    table = _accumulate(P, Q, metric, p)
+    table = _accumulate(P, Q, metric, p, radius)
     return float(table.restored(table.leashes[-1, -1]))
 
 
 def frechet_path(
-    P: CurveLike, Q: CurveLike, *, metric: Metric = Default.metric, p: Order = Default.p
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    radius: Radius = Default.radius,
 ) -> Alignment:
     """As for :func:`frechet`."""
-    table = _accumulate(P, Q, metric, p)
+    table = _accumulate(P, Q, metric, p, radius)
     c = table.leashes
 
     def is_diagonal(i: int, j: int) -> bool:
@@ -51,10 +61,15 @@ def frechet_path(
 
 
 def frechet_table(
-    P: CurveLike, Q: CurveLike, *, metric: Metric = Default.metric, p: Order = Default.p
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    radius: Radius = Default.radius,
 ) -> Array:
     """As for :func:`frechet`."""
-    table = _accumulate(P, Q, metric, p)
+    table = _accumulate(P, Q, metric, p, radius)
     return np.array(table.restored(table.leashes))
 
 
@@ -62,24 +77,23 @@ class _Table(NamedTuple):
     """A filled table, with what is needed to read a distance off it."""
 
     leashes: Array  # c[i, j], or its square, in units of 2**exponent
-    squared: bool
+    root: Root | None
     exponent: int
 
     def restored(self, values: Array) -> Array:
         """Return values of the table in units of the curves."""
-        return times_power_of_two(np.sqrt(values) if self.squared else values, self.exponent)
+        return times_power_of_two(self.root(values) if self.root else values, self.exponent)
 
 
-def _accumulate(P: CurveLike, Q: CurveLike, metric: Metric, p: Order) -> _Table:
+def _accumulate(P: CurveLike, Q: CurveLike, metric: Metric, p: Order, radius: Radius) -> _Table:
     """Check everything and fill the table."""
     P, Q = as_curves(P, Q)
-    metric, order = check_metric(metric, p)
-    P, Q = check_pair(P, Q, "frechet")
+    metric, order = check_metric(metric, p, radius)
+    P, Q = check_pair(P, Q, "frechet", on_sphere=metric == "haversine")
     P, Q, exponent = in_range(P, Q, metric)
-    under_root = without_root(metric, P.shape[1])
-    ground = ground_distances(P[:, np.newaxis], Q, under_root, order)
+    ground, root = before_root(P[:, np.newaxis], Q, metric, order)
     leashes = filled_table(
         ground,
         lambda d, up, left, diagonal: np.maximum(d, np.minimum(np.minimum(up, left), diagonal)),
     )
-    return _Table(leashes, under_root != metric, exponent)
+    return _Table(leashes, root, exponent)

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, Metric, Order, WarpingName, Window
-from ..curves.ground_distance import check_metric, ground_distances, in_range, without_root
+from .._options import Default, Metric, Order, Radius, WarpingName, Window
+from ..curves.ground_distance import Root, before_root, check_metric, ground_distances, in_range
 from ..curves.inputs import Array, CurveLike, as_curve
 from ..curves.scaling import times_power_of_two
 from ..measures.results import DtwMean, Subsequence
@@ -62,19 +62,21 @@ def subsequence(
     measure: WarpingName = "dtw",
     metric: Metric = Default.metric,
     p: Order = Default.p,
+    radius: Radius = Default.radius,
     cutoff: float = np.inf,
 ) -> list[Subsequence]:
     """Return the best run of Q, and again and again the best of the pieces that are left.
 
     Every piece is searched by itself, in a table of its own.
     """
-    P, Q = check_pair(as_curve(P, "P"), as_curve(Q, "Q"), measure)
-    metric, order = check_metric(metric, p)
+    metric, order = check_metric(metric, p, radius)
+    P, Q = as_curve(P, "P"), as_curve(Q, "Q")
+    P, Q = check_pair(P, Q, measure, on_sphere=metric == "haversine")
     P, Q, exponent = in_range(P, Q, metric)
-    under_root = without_root(metric, P.shape[1]) if measure == "frechet" else metric
-    ground = ground_distances(P[:, np.newaxis], Q, under_root, order)
-    is_square = under_root != metric
-    pieces = [_best_run(ground, measure, is_square, 0, ground.shape[1])]
+    ground, root = ground_distances(P[:, np.newaxis], Q, metric, order), None
+    if measure == "frechet":
+        ground, root = before_root(P[:, np.newaxis], Q, metric, order)
+    pieces = [_best_run(ground, measure, root, 0, ground.shape[1])]
     answers: list[Subsequence] = []
     while pieces and len(answers) < k:
         best = min(pieces, key=lambda piece: (piece[0], piece[2]))
@@ -86,7 +88,7 @@ def subsequence(
         pieces.remove(best)
         for left, right in ((begin, start), (stop + 1, end)):
             if right > left:
-                pieces.append(_best_run(ground, measure, is_square, left, right))
+                pieces.append(_best_run(ground, measure, root, left, right))
     return answers
 
 
@@ -124,13 +126,13 @@ def _all_distances(X: Curves, curves: Curves, measure: str, options: dict[str, A
 
 
 def _best_run(
-    ground: Array, measure: WarpingName, is_square: bool, begin: int, end: int
+    ground: Array, measure: WarpingName, root: Root | None, begin: int, end: int
 ) -> tuple[float, int, int, int, int]:
     """Return value, start and stop of the best run of a piece, and the piece.
 
     Row by row, every cell has the value of the best path that begins anywhere in the first row,
     and where it begins. Among equal predecessors: the diagonal, then (i-1, j), then (i, j-1).
-    Where the ground distances are squares, the runs are compared by the roots of their values.
+    Where the ground distances are under a root, the runs are compared by the roots of their values.
     """
     piece = ground[:, begin:end]
     values = [float(d) for d in piece[0]]
@@ -154,7 +156,7 @@ def _best_run(
                 best = (max(d, best[0]), best[1])
             values.append(best[0])
             starts.append(best[1])
-    distances = np.sqrt(values) if is_square else np.array(values)
+    distances = root(np.array(values)) if root else np.array(values)
     stop = int(np.argmin(distances))
     return float(distances[stop]), starts[stop], begin + stop, begin, end
 

@@ -20,8 +20,8 @@ std::vector<std::string> names(Enum any) {
 using Names = std::vector<std::string>;
 
 void choices_have_their_names() {
-    CHECK_EQUAL(names(Metric{}),
-                (Names{"euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"}));
+    CHECK_EQUAL(names(Metric{}), (Names{"euclidean", "sqeuclidean", "cityblock", "chebyshev",
+                                        "minkowski", "haversine"}));
     CHECK_EQUAL(names(StepPattern{}).size(), std::size(step_patterns));
     CHECK_EQUAL(names(StepPattern{})[static_cast<std::size_t>(StepPattern::symmetricP1)],
                 std::string("symmetricP1"));

@@ -94,8 +94,8 @@ void add_errors(Errors& errors, const Material& material, const std::vector<doub
     }
 }
 
-// A share of the sets for each kind of material, five loops each.
-inline std::vector<Errors> errors_of_all(Generator& generator, int sets, int increments) {
+// A share of the draws for each kind of material: a set of parameters for each of five loops.
+inline std::vector<Errors> errors_of_all(Generator& generator, int draws, int increments) {
     using curvewise::BoundGrowth;
     using curvewise::Modulus;
     using curvewise::materials::ChabocheVocePoint;
@@ -104,8 +104,8 @@ inline std::vector<Errors> errors_of_all(Generator& generator, int sets, int inc
     std::vector<Errors> found;
     const auto add = [&](const std::string& name, auto check) {
         Errors errors{name};
-        for (int i = 0; i < sets / 8; ++i, ++errors.sets) {
-            for (const auto& strain : loops) check(errors, strain);
+        for (int i = 0; i < draws / 8; ++i) {
+            for (const auto& strain : loops) check(errors, strain), ++errors.sets;
         }
         found.push_back(errors);
     };

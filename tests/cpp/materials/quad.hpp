@@ -28,7 +28,7 @@ inline double value_of(const Quad& number) noexcept { return static_cast<double>
 inline Quad exp(const Quad& x) noexcept { return Quad::of(expq(x.value)); }
 inline Quad log(const Quad& x) noexcept { return Quad::of(logq(x.value)); }
 inline Quad pow(const Quad& x, const Quad& y) noexcept { return Quad::of(powq(x.value, y.value)); }
-inline Quad saturation(const Quad& z) noexcept {
+inline Quad saturation(const Quad& z, double /*fall*/) noexcept {
     return z.value == 0 ? Quad(1.0) : Quad::of(-expm1q(-z.value) / z.value);
 }
 

@@ -40,7 +40,7 @@ class SweptPair {
                          const GroundDistance& ground = {}, Poller& poller = unpolled) {
         SweepProblem found = problem(level, recurrence,
                                      curvewise::warping::canonical_cost(ground, {p_, q_}), poller);
-        found.minkowski_p = ground.p;
+        found.metric_parameter = ground.parameter();
         return found;
     }
     Band band(const std::optional<std::ptrdiff_t>& window = std::nullopt) const {

@@ -245,7 +245,7 @@ void kernels_where_there_are_bounds() {
             const check::Note note(oracle::name(metric));
             const bool has_bounds = curvewise::warping::has_box_bounds(metric);
             Cost cost{metric, false};
-            const bool has_blocks = has_bounds && !curvewise::warping::put_off_root(cost);
+            const bool has_blocks = has_bounds && !curvewise::warping::put_off_root(cost, {metric});
             for (const std::ptrdiff_t dim : {1, 2, 3, 4}) {
                 CHECK_EQUAL(level.kernels->least(metric, dim) != nullptr, has_bounds);
                 CHECK_EQUAL(level.kernels->reach(metric, dim) != nullptr, has_blocks);

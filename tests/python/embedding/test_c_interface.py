@@ -17,13 +17,13 @@ import pytest
 from programs import KINDS, MARKS, ROOT, compiler, output, run
 
 import curvewise
-from curvewise._options import Metric
+from curvewise._options import CoordinateMetric
 from curvewise.materials import ChabocheVoce, YoshidaUemori
 
 pytestmark = MARKS
 
 OK, INVALID_ARGUMENT, NO_MEMORY, FAILED = range(4)
-METRICS = get_args(Metric)
+METRICS = get_args(CoordinateMetric)
 MEASURES = ["area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous"]
 
 
@@ -38,7 +38,14 @@ Error = structure("Error", ("message", c_char * 256))
 Area = structure("Area", ("spacing", c_int), ("crossing", c_int), ("squared", c_int))
 Pcm = structure("Pcm", ("offsets", c_ssize_t), ("continuous", c_int))
 PRUNING = ("prune", c_int), ("cutoff", c_double)
-Frechet = structure("Frechet", ("metric", c_int), ("p", c_double), ("workers", c_ssize_t), *PRUNING)
+Frechet = structure(
+    "Frechet",
+    ("metric", c_int),
+    ("p", c_double),
+    ("workers", c_ssize_t),
+    *PRUNING,
+    ("radius", c_double),
+)
 Dtw = structure(
     "Dtw",
     ("metric", c_int),
@@ -49,6 +56,7 @@ Dtw = structure(
     ("window_fraction", c_double),
     ("normalize", c_int),
     ("penalty", c_double),
+    ("radius", c_double),
 )
 CurveLength = structure("CurveLength", ("scale", c_int))
 Chaboche = structure("Chaboche", ("backstresses", c_int), ("modulus", c_int))
@@ -177,7 +185,7 @@ def test_planar_options(call) -> None:
         ("area", Area(4, 0, 0), "unknown spacing 4; choose from 0 to 3"),
         ("area", Area(0, -1, 0), "unknown crossing -1; choose from 0 to 1"),
         ("pcm", Pcm(0, 0), "offsets is 0; give a whole number >= 1, or 'continuous'"),
-        ("frechet", Frechet(5, 2.0, 1), "unknown metric 5; choose from 0 to 4"),
+        ("frechet", Frechet(6, 2.0, 1), "unknown metric 6; choose from 0 to 5"),
         ("frechet", Frechet(4, 0.5, 1), "minkowski needs 1 <= p <= inf"),
         ("frechet", Frechet(), "workers is 0"),
         ("frechet", Frechet(0, 2.0, 1, 1, -1.0), "cutoff is -1"),

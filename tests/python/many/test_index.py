@@ -14,12 +14,12 @@ import pytest
 
 import curvewise
 from curvewise import Index
-from curvewise._options import Metric
+from curvewise._options import CoordinateMetric
 
 # Measures with options that have bounds of their own, or none.
 CASES: list[tuple[str, dict[str, Any]]] = [
-    *(("dtw", {"metric": metric}) for metric in get_args(Metric)),
-    *(("frechet", {"metric": metric}) for metric in get_args(Metric)),
+    *(("dtw", {"metric": metric}) for metric in get_args(CoordinateMetric)),
+    *(("frechet", {"metric": metric}) for metric in get_args(CoordinateMetric)),
     ("dtw", {"step_pattern": "symmetric2"}),
     ("dtw", {"window": 4}),
     ("dtw", {"window": 40, "metric": "cityblock", "step_pattern": "symmetric2"}),

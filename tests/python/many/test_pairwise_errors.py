@@ -105,7 +105,7 @@ VALUES = {
     "unknown measure <function": lambda: Prepared(GOOD, lambda P, Q: 0.0),
 }
 TYPES = {
-    "frechet has no option 'window'; it has metric, p, prune": lambda: cdist(
+    "frechet has no option 'window'; it has metric, p, radius, prune": lambda: cdist(
         [GOOD], measure="frechet", window=3
     ),
     "XA is of type str; give a list of curves": lambda: cdist("curves.csv"),

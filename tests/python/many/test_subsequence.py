@@ -9,7 +9,7 @@ import pytest
 
 import curvewise
 from curvewise import reference
-from curvewise._options import Metric
+from curvewise._options import CoordinateMetric
 
 
 def triples(found: list[curvewise.Subsequence]) -> list[tuple[float, int, int]]:
@@ -29,7 +29,7 @@ def pairs(count: int) -> list[tuple[np.ndarray, np.ndarray]]:
 
 
 @pytest.mark.parametrize("measure", ["dtw", "frechet"])
-@pytest.mark.parametrize("metric", get_args(Metric))
+@pytest.mark.parametrize("metric", get_args(CoordinateMetric))
 def test_equal_to_the_reference(measure, metric):
     for i, (P, Q) in enumerate(pairs(25)):
         options = {"measure": measure, "metric": metric, "k": 1 + i % 8}

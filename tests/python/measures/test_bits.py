@@ -20,7 +20,7 @@ import pytest
 
 import curvewise
 from curvewise import reference
-from curvewise._options import Metric
+from curvewise._options import CoordinateMetric
 
 Array = npt.NDArray[np.float64]
 Options = dict[str, Any]
@@ -30,7 +30,7 @@ DIMENSIONS = (1, 2, 3, 4, 7)
 # Computed exactly alike by kernel and reference; orders 1, 2 and inf go by other metrics' names.
 EXACT_GROUNDS: tuple[Options, ...] = (
     {},
-    *({"metric": metric} for metric in get_args(Metric)),
+    *({"metric": metric} for metric in get_args(CoordinateMetric)),
     {"metric": "minkowski", "p": 1},
     {"metric": "minkowski", "p": 2.0},
     {"metric": "minkowski", "p": np.inf},

@@ -12,7 +12,7 @@ import pytest
 
 import curvewise
 from curvewise import reference
-from curvewise._options import Metric
+from curvewise._options import CoordinateMetric
 
 Array = npt.NDArray[np.float64]
 
@@ -25,7 +25,7 @@ def pair(seed: int, dim: int = 2) -> tuple[Array, Array]:
     return rng.normal(size=(n, dim)).cumsum(axis=0), rng.normal(size=(m, dim)).cumsum(axis=0)
 
 
-@pytest.mark.parametrize("metric", get_args(Metric))
+@pytest.mark.parametrize("metric", get_args(CoordinateMetric))
 def test_normalized_is_the_distance_by_the_weight_of_a_path(metric: Any) -> None:
     for seed in range(50):
         P, Q = pair(seed)

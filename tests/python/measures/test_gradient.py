@@ -9,10 +9,10 @@ import pytest
 
 import curvewise
 from curvewise import reference, value_and_gradient
-from curvewise._options import Metric
+from curvewise._options import CoordinateMetric
 
 GROUND = [
-    *({"metric": metric} for metric in get_args(Metric)),
+    *({"metric": metric} for metric in get_args(CoordinateMetric)),
     {"metric": "minkowski", "p": 3},
     {"metric": "minkowski", "p": 1},
     {"metric": "minkowski", "p": np.inf},

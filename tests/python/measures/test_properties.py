@@ -16,13 +16,13 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import curvewise
-from curvewise._options import Metric
+from curvewise._options import CoordinateMetric
 
 Array = npt.NDArray[np.float64]
 
 PROFILE = settings(derandomize=True, deadline=None)
 
-METRICS = st.sampled_from(get_args(Metric))
+METRICS = st.sampled_from(get_args(CoordinateMetric))
 NORMS = st.sampled_from(["euclidean", "sqeuclidean", "cityblock", "chebyshev"])
 EXACT_METRICS = st.sampled_from(["sqeuclidean", "cityblock", "chebyshev"])
 STEP_PATTERNS = st.sampled_from(["symmetric1", "symmetric2"])

@@ -15,7 +15,7 @@ import numpy.typing as npt
 import pytest
 
 from curvewise import reference
-from curvewise._options import Metric
+from curvewise._options import CoordinateMetric
 
 Array = npt.NDArray[np.float64]
 Step = tuple[int, int]
@@ -65,7 +65,7 @@ def integer_pairs(seed: int, count: int, longest: int) -> Iterator[tuple[Array, 
         yield rng.integers(-3, 4, (n, d)).astype(float), rng.integers(-3, 4, (m, d)).astype(float)
 
 
-@pytest.mark.parametrize("metric", get_args(Metric))
+@pytest.mark.parametrize("metric", get_args(CoordinateMetric))
 @pytest.mark.parametrize(("step_pattern", "weight"), [("symmetric1", 1.0), ("symmetric2", 2.0)])
 def test_dtw_is_the_cheapest_of_all_warping_paths(
     metric: Any, step_pattern: Any, weight: float
@@ -81,7 +81,7 @@ def test_dtw_is_the_cheapest_of_all_warping_paths(
         assert path_cost(ground, path, weight) == found.distance
 
 
-@pytest.mark.parametrize("metric", get_args(Metric))
+@pytest.mark.parametrize("metric", get_args(CoordinateMetric))
 def test_frechet_is_the_shortest_leash_of_all_couplings(metric: Any) -> None:
     for P, Q in integer_pairs(2, 60, 5):
         ground = ground_by_hand(P, Q, metric)

@@ -139,6 +139,16 @@ def test_a_penalty_is_paid_for_each_step_off_the_diagonal() -> None:
     assert values[-1] == pytest.approx(np.linalg.norm(P - Q, axis=1).sum(), rel=1e-12)
 
 
+@pytest.mark.parametrize("metric", ["euclidean", "sqeuclidean"])
+def test_a_penalty_may_be_far_larger_than_the_curves(metric: Any) -> None:
+    P, Q = (1e-140 * curve for curve in curves(3, 20, 20, 2))
+    for penalty in (1e-130, 1.0, 1e150):
+        for dtw in (curvewise.dtw, curvewise.reference.dtw):
+            straight = dtw(P, Q, metric=metric, step_pattern="rigid")
+            assert dtw(P, Q, metric=metric, penalty=penalty) == pytest.approx(straight, rel=1e-14)
+            assert dtw(P[:17], Q, metric=metric, penalty=penalty) == pytest.approx(3 * penalty)
+
+
 def test_an_own_pattern_is_the_named_one_of_its_rows() -> None:
     P, Q = curves(4, 30, 34, 2)
     for name in NAMES:

@@ -14,9 +14,8 @@ import pytest
 
 ROOM = Path(__file__).resolve().parents[3] / "conformance"
 NAMES = ("free_space", "verify", "exact", "make", "run", "worker")
-# The square root of dtw-squared is the adapter's, of squares that overflow or vanish. A penalty
-# is scaled with curves below 2^-500, and overflows.
-KNOWN = {("dtw-squared-root", "extreme"): 12, ("dtw-penalty", "extreme"): 12}
+# The square root of dtw-squared is the adapter's, of squares that overflow or vanish.
+KNOWN = {("dtw-squared-root", "extreme"): 12}
 
 if not ROOM.is_dir():
     pytest.skip("the folder conformance is not here", allow_module_level=True)

@@ -202,6 +202,7 @@ def test_annotations_of_measure_and_reference_agree(function: str) -> None:
 def test_the_stub_has_what_the_module_has() -> None:
     stub = ast.parse(STUB.read_text(encoding="utf-8"))
     declared = {node.name for node in stub.body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+    declared |= {"earth_radius"}
     compiled = {name for name in vars(_core) if not name.startswith("_")}
     assert declared - {"BuildInfo", "__getattr__"} == compiled - MEASURES.keys()
     functions = [node for node in stub.body if isinstance(node, ast.FunctionDef)]
@@ -316,7 +317,9 @@ def takes_a_pair_and_options(function: ast.FunctionDef) -> bool:
 def written(option: str, default: Any) -> str:
     """Return a default as a C or Fortran constant, in small letters and without a prefix."""
     if default is None:
-        return {"p": "2", "window": "no_window", "cutoff": "huge_val"}[option]
+        return {"p": "2", "window": "no_window", "cutoff": "huge_val", "radius": "6371008.8"}[
+            option
+        ]
     return str(int(default) if isinstance(default, bool) else default).removesuffix(".0")
 
 
@@ -358,5 +361,7 @@ def fortran_defaults(measure: str) -> dict[str, str]:
 def bare(constant: str) -> str:
     """Return a constant without what says whose it is."""
     name = constant.strip().lower().removeprefix("curvewise_").removesuffix(".0")
-    name = name.replace("huge(1.0_c_double)", "huge_val")  # Fortran need not have an infinity
+    name = name.replace("huge(1.0_c_double)", "huge_val").removesuffix(
+        "_c_double"
+    )  # Fortran need not have an infinity
     return name.removeprefix("spacing_").removeprefix("scale_")

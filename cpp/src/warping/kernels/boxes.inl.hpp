@@ -51,3 +51,14 @@ LeastFunction select_least(Metric metric, std::ptrdiff_t dim) noexcept {
         }
     });
 }
+
+// What makes bounds of distances under an arc.
+void arcs(double* values, std::ptrdiff_t count, double radius) noexcept {
+    for (std::ptrdiff_t k = 0; k < count; k += width) {
+        const std::ptrdiff_t here = count - k < width ? count - k : width;
+        double lanes[width] = {};
+        for (std::ptrdiff_t i = 0; i < here; ++i) lanes[i] = values[k + i];
+        store(lanes, Arc::finish(load(lanes), simd::pset1<Pack>(radius)));
+        for (std::ptrdiff_t i = 0; i < here; ++i) values[k + i] = lanes[i];
+    }
+}

@@ -9,8 +9,15 @@ struct PackArithmetic {
     using Number = Pack;
     static Pack sum(const Pack& a, const Pack& b) noexcept { return simd::padd(a, b); }
     static Pack product(const Pack& a, const Pack& b) noexcept { return simd::pmul(a, b); }
+    static Pack difference(const Pack& a, const Pack& b) noexcept { return simd::psub(a, b); }
     static Pack larger(const Pack& a, const Pack& b) noexcept { return simd::pmax(a, b); }
+    static Pack smaller(const Pack& a, const Pack& b) noexcept { return simd::pmin(a, b); }
     static Pack absolute(const Pack& a) noexcept { return simd::pabs(a); }
+    static Pack number(double x) noexcept { return simd::pset1<Pack>(x); }
+    static Pack where_at_most(const Pack& a, const Pack& b, const Pack& yes,
+                              const Pack& no) noexcept {
+        return simd::pselect(simd::pcmp_le(a, b), yes, no);
+    }
 };
 
 #include "metrics.inl.hpp"
@@ -91,6 +98,17 @@ void fill_cost(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
     }
 }
 
+using Arc = Haversine<PackArithmetic, DividerRoot>;
+
+void fill_arcs(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
+               std::ptrdiff_t high) noexcept {
+    const SquaredCost<3> squares(strip);
+    const Pack radius = simd::pset1<Pack>(strip.metric_parameter);
+    for (std::ptrdiff_t k = low; k <= high; k += width) {
+        store(strip.cost + k, Arc::finish(squares.at(t, k), radius));
+    }
+}
+
 // Of what is no norm, a pair of points at a time.
 template <class Row>
 void fill_one_by_one(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
@@ -100,7 +118,7 @@ void fill_one_by_one(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
         strip.cost[k] =
             Row::distance([&](std::ptrdiff_t c) { return strip.p[c * strip.p_stride + k]; },
                           [&](std::ptrdiff_t c) { return q[c * strip.q_stride + k]; }, strip.dim,
-                          strip.minkowski_p);
+                          strip.metric_parameter);
     }
 }
 
@@ -110,6 +128,8 @@ CostFunction select_fill_with(Metric metric) noexcept {
         using Row = decltype(row);
         if constexpr (Row::is_norm) {
             return fill_cost<Row>;
+        } else if constexpr (Row::is_root) {
+            return fill_arcs;
         } else {
             return fill_one_by_one<Row>;
         }

@@ -42,7 +42,7 @@ struct Strip {
     std::ptrdiff_t dim;
     std::ptrdiff_t rows;
     std::ptrdiff_t columns;
-    double minkowski_p;
+    double metric_parameter;  // the order of minkowski, the radius of haversine
 
     // Row k may hold columns first_column[k]..last_column[k]; both never fall from row to row.
     const std::ptrdiff_t* first_column;
@@ -78,6 +78,9 @@ struct Strip {
 using CostFunction = void (*)(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
                               std::ptrdiff_t high) noexcept;
 
+// Makes distances of squares of half chords of the unit sphere, in place.
+using ArcFunction = void (*)(double* values, std::ptrdiff_t count, double radius) noexcept;
+
 // Sweeps the diagonals from strip.next_diagonal to `end`, which is not swept. `fill` is called
 // per diagonal where the cost is not fused.
 using AdvanceFunction = void (*)(Strip& strip, std::ptrdiff_t end, CostFunction fill) noexcept;
@@ -100,6 +103,7 @@ struct KernelSet {
     ReachFunction (*reach)(Metric metric, std::ptrdiff_t dim) noexcept;
     ValueFunction (*values)(Metric metric, std::ptrdiff_t dim) noexcept;
     LeastFunction (*least)(Metric metric, std::ptrdiff_t dim) noexcept;
+    ArcFunction arcs;
     SoftForward soft_forward;
     SoftForward soft_forward_with_shares;
     SoftBackward soft_backward;

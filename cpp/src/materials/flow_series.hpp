@@ -1,0 +1,182 @@
+// The flow of the Yoshida-Uemori point as a Taylor series. With the size a of the bounding surface
+// over the yield surface, the distance a u |u| of their centres, and the time T in which the
+// plastic strain rises by |u| / C, all in units of C:
+//
+//     du = ((1 - u) - growth u |u|) / 2 dT         growth: a' / a, which decays by
+//     dgrowth = growth (bend - growth) |u| dT      bend: a'' / a'
+//
+// and for a modulus that decays with the strain, what the stress rises by over it. All are products
+// of what is known, so that a term follows from those before it (Jorba & Zou, "A software package
+// for the numerical integration of ODEs by means of high-order Taylor methods", Experimental
+// Mathematics 14, 2005): for N terms O(N^2) multiplications and no exponential. u keeps its sign.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+
+#include "materials/dual.hpp"
+
+namespace curvewise::materials {
+
+// What the flow begins with, and all that its derivatives at a given time need.
+enum : std::size_t {
+    START,      // u
+    GROWTH,     // a' / (C a)
+    BASE,       // of a power law 1 / (C (C1 + p)), otherwise bend
+    EXPONENT,   // bend over base
+    LEFT,       // slope of the bounding surface's centre, over C a: from here on for a modulus
+    DECAY,      // that decays; K / C
+    SOFTENING,  // xi / C
+    LIMIT,      // Ea over the modulus
+    flow_numbers
+};
+template <class Number>
+using FlowStart = std::array<Number, flow_numbers>;
+
+struct FlowKind {
+    double sign;  // of u
+    bool grows, is_power, softens;
+};
+
+template <class Number>
+class FlowSeries {
+   public:
+    // Of the time over `length`.
+    void begin(const FlowStart<Number>& start, const FlowKind& kind, double length) {
+        start_ = start, kind_ = kind, length_ = length, order_ = 0;
+        u_[0] = start[START];
+        p_[0] = Number(0.0);
+        if (kind.grows) {
+            growth_[0] = start[GROWTH];
+            base_[0] = start[BASE];
+        }
+        if (kind.softens) {
+            size_[0] = compliance_[0] = Number(1.0);
+            left_[0] = start[LEFT];
+            rise_[0] = Number(0.0);
+        }
+    }
+    // One term more.
+    void extend() {
+        const int k = order_++;
+        const double weight = length_ / (k + 1), signed_weight = kind_.sign * weight;
+        u_[k + 1] = (k == 0 ? 1.0 : 0.0) - u_[k];
+        if (kind_.grows) grow(k, signed_weight);
+        u_[k + 1] = (0.5 * weight) * u_[k + 1];
+        p_[k + 1] = signed_weight * u_[k];
+        if (kind_.softens) soften(k, signed_weight);
+    }
+    int order() const noexcept { return order_; }
+    // Adds terms until the last two are below a tolerance; returns up to which share of `length`
+    // they are.
+    double extend_to(double tolerance) {
+        double last = 0.0;
+        do {
+            extend();
+            last = last_terms();
+        } while (order_ < 2 || (!(last <= tolerance) && order_ < most_terms));
+        return last <= tolerance ? 1.0 : 0.9 * std::pow(tolerance / last, 1.0 / (order_ - 1));
+    }
+    // At a share of `length`: u; the plastic strain since the start, times C; and where the modulus
+    // decays, what the stress has risen by over a at the start, each bit of it by the compliance
+    // over that at the start.
+    struct Sum {
+        Number u, p, rise;
+    };
+    Sum at(double share) const {
+        Sum sum{u_[order_], p_[order_], kind_.softens ? rise_[order_] : Number(0.0)};
+        for (int k = order_ - 1; k >= 0; --k) {
+            sum.u = sum.u * share + u_[k];
+            sum.p = sum.p * share + p_[k];
+            if (kind_.softens) sum.rise = sum.rise * share + rise_[k];
+        }
+        return sum;
+    }
+
+   private:
+    static constexpr int most_terms = 24;
+    using Terms = std::array<Number, most_terms + 1>;
+
+    double last_terms() const noexcept {
+        const auto both = [&](const Terms& terms) {
+            return std::abs(value_of(terms[order_])) + std::abs(value_of(terms[order_ - 1]));
+        };
+        return kind_.softens ? std::max(both(u_), both(rise_)) : both(u_);
+    }
+    void grow(int k, double signed_weight) {
+        speed_[k] = product(u_, growth_, k);
+        bend_[k] = -growth_[k];
+        if (kind_.is_power || k == 0) bend_[k] += start_[EXPONENT] * base_[k];
+        Number pull = speed_[0] * u_[k], rate = speed_[0] * bend_[k];
+        for (int i = 1; i <= k; ++i) {
+            pull += speed_[i] * u_[k - i];
+            rate += speed_[i] * bend_[k - i];
+        }
+        u_[k + 1] += -kind_.sign * pull;
+        growth_[k + 1] = signed_weight * rate;
+        if (!kind_.is_power) return;
+        scaled_[k] = product(u_, base_, k);
+        base_[k + 1] = -signed_weight * product(scaled_, base_, k);
+    }
+    void soften(int k, double signed_weight) {
+        relative_[k] = product(u_, compliance_, k);
+        excess_[k] = (k == 0 ? 1.0 : 0.0) - start_[LIMIT] * compliance_[k];
+        slope_[k] = size_[k] - product(size_, u_, k) + left_[k];
+        compliance_[k + 1] = signed_weight * (start_[SOFTENING] * product(relative_, excess_, k));
+        size_[k + 1] = kind_.grows ? signed_weight * product(speed_, size_, k) : Number(0.0);
+        left_[k + 1] = -signed_weight * (start_[DECAY] * product(u_, left_, k));
+        rise_[k + 1] = signed_weight * product(relative_, slope_, k);
+    }
+    static Number product(const Terms& a, const Terms& b, int k) {
+        Number sum = a[0] * b[k];
+        for (int i = 1; i <= k; ++i) sum += a[i] * b[k - i];
+        return sum;
+    }
+    FlowStart<Number> start_{};
+    FlowKind kind_{};
+    double length_ = 0.0;
+    int order_ = 0;
+    Terms u_, p_, growth_, base_, speed_, bend_, scaled_;
+    Terms size_, left_, compliance_, rise_, relative_, excess_, slope_;
+};
+
+// The numbers that a series is made of where the flow has these. Slopes by the parameters follow
+// from those by the first four of what it begins with, while the modulus is constant.
+template <class Number>
+struct ForSlopes {
+    using Few = Number;
+};
+template <int N>
+struct ForSlopes<Dual<N>> {
+    using Few = Dual<LEFT>;
+};
+template <class SeriesNumber, class Number>
+FlowStart<SeriesNumber> seeded(const FlowStart<Number>& start) {
+    if constexpr (std::is_same_v<SeriesNumber, Number>) {
+        return start;
+    } else {
+        FlowStart<SeriesNumber> seeds;
+        for (std::size_t j = 0; j < LEFT; ++j) {
+            seeds[j] = SeriesNumber(value_of(start[j]));
+            seeds[j].slopes[j] = 1.0;
+        }
+        return seeds;
+    }
+}
+template <class Number>
+Number chained(const Number& found, const FlowStart<Number>& /*start*/) {
+    return found;
+}
+template <int N>
+Dual<N> chained(const Dual<LEFT>& found, const FlowStart<Dual<N>>& start) {
+    Dual<N> result(found.value);
+    for (std::size_t j = 0; j < LEFT; ++j) {
+        for (int i = 0; i < N; ++i) result.slopes[i] += found.slopes[j] * start[j].slopes[i];
+    }
+    return result;
+}
+
+}  // namespace curvewise::materials

@@ -1,0 +1,79 @@
+"""Curves, and all windows of a curve, with mean 0 and deviation 1 in each coordinate.
+
+Mean and deviation are those of the window's own numbers, in two passes, and not differences of
+running sums, which have no digits left where a small wave rides on a large level. Time O(n) a
+window, in blocks of some megabytes.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from numpy.lib.stride_tricks import sliding_window_view
+
+from .checks import checked_curve
+from .inputs import Array, CurveLike
+
+__all__ = ["normalized_windows", "z_normalized"]
+
+
+def z_normalized(curve: CurveLike) -> Array:
+    """Shift and scale each coordinate of a curve to mean 0 and standard deviation 1.
+
+    Parameters
+    ----------
+    curve : array_like, shape (n, d) or (n,)
+        The curve.
+
+    Returns
+    -------
+    ndarray, of the same shape
+        A coordinate that is the same in all points is 0.
+
+    Raises
+    ------
+    TypeError, ValueError
+        No curve of finite numbers.
+
+    Notes
+    -----
+    The deviation is that of all points, with n in the denominator. Time and memory O(n d).
+
+    Examples
+    --------
+    >>> from curvewise.curves import z_normalized
+    >>> z_normalized([1, 3, 1, 3]).tolist()
+    [-1.0, 1.0, -1.0, 1.0]
+    """
+    columns = checked_curve(curve, 1)
+    normalized = normalized_windows(columns, len(columns), 0, 1)[0]
+    return np.asarray(normalized[:, 0] if np.ndim(curve) == 1 else normalized)
+
+
+def normalized_windows(curve: Array, points: int, first: int, end: int) -> Array:
+    """Return the windows of so many points that begin at `first` to `end` - 1.
+
+    `curve` has shape (n, d), what is returned (end - first, points, d).
+    """
+    # Coordinates first, so that sums run over numbers that lie side by side.
+    part = np.ascontiguousarray(curve[first : end - 1 + points].T)
+    windows = np.array(sliding_window_view(part, points, axis=1))
+    sizes = np.abs(part[part != 0])
+    if sizes.size > 0 and not 2.0**-500 < sizes.min() <= sizes.max() < 2.0**500:
+        # A power of two changes no digit, and keeps squares within the range of a double.
+        _, exponents = np.frexp(np.abs(windows).max(axis=-1, keepdims=True))
+        windows = np.ldexp(windows, -exponents)
+    windows -= windows.mean(axis=-1, keepdims=True)
+    deviations = np.sqrt(np.square(windows).mean(axis=-1, keepdims=True))
+    is_constant = _is_constant(part, points)
+    deviations[is_constant] = 1.0
+    windows[is_constant] = 0.0
+    windows /= deviations
+    return np.moveaxis(windows, 0, -1)
+
+
+def _is_constant(rows: Array, points: int) -> npt.NDArray[np.bool_]:
+    """Return whether so many numbers from each on are the same, along the rows."""
+    changes = np.zeros(rows.shape, dtype=np.int64)
+    np.cumsum(rows[:, 1:] != rows[:, :-1], axis=1, out=changes[:, 1:])
+    return np.asarray(changes[:, points - 1 :] == changes[:, : rows.shape[1] - points + 1])
