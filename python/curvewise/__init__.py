@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from . import calibration as calibration
     from . import compat as compat
     from . import dask as dask
+    from . import geopandas as geopandas
     from . import installation as installation
     from . import jax as jax
     from . import plotting as plotting
@@ -68,6 +69,7 @@ _LAZY = (
     "compat",
     "dask",
     "fitting",
+    "geopandas",
     "installation",
     "jax",
     "materials",
@@ -92,7 +94,7 @@ if not TYPE_CHECKING:
 
 def __dir__() -> list[str]:
     # help() imports all of these, and the import of some fails where their packages are missing.
-    return sorted({*__all__, *_LAZY} - {"dask", "jax", "sklearn", "sktime", "torch"})
+    return sorted({*__all__, *_LAZY} - {"dask", "geopandas", "jax", "sklearn", "sktime", "torch"})
 
 
 __version__: str = _build_info()["version"]

@@ -193,7 +193,7 @@ def public_modules() -> set[str]:
 
 
 def test_the_reference_has_every_public_name_of_python() -> None:
-    for name in ("dask", "jax", "sklearn", "sktime", "torch"):
+    for name in ("dask", "geopandas", "jax", "sklearn", "sktime", "torch"):
         pytest.importorskip(name, reason=f'no {name}: pip install "curvewise[{name}]"')
     listed = set().union(*(entries(page) for page in (DOCS / "api").glob("*.rst")))
     modules = public_modules()
