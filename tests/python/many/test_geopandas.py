@@ -121,7 +121,6 @@ def test_errors(tracks: Any) -> None:
 
 
 @needs_movingpandas
-@pytest.mark.filterwarnings("ignore")  # of what its smoother would need
 def test_a_collection_of_movingpandas(tracks: Any) -> None:
     import movingpandas
     import pandas as pd

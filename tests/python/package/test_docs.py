@@ -27,7 +27,7 @@ PAGES = [page for page in sorted(DOCS.rglob("*.md")) if BUILT.isdisjoint({page, 
 # Pages show how to use these, and nobody has all of them.
 OPTIONAL = (
     *("aeon", "dask", "geopandas", "jax", "polars", "shapely", "sklearn", "sktime", "torch"),
-    *("xarray", "zarr"),
+    *("movingpandas", "xarray", "zarr"),
 )
 # Examples of the gallery that take seconds: they run where the site is built.
 SLOW = {"plot_identification", "plot_million_points", "plot_two_tests"}
