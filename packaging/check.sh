@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # What is asked of the packages before a release, as far as one machine can tell: the source
 # distribution builds without a network and twice to the same bytes; the wheel is well-formed and
-# works where there is neither compiler nor Eigen; cibuildwheel, conda's rattler-build and Debian's
-# cmake accept what is meant for them. Needs git, Python >= 3.11, a C++17 compiler and PyPI; some
-# ten minutes, nearly all of them the two builds. What is packed is the last commit. Nothing outside a
+# works where there is neither compiler nor Eigen; cibuildwheel, conda's rattler-build, Debian's cmake
+# and Conan accept what is meant for them. Needs git, Python >= 3.11, a C++17 compiler and PyPI; some
+# fifteen minutes, nearly all of them the builds. What is packed is the last commit. Nothing outside a
 # temporary folder is written, except for the packages where a folder for them is given:
 #
 #     packaging/check.sh [folder]
@@ -127,6 +127,16 @@ sed -n '/<!-- file: find_package\/CMakeLists.txt -->/,/^```$/p' docs/embedding.m
         cmake -S "$work/scratch" -B "$work/scratch/build" "$from"
         cmake --build "$work/scratch/build"
         "$work/scratch/build/tool"
+    done
+
+    say "the C++ package by Conan, static and shared"
+    "$tools/pip" install -q conan
+    export PATH="$tools:$PATH" CONAN_HOME="$work/conan" # with the Eigen of this Python
+    conan profile detect
+    printf 'include(default)\n[platform_requires]\neigen/3.4.0\n' >"$work/this-eigen"
+    for shared in False True; do
+        conan create "$work/source1/packaging/conan" -pr "$work/this-eigen" --no-remote \
+            -s compiler.cppstd=17 -o "curvewise/*:shared=$shared"
     done
 )
 

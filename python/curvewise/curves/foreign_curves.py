@@ -29,6 +29,7 @@ __all__ = [
     "warn",
 ]
 
+_NATIVE = (list, tuple, np.ndarray, float, int)
 _LINES = ("LineString", "LinearRing")
 _INSTEAD_OF_SHAPES = {
     "Point": "a curve needs several: shapely.LineString of the points is one",
@@ -46,7 +47,7 @@ def opened(curve: Any, name: str) -> Any:
     TypeError
         What holds no curve, or several, or not in this memory, with what to write instead.
     """
-    if isinstance(curve, list | tuple | np.ndarray | float | int):
+    if isinstance(curve, _NATIVE):
         return curve
     kind = type(curve).__name__
     if hasattr(curve, "geom_type") or hasattr(curve, "__geo_interface__"):

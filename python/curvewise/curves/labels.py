@@ -31,6 +31,8 @@ __all__ = [
 Labels: TypeAlias = Any
 """A list, or an index of pandas; None where curves have no labels."""
 
+_UNLABELLED = (list, tuple, np.ndarray)
+
 
 def unlabelled(curves: Any, name: str) -> tuple[Any, Labels]:
     """Return a collection of curves as a list, and its labels; as it is where it has none.
@@ -40,7 +42,7 @@ def unlabelled(curves: Any, name: str) -> tuple[Any, Labels]:
     ValueError
         Groups with columns that are hardly all coordinates.
     """
-    if isinstance(curves, list | tuple | np.ndarray):
+    if isinstance(curves, _UNLABELLED):
         return curves, None
     if isinstance(curves, Mapping) and not hasattr(curves, "shape"):  # as scipy's dok_array has
         return list(curves.values()), list(curves)

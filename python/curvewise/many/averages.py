@@ -243,7 +243,8 @@ def _mean_of(given: list[Array], mean: Array, costs: Array, converged: bool) -> 
             f"the mean has not converged: the last of {len(costs) - 1} moves lowered the sum by "
             f"{100 * fell:.2g} %; give more iterations, or a larger tolerance"
         )
-    shown = [copy_of(given[i]) for i in evenly(len(given), _CURVES_SHOWN)]
+    few = len(given) <= _CURVES_SHOWN
+    shown = map(copy_of, given if few else [given[i] for i in evenly(len(given), _CURVES_SHOWN)])
     return DtwMean(mean, costs, converged, tuple(shown))
 
 

@@ -106,6 +106,8 @@ class Prepared:
         ValueError, TypeError
             As for the measure, and for :func:`cdist`.
         """
+        if isinstance(Q, np.ndarray) and Q.ndim < 3:  # the usual case, which has no names
+            return self._prepared.value(as_curve(Q, "Q"))
         Q, labels = unlabelled(Q, "Q")
         if labels is not None or self._is_list(Q):
             for i, curve in enumerate(Q):

@@ -253,6 +253,14 @@ def test_a_parameter_stays_below_by_a_millionth_of_its_range():
         assert above - below == pytest.approx(150e-6, rel=1e-6)
 
 
+def test_a_parameter_at_the_one_that_it_stays_below_may_be_looked_up():
+    space = Space({"CB": (99.78, 794.8), "Y": Below("CB", 3.326, 399.1)})
+    for above in np.random.default_rng(0).random(200):  # an eighth of them were a rounding too high
+        point = space.point(np.array([above, 1.0]))
+        unit = space.unit_of(dict(zip(space.names, point, strict=True)))
+        assert unit == pytest.approx([above, 1.0])
+
+
 def test_places_between_bounds_are_those_of_the_search():
     space = Space({"a": (100.0, 200.0), "b": Below("a", 50.0, 200.0), "c": Log(1e-2, 1e4)})
     parameters = {"a": 150.0, "b": 150.0 - 150e-6, "c": 5.0}

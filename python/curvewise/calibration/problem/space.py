@@ -158,7 +158,8 @@ class Space:
             scaled[i] = self._low[i] * (self._high[i] / self._low[i]) ** unit[i]
         for below, above in self._others.items():
             high = min(self._high[below], scaled[above] - self._gaps[below])
-            scaled[below] = self._low[below] + unit[below] * (high - self._low[below])
+            reached = self._low[below] + unit[below] * (high - self._low[below])
+            scaled[below] = min(reached, high)  # a rounding above it would be refused by `unit`
         return tuple(np.clip(scaled, self._low, self._high).tolist())
 
     def unit(self, parameters: Mapping[str, float], name: str = "start") -> Array:
