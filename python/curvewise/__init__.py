@@ -27,14 +27,17 @@ from .measures.edit_distances import *  # noqa: F403  # which type checkers do n
 from .measures.results import *  # noqa: F403  # likewise
 
 if TYPE_CHECKING:
+    from . import aeon as aeon
     from . import calibration as calibration
     from . import compat as compat
     from . import dask as dask
+    from . import geopandas as geopandas
     from . import installation as installation
     from . import jax as jax
     from . import plotting as plotting
     from . import reference as reference
     from . import sklearn as sklearn
+    from . import sktime as sktime
     from . import solvers as solvers
     from . import studies as studies
     from . import torch as torch
@@ -61,16 +64,19 @@ __all__ = [
 ]
 
 _LAZY = (
+    "aeon",
     "calibration",
     "compat",
     "dask",
     "fitting",
+    "geopandas",
     "installation",
     "jax",
     "materials",
     "plotting",
     "reference",
     "sklearn",
+    "sktime",
     "solvers",
     "studies",
     "torch",
@@ -88,7 +94,7 @@ if not TYPE_CHECKING:
 
 def __dir__() -> list[str]:
     # help() imports all of these, and the import of some fails where their packages are missing.
-    return sorted({*__all__, *_LAZY} - {"dask", "jax", "sklearn", "torch"})
+    return sorted({*__all__, *_LAZY} - {"dask", "geopandas", "jax", "sklearn", "sktime", "torch"})
 
 
 __version__: str = _build_info()["version"]

@@ -25,7 +25,10 @@ HEADERS = ROOT / "cpp" / "include" / "curvewise"
 BUILT = {DOCS / "_build", DOCS / "gallery", DOCS / "api" / "generated"}
 PAGES = [page for page in sorted(DOCS.rglob("*.md")) if BUILT.isdisjoint({page, *page.parents})]
 # Pages show how to use these, and nobody has all of them.
-OPTIONAL = ("dask", "geopandas", "jax", "polars", "shapely", "sklearn", "torch", "xarray", "zarr")
+OPTIONAL = (
+    *("aeon", "dask", "geopandas", "jax", "polars", "shapely", "sklearn", "sktime", "torch"),
+    *("movingpandas", "xarray", "zarr"),
+)
 # Examples of the gallery that take seconds: they run where the site is built.
 SLOW = {"plot_identification", "plot_million_points", "plot_two_tests"}
 PYTHON = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -190,7 +193,7 @@ def public_modules() -> set[str]:
 
 
 def test_the_reference_has_every_public_name_of_python() -> None:
-    for name in ("dask", "jax", "sklearn", "torch"):
+    for name in ("dask", "geopandas", "jax", "sklearn", "sktime", "torch"):
         pytest.importorskip(name, reason=f'no {name}: pip install "curvewise[{name}]"')
     listed = set().union(*(entries(page) for page in (DOCS / "api").glob("*.rst")))
     modules = public_modules()

@@ -18,7 +18,7 @@ MODULES = sorted(
     if not module.name.endswith(("._core", ".__main__"))
 )
 
-OPTIONAL = ("dask", "distributed", "jax", "sklearn", "torch", "zarr")
+OPTIONAL = ("dask", "distributed", "geopandas", "jax", "sklearn", "sktime", "torch", "zarr")
 FUNCTIONS = sorted(
     name for name in curvewise.__all__ if inspect.isfunction(getattr(curvewise, name))
 )

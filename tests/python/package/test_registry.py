@@ -280,7 +280,7 @@ def test_the_reference_imports_nothing_compiled() -> None:
                 assert str(node.module).startswith(allowed), file.name
 
 
-HEAVY = ("dask", "jax", "sklearn", "torch")
+HEAVY = ("dask", "geopandas", "jax", "sklearn", "sktime", "torch")
 LIGHT = [name for name in curvewise._LAZY if name not in HEAVY]
 
 
