@@ -12,9 +12,10 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from ...curves import turning_points
 from ...curves.inputs import Array
@@ -25,6 +26,8 @@ PARTS = 16
 """Places of a branch."""
 _LIKE = 0.1  # of the range of x, by which the ends of like branches differ at most
 _FEWEST = 5  # like branches: two cycles and a half
+
+Places: TypeAlias = npt.NDArray[np.int64]
 
 
 class Branches(NamedTuple):
@@ -44,7 +47,7 @@ class Branches(NamedTuple):
     """
 
     slices: list[slice]
-    places: Array | None = None
+    places: Places | None = None
     signs: Array | None = None
     ways: int = 0
 
@@ -114,10 +117,10 @@ def _sign(x: Array, branch: slice) -> float:
     return 1.0 if last > first else -1.0
 
 
-def _parts(x: Array) -> Array:
+def _parts(x: Array) -> Places:
     """Return which part of a branch's way each of its points is in, from 0."""
     way = float(x[-1] - x[0])
     if way == 0.0:
         return np.zeros(len(x), dtype=np.int64)
-    parts: Array = np.clip((x - x[0]) / way * PARTS, 0, PARTS - 1).astype(np.int64)
+    parts: Places = np.clip((x - x[0]) / way * PARTS, 0, PARTS - 1).astype(np.int64)
     return parts
