@@ -68,6 +68,11 @@ struct Dual {
     }
 };
 
+template <class Number>
+inline constexpr bool has_slopes = false;
+template <int N>
+inline constexpr bool has_slopes<Dual<N>> = true;
+
 inline double value_of(double number) noexcept { return number; }
 template <int N>
 double value_of(const Dual<N>& number) noexcept {

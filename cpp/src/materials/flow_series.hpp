@@ -80,6 +80,15 @@ class FlowSeries {
         } while (order_ < 2 || (!(last <= tolerance) && order_ < most_terms));
         return last <= tolerance ? 1.0 : 0.9 * std::pow(tolerance / last, 1.0 / (order_ - 1));
     }
+    // Adds terms until the last two of every slope are below a tolerance, of the largest. Where u
+    // stands still hardly a term of its own is left, and those of a slope, which has yet to die
+    // away, are as many as ever: cut short they grow with each leg.
+    void extend_slopes_to(double tolerance) {
+        while (!(are_small(u_, tolerance) && (!kind_.softens || are_small(rise_, tolerance))) &&
+               order_ < most_terms) {
+            extend();
+        }
+    }
     // At a share of `length`: u; the plastic strain since the start, times C; and where the modulus
     // decays, what the stress has risen by over a at the start, each bit of it by the compliance
     // over that at the start.
@@ -105,6 +114,18 @@ class FlowSeries {
             return std::abs(value_of(terms[order_])) + std::abs(value_of(terms[order_ - 1]));
         };
         return kind_.softens ? std::max(both(u_), both(rise_)) : both(u_);
+    }
+    bool are_small(const Terms& terms, double tolerance) const noexcept {
+        for (std::size_t i = 0; i < terms[0].slopes.size(); ++i) {
+            double largest = 0.0;
+            for (int k = 0; k <= order_; ++k) {
+                largest = std::max(largest, std::abs(terms[k].slopes[i]));
+            }
+            const double last = std::abs(terms[order_].slopes[i]);
+            const double before = std::abs(terms[order_ - 1].slopes[i]);
+            if (!(last + before <= tolerance * largest)) return false;
+        }
+        return true;
     }
     void grow(int k, double signed_weight) {
         speed_[k] = product(u_, growth_, k);

@@ -311,8 +311,13 @@ class Follower {
         if constexpr (!std::is_same_v<Number, double>) {
             series.begin(seeded<SeriesNumber>(start), leg.kind, leg.length);
             while (series.order() < series_.plain.order()) series.extend();
+            if constexpr (has_slopes<Number>) series.extend_slopes_to(1e-2 * plain_.k.rtol);
         }
-        const auto sum = series.at(leg.share);
+        auto sum = series.at(leg.share);
+        if constexpr (has_slopes<Number>) {  // the values have the bits of those alone
+            const auto values = series_.plain.at(leg.share);
+            sum.u.value = values.u, sum.p.value = values.p, sum.rise.value = values.rise;
+        }
         const Number rise = chained(sum.p, start) * c.unit;
         if (leg.kind.softens) {
             c.state.strain +=

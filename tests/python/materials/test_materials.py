@@ -108,6 +108,20 @@ def test_slopes_do_not_grow_where_the_stress_stands_still() -> None:
     assert all(abs(by[name]) < 1e-9 for name in ("E", "Y", "C", "K", "H"))
 
 
+@pytest.mark.parametrize(
+    ("modulus", "mean", "points"), [("constant", 0.055, 297), ("decaying", 0.05, 299)]
+)
+def test_slopes_do_not_grow_where_the_centres_have_met(modulus, mean, points) -> None:
+    material = YoshidaUemori(modulus=modulus)
+    numbers = {"E": 115e3, "CB": 253.2, "Y": 165.2, "C": 59138.9, "K": 0.05315, "RSAT": 1427.8}
+    constants = {**numbers, "SB": 1579.1, "H": 0.957, "Ea": 90e3, "xi": 40.0}
+    constants = {name: constants[name] for name in material.names}
+    strain = mean * (1.0 - np.cos(2.0 * np.pi * np.arange(points) / (points - 1)))
+    slopes = material.stress_and_slopes(strain, constants)[1]
+    largest = np.abs(slopes * list(constants.values())).max(axis=0)
+    assert (largest < 1000.0).all()  # MPa by a relative change
+
+
 @each_material
 def test_a_path_may_be_subdivided_and_mirrored(material, constants) -> None:
     stress = material.stress(STRAIN, constants)
