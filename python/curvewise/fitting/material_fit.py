@@ -231,8 +231,8 @@ def fit_material(
     fixed : mapping of str to float, optional
         Parameters that are known and not searched for, such as ``{"E": 206e3}``.
     bounds : mapping, optional
-        As for `identify`; by default what ``material.bounds_from(tests)`` reads off the tests, ten
-        times as wide where a parameter ends at one of them and anything is gained beyond.
+        As for `identify`; by default what ``material.bounds_from(tests)`` reads off the tests, and
+        wider where a parameter ends at one of them.
     cycles : {"all", "last"}
         "last": of each test its last complete cycle alone is compared
         (:func:`curvewise.curves.last_cycle`), the stabilised one of a test of many; the material

@@ -113,7 +113,9 @@ def test_bounds_that_were_assumed_are_widened_where_that_gains() -> None:
     fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=80, progress=False)
     assert fit.found.bounds["E"] == (20e3, 1500e3)
     assert fit.parameters["E"] == pytest.approx(200e3, rel=0.02)
-    assert fit.beyond is None
+    assert fit.beyond.sides == {"E": "upper"}
+    assert fit.beyond.matters
+    assert "E at its upper bound first, which was assumed; in wider bounds" in str(fit)
     given = Narrow(backstresses=1).bounds_from(LOOP)
     kept = fit_material(LOOP, Narrow(backstresses=1), bounds=given, max_runs=60, progress=False)
     assert kept.found.bounds["E"] == (20e3, 150e3)
@@ -124,7 +126,8 @@ def test_where_wider_bounds_would_never_do_it_is_said(monkeypatch) -> None:
     monkeypatch.setattr("curvewise.fitting.wider_bounds._MOST_WIDENINGS", 0)
     fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=60, progress=False)
     assert fit.beyond.sides == {"E": "upper"}
-    assert "E at its upper bound; with bounds ten times as wide the value falls by" in str(fit)
+    assert fit.beyond.still == fit.beyond.sides
+    assert "E at its upper bound still; give others (fit_material: bounds=)" in str(fit)
 
 
 def test_what_hardens_along_a_line_has_no_saturation_and_that_is_said(data_dir: Path) -> None:
@@ -132,7 +135,8 @@ def test_what_hardens_along_a_line_has_no_saturation_and_that_is_said(data_dir: 
     fit = fit_material(test, ChabocheVoce(), points=100, progress=False)
     assert fit.beyond is not None
     assert not fit.beyond.matters
-    assert "not determined by these tests: Q at its upper bound; with bounds ten times" in str(fit)
+    assert not fit.beyond.still
+    assert "not determined by these tests: Q at its upper bound first, which was" in str(fit)
     assert not fit.uncertainty.determined["Q"]
 
 
