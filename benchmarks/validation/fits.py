@@ -3,12 +3,12 @@
     python fits.py
 
 For each test and material: the deviation (root mean square, MPa), how far the sum of squares is
-above scipy's best of fifty random starts with the same slopes, runs of the model, those of the same
-search where the model does not say its slopes (in the bounds read off the test), CPU seconds of the
-fit with its intervals, and what is not determined; "limit": at 0, or a yield surface as large as
-the bounding surface; "wider": in bounds wider than those read off the test, at one of which it had
-ended; "bound": at one still. Writes results/fits.md. Some minutes on one core; the tests are those
-of CURVEWISE_DATA.
+above scipy's best of fifty random starts with the same slopes, runs of the model (in wider bounds,
+too), those of the same search where the model does not say its slopes (in the bounds read off the
+test alone), CPU seconds of the fit with its intervals, and what is not determined; "limit": at 0,
+or a yield surface as large as the bounding surface; "wider": in bounds wider than those read off
+the test, at one of which it had ended; "bound": at one still. Writes results/fits.md. Some minutes
+on one core; the tests are those of CURVEWISE_DATA.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ def main() -> None:
             loose = [name_and_place(fit, name) for name, good in determined if not good]
             row = (
                 f"| {name} | {label} | {np.sqrt(squares / len(stress)):.3g} | "
-                f"{100.0 * (squares / best - 1.0):+.3f} % | {fit.found.evaluations} | "
+                f"{100.0 * (squares / best - 1.0):+.3f} % | {fit.runs} | "
                 f"{runs_without_slopes(fit, test)} | {seconds:.1f} | {', '.join(loose) or '–'} |"
             )
             print(row, flush=True)

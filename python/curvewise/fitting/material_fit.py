@@ -49,6 +49,7 @@ class MaterialFit:
     tests : tuple of ndarray
         As they were compared: strain and stress, thinned.
     found : Identification
+        What the search ended with; where bounds were widened, that in the widest.
     uncertainty : Uncertainty or None
         None where it was not asked for, by a study.
     modulus_read : float
@@ -86,6 +87,11 @@ class MaterialFit:
                 f"{failures[0][1]}"
             )
         return "\n\n".join(parts)
+
+    @property
+    def runs(self) -> int:
+        """How many runs of the model the searches took, of all bounds."""
+        return self.found.evaluations if self.beyond is None else self.beyond.runs
 
     @property
     def one_way(self) -> str:
@@ -242,7 +248,7 @@ def fit_material(
     seed : int, default 0
         Of the search.
     max_runs : int, optional
-        The most parameter sets to try.
+        The most parameter sets to try; those in wider bounds are among them.
     units : str, default "MPa"
         Of the stresses, for axes, tables and cards; nothing is converted.
     progress : bool, default True
@@ -295,13 +301,12 @@ def fit_material(
         measure=fit_criterion(measure),
         method=fit_method(measure),
         seed=seed,
-        max_runs=max_runs,
         progress=progress,
     )
     if bounds is None:
-        found, beyond = search_within(search, {**read_off, **known})
+        found, beyond = search_within(search, {**read_off, **known}, max_runs)
     else:
-        found, beyond = search({**read_off, **known}), None
+        found, beyond = search({**read_off, **known}, max_runs=max_runs), None
     return MaterialFit(
         driven.model, driven.compared, found, found.uncertainty(), modulus_of(given), units, beyond
     )

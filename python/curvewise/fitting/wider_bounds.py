@@ -5,7 +5,7 @@ goes on from there with that bound ten times as wide, and so on until no paramet
 all is searched once more in the wider bounds. What is gained says whether the first bound decided
 anything: where it is next to nothing, the parameter runs to infinity, since the tests do not
 determine it (what hardens along a line has no saturation). Cost: of a search, and some ten to sixty
-runs a widening, where a parameter is at a bound.
+runs a widening, where a parameter is at a bound. A limit of runs is one for all of these searches.
 """
 
 from __future__ import annotations
@@ -37,12 +37,15 @@ class Beyond:
         The share by which the value has fallen in wider bounds.
     still : dict of str to str
         The same as `sides`, at the end: empty, unless bounds that are 10,000 times as wide are too
-        narrow.
+        narrow, or no run was left.
+    runs : int
+        Of the model, in all these searches.
     """
 
     sides: dict[str, str]
     gain: float
     still: dict[str, str]
+    runs: int
 
     @property
     def matters(self) -> bool:
@@ -50,8 +53,12 @@ class Beyond:
         return self.gain >= _WORTH
 
     def __str__(self) -> str:
+        return f"{self._found}; {self.runs} runs in all"
+
+    @property
+    def _found(self) -> str:
         if self.still:
-            return f"{_said(self.still)} still; give others (fit_material: bounds=)"
+            return f"{_said(self.still)} still: give others (fit_material: bounds=)"
         begin = f"{_said(self.sides)} first, which was assumed; in wider bounds the value falls by"
         if self.matters:
             return f"{begin} {100.0 * self.gain:.2g} %"
@@ -59,21 +66,33 @@ class Beyond:
 
 
 def search_within(
-    search: Callable[..., Identification], bounds: Bounds
+    search: Callable[..., Identification], bounds: Bounds, most_runs: int | None
 ) -> tuple[Identification, Beyond | None]:
     """Search within assumed bounds, and within wider ones where that ends at one.
 
     Parameters
     ----------
     search : callable
-        `identify` with all but the bounds, and `start` if it is to begin there.
+        `identify` with all but the bounds, `max_runs`, and `start` if it is to begin there.
     bounds : mapping
         As read off the tests.
+    most_runs : int, optional
+        Of the model, in all searches.
     """
-    first = search(bounds)
+    first = search(bounds, max_runs=most_runs)
     sides = _assumed(first)
     if not sides:
         return first, None
+    searches = [first]
+
+    def search_on(start: dict[str, float] | None) -> Identification | None:
+        """Search with the runs that are left, if any are."""
+        left = None if most_runs is None else most_runs - _runs(searches)
+        if left == 0:
+            return None
+        searches.append(search(bounds, start=start, max_runs=left))
+        return searches[-1]
+
     end = first
     for _ in range(_MOST_WIDENINGS):
         at = _assumed(end)
@@ -81,12 +100,16 @@ def search_within(
             break
         bounds = {**bounds, **{name: _further(bounds[name], side) for name, side in at.items()}}
         start = {name: end.parameters[name] for name in end.problem.space.names}
-        end = search(bounds, start=start)
-    whole = search(bounds)
+        end = search_on(start) or end
+    whole = search_on(None) or end
     is_good = whole.value <= (1.0 + _ALIKE) * end.value
     found = whole if is_good and len(_assumed(whole)) <= len(_assumed(end)) else end
     gain = 1.0 - found.value / first.value if first.value else 0.0
-    return found, Beyond(sides, max(gain, 0.0), _assumed(found))
+    return found, Beyond(sides, max(gain, 0.0), _assumed(found), _runs(searches))
+
+
+def _runs(searches: list[Identification]) -> int:
+    return sum(one.evaluations for one in searches)
 
 
 def _said(sides: dict[str, str]) -> str:

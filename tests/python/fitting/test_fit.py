@@ -110,7 +110,7 @@ class Narrow(ChabocheVoce):
 
 
 def test_bounds_that_were_assumed_are_widened_where_that_gains() -> None:
-    fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=80, progress=False)
+    fit = fit_material(LOOP, Narrow(backstresses=1), progress=False)
     assert fit.found.bounds["E"] == (20e3, 1500e3)
     assert fit.parameters["E"] == pytest.approx(200e3, rel=0.02)
     assert fit.beyond.sides == {"E": "upper"}
@@ -127,7 +127,14 @@ def test_where_wider_bounds_would_never_do_it_is_said(monkeypatch) -> None:
     fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=60, progress=False)
     assert fit.beyond.sides == {"E": "upper"}
     assert fit.beyond.still == fit.beyond.sides
-    assert "E at its upper bound still; give others (fit_material: bounds=)" in str(fit)
+    assert "E at its upper bound still: give others (fit_material: bounds=)" in str(fit)
+
+
+def test_a_limit_of_runs_is_one_for_the_searches_in_all_bounds() -> None:
+    fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=340, progress=False)
+    assert fit.beyond.sides == {"E": "upper"}
+    assert fit.found.evaluations < fit.runs == 340
+    assert f"; {fit.runs} runs in all" in str(fit)
 
 
 def test_what_hardens_along_a_line_has_no_saturation_and_that_is_said(data_dir: Path) -> None:
