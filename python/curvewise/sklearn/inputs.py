@@ -12,18 +12,18 @@ from ..curves.labels import unlabelled
 from ..many.pairwise import Curves, LabelledCurves
 
 with extra("sklearn", "curvewise.sklearn needs scikit-learn >= 1.6"):
-    # Absolute, so these are the packages of that name and not this one. They have no types.
-    from sklearn.base import (  # type: ignore[import-untyped]
+    # Absolute, so these are the packages of that name and not this one.
+    from sklearn.base import (
         BaseEstimator,
         ClassifierMixin,
         ClusterMixin,
     )
-    from sklearn.exceptions import ConvergenceWarning  # type: ignore[import-untyped]
-    from sklearn.utils import check_random_state  # type: ignore[import-untyped]
-    from sklearn.utils.multiclass import (  # type: ignore[import-untyped]
+    from sklearn.exceptions import ConvergenceWarning
+    from sklearn.utils import check_random_state
+    from sklearn.utils.multiclass import (
         check_classification_targets,
     )
-    from sklearn.utils.validation import (  # type: ignore[import-untyped]
+    from sklearn.utils.validation import (
         check_is_fitted,
         column_or_1d,
         validate_data,
