@@ -84,7 +84,8 @@ py::tuple as_tuple(Interval&& interval) { return py::make_tuple(interval.low, in
 // What compute(P, Q, options, control) finds, as a tuple.
 template <class Options, auto compute>
 py::tuple found(const CurveArray& P, const CurveArray& Q, const py::dict& options) {
-    return as_tuple(computed(P, Q, read_options<Options>(options), compute));
+    OwnDistances own(P, Q);
+    return as_tuple(computed(P, Q, read_options<Options>(options, OptionsOf::pair, &own), compute));
 }
 
 py::array_t<double> allocate_table(const CurveArray& P, const CurveArray& Q) {
@@ -108,7 +109,8 @@ py::array_t<double> allocate_residuals(const CurveArray& P, const CurveArray& /*
 // An array as allocate(P, Q) returns it, with what fill(P, Q, data, options, control) writes.
 template <class Options, auto allocate, auto fill>
 py::array_t<double> filled(const CurveArray& P, const CurveArray& Q, const py::dict& given) {
-    const auto options = read_options<Options>(given);
+    OwnDistances own(P, Q);
+    const auto options = read_options<Options>(given, OptionsOf::pair, &own);
     py::array_t<double> out = allocate(P, Q);
     double* const data = out.mutable_data();
     computed(P, Q, options,
@@ -268,7 +270,8 @@ template <class Options>
 double value_of(const py::object& P, const py::object& Q, const py::tuple& values,
                 const py::tuple& defaults) {
     const CurvePair pair(P, Q);
-    return computed(pair.P, pair.Q, read_options<Options>(values, defaults),
+    OwnDistances own(pair.P, pair.Q);
+    return computed(pair.P, pair.Q, read_options<Options>(values, defaults, own),
                     [](const CurveView& p, const CurveView& q, const Options& options,
                        Control* control) { return evaluate(options, p, q, control); });
 }

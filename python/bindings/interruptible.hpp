@@ -66,14 +66,14 @@ auto unlocked(double steps, Function function) {
 }
 
 // Calls function(Control*) likewise, so that it reports progress and hears of signals, which are
-// handled on the main thread, where Python delivers them.
+// handled on the main thread, where Python delivers them. Who throws Stopped has set an exception.
 template <class Function>
 auto interruptible(double steps, const py::object& progress, Function function) {
-    if (progress.is_none() && steps < steps_worth_watching) {
-        return unlocked(steps, [&] { return function(nullptr); });
-    }
-    PythonControl python(progress);
     try {
+        if (progress.is_none() && steps < steps_worth_watching) {
+            return unlocked(steps, [&] { return function(nullptr); });
+        }
+        PythonControl python(progress);
         const WithoutLock unlocked;
         return function(python.control());
     } catch (const Stopped&) {

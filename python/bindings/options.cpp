@@ -118,6 +118,23 @@ double minkowski_order(const py::object& p, Metric metric) {
     return order;
 }
 
+void refuse_beside_own(const char* option, const py::object& given) {
+    if (!given || given.is_none()) return;
+    throw py::value_error(std::string(option) +
+                          " applies to a metric by its name, not to one of one's own");
+}
+
+void refuse_own_metric() {
+    std::string names;
+    for (const char* name : choice_names(Metric{}))
+        names += (names.empty() ? "" : ", ") + std::string(name);
+    throw py::value_error(
+        "a metric of one's own is for dtw and frechet of one pair, their paths, tables and infos, "
+        "and as a callable for cdist and pdist of them; nothing else computes with it, or has "
+        "bounds of it: choose from " +
+        names);
+}
+
 double sphere_radius(const py::object& radius, Metric metric) {
     check_metric_of("radius", Metric::haversine, metric);
     const double length = PyFloat_AsDouble(radius.ptr());

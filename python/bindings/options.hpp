@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "curvewise/measure.hpp"
+#include "own_distances.hpp"
 
 namespace curvewise::bindings {
 
@@ -41,6 +42,12 @@ bool is_true(const py::object& given);
 // The order of minkowski; no other metric takes one.
 double minkowski_order(const py::object& p, Metric metric);
 
+// Throws for an option, unless it is None, beside a metric of one's own.
+void refuse_beside_own(const char* option, const py::object& given);
+
+// Throws for a metric of one's own, where the measure, or the batch, takes none.
+[[noreturn]] void refuse_own_metric();
+
 // The radius of haversine; no other metric takes one.
 double sphere_radius(const py::object& radius, Metric metric);
 
@@ -57,9 +64,11 @@ py::tuple as_tuple(const StepRows& pattern);
 // has the value of every one in the measure's order.
 class OptionReader {
    public:
-    OptionReader(const py::dict& given, OptionsOf what) noexcept : given_(given), what_(what) {}
-    explicit OptionReader(const py::tuple& values) noexcept
-        : given_(values), what_(OptionsOf::pair), is_tuple_(true) {}
+    // `own` is for a metric of the user's own, null where there may be none.
+    OptionReader(const py::dict& given, OptionsOf what, OwnDistances* own) noexcept
+        : given_(given), what_(what), own_(own) {}
+    OptionReader(const py::tuple& values, OwnDistances* own) noexcept
+        : given_(values), what_(OptionsOf::pair), own_(own), is_tuple_(true) {}
 
     template <class Enum>
     std::enable_if_t<std::is_enum_v<Enum>> operator()(const char* name, Enum& value) {
@@ -105,10 +114,18 @@ class OptionReader {
     }
     void operator()(GroundDistance& ground) {
         const py::object metric = take("metric");
-        if (metric) ground.metric = choose<Metric>("metric", metric);
+        const bool is_own = metric && is_own_metric(metric);
+        if (is_own && own_ == nullptr) refuse_own_metric();
+        if (metric && !is_own) ground.metric = choose<Metric>("metric", metric);
         const py::object p = take("p");
-        if (p && !p.is_none()) ground.p = minkowski_order(p, ground.metric);
         const py::object radius = take("radius");
+        if (is_own) {
+            refuse_beside_own("p", p);
+            refuse_beside_own("radius", radius);
+            ground.own = own_->of(metric);
+            return;
+        }
+        if (p && !p.is_none()) ground.p = minkowski_order(p, ground.metric);
         if (radius && !radius.is_none()) ground.radius = sphere_radius(radius, ground.metric);
     }
 
@@ -136,6 +153,7 @@ class OptionReader {
 
     py::handle given_;
     OptionsOf what_;
+    OwnDistances* own_;
     bool is_tuple_ = false;
     py::ssize_t taken_ = 0;
     py::ssize_t place_ = 0;  // behind the option of the dict that was found last
@@ -198,9 +216,10 @@ py::dict written(Options options) {
 }
 
 template <class Options>
-Options read_options(const py::dict& given, OptionsOf what = OptionsOf::pair) {
+Options read_options(const py::dict& given, OptionsOf what = OptionsOf::pair,
+                     OwnDistances* own = nullptr) {
     Options options;
-    OptionReader reader(given, what);
+    OptionReader reader(given, what, OwnDistances::are_taken_by<Options> ? own : nullptr);
     visit_options(options, reader);
     if (reader.taken() < static_cast<py::ssize_t>(given.size())) {
         py::dict valid = written(options);
@@ -218,10 +237,10 @@ bool are_defaults(const py::tuple& values, const py::tuple& defaults);
 // From a tuple of the values of all options in the measure's order: what most calls give are the
 // very objects of the tuple of defaults, and then none is read.
 template <class Options>
-Options read_options(const py::tuple& values, const py::tuple& defaults) {
+Options read_options(const py::tuple& values, const py::tuple& defaults, OwnDistances& own) {
     Options options;
     if (are_defaults(values, defaults)) return options;
-    OptionReader reader(values);
+    OptionReader reader(values, OwnDistances::are_taken_by<Options> ? &own : nullptr);
     visit_options(options, reader);
     return options;
 }

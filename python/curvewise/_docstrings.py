@@ -31,6 +31,12 @@ _SHARED = {
 metric : {listed(get_args(Metric))}
     The ground distance between points; "haversine" is that along the great circle, of points
     (longitude, latitude) in degrees.""",
+    "ground": f"""\
+metric : {listed(get_args(Metric))}, array_like of shape (n, m), or callable
+    The ground distance between points; "haversine" is that along the great circle, of points
+    (longitude, latitude) in degrees. Or one's own: the distances of all points of P and Q, or a
+    function that is given some points of each, of shapes (p, d) and (q, d), and returns theirs, of
+    shape (p, q); at least 0, or inf where points must not meet.""",
     "p": """\
 p : float, 1 <= p <= inf, optional
     The order of "minkowski"; 2 if not given.""",

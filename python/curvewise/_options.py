@@ -9,8 +9,11 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Sequence
 from typing import Any, Final, Literal, SupportsFloat, SupportsIndex, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
 
 from ._core import earth_radius, measures
 
@@ -20,6 +23,7 @@ __all__ = [
     "Crossing",
     "Default",
     "Differentiable",
+    "GroundDistance",
     "LengthScale",
     "Metric",
     "Offsets",
@@ -45,6 +49,11 @@ CoordinateMetric: TypeAlias = Literal[
     "euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"
 ]  # of differences of coordinates
 Metric: TypeAlias = Literal[CoordinateMetric, "haversine"]
+_Points: TypeAlias = npt.NDArray[np.float64]
+# By its name; or one's own, a matrix or a function of two blocks of points.
+GroundDistance: TypeAlias = (
+    Metric | npt.NDArray[Any] | Sequence[Sequence[float]] | Callable[[_Points, _Points], Any]
+)
 Order: TypeAlias = SupportsFloat | None
 Radius: TypeAlias = SupportsFloat | None
 StepPatternName: TypeAlias = Literal[

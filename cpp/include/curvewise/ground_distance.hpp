@@ -5,7 +5,19 @@
 ///
 ///     curvewise::FrechetOptions options;
 ///     options.ground = {curvewise::Metric::minkowski, 3.0};
+///
+/// Or a function of one's own, which is asked for some rows of the table at a time:
+///
+///     const curvewise::BlockDistances own = [&](const curvewise::TableBlock& block, double* out) {
+///         for (std::ptrdiff_t i = 0; i < block.rows; ++i)
+///             for (std::ptrdiff_t j = 0; j < block.columns; ++j)
+///                 *out++ = matrix[block.first_row + i][block.first_column + j];
+///     };
+///     options.ground.own = &own;
 #pragma once
+
+#include <cstddef>
+#include <functional>
 
 #include "curvewise/options.hpp"
 
@@ -31,7 +43,21 @@ constexpr auto choice_names(Metric /*metric*/) noexcept {
 /// Reference System 1980, Journal of Geodesy 74, 2000).
 inline constexpr double earth_radius = 6371008.8;
 
-/// A metric, with its order, or its radius.
+/// A part of the table of all pairs of points: those of P are its rows, those of Q its columns.
+struct TableBlock {
+    std::ptrdiff_t first_row;
+    std::ptrdiff_t rows;
+    std::ptrdiff_t first_column;
+    std::ptrdiff_t columns;
+};
+
+/// Writes the distances of a block's pairs, each at least 0 or infinity, to `out`, row by row. It
+/// is called by the thread that made the call, for blocks of at most 264 rows that are some 2^21
+/// pairs or one row, more than once for the same pair where a path is asked for. What it throws
+/// passes through.
+using BlockDistances = std::function<void(const TableBlock& block, double* out)>;
+
+/// A metric, with its order, or its radius; or a function of one's own.
 struct GroundDistance {
     Metric metric = Metric::euclidean;
     /// The order of minkowski, 1 <= p <= inf; p = 1, 2 and inf are computed as cityblock,
@@ -39,6 +65,10 @@ struct GroundDistance {
     double p = 2.0;
     /// Of the sphere of haversine, above 0; distances are in its unit. Not used by the others.
     double radius = earth_radius;
+    /// In place of the metric where not null: for dtw, frechet, their paths, tables and infos, of a
+    /// single pair, in one thread and without pruning; everything else throws
+    /// std::invalid_argument. It must outlive the call.
+    const BlockDistances* own = nullptr;
 
     /// The number that the metric asks for.
     constexpr double parameter() const noexcept { return metric == Metric::haversine ? radius : p; }

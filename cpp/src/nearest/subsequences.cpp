@@ -184,6 +184,7 @@ std::vector<Subsequence> find_subsequences(const CurveView& P, const CurveView& 
 
 std::vector<Subsequence> subsequences(const CurveView& P, const CurveView& Q, std::ptrdiff_t count,
                                       const DtwOptions& options, Control* control) {
+    warping::refuse_own_distances(options.ground);
     DtwOptions open = options;
     open.open_begin = open.open_end = true;
     return find_subsequences(P, Q, count, warping::checked_options(open), control);
@@ -191,6 +192,7 @@ std::vector<Subsequence> subsequences(const CurveView& P, const CurveView& Q, st
 
 std::vector<Subsequence> subsequences(const CurveView& P, const CurveView& Q, std::ptrdiff_t count,
                                       const FrechetOptions& options, Control* control) {
+    warping::refuse_own_distances(options.ground);
     return find_subsequences(P, Q, count, warping::checked_options(options), control);
 }
 

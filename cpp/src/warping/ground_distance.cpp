@@ -30,6 +30,13 @@ void check_ground_distance(const GroundDistance& ground) {
     }
 }
 
+void refuse_own_distances(const GroundDistance& ground) {
+    if (ground.own == nullptr) return;
+    throw std::invalid_argument(
+        "a ground distance of one's own is for dtw and frechet of one pair of curves, their paths, "
+        "tables and infos; nothing else computes with it, or has bounds of it: choose a metric");
+}
+
 Metric metric_of_boxes(Metric metric) noexcept {
     const bool is_of_root = with_row(metric, [](auto row) {
         using Row = decltype(row);
@@ -58,7 +65,8 @@ Metric canonical_metric(const GroundDistance& ground, std::ptrdiff_t dim) noexce
 }
 
 kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& curves) noexcept {
-    return {canonical_metric(ground, curves.dim()), curves.squares_are_in_domain()};
+    return {canonical_metric(ground, curves.dim()), curves.squares_are_in_domain(),
+            ground.own != nullptr};
 }
 
 double PutOffRoot::arc(double square) const noexcept {
@@ -92,7 +100,8 @@ int degree(Metric metric) noexcept {
 }
 
 RangeScale range_of(const GroundDistance& ground, double largest_magnitude) noexcept {
-    return RangeScale(degree(ground.metric) == 0 ? 1.0 : largest_magnitude);
+    const bool is_as_it_is = ground.own != nullptr || degree(ground.metric) == 0;
+    return RangeScale(is_as_it_is ? 1.0 : largest_magnitude);
 }
 
 }  // namespace curvewise::warping

@@ -51,6 +51,9 @@ auto with_norm(Metric metric, Use use) {
     });
 }
 
+// What is kept of a caller's own distances at a time, or one row of the table: 16 MB.
+inline constexpr std::ptrdiff_t max_own_distances = std::ptrdiff_t{1} << 21;
+
 // The metric whose distances of boxes bound those of points: itself, or of an arc what is under it;
 // then the kernels' arcs() make bounds of them.
 Metric metric_of_boxes(Metric metric) noexcept;
@@ -60,6 +63,9 @@ bool has_box_bounds(Metric metric) noexcept;
 
 // Throws std::invalid_argument for an order of minkowski outside [1, inf].
 void check_ground_distance(const GroundDistance& ground);
+
+// Throws std::invalid_argument for a function of one's own, for what cannot compute with one.
+void refuse_own_distances(const GroundDistance& ground);
 
 // Orders 1, 2 and inf of minkowski by their own names.
 Metric named_metric(const GroundDistance& ground) noexcept;

@@ -44,6 +44,7 @@ class HausdorffMeasure {
 
     explicit HausdorffMeasure(const HausdorffOptions& options) : options_(options) {
         warping::check_ground_distance(options_.ground);
+        warping::refuse_own_distances(options_.ground);
         curves::check_cutoff(options_.cutoff);
     }
     curves::Requirements requirements() const noexcept {

@@ -112,6 +112,7 @@ class RecurrenceMeasure {
     explicit RecurrenceMeasure(Recurrence recurrence)
         : recurrence_(std::move(recurrence)), steps_(recurrence_, RangeScale(1.0)) {
         warping::check_ground_distance(recurrence_.ground);
+        if (needs_points()) warping::refuse_own_distances(recurrence_.ground);
         curves::check_cutoff(recurrence_.cutoff);
         window().check();
         check_number("gap", recurrence_.gap);
@@ -229,6 +230,12 @@ class RecurrenceMeasure {
         return {recurrence_.window, recurrence_.window_fraction};
     }
 
+    // Besides the distances of pairs.
+    bool needs_points() const noexcept {
+        return recurrence_.gaps != Gaps::none || recurrence_.by_coordinate ||
+               recurrence_.border == Border::origin || recurrence_.pair != PairCost::distance;
+    }
+
     static void check_number(const char* name, double value) {
         if (!std::isfinite(value)) {
             throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
@@ -343,6 +350,7 @@ void warp_table(const Recurrence& recurrence, const CurveView& P, const CurveVie
 
 std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(
     const Recurrence& recurrence) {
+    warping::refuse_own_distances(recurrence.ground);
     return std::make_unique<BatchOf<RecurrenceMeasure>>(RecurrenceMeasure(recurrence));
 }
 

@@ -14,7 +14,7 @@ namespace curvewise::warping {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::ptrdiff_t height = 256;
+constexpr std::ptrdiff_t max_height = 256;
 constexpr std::ptrdiff_t margin = kernels::max_reach + kernels::padding;
 constexpr std::ptrdiff_t cells_between_polls = 1 << 16;
 
@@ -29,7 +29,7 @@ Band band_of(const Recurrence& recurrence, const PackedPair& curves) {
 
 // The step by which each cell of a part was reached, strip by strip.
 struct RecurrenceSweep::Codes {
-    Codes(const Part& part, std::ptrdiff_t reach)
+    Codes(const Part& part, std::ptrdiff_t reach, std::ptrdiff_t height)
         : stride(std::min(height, part.end - part.first) + reach),
           per_strip((part.columns + stride + reach) * stride),
           content(static_cast<std::size_t>(per_strip * ((part.end - part.first) / height + 1))) {}
@@ -51,7 +51,11 @@ RecurrenceSweep::RecurrenceSweep(const Recurrence& recurrence, const StepTable& 
       band_(band_of(recurrence, curves)),
       poller_(poller),
       memory_(memory),
+      height_(max_height),
       reentry_(infinity) {
+    if (recurrence.ground.own != nullptr) {
+        height_ = std::clamp<std::ptrdiff_t>(max_own_distances / curves.columns(), 1, max_height);
+    }
     kernels::Strip& ground = whole_.ground;
     const std::ptrdiff_t first = std::max<std::ptrdiff_t>(coordinate, 0);
     ground.p = curves.p.data() + first * curves.p.stride();
@@ -61,7 +65,7 @@ RecurrenceSweep::RecurrenceSweep(const Recurrence& recurrence, const StepTable& 
     ground.dim = coordinate < 0 ? curves.dim() : 1;
     ground.metric_parameter = recurrence.ground.parameter();
     const kernels::Cost cost{canonical_metric(recurrence.ground, ground.dim),
-                             curves.squares_are_in_domain()};
+                             curves.squares_are_in_domain(), recurrence.ground.own != nullptr};
     fill_ = active_level().recurrences->fill(cost, ground.dim);
     whole_.steps = table_.steps.data();
     whole_.step_count = static_cast<std::ptrdiff_t>(table_.steps.size());
@@ -210,9 +214,9 @@ void RecurrenceSweep::sweep(const Part& part, double* boundary, std::ptrdiff_t s
                             double* table, double give_up) {
     const std::ptrdiff_t reach = table_.reach;
     std::ptrdiff_t place = 0;
-    for (std::ptrdiff_t first = part.first; first < part.end; first += height, ++place) {
+    for (std::ptrdiff_t first = part.first; first < part.end; first += height_, ++place) {
         kernels::RecurrenceStrip strip = whole_;
-        aim(strip, part, first, std::min(height, part.end - first));
+        aim(strip, part, first, std::min(height_, part.end - first));
         strip.boundary = boundary;
         strip.boundary_stride = stride;
         if (codes != nullptr) {
@@ -228,7 +232,7 @@ void RecurrenceSweep::sweep(const Part& part, double* boundary, std::ptrdiff_t s
             for (std::ptrdiff_t r = 0; r < reach; ++r) {
                 std::fill_n(boundary + r * stride, part.columns, infinity);
             }
-            poller_.count_steps((part.end - std::min(part.end, first + height)) * part.columns);
+            poller_.count_steps((part.end - std::min(part.end, first + height_)) * part.columns);
             return;
         }
     }
@@ -252,6 +256,7 @@ void RecurrenceSweep::aim(kernels::RecurrenceStrip& strip, const Part& part, std
     strip.ground.columns = part.columns;
     strip.ground.p += first - above;
     strip.ground.rows = rows + above;
+    if (recurrence_.ground.own != nullptr) ask_for_distances(strip.ground, first - above);
     strip.starts_here = first == 0 && left_border_ == nullptr;
     strip.first_offset = first - reach;
     if (strip.row_gaps != nullptr) {
@@ -291,6 +296,15 @@ void RecurrenceSweep::aim(kernels::RecurrenceStrip& strip, const Part& part, std
     strip.next_diagonal = -reach;
     strip.low_lane = reach;
     strip.high_lane = reach - 1;
+}
+
+// Of whole rows, since steps visit cells outside of the window too.
+void RecurrenceSweep::ask_for_distances(kernels::Strip& ground, std::ptrdiff_t first) {
+    memory_.own_distances.reserve(ground.rows * ground.columns);
+    double* const distances = memory_.own_distances.data();
+    (*recurrence_.ground.own)({first, ground.rows, 0, ground.columns}, distances);
+    ground.own = distances;
+    ground.own_stride = ground.columns;
 }
 
 void RecurrenceSweep::run(kernels::RecurrenceStrip& strip, const Part& part) {
@@ -340,12 +354,12 @@ RecurrenceSweep::Cell RecurrenceSweep::find(std::ptrdiff_t first, const Rows& bo
 RecurrenceSweep::Cell RecurrenceSweep::trace(std::ptrdiff_t first, const Rows& boundary, Cell end) {
     const Part part{first, end.row + 1, end.column + 1};
     const std::ptrdiff_t reach = table_.reach;
-    Codes codes(part, reach);
+    Codes codes(part, reach, height_);
     Rows rows = boundary;
     sweep(part, rows.data(), curves_.columns(), &codes, nullptr, infinity);
     const auto code = [&](const Cell& at) {
-        const std::ptrdiff_t strip = (at.row - first) / height;
-        const std::ptrdiff_t lane = (at.row - first) % height + reach;
+        const std::ptrdiff_t strip = (at.row - first) / height_;
+        const std::ptrdiff_t lane = (at.row - first) % height_ + reach;
         return codes.content[static_cast<std::size_t>(
             strip * codes.per_strip + (reach + at.column + lane) * codes.stride + lane)];
     };

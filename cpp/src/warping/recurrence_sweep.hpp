@@ -27,6 +27,7 @@ struct RecurrenceMemory {
     AlignedBuffer lanes;
     AlignedBuffer costs;  // of rows, columns and differences
     AlignedBuffer boundary;
+    AlignedBuffer own_distances;  // of a strip
     std::vector<std::ptrdiff_t> columns;
 };
 
@@ -66,6 +67,7 @@ class RecurrenceSweep {
                double* table, double give_up);
     void aim(kernels::RecurrenceStrip& strip, const Part& part, std::ptrdiff_t first,
              std::ptrdiff_t rows);
+    void ask_for_distances(kernels::Strip& ground, std::ptrdiff_t first);
     void run(kernels::RecurrenceStrip& strip, const Part& part);
     bool is_hopeless(const double* boundary, std::ptrdiff_t stride, double give_up) const noexcept;
     Cell find(std::ptrdiff_t first, const Rows& boundary, Cell end);
@@ -80,6 +82,7 @@ class RecurrenceSweep {
     Band band_;
     Poller& poller_;
     RecurrenceMemory& memory_;
+    std::ptrdiff_t height_;  // of strips
     bool is_counting_ = true;
     double sum_of_row_gaps_ = 0.0;
     double sum_of_column_gaps_ = 0.0;

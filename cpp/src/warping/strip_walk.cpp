@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "warping/ground_distance.hpp"
+
 namespace curvewise::warping {
 namespace {
 
@@ -22,10 +24,14 @@ kernels::Output output_of(const Destination& destination) noexcept {
     return kernels::Output::boundary_only;
 }
 
-std::ptrdiff_t strip_height(std::ptrdiff_t rows, std::ptrdiff_t workers,
-                            kernels::Output output) noexcept {
+std::ptrdiff_t strip_height(const SweepProblem& problem, const Region& region,
+                            std::ptrdiff_t workers, kernels::Output output) noexcept {
+    const std::ptrdiff_t rows = region.rows;
     std::ptrdiff_t most = max_strip_height;
-    if (output == kernels::Output::table) most = max_table_height;
+    if (problem.own != nullptr) {
+        most = std::clamp<std::ptrdiff_t>(max_own_distances / region.columns, 1, most);
+    }
+    if (output == kernels::Output::table) most = std::min(most, max_table_height);
     if (workers > 1) {
         most = std::min(most, std::max(min_shared_height, rows / (strips_per_worker * workers)));
     }
@@ -54,7 +60,7 @@ StripPlan::StripPlan(const SweepProblem& problem, const Region& region, std::ptr
       region_(region),
       destination_(destination),
       output_(output_of(destination)),
-      height_(strip_height(region.rows, workers, output_)),
+      height_(strip_height(problem, region, workers, output_)),
       workers_(std::min(workers, (region.rows + height_ - 1) / height_)) {}
 
 ColumnRange StripPlan::columns(std::ptrdiff_t row) const noexcept {
@@ -66,6 +72,7 @@ ColumnRange StripPlan::columns(std::ptrdiff_t row) const noexcept {
 StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, SweepMemory& memory,
                      StripEdge* edges)
     : plan_(&plan),
+      memory_(&memory),
       starts_here_(starts_here),
       lane_stride_(AlignedBuffer::rounded(plan.height_ + 2 + kernels::padding)),
       advance_(plan.problem_->kernels.advance(plan.problem_->recurrence, plan.problem_->cost,
@@ -94,6 +101,24 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, 
     if (live.cost_to_go() != nullptr) {
         narrower_ = StripNarrower(*live.cost_to_go(), *live.swept(), edges);
     }
+}
+
+void StripWalk::ask_for_distances(std::ptrdiff_t strip) {
+    const Region& region = plan_->region_;
+    const SweepProblem& problem = *plan_->problem_;
+    const std::ptrdiff_t row = strip * plan_->height_;
+    const std::ptrdiff_t rows = std::min(plan_->height_, region.rows - row);
+    ColumnRange asked{0, region.columns - 1};
+    if (problem.columns.is_limited()) {
+        asked = {plan_->columns(row).first, plan_->columns(row + rows - 1).last};
+    }
+    const std::ptrdiff_t columns = asked.last - asked.first + 1;
+    memory_->own_distances.reserve(rows * columns);
+    double* const distances = memory_->own_distances.data();
+    (*problem.own)({region.first_row + row, rows, region.first_column + asked.first, columns},
+                   distances);
+    strip_.own = distances - asked.first;
+    strip_.own_stride = columns;
 }
 
 void StripWalk::enter(std::ptrdiff_t strip) noexcept {

@@ -53,6 +53,8 @@ class alignas(128) StripWalk {
     StripWalk(const StripPlan& plan, bool starts_here, double* boundary, SweepMemory& memory,
               StripEdge* edges);
 
+    // For the caller's own distances, of the columns that the strip may hold; before it is entered.
+    void ask_for_distances(std::ptrdiff_t strip);
     void enter(std::ptrdiff_t strip) noexcept;
     // Up to the diagonal `end`, or to where the strip turns out to end. Returns the share of the
     // strip's rows times all columns of the region that this is: what a caller counts as done,
@@ -81,6 +83,7 @@ class alignas(128) StripWalk {
     void advance_narrowing(std::ptrdiff_t end) noexcept;
 
     const StripPlan* plan_;
+    SweepMemory* memory_;
     bool starts_here_;
     bool at_start_ = false;
     bool is_last_ = false;

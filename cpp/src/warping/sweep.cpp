@@ -113,6 +113,7 @@ void sweep(const SweepProblem& problem, const Region& region, bool starts_here, 
     if (others.empty()) {
         const std::ptrdiff_t chunk = chunk_of(problem);
         for (std::ptrdiff_t s = 0; s < plan.strips(); ++s) {
+            if (problem.own != nullptr) first.ask_for_distances(s);
             if (sweep_strip(first, s, chunk, weight, problem.poller)) throw Stopped();
             if (is_hopeless(problem, region, boundary)) return skip_rest(problem, plan, s + 1);
         }

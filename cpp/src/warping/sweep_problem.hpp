@@ -41,6 +41,7 @@ class Row {
 // it anew takes as long as a good part of the sweep. O(m).
 struct SweepMemory {
     AlignedBuffer lanes;
+    AlignedBuffer own_distances;  // of a strip
     Row row;
 
     // Room for so many columns, of any content: of a few, as short curves have, none of the heap's.
@@ -71,15 +72,11 @@ struct SweepProblem {
     std::ptrdiff_t cells_per_worker = std::ptrdiff_t{1} << 22;
     // In one thread, a sweep of the whole table ends where all values of a row are above this.
     double give_up_above = std::numeric_limits<double>::infinity();
+    // Where the cost is the caller's own, in one thread.
+    const BlockDistances* own = nullptr;
 };
 
-// A part of the table: rows and columns, by their first and their number.
-struct Region {
-    std::ptrdiff_t first_row;
-    std::ptrdiff_t rows;
-    std::ptrdiff_t first_column;
-    std::ptrdiff_t columns;
-};
+using Region = TableBlock;
 
 Region whole_table(const PackedPair& curves) noexcept;
 // The virtual row above the table, its first columns: 0 where a path may begin. Beyond what the

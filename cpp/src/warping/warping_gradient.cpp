@@ -118,6 +118,7 @@ double value_and_gradients(const DtwOptions& options, const CurveView& P, const 
         throw std::invalid_argument(
             "a gradient needs step_pattern='symmetric1' or 'symmetric2' and no penalty");
     }
+    warping::refuse_own_distances(options.ground);
     const Alignment alignment = dtw_path(P, Q, options, control);
     Sums sums(out, P, Q);
     const double divisor =
@@ -138,6 +139,7 @@ double value_and_gradients(const DtwOptions& options, const CurveView& P, const 
 
 double value_and_gradients(const FrechetOptions& options, const CurveView& P, const CurveView& Q,
                            const Gradients& out, Control* control) {
+    warping::refuse_own_distances(options.ground);
     const Alignment alignment = frechet_path(P, Q, options, control);
     Sums sums(out, P, Q);
     PointPair at(options.ground.parameter(), Q.dim());

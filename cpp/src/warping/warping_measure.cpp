@@ -252,12 +252,14 @@ void frechet_table(const CurveView& P, const CurveView& Q, double* out,
 }
 
 std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(const DtwOptions& options) {
+    warping::refuse_own_distances(options.ground);
     if (!warping::is_swept_by_dtw(options)) return batch_measure(warping::recurrence_of(options));
     return std::make_unique<BatchOf<WarpingMeasure>>(WarpingMeasure(options));
 }
 
 std::unique_ptr<const pairwise::BatchMeasure> pairwise::batch_measure(
     const FrechetOptions& options) {
+    warping::refuse_own_distances(options.ground);
     return std::make_unique<BatchOf<WarpingMeasure>>(WarpingMeasure(options));
 }
 

@@ -21,6 +21,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// Whoever gave a function of one's own is asked by one thread.
+std::ptrdiff_t workers_for(const GroundDistance& ground, std::ptrdiff_t asked_for) {
+    const std::ptrdiff_t workers = runtime::resolve_workers(asked_for);
+    return ground.own == nullptr ? workers : 1;
+}
+
 }  // namespace
 
 WarpingOptions checked_options(const DtwOptions& options) {
@@ -49,8 +55,8 @@ WarpingOptions checked_options(const DtwOptions& options) {
         DtwOptions::measure,
         is_symmetric1 ? kernels::Recurrence::dtw_symmetric1 : kernels::Recurrence::dtw_symmetric2,
         options.ground,
-        runtime::resolve_workers(options.workers),
-        options.prune,
+        workers_for(options.ground, options.workers),
+        options.prune && options.ground.own == nullptr,
         options.cutoff,
         window,
         options.open_begin,
@@ -61,9 +67,12 @@ WarpingOptions checked_options(const DtwOptions& options) {
 WarpingOptions checked_options(const FrechetOptions& options) {
     check_ground_distance(options.ground);
     curves::check_cutoff(options.cutoff);
-    return {FrechetOptions::measure, kernels::Recurrence::frechet,
-            options.ground,          runtime::resolve_workers(options.workers),
-            options.prune,           options.cutoff};
+    return {FrechetOptions::measure,
+            kernels::Recurrence::frechet,
+            options.ground,
+            workers_for(options.ground, options.workers),
+            options.prune && options.ground.own == nullptr,
+            options.cutoff};
 }
 
 WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& curves,
@@ -83,7 +92,8 @@ WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& 
              call.workers,
              call.poller,
              call.memory} {
-    if (is_frechet()) root_ = put_off_root(sweep_.cost, options.ground);
+    sweep_.own = options.ground.own;
+    if (is_frechet() && sweep_.own == nullptr) root_ = put_off_root(sweep_.cost, options.ground);
 }
 
 double WarpingProblem::distance(double cutoff) {

@@ -16,6 +16,7 @@ import numpy as np
 
 from .._options import EARTH_RADIUS, Metric, check_choice, real_number
 from .inputs import Array
+from .own_distance import is_own_metric
 from .scaling import range_exponent, times_power_of_two
 from .sphere import arcs, in_space
 
@@ -38,8 +39,15 @@ def check_metric(metric: Metric, p: Any, radius: Any = None) -> tuple[Metric, fl
     Raises
     ------
     ValueError
-        An unknown metric, p or radius with a metric that has none, p < 1, or radius <= 0.
+        An unknown metric, one of one's own, p or radius with a metric that has none, p < 1, or
+        radius <= 0.
     """
+    if is_own_metric(metric):
+        raise ValueError(
+            "a metric of one's own is for dtw and frechet of one pair, their paths, tables and "
+            "infos, and as a callable for cdist and pdist of them; nothing else computes with it, "
+            f"or has bounds of it: choose from {', '.join(get_args(Metric))}"
+        )
     check_choice("metric", metric, get_args(Metric))
     if radius is not None and metric != "haversine":
         raise ValueError(f"radius applies to metric='haversine' only, not to {metric!r}")

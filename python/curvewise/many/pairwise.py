@@ -2,23 +2,25 @@
 
 Each curve is checked and packed once, not once a pair; threads share the pairs, the largest
 first, and neither their number nor their order changes a value. The work is done by the compiled
-library; a callable given in the place of a measure's name is called pair by pair from Python.
+library; a callable given in the place of a measure's name is called pair by pair from Python, and
+so is a measure whose ground distance is a callable.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from itertools import combinations, product
 from typing import Any, SupportsFloat, SupportsIndex, TypeAlias, get_args, overload
 
 import numpy as np
 
 from .._core import cdist as compiled_cdist
-from .._core import is_symmetric
+from .._core import check_batch, is_symmetric
 from .._core import pdist as compiled_pdist
 from .._docstrings import filled, listed
-from .._options import Default, Metric, check_choice, real_number
+from .._options import Default, Metric, WarpingName, check_choice, real_number
 from .._progress import Report, reporting
 from ..curves.inputs import Array, CurveLike, as_curve_list, copy_of
 from ..curves.labels import labelled_matrix, labelled_triangle, unlabelled
@@ -97,12 +99,13 @@ def cdist(
     XA, XB : array_like, shapes (k, n, d) and (l, m, d), or sequences of curves
         The curves of a sequence may differ in length, not in d. A curve of XA is P, one of XB is
         Q. Without XB, XA is compared with itself: each pair of a symmetric measure is then
-        computed once, with the earlier curve as P. A dict of curves, a groupby, a Series or a
-        GeoDataFrame of lines has labels too.
+        computed once, with the earlier curve as P, unless the metric is of one's own. A dict of
+        curves, a groupby, a Series or a GeoDataFrame of lines has labels too.
     measure : {measures} or callable
         A measure by its name (see :func:`available_measures`), or a function of two curves that
         returns a float. A callable runs in this thread, holding the interpreter's lock, pair by
-        pair: `workers` is of no use to it, and all pairs are computed.
+        pair: `workers` is of no use to it, and all pairs are computed. So are those of dtw and
+        frechet with a callable `metric` (a matrix is of one pair, and refused).
     out : ndarray of float64, shape (k, l), C-contiguous, optional
         Where to write the result.
     {workers}
@@ -111,7 +114,7 @@ def cdist(
     progress : bool or callable
         True shows a bar (tqdm). A callable is called in this thread with (done, total), some
         twenty times a second: cells of the tables, n m for a pair, for dtw and frechet; points,
-        n + m for a pair, for the others.
+        n + m for a pair, for the others and with a callable.
     **options
         Those of the measure's own function, or of the callable.
 
@@ -159,14 +162,13 @@ def cdist(
     out = _checked_out(out, shape, "cdist")
     rows, columns = _apart(rows, out), None if columns is None else _apart(columns, out)
     limit = _checked_cutoff(cutoff)
-    if callable(measure):
+    if function := _called_by_pairs(measure, options, limit, rows, columns):
         others = rows if columns is None else columns
         points = _points(rows) * len(others) + len(rows) * _points(others)
-        _fill(out, product(rows, others), points, measure, limit, options, progress)
+        _fill(out, product(rows, others), points, function, limit, progress)
     else:
-        name = _check_names(measure, options)
         with reporting(progress) as report:
-            compiled_cdist(rows, columns, name, options, out, workers, limit, report)
+            compiled_cdist(rows, columns, str(measure), options, out, workers, limit, report)
     return labelled_matrix(out, row_labels, column_labels)
 
 
@@ -211,7 +213,8 @@ def pdist(
         As for :func:`cdist`.
     measure : {symmetric} or callable
         A symmetric one: dtw without open ends, area without spacing="arc_length" or "matched". A
-        callable is taken to be symmetric.
+        callable, and a callable `metric`, is only called with the earlier curve as P: whether it
+        is symmetric is not looked at.
     out : ndarray of float64, shape (k (k-1) / 2,), C-contiguous, optional
         Where to write the result.
     workers, cutoff, progress, **options
@@ -248,15 +251,34 @@ def pdist(
     out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
     curves = _apart(curves, out)
     limit = _checked_cutoff(cutoff)
-    if callable(measure):
+    function = _called_by_pairs(measure, options, limit, curves, None)
+    if not callable(measure):
+        _check_symmetric(measure, options)
+    if function:
         points = (len(curves) - 1) * _points(curves)
-        _fill(out, combinations(curves, 2), points, measure, limit, options, progress)
+        _fill(out, combinations(curves, 2), points, function, limit, progress)
     else:
-        name = _check_names(measure, options)
-        _check_symmetric(name, options)
         with reporting(progress) as report:
-            compiled_pdist(curves, name, options, out, workers, limit, report)
+            compiled_pdist(curves, str(measure), options, out, workers, limit, report)
     return labelled_triangle(out, labels)
+
+
+def _called_by_pairs(
+    measure: Measure,
+    options: dict[str, Any],
+    limit: float,
+    rows: list[Array],
+    columns: list[Array] | None,
+) -> Callable[..., float] | None:
+    """Return what Python calls for every pair, if it does; check the curves if it is a measure."""
+    if callable(measure):
+        return partial(measure, **options)
+    name = _check_names(measure, options)
+    if not (callable(options.get("metric")) and name in get_args(WarpingName)):
+        return None
+    others = {o: v for o, v in options.items() if o not in ("metric", "p", "radius")}
+    check_batch(rows, columns, name, others)
+    return partial(MEASURES[name].function, **options, cutoff=limit)
 
 
 def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
@@ -279,7 +301,7 @@ def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
 
 
 def _check_symmetric(name: str, options: dict[str, Any]) -> None:
-    if not is_symmetric(name, options):
+    if not is_symmetric(name, {o: v for o, v in options.items() if not callable(v)}):
         given = "".join(f", {option}={value!r}" for option, value in options.items())
         raise ValueError(
             f"pdist needs a symmetric measure, and {name!r}{given} is not: use cdist, "
@@ -315,9 +337,8 @@ def _fill(
     out: Array,
     pairs: Iterable[tuple[Array, Array]],
     points: int,
-    measure: Callable[..., float],
+    function: Callable[..., float],
     limit: float,
-    options: dict[str, Any],
     progress: bool | Report,
 ) -> None:
     """Call a Python function for every pair, in the order of `out`."""
@@ -325,7 +346,7 @@ def _fill(
     done = 0
     with reporting(progress) as report:
         for position, (P, Q) in enumerate(pairs):
-            value = float(measure(P, Q, **options))
+            value = float(function(P, Q))
             flat[position] = np.inf if value > limit else value
             done += len(P) + len(Q)
             if report is not None:

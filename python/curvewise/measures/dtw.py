@@ -12,7 +12,7 @@ from .._core import dtw_info as compiled_dtw_info
 from .._core import dtw_path as compiled_dtw_path
 from .._core import dtw_table as compiled_dtw_table
 from .._docstrings import filled
-from .._options import Default, Metric, Order, Radius, Window
+from .._options import Default, GroundDistance, Order, Radius, Window
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.named_curve import copied
 from .results import Alignment, WarpingInfo
@@ -26,7 +26,7 @@ def dtw(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
@@ -45,7 +45,7 @@ def dtw(
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
         The curves, of any d.
-    {metric}
+    {ground}
     {p}
     {radius}
     step_pattern : str or StepPattern
@@ -84,9 +84,10 @@ def dtw(
     ------
     ValueError
         A curve is not finite or empty; the curves differ in d; an option is unknown or out of
-        range; no path fits the window (window = 0 and n != m).
+        range; no path fits the window (window = 0 and n != m); a distance of one's own is nan or
+        negative, or their shape does not fit.
     TypeError
-        A curve does not hold real numbers.
+        A curve, or a distance of one's own, does not hold real numbers.
 
     Notes
     -----
@@ -96,6 +97,11 @@ def dtw(
     and without pruning, O(n m) times the number of weights: c[i, j] is the least, over the steps
     of the pattern, of c where the step begins, plus the penalty, plus the weighted distances of
     the cells that it visits, added in this order.
+
+    With a metric of one's own, in one thread and without pruning: a callable is asked once for each
+    256 rows of the table (fewer where these are more than 2^21 pairs), so that memory stays
+    O(n + m), and up to three times for a path. It need not be symmetric. Its exceptions pass
+    through.
 
     What other packages call DTW, in these options:
 
@@ -121,6 +127,11 @@ def dtw(
     0.0
     >>> curvewise.dtw([0, 1, 2, 3], [0, 2, 3], step_pattern="typeIIa", penalty=0.5)
     0.5
+    >>> import numpy as np
+    >>> curvewise.dtw([1, 2, 4], [1, 4], metric=lambda p, q: np.abs(np.log2(p) - np.log2(q).T))
+    1.0
+    >>> curvewise.dtw([1, 2, 4], [1, 4], metric=[[0, 2], [1, 1], [2, 0]])
+    1.0
     """
     options = (
         metric,
@@ -143,7 +154,7 @@ def dtw_info(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
@@ -200,7 +211,7 @@ def dtw_path(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
@@ -260,7 +271,7 @@ def dtw_table(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,

@@ -12,7 +12,7 @@ from .._core import frechet_info as compiled_frechet_info
 from .._core import frechet_path as compiled_frechet_path
 from .._core import frechet_table as compiled_frechet_table
 from .._docstrings import filled
-from .._options import Default, Metric, Order, Radius
+from .._options import Default, GroundDistance, Order, Radius
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.named_curve import copied
 from .results import Alignment, WarpingInfo
@@ -25,7 +25,7 @@ def frechet(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
     workers: SupportsIndex = Default.workers,
@@ -38,7 +38,7 @@ def frechet(
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
         The curves, of any d.
-    {metric}
+    {ground}
     {p}
     {radius}
     {workers}
@@ -48,27 +48,35 @@ def frechet(
     Returns
     -------
     float
-        In units of the ground distance. Symmetric. Not below the continuous Fréchet distance
-        (except for "sqeuclidean"), and above it by at most the longest edge of either curve.
+        In units of the ground distance. Symmetric, where a metric of one's own is. Not below the
+        continuous Fréchet distance of the same metric (except for "sqeuclidean"), and above it by
+        at most the longest edge of either curve.
 
     Raises
     ------
     ValueError
         A curve is not finite or empty; the curves differ in d; an option is unknown or out of
-        range.
+        range; a distance of one's own is nan or negative, or their shape does not fit.
     TypeError
-        A curve does not hold real numbers.
+        A curve, or a distance of one's own, does not hold real numbers.
 
     Notes
     -----
     Eiter & Mannila (1994): c[i, j] = max(d(P[i], Q[j]), min(c[i-1, j], c[i, j-1],
     c[i-1, j-1])). Exact. Time O(n m), memory O(n + m).
 
+    With a metric of one's own, in one thread and without pruning: a callable is asked once for each
+    256 rows of the table (fewer where these are more than 2^21 pairs), so that memory stays
+    O(n + m), and up to three times for a path. It need not be symmetric. Its exceptions pass
+    through.
+
     Examples
     --------
     >>> import curvewise
     >>> curvewise.frechet([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 3)])
     3.0
+    >>> curvewise.frechet([1, 2, 4], [1, 4], metric=[[0, 2], [1, 1], [2, 0]])
+    1.0
     """
     return compiled_frechet(P, Q, (metric, p, radius, workers, prune, cutoff))
 
@@ -77,7 +85,7 @@ def frechet_info(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
     workers: SupportsIndex = Default.workers,
@@ -121,7 +129,7 @@ def frechet_path(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
     workers: SupportsIndex = Default.workers,
@@ -166,7 +174,7 @@ def frechet_table(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
 ) -> Array:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
+import numpy.typing as npt
 
-from .._options import Default, WarpingName
+from .._options import Default, GroundDistance, Metric, Order, Radius, WarpingName
 from ..curves.ground_distance import check_metric, ground_distances
-from ..curves.inputs import CurveLike
+from ..curves.inputs import Array, CurveLike
+from ..curves.own_distance import block_distances, is_own_metric
 from ..drawing.figures import CurveArtists
 from ..drawing.links import draw_pair, draw_path
 from ..measures.edit_distances import EditDistance
@@ -88,15 +90,27 @@ def plot_alignment(
     if measure != "frechet":
         return artists
     # The first place on the path where the ground distance is largest.
-    metric = check_metric(
-        options.get("metric", Default.metric),
-        options.get("p", Default.p),
-        options.get("radius", Default.radius),
-    )
-    points = [curve[path[:, k]].reshape(len(path), -1) for k, curve in enumerate(measured)]
-    farthest = path[np.argmax(ground_distances(points[0], points[1], *metric))]
+    farthest = path[np.argmax(_along(path, *measured, **options))]
     ends = [
         np.asarray(line.get_xydata())[i]
         for line, i in zip((artists.P, artists.Q), farthest, strict=True)
     ]
     return artists._replace(accent=draw_pair(ax, ends, "Fréchet distance"))
+
+
+def _along(
+    path: npt.NDArray[np.int64],
+    P: Array,
+    Q: Array,
+    *,
+    metric: GroundDistance = Default.metric,
+    p: Order = Default.p,
+    radius: Radius = Default.radius,
+    **_: Any,
+) -> Array:
+    """Return the ground distances of the pairs of a path."""
+    if is_own_metric(metric):
+        of_block = block_distances(metric, P, Q)
+        return np.array([of_block(i, 1, j, 1)[0, 0] for i, j in path.tolist()])
+    points = [curve[path[:, k]].reshape(len(path), -1) for k, curve in enumerate((P, Q))]
+    return ground_distances(points[0], points[1], *check_metric(cast(Metric, metric), p, radius))

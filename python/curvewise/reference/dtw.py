@@ -17,13 +17,13 @@ from typing import Any, NamedTuple, SupportsFloat
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, Metric, Order, Radius, Window, real_number, whole_number
-from ..curves.ground_distance import check_metric, ground_distances, in_range
+from .._options import Default, GroundDistance, Order, Radius, Window, real_number, whole_number
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
 from ..measures.step_pattern import StepPattern, Steps
 from .checks import check_pair
+from .ground import Ground
 from .recurrence import Recurrence, filled, path_through, pattern_steps
 from .warping_table import filled_table, traced_path
 
@@ -34,7 +34,7 @@ def dtw(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
@@ -62,7 +62,7 @@ def dtw_path(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
@@ -89,7 +89,7 @@ def dtw_table(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
     step_pattern: Steps = Default.step_pattern,
@@ -121,7 +121,7 @@ class _Table(NamedTuple):
 def _accumulate(
     P: CurveLike,
     Q: CurveLike,
-    metric: Metric,
+    metric: GroundDistance,
     p: Order,
     radius: Radius,
     steps: _Steps,
@@ -131,12 +131,11 @@ def _accumulate(
 ) -> _Table:
     """Check everything and fill the table."""
     P, Q = as_curves(P, Q)
-    metric, order = check_metric(metric, p, radius)
+    distance = Ground.checked(P, Q, metric, p, radius)
     _check_steps(steps, window, open_begin, open_end)
-    P, Q = check_pair(P, Q, "dtw", on_sphere=metric == "haversine")
+    P, Q = check_pair(P, Q, "dtw", on_sphere=distance.is_on_sphere)
     reach = checked_radius(window, len(P), len(Q))
-    P, Q, exponent = in_range(P, Q, metric, steps.penalty)
-    ground = ground_distances(P[:, np.newaxis], Q, metric, order)
+    ground, exponent = distance.distances(P, Q, steps.penalty)
     inside = sakoe_chiba_band(len(P), len(Q), reach)
     weight = steps.diagonal_weight
     if weight is None:

@@ -17,12 +17,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._options import Default, Metric, Order, Radius
-from ..curves.ground_distance import Root, before_root, check_metric, in_range
+from .._options import Default, GroundDistance, Order, Radius
+from ..curves.ground_distance import Root
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
 from .checks import check_pair
+from .ground import Ground
 from .warping_table import filled_table, traced_path
 
 __all__ = ["frechet", "frechet_path", "frechet_table"]
@@ -32,7 +33,7 @@ def frechet(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
 ) -> float:
@@ -45,7 +46,7 @@ def frechet_path(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
 ) -> Alignment:
@@ -64,7 +65,7 @@ def frechet_table(
     P: CurveLike,
     Q: CurveLike,
     *,
-    metric: Metric = Default.metric,
+    metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
 ) -> Array:
@@ -85,13 +86,14 @@ class _Table(NamedTuple):
         return times_power_of_two(self.root(values) if self.root else values, self.exponent)
 
 
-def _accumulate(P: CurveLike, Q: CurveLike, metric: Metric, p: Order, radius: Radius) -> _Table:
+def _accumulate(
+    P: CurveLike, Q: CurveLike, metric: GroundDistance, p: Order, radius: Radius
+) -> _Table:
     """Check everything and fill the table."""
     P, Q = as_curves(P, Q)
-    metric, order = check_metric(metric, p, radius)
-    P, Q = check_pair(P, Q, "frechet", on_sphere=metric == "haversine")
-    P, Q, exponent = in_range(P, Q, metric)
-    ground, root = before_root(P[:, np.newaxis], Q, metric, order)
+    distance = Ground.checked(P, Q, metric, p, radius)
+    P, Q = check_pair(P, Q, "frechet", on_sphere=distance.is_on_sphere)
+    ground, root, exponent = distance.before_root(P, Q)
     leashes = filled_table(
         ground,
         lambda d, up, left, diagonal: np.maximum(d, np.minimum(np.minimum(up, left), diagonal)),

@@ -122,6 +122,13 @@ void fill_one_by_one(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
     }
 }
 
+void fill_own(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
+              std::ptrdiff_t high) noexcept {
+    for (std::ptrdiff_t k = low; k <= high; ++k) {
+        strip.cost[k] = strip.own[k * strip.own_stride + t - k];
+    }
+}
+
 template <class Root>
 CostFunction select_fill_with(Metric metric) noexcept {
     return with_row<PackArithmetic, Root>(metric, [](auto row) -> CostFunction {
@@ -137,6 +144,7 @@ CostFunction select_fill_with(Metric metric) noexcept {
 }
 
 CostFunction select_fill(Cost cost) noexcept {
+    if (cost.is_own) return fill_own;
     return cost.squares_in_domain ? select_fill_with<FastRoot>(cost.metric)
                                   : select_fill_with<DividerRoot>(cost.metric);
 }

@@ -72,6 +72,11 @@ struct Strip {
     std::ptrdiff_t code_stride;
     double* table;
     std::ptrdiff_t table_stride;
+
+    // Where they are of the caller's own: the distance of row k and column j, at
+    // own[k * own_stride + j].
+    const double* own;
+    std::ptrdiff_t own_stride;
 };
 
 // Writes the ground distances of lanes low..high of diagonal t to strip.cost.
@@ -88,10 +93,11 @@ using AdvanceFunction = void (*)(Strip& strip, std::ptrdiff_t end, CostFunction 
 enum class Output { boundary_only, origins, codes, table };
 
 // A ground distance, and whether every sum of squares is 0 or within the domain of the fast square
-// root.
+// root; or one of the caller's own, in place of the metric.
 struct Cost {
     Metric metric;
     bool squares_in_domain;
+    bool is_own = false;
 };
 
 // What one instruction-set level offers.

@@ -175,6 +175,7 @@ void advance(Strip& strip, std::ptrdiff_t end, CostFunction fill) noexcept {
 // The ground distances that are worth their own loop are fused.
 template <class Rule, class Keep>
 AdvanceFunction select_cost(Cost cost, std::ptrdiff_t dim) noexcept {
+    if (cost.is_own) return advance<Rule, BufferedCost, Keep>;
     if (cost.metric == Metric::cityblock && dim == 1) return advance<Rule, AbsoluteCost, Keep>;
     if (cost.metric == Metric::sqeuclidean) {
         if (dim == 1) return advance<Rule, SquaredCost<1>, Keep>;
