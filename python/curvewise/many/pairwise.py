@@ -162,13 +162,15 @@ def cdist(
     out = _checked_out(out, shape, "cdist")
     rows, columns = _apart(rows, out), None if columns is None else _apart(columns, out)
     limit = _checked_cutoff(cutoff)
-    if function := _called_by_pairs(measure, options, limit, rows, columns):
+    if callable(measure) or callable(options.get("metric")):
+        function = _called_by_pairs(measure, options, limit, rows, columns)
         others = rows if columns is None else columns
         points = _points(rows) * len(others) + len(rows) * _points(others)
         _fill(out, product(rows, others), points, function, limit, progress)
     else:
+        name = _check_names(measure, options)
         with reporting(progress) as report:
-            compiled_cdist(rows, columns, str(measure), options, out, workers, limit, report)
+            compiled_cdist(rows, columns, name, options, out, workers, limit, report)
     return labelled_matrix(out, row_labels, column_labels)
 
 
@@ -251,15 +253,17 @@ def pdist(
     out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
     curves = _apart(curves, out)
     limit = _checked_cutoff(cutoff)
-    function = _called_by_pairs(measure, options, limit, curves, None)
-    if not callable(measure):
-        _check_symmetric(measure, options)
-    if function:
+    if callable(measure) or callable(options.get("metric")):
+        function = _called_by_pairs(measure, options, limit, curves, None)
+        if not callable(measure):
+            _check_symmetric(measure, {o: v for o, v in options.items() if o != "metric"})
         points = (len(curves) - 1) * _points(curves)
         _fill(out, combinations(curves, 2), points, function, limit, progress)
     else:
+        name = _check_names(measure, options)
+        _check_symmetric(name, options)
         with reporting(progress) as report:
-            compiled_pdist(curves, str(measure), options, out, workers, limit, report)
+            compiled_pdist(curves, name, options, out, workers, limit, report)
     return labelled_triangle(out, labels)
 
 
@@ -269,15 +273,14 @@ def _called_by_pairs(
     limit: float,
     rows: list[Array],
     columns: list[Array] | None,
-) -> Callable[..., float] | None:
-    """Return what Python calls for every pair, if it does; check the curves if it is a measure."""
+) -> Callable[..., float]:
+    """Return what is called for every pair: a callable, or a measure with a metric of one's own."""
     if callable(measure):
         return partial(measure, **options)
     name = _check_names(measure, options)
-    if not (callable(options.get("metric")) and name in get_args(WarpingName)):
-        return None
-    others = {o: v for o, v in options.items() if o not in ("metric", "p", "radius")}
-    check_batch(rows, columns, name, others)
+    # What takes no metric of one's own refuses it here, as all do their curves.
+    of_pair = ("metric", "p", "radius") if name in get_args(WarpingName) else ()
+    check_batch(rows, columns, name, {o: v for o, v in options.items() if o not in of_pair})
     return partial(MEASURES[name].function, **options, cutoff=limit)
 
 
@@ -301,7 +304,7 @@ def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
 
 
 def _check_symmetric(name: str, options: dict[str, Any]) -> None:
-    if not is_symmetric(name, {o: v for o, v in options.items() if not callable(v)}):
+    if not is_symmetric(name, options):
         given = "".join(f", {option}={value!r}" for option, value in options.items())
         raise ValueError(
             f"pdist needs a symmetric measure, and {name!r}{given} is not: use cdist, "

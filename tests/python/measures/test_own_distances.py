@@ -179,6 +179,16 @@ def test_only_some_rows_and_the_window_are_asked_for() -> None:
     assert wide.shapes == [(1, 2**21)] * 3
 
 
+def test_the_example_of_dtw_python() -> None:
+    """Of the docstring of its dtw (Giorgino 2009), with the numbers that stand there."""
+    costs = np.ones((6, 6))
+    costs[1, :] = costs[:, 4] = 0.0
+    costs[1, 4] = 0.01
+    for pattern in ("symmetric2", "asymmetric"):
+        found = curvewise.dtw(range(6), range(6), metric=costs, step_pattern=pattern)
+        assert found == 2.0
+
+
 def test_a_function_gets_points_as_rows_and_curves_stay() -> None:
     P, Q = [1, 2, 4], [1.0, 4.0]
 
