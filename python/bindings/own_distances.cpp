@@ -23,8 +23,11 @@ bool is_written(const py::object& blocks, const TableBlock& block, double* out) 
 
 bool is_own_metric(const py::object& metric) {
     if (PyUnicode_Check(metric.ptr()) || PyBytes_Check(metric.ptr())) return false;
-    return PyCallable_Check(metric.ptr()) != 0 || PyList_Check(metric.ptr()) ||
-           PyTuple_Check(metric.ptr()) || py::hasattr(metric, "__array__");
+    if (PyList_Check(metric.ptr()) || PyTuple_Check(metric.ptr())) {
+        const auto rows = py::reinterpret_borrow<py::sequence>(metric);
+        return rows.size() > 0 && !PyUnicode_Check(py::object(rows[0]).ptr());
+    }
+    return PyCallable_Check(metric.ptr()) != 0 || py::hasattr(metric, "__array__");
 }
 
 const BlockDistances* OwnDistances::of(const py::object& metric) {

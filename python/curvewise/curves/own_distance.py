@@ -24,7 +24,9 @@ def is_own_metric(metric: object) -> bool:
     """Return whether a metric is not a name, and may be a function or a matrix."""
     if isinstance(metric, str | bytes):
         return False
-    return callable(metric) or isinstance(metric, list | tuple) or hasattr(metric, "__array__")
+    if isinstance(metric, list | tuple):
+        return len(metric) > 0 and not isinstance(metric[0], str)
+    return callable(metric) or hasattr(metric, "__array__")
 
 
 def refuse_own_metric(p: object, radius: object) -> None:
