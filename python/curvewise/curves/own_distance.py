@@ -11,13 +11,17 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
-from .inputs import Array, copy_of, in_columns
+from .inputs import Array, in_columns
 
 __all__ = ["BlockDistances", "block_distances", "is_own_metric", "refuse_own_metric"]
 
 BlockDistances: TypeAlias = Callable[[int, int, int, int], Array]
 """Of rows first_row, ..., first_row + rows - 1 and columns likewise: shape (rows, columns)."""
+
+# Of a matrix, so that Ctrl-C is heard in between, and a copy is small.
+_CHECKED_AT_ONCE = 2**20
 
 
 def is_own_metric(metric: object) -> bool:
@@ -63,38 +67,42 @@ def block_distances(metric: Any, P: Array, Q: Array) -> BlockDistances:
     """
     if callable(metric):
         return _of_callable(metric, in_columns(P), in_columns(Q))
-    shape = (len(P), len(Q))
-    matrix = _as_numbers(metric, "metric")
-    if matrix.shape != shape:
+    return _of_matrix(_real_numbers(metric, "metric"), len(P), len(Q))
+
+
+def _of_matrix(matrix: npt.NDArray[Any], n: int, m: int) -> BlockDistances:
+    if matrix.shape != (n, m):
         raise ValueError(
-            f"metric has shape {matrix.shape}; P has {len(P)} points and Q has {len(Q)}: give "
-            f"their distances, shape {shape}, or a function of two blocks of points"
+            f"metric has shape {matrix.shape}; P has {n} points and Q has {m}: give their "
+            f"distances, shape {(n, m)}, or a function of two blocks of points"
         )
-    _check(matrix, lambda i, j: f"metric[{i}, {j}]")
 
     def blocks(row: int, rows: int, column: int, columns: int) -> Array:
-        return matrix[row : row + rows, column : column + columns]
+        return _as_float64(matrix[row : row + rows, column : column + columns])
 
+    rows = max(1, _CHECKED_AT_ONCE // max(1, m))
+    for first in range(0, n, rows):
+        _check(blocks(first, rows, 0, m), "metric[{}, {}]", first, 0)
     return blocks
 
 
 def _of_callable(metric: Callable[[Array, Array], Any], P: Array, Q: Array) -> BlockDistances:
     def blocks(row: int, rows: int, column: int, columns: int) -> Array:
         p, q = P[row : row + rows], Q[column : column + columns]
-        found = _as_numbers(metric(p, q), "what metric returns")
+        found = _as_float64(_real_numbers(metric(p, q), "what metric returns"))
         if found.shape != (rows, columns):
             raise ValueError(
                 f"metric returns shape {found.shape} for blocks of points of shapes {p.shape} and "
                 f"{q.shape}; return the distance of every pair, shape {(rows, columns)}"
             )
-        _check(found, lambda i, j: f"metric of P[{row + i}] and Q[{column + j}]")
+        _check(found, "metric of P[{}] and Q[{}]", row, column)
         return found
 
     return blocks
 
 
-def _as_numbers(given: Any, name: str) -> Array:
-    """Return an aligned float64 array, of any shape."""
+def _real_numbers(given: Any, name: str) -> npt.NDArray[Any]:
+    """Return an array of them, of any shape."""
     try:
         array = np.asanyarray(given)
     except ValueError as error:
@@ -103,15 +111,21 @@ def _as_numbers(given: Any, name: str) -> Array:
         raise TypeError(f"{name} has masked entries; fill them first, with inf for no match")
     if array.dtype.kind not in "fiub":
         raise TypeError(f"{name} has dtype {array.dtype}; distances are real numbers")
-    array = np.asarray(array).astype(np.float64, copy=False)
-    return array if array.flags.aligned else copy_of(array)
+    return np.asarray(array)
 
 
-def _check(distances: Array, name: Callable[[int, int], str]) -> None:
+def _as_float64(array: npt.NDArray[Any]) -> Array:
+    with np.errstate(over="ignore"):  # a longdouble beyond float64 becomes inf
+        array = array.astype(np.float64, copy=False)
+    return array if array.flags.aligned else array.copy()
+
+
+def _check(distances: Array, name: str, row: int, column: int) -> None:
+    """Refuse the first wrong one of a block that begins there."""
     wrong = ~(distances >= 0)
     if wrong.any():
         i, j = np.argwhere(wrong)[0]
         raise ValueError(
-            f"{name(i, j)} is {distances[i, j]}; distances are at least 0, or inf where points "
-            "must not meet"
+            f"{name.format(row + i, column + j)} is {distances[i, j]}; distances are at least 0, "
+            "or inf where points must not meet"
         )

@@ -39,6 +39,7 @@ BlockDistances cityblock(const Curve& P, const Curve& Q) {
 
 template <class Options>
 Options with(Options options, const BlockDistances& own) {
+    options.ground = {};  // by whose root nothing is taken
     options.ground.own = &own;
     return options;
 }

@@ -179,6 +179,18 @@ def test_only_some_rows_and_the_window_are_asked_for() -> None:
     assert wide.shapes == [(1, 2**21)] * 3
 
 
+def test_a_large_matrix_is_checked_to_its_end() -> None:
+    P, Q = np.zeros(1100), np.zeros(2000)
+    matrix = np.zeros((1100, 2000), dtype=np.float32)
+    assert curvewise.dtw(P, Q, metric=matrix, window=0.5) == 0.0
+    matrix[1090, 7] = np.nan  # outside of the window
+    match = r"metric\[1090, 7\] is nan"
+    refused(ValueError, match, lambda: curvewise.dtw(P, Q, metric=matrix, window=0.1))
+    asked = Asked(lambda p, q: np.where(np.arange(len(q)) == 3, -1.0, p - q.T))
+    match = r"metric of P\[0\] and Q\[3\] is -1.0"
+    refused(ValueError, match, lambda: curvewise.dtw(P, Q, metric=asked))
+
+
 def test_the_example_of_dtw_python() -> None:
     """Of the docstring of its dtw (Giorgino 2009), with the numbers that stand there."""
     costs = np.ones((6, 6))
