@@ -40,6 +40,9 @@ alignment: curvewise.Alignment = curvewise.frechet_path(P, Q, metric="chebyshev"
 path: npt.NDArray[np.int64] = alignment.path
 number = alignment.distance
 table: FloatArray = curvewise.frechet_table(P, Q, metric="cityblock")
+number = curvewise.dtw(P, Q, metric=lambda p, q: np.abs(p[:, :1] - q[:, 0]))
+number = curvewise.frechet([0, 1], [0, 2], metric=[[0.0, 2.0], [1.0, 1.0]])
+alignment = curvewise.dtw_path(P, Q, metric=np.zeros((len(P), len(Q))))
 info: curvewise.WarpingInfo = curvewise.frechet_info(P, Q, prune=False)
 info = curvewise.dtw_info(P, Q, step_pattern="symmetric2", window=3)
 bounds: tuple[float, float] = info.bounds

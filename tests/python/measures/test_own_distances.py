@@ -215,6 +215,20 @@ def test_a_function_gets_points_as_rows_and_curves_stay() -> None:
     assert curvewise.dtw(P, Q, metric=np.array([[True, True]] * 3)[:, ::-1]) == 3.0
 
 
+def test_a_picture_marks_the_pair_of_the_own_distance() -> None:
+    figure = pytest.importorskip("matplotlib.figure")
+    P, Q = [0.0, 1.0, 2.0], [0.0, 5.0]
+    costs = np.array([[0.0, 9.0], [3.0, 1.0], [8.0, 0.5]])
+    for metric in (
+        costs,
+        lambda p, q: costs[np.ix_(p[:, 0].astype(int), (q[:, 0] > 0).astype(int))],
+    ):
+        ax = figure.Figure().subplots()
+        artists = curvewise.plotting.plot_alignment(P, Q, ax, measure="frechet", metric=metric)
+        assert curvewise.frechet(P, Q, metric=metric) == 1.0
+        assert artists.accent.get_xdata().tolist() == [1.0, 1.0]
+
+
 def test_batches_call_a_function_pair_by_pair() -> None:
     curves = [random_pair(n, 1, 2, seed=n)[0] for n in (5, 9, 12, 3)]
 
