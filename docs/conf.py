@@ -122,7 +122,7 @@ sphinx_gallery_conf = {
     "thumbnail_size": (540, 375),
     "subsection_order": [
         f"../examples/{part}"
-        for part in ("measures", "two_curves", "many_curves", "identification")
+        for part in ("measures", "two_curves", "many_curves", "losses", "identification")
     ],
     "show_signature": False,
     "write_computation_times": False,

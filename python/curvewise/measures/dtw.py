@@ -53,7 +53,7 @@ def dtw(
         tables were made. The others of R's dtw: "asymmetric", "symmetricP0", "symmetricP05",
         "symmetricP1", "symmetricP2", the same four as "asymmetricP0" and so on, "typeIa" to
         "typeId", "typeIas" to "typeIds", "typeIIa" to "typeIId", "typeIIIc", "typeIVc", "rigid",
-        "mori2006"; or a :class:`StepPattern` of one's own.
+        "mori2006"; or a ``StepPattern`` of one's own.
     penalty : float >= 0
         What each step costs besides that does not go forward by as many points of P as of Q, in
         units of the ground distance.
@@ -66,7 +66,7 @@ def dtw(
         normalised by length. With "symmetric1" and without a window only.
     normalize : bool
         Divide by the sum of the step weights, where all paths have the same: n + m with
-        "symmetric2", else what the pattern says (:attr:`StepPattern.normalization`). A distance
+        "symmetric2", else what the pattern says (``StepPattern.normalization``). A distance
         per step, which does not grow with the number of points. Not with "symmetric1" and others
         whose paths differ in length, as in R's dtw and dtw-python.
     {workers}
