@@ -49,6 +49,25 @@ void check_metric_of(const char* option, Metric its, Metric metric) {
                           " only, not to " + name(metric));
 }
 
+// Unless it is None, beside a metric of one's own.
+void refuse_beside_own(const char* option, const py::object& given) {
+    if (!given || given.is_none()) return;
+    throw py::value_error(std::string(option) +
+                          " applies to a metric by its name, not to one of one's own");
+}
+
+// Where the measure, or the batch, takes none.
+[[noreturn]] void refuse_own_metric() {
+    std::string names;
+    for (const char* name : choice_names(Metric{}))
+        names += (names.empty() ? "" : ", ") + std::string(name);
+    throw py::value_error(
+        "a metric of one's own is for dtw and frechet of one pair, their paths, tables and infos, "
+        "and as a callable for cdist and pdist of them; nothing else computes with it, or has "
+        "bounds of it: choose from " +
+        names);
+}
+
 template <class Options>
 py::dict changed_options(const Options& options) {
     const py::dict defaults = written(Options{}), all = written(options);
@@ -118,23 +137,6 @@ double minkowski_order(const py::object& p, Metric metric) {
     return order;
 }
 
-void refuse_beside_own(const char* option, const py::object& given) {
-    if (!given || given.is_none()) return;
-    throw py::value_error(std::string(option) +
-                          " applies to a metric by its name, not to one of one's own");
-}
-
-void refuse_own_metric() {
-    std::string names;
-    for (const char* name : choice_names(Metric{}))
-        names += (names.empty() ? "" : ", ") + std::string(name);
-    throw py::value_error(
-        "a metric of one's own is for dtw and frechet of one pair, their paths, tables and infos, "
-        "and as a callable for cdist and pdist of them; nothing else computes with it, or has "
-        "bounds of it: choose from " +
-        names);
-}
-
 double sphere_radius(const py::object& radius, Metric metric) {
     check_metric_of("radius", Metric::haversine, metric);
     const double length = PyFloat_AsDouble(radius.ptr());
@@ -169,6 +171,13 @@ py::tuple as_tuple(const StepRows& pattern) {
         rows.append(py::make_tuple(row.step, row.rows, row.columns, row.weight));
     }
     return py::make_tuple(py::tuple(rows), normalizations[static_cast<std::size_t>(pattern.per)]);
+}
+
+void OptionReader::read_own(GroundDistance& ground, const py::object& metric) {
+    if (own_ == nullptr) refuse_own_metric();
+    refuse_beside_own("p", take("p"));
+    refuse_beside_own("radius", take("radius"));
+    ground.own = own_->of(metric);
 }
 
 py::object OptionReader::take(const char* name) {

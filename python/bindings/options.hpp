@@ -42,12 +42,6 @@ bool is_true(const py::object& given);
 // The order of minkowski; no other metric takes one.
 double minkowski_order(const py::object& p, Metric metric);
 
-// Throws for an option, unless it is None, beside a metric of one's own.
-void refuse_beside_own(const char* option, const py::object& given);
-
-// Throws for a metric of one's own, where the measure, or the batch, takes none.
-[[noreturn]] void refuse_own_metric();
-
 // The radius of haversine; no other metric takes one.
 double sphere_radius(const py::object& radius, Metric metric);
 
@@ -114,18 +108,13 @@ class OptionReader {
     }
     void operator()(GroundDistance& ground) {
         const py::object metric = take("metric");
-        const bool is_own = metric && is_own_metric(metric);
-        if (is_own && own_ == nullptr) refuse_own_metric();
-        if (metric && !is_own) ground.metric = choose<Metric>("metric", metric);
-        const py::object p = take("p");
-        const py::object radius = take("radius");
-        if (is_own) {
-            refuse_beside_own("p", p);
-            refuse_beside_own("radius", radius);
-            ground.own = own_->of(metric);
-            return;
+        if (metric && !PyUnicode_Check(metric.ptr()) && is_own_metric(metric)) {
+            return read_own(ground, metric);
         }
+        if (metric) ground.metric = choose<Metric>("metric", metric);
+        const py::object p = take("p");
         if (p && !p.is_none()) ground.p = minkowski_order(p, ground.metric);
+        const py::object radius = take("radius");
         if (radius && !radius.is_none()) ground.radius = sphere_radius(radius, ground.metric);
     }
 
@@ -136,6 +125,8 @@ class OptionReader {
     py::ssize_t taken() const noexcept { return taken_; }
 
    private:
+    // A metric of one's own, beside which there may be neither p nor radius.
+    void read_own(GroundDistance& ground, const py::object& metric);
     // An option's value, or a null object where it is not given.
     py::object take(const char* name);
     // In a dict, from behind the option that was found last: most are in the measure's order. To
