@@ -2,66 +2,75 @@
 
 A material point (`searches.problem`) that sleeps for a second, by area, with the default search, on
 a pool of threads. One worker would take as many seconds as there are runs, and what the search
-takes beside the model; the pool is timed. Also counted: the batches that the search asked for, how
-long they last on so many workers if nothing is taken beside the model, and whether the history is
-that of one worker without the sleep, bit for bit.
+takes beside the model; the pool is timed. Also counted: how many runs were under way at a time, in
+the mean. Then the same search without the sleep, by one worker, by threads, and by processes: the
+history has to be the same, bit for bit.
 
-    python benchmarks/validation/eight_workers.py --workers 8 --test eddq-3
+    python benchmarks/validation/eight_workers.py --workers 8 --test eddq-5
 """
 
 from __future__ import annotations
 
 import argparse
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
 from searches import LIMIT, TESTS, problem
 
-from curvewise.calibration import identify
+from curvewise.calibration import Identification, identify
+
+
+class Slow:
+    """A model that sleeps before it answers."""
+
+    def __init__(self, model: Any, seconds: float) -> None:
+        self._model, self._seconds = model, seconds
+
+    def __call__(self, parameters: dict[str, float]) -> Any:
+        time.sleep(self._seconds)
+        return self._model(parameters)
 
 
 def main() -> None:
-    """Search with the pool and with one worker, print."""
+    """Search with the pool, and with others without the sleep, print."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--workers", type=int, default=8)
     parser.add_argument("--seconds", type=float, default=1.0, help="of a run")
-    parser.add_argument("--test", default="eddq-3", choices=list(TESTS))
+    parser.add_argument("--test", default="eddq-5", choices=list(TESTS))
     parser.add_argument("--runs", type=int, default=LIMIT)
     options = parser.parse_args()
     model, test, bounds = problem(options.test)
-    keywords: dict[str, Any] = {"max_runs": options.runs, "progress": False}
-    done = [0]
 
-    def slow(parameters: dict[str, float]) -> Any:
-        time.sleep(options.seconds)
-        return model(parameters)
+    def searched(seconds: float, executor: Any = None) -> Identification:
+        return identify(
+            Slow(model, seconds),
+            test,
+            bounds,
+            max_runs=options.runs,
+            progress=False,
+            executor=executor,
+        )
 
     began, cpu = time.perf_counter(), time.process_time()
     with ThreadPoolExecutor(options.workers) as threads:
-        found = identify(
-            slow,
-            test,
-            bounds,
-            executor=threads,
-            callback=lambda progress: done.append(progress.evaluations),
-            **keywords,
-        )
+        found = searched(options.seconds, threads)
     seconds, cpu = time.perf_counter() - began, time.process_time() - cpu
-    batches = np.diff(done)
-    rounds = int(np.ceil(batches / options.workers).sum())
-    alone = identify(lambda parameters: model(parameters), test, bounds, **keywords)
-    same = all(
-        np.array_equal(alone.history[name], found.history[name])
-        for name in ("evaluation", "value", *found.parameters)
-    )
     print(
         f"{options.test}: {found.evaluations} runs, value {found.value:.6g}; {options.workers} "
-        f"workers {seconds:.0f} s, of which {cpu:.0f} s of CPU; {len(batches)} batches in {rounds} "
-        f"rounds of the model; same bits as one worker: {same}"
+        f"workers {seconds:.0f} s, of which {cpu:.0f} s of CPU; "
+        f"{found.history.seconds.sum() / seconds:.1f} runs at a time"
     )
-    print(found.message)
+    print(found.message, flush=True)
+    for count, pool in ((1, None), (2, ThreadPoolExecutor), (options.workers, ProcessPoolExecutor)):
+        with pool(count) if pool else ThreadPoolExecutor() as executor:
+            other = searched(0.0, executor if pool else None)
+        same = all(
+            np.array_equal(other.history[name], found.history[name])
+            for name in ("evaluation", "value", *found.parameters)
+        )
+        print(f"same bits by {count} of {pool.__name__ if pool else 'none'}: {same}", flush=True)
 
 
 if __name__ == "__main__":

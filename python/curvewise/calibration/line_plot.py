@@ -141,11 +141,12 @@ def _values(
         outcomes = pool.run(line)
         if progress:
             outcomes = required("tqdm").tqdm(outcomes, total=len(line), unit="run")
-        for i, outcome in outcomes:
+        for parameters, outcome in outcomes:
+            here = [parameters == other for other in line]
             for name, objective in objectives.items():
                 score = objective.score(outcome.simulations)
                 if not score.failures:
-                    values[name][i] = score.value
+                    values[name][here] = score.value
     return values
 
 

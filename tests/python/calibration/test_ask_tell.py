@@ -55,6 +55,25 @@ def driven(search, order, at_once):
     return search.answer()
 
 
+def test_a_start_goes_on_while_others_wait_for_their_runs():
+    """By one turn: what it asks then depends on what the others have not been told."""
+    search = TrustRegion(starts=3).begin(Problem.of(TEST, BOUNDS))
+
+    def told(sets):
+        for parameters in sets:
+            search.tell(parameters, bent(parameters))
+        return search.ask()
+
+    own, *others = told(search.ask())
+    assert len(others) == 2
+    after = told([own])
+    assert after  # what it asks for next
+    assert not told(after)
+    after = told(others[:1])
+    assert after
+    assert told(others[1:])  # the first's turn has come, and what is out of the second's is known
+
+
 @pytest.mark.parametrize("method", EVERY, ids=repr)
 @pytest.mark.nightly("slopes='fresh'")
 def test_asked_and_told_is_what_identify_finds(method):

@@ -5,19 +5,46 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+import time
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
 from test_resuming import BOUNDS, EXPERIMENT, assert_same, fragile_line, line
 
-from curvewise.calibration import SDRM, SimulationStore, identify
+from curvewise.calibration import SDRM, SimulationStore, TrustRegion, identify
+from curvewise.calibration.models.pool import ModelPool, Outcome
+from curvewise.calibration.problem.simulator import Dispatch, Simulator
 
 KEYWORDS = {"method": SDRM(maxiter=3), "progress": False}
+STARTS = {"method": TrustRegion(most_starts=4), "measure": "curve_length", "progress": False}
 
 
 def deadly(parameters):
     os._exit(3)
+
+
+def deadly_line(parameters):
+    if parameters["a"] > 8.0:
+        deadly(parameters)
+    return line(parameters)
+
+
+class Handed(Executor):
+    """Calls nothing: its futures are filled in by the test, through `outcomes`."""
+
+    def __init__(self):
+        self.given = []
+
+    def submit(self, function, *arguments):
+        future = Future()
+        self.given.append((future, arguments[-1]["parameters"]["a"]))
+        future.set_running_or_notify_cancel()
+        return future
+
+    def end(self, a):
+        (future,) = [future for future, of in self.given if of == a]
+        future.set_result(Outcome([[0.0, a]], "", 0.0))
 
 
 @pytest.fixture(scope="module")
@@ -86,3 +113,64 @@ def test_ctrl_c_gives_nothing_more_to_an_executor(tmp_path):
     assert len(started) == 2
     found = identify(line, EXPERIMENT, BOUNDS, **KEYWORDS)
     assert np.isfinite(found.value)
+
+
+@pytest.mark.parametrize("most", [7, 20])
+def test_starts_give_the_same_bits_on_any_number_of_workers(most):
+    """And in any order of arrival; no run is made beside those that count, nor beyond a limit."""
+    alone = identify(fragile_line, EXPERIMENT, BOUNDS, max_runs=most, **STARTS)
+    assert alone.evaluations == most
+    order = np.random.default_rng(2)
+
+    def late(parameters):
+        made.append(parameters)
+        time.sleep(order.uniform(0.0, 0.002))
+        return fragile_line(parameters)
+
+    for workers in (1, 2, 8):
+        made: list[dict[str, float]] = []
+        with ThreadPoolExecutor(workers) as threads:
+            found = identify(late, EXPERIMENT, BOUNDS, executor=threads, max_runs=most, **STARTS)
+        assert_same(alone, found)
+        assert len(made) == found.runs == found.evaluations
+    assert_same(
+        alone, identify(fragile_line, EXPERIMENT, BOUNDS, workers=2, max_runs=most, **STARTS)
+    )
+
+
+def test_a_run_that_kills_its_process_is_one_failure_among_starts():
+    found = identify(deadly_line, EXPERIMENT, BOUNDS, workers=2, **STARTS)
+    without = identify(fragile_line, EXPERIMENT, BOUNDS, **STARTS)
+    assert found.history.failed.any()
+    for name in ("a", "b", "value", "failed"):
+        assert np.array_equal(found.history[name], without.history[name])
+    assert {message for _, message in found.failures} == {"the worker process died"}
+
+
+def test_what_is_begun_is_saved_before_it_is_asked_for(tmp_path):
+    """And asked for it is not run again."""
+    executor = Handed()
+    pool = ModelPool(Dispatch([line]), executor=executor)
+    with pool, SimulationStore(tmp_path / "s.db", version="1") as store:
+        simulator = Simulator(pool, [line], lambda outcomes: outcomes[0], store)
+        simulator.begin([{"a": 1.0}, {"a": 2.0}, {"a": 3.0}])
+        executor.end(2.0)
+        executor.end(3.0)
+        ((place, outcome),) = simulator.run([{"a": 3.0}])
+        assert (place, outcome.simulations) == (0, [[0.0, 3.0]])
+        assert (len(store), simulator.runs) == (2, 2)
+        executor.end(1.0)
+        simulator.keep_finished()
+        assert len(store) == 3
+        found = dict(simulator.run([{"a": 1.0}, {"a": 2.0}]))
+        assert [found[i].simulations for i in (0, 1)] == [[[0.0, 1.0]], [[0.0, 2.0]]]
+    assert (simulator.runs, simulator.looked_up) == (3, 0)
+    assert sorted(a for _, a in executor.given) == [1.0, 2.0, 3.0]
+
+
+def test_what_is_begun_is_cancelled_where_a_search_ends():
+    executor = Handed()
+    executor.submit = lambda *_: executor.given.append(Future()) or executor.given[-1]
+    with ModelPool(line, executor=executor) as pool:
+        pool.begin([{"a": 1.0}])
+    assert executor.given[0].cancelled()

@@ -127,12 +127,17 @@ def test_courses_go_in_rounds_and_others_follow():
             assert run == name
         return name
 
+    expected: list[float] = []
     waiting = [course(3.0, 0), course(4.0, 1)]  # the third ends without a run
     both = side_by_side(
-        [course(1.0, 3), course(2.0, 1)], lambda: [waiting.pop(0)] if waiting else []
+        [course(1.0, 3), course(2.0, 1)],
+        lambda: [waiting.pop(0)] if waiting else [],
+        lambda units: expected.append(float(units[0, 0])),
     )
     asked, names = driven(both)
-    assert asked == [[1.0, 2.0], [1.0, 4.0], [1.0]]
+    # All at once to begin with; then each in its turn, those that are new behind.
+    assert asked == [[1.0, 2.0], [1.0], [2.0], [1.0], [4.0], [1.0]]
+    assert expected == [1.0, 2.0, 1.0, 4.0, 1.0]
     assert names == [1.0, 2.0, 3.0, 4.0]
 
 
@@ -183,6 +188,7 @@ def test_starts_that_disagree_are_followed_by_others(
         objective=Objective(np.array([[0.0, 0.0], [1.0, 2.0]]), measure),
         done=[None] * 30,
         best_unit=np.full(2, 0.4),
+        expect=lambda units: None,
     )
     asked, finish = driven(TrustRegion().course(ledger, None, 1))
     assert max(map(len, asked)) == 3 * 2  # coordinates: no more than three starts at a time

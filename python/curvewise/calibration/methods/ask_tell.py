@@ -1,10 +1,10 @@
 """A search that somebody else drives: it is asked what to run, and told what came of it.
 
 For queues, libEnsemble, optimagic and whatever else runs models by itself. Every method can be
-driven so, since every method is a course: what is asked is a batch of the course, and once all of
-it has been told the course goes on. Evaluations count in the order of the batch, so the answer
-depends neither on the order of arrival nor on how many runs were out at once. Cost: that of the
-method.
+driven so, since every method is a course: what is asked is a batch of the course, with what it is
+known to ask for next, and once all of the batch has been told the course goes on. Evaluations count
+in the order in which the course asks, so the answer depends neither on the order of arrival nor on
+how many runs were out at once. Cost: that of the method.
 """
 
 from __future__ import annotations
@@ -96,13 +96,13 @@ class OpenSearch:
         Each set is returned once. An empty list means that others are out, which have to be told
         before there is more to ask.
         """
-        new = [p for p in self._batch if p not in self._out and p not in self._told]
+        new = [p for p in self._wanted if p not in self._out and p not in self._told]
         self._out.update(new)
         return [self._ledger.space.dictionary(point) for point in new]
 
     def out(self) -> list[dict[str, float]]:
         """Return the parameter sets that have been asked and not been told, to run them again."""
-        return [self._ledger.space.dictionary(p) for p in self._batch if p in self._out]
+        return [self._ledger.space.dictionary(p) for p in self._wanted if p in self._out]
 
     def tell(
         self,
@@ -139,14 +139,10 @@ class OpenSearch:
                 "same numbers"
             )
         outcome = Outcome(simulations, message, seconds)
-        place = self._batch.index(point)
+        place = self._wanted.index(point)
         self._told[point] = self._ledger.judged(place, point, outcome), simulations
         self._out.remove(point)
-        if len(self._told) == len(self._batch):
-            told = [self._told[p] for p in self._batch]
-            self._batch, self._told = [], {}
-            self._ledger.add(told)
-            self._advance()
+        self._advance()
 
     def answer(self) -> Answer:
         """Return what has been found.
@@ -177,10 +173,18 @@ class OpenSearch:
             )
         return tuple(float(parameters[name]) for name in names)
 
+    @property
+    def _wanted(self) -> list[Point]:
+        """The batch, and what the course will ask for after it, in the order of evaluations."""
+        return list(dict.fromkeys((*self._batch, *self._ledger.expected)))
+
     def _advance(self) -> None:
-        """Go on to the next batch of which something has to be run, or to the end."""
+        """Go on to the next batch of which something has not been told, or to the end."""
         try:
-            while not self._batch:
+            while all(point in self._told for point in self._batch):
+                told, self._batch = [self._told.pop(point) for point in self._batch], []
+                if told:
+                    self._ledger.add(told)
                 if self._units is None:
                     self._units = next(self._course)
                 else:

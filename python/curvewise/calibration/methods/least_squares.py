@@ -124,7 +124,7 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
         """Minimise from a start; where none is given from the middle, and then from elsewhere."""
         starts = _Starts(self, ledger, start, seed)
         try:
-            yield from side_by_side(starts.first(), starts.more)
+            yield from side_by_side(starts.first(), starts.more, ledger.expect)
         finally:
             if self.loss != "linear" and starts.runs.values:  # the smallest sum is not wanted
                 ledger.settle(starts.best)

@@ -156,7 +156,7 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
     def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
         """Minimise on surfaces of the curves, from several starts at the same time."""
         starts = _Starts(self, ledger, start, seed)
-        yield from side_by_side(starts.first(), starts.more)
+        yield from side_by_side(starts.first(), starts.more, ledger.expect)
         if not starts.ends:
             raise RuntimeError(
                 "simulations fail all around the start; give identify another start=, or closer "

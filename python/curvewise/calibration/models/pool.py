@@ -1,7 +1,8 @@
 """Runs a model, in this process or in several, and turns what it raises into an outcome.
 
 With one worker the model is called here. With more, a pool of processes is started once and each
-gets the model once, pickled; outcomes come as they are finished. Ctrl-C stops the model in every
+gets the model once, pickled; outcomes come as they are finished. Calls may be begun before anybody
+waits for them. Ctrl-C stops the model in every
 process: workers raise KeyboardInterrupt while the model runs, so that it can end what it started (a
 solver, say), and ignore it while they are idle. Where SIGINT is ignored, as in what a shell script
 starts in the background, SIGTERM takes its place between these processes. A worker that dies
@@ -21,8 +22,15 @@ import pickle
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    wait,
+)
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, NamedTuple, TypeAlias
 
@@ -79,6 +87,7 @@ class ModelPool:
         self._pickled = b"" if self._workers == 1 else _pickled(model)
         self._pool: ProcessPoolExecutor | None = None
         self._processes: list[Any] = []
+        self._out: dict[Future[Outcome], dict[str, Any]] = {}  # what is under way
 
     def __enter__(self) -> ModelPool:
         if self._workers > 1:
@@ -86,6 +95,9 @@ class ModelPool:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        for future in self._out:
+            future.cancel()
+        self._out.clear()
         if self._pool is None:
             return
         if kind is None:
@@ -94,8 +106,23 @@ class ModelPool:
             self._stop()
         self._pool = None
 
-    def run(self, parameters: Sequence[dict[str, Any]]) -> Iterator[tuple[int, Outcome]]:
-        """Call the model for every dict; yield index and outcome as they are finished.
+    def begin(self, calls: Iterable[dict[str, Any]]) -> None:
+        """Start calls that will be asked for, where something can run them meanwhile.
+
+        Raises
+        ------
+        RuntimeError
+            The caller's executor has broken down.
+        """
+        if self._executor is not None or self._pool is not None:
+            for values in calls:
+                self._submit(values)
+
+    def run(self, calls: Sequence[dict[str, Any]]) -> Iterator[tuple[dict[str, Any], Outcome]]:
+        """Call the model for every dict; yield dict and outcome as they are finished.
+
+        What has been begun is not called again; what of it is finished meanwhile is yielded too,
+        whether it is among these dicts or not.
 
         Raises
         ------
@@ -104,57 +131,60 @@ class ModelPool:
         ValueError
             The model cannot be sent where that executor runs it.
         """
-        if self._executor is not None:
-            yield from self._run_by_executor(self._executor, parameters)
+        if self._executor is None and self._pool is None:
+            for values in calls:
+                yield values, _called(self._model, values)
             return
-        if self._pool is None:
-            for i, values in enumerate(parameters):
-                yield i, _called(self._model, values)
-            return
-        futures: dict[Future[Outcome], int] = {}
-        lost = []
-        for i, values in enumerate(parameters):
-            try:
-                futures[self._pool.submit(_call_in_worker, values)] = i
-            except BrokenProcessPool:
-                lost.append(i)
-        for future in as_completed(futures):
-            i = futures[future]
-            if outcome := _result(future):
-                yield i, outcome
+        begun = list(self._out.items())
+        asked, lost = {}, []
+        for values in calls:
+            future = next((future for future, of in begun if of == values), None)
+            if future := future or self._submit(values):
+                asked[future] = values
             else:
-                lost.append(i)
+                lost.append(values)
+        while not self._out.keys().isdisjoint(asked):
+            wait(self._out, return_when=FIRST_COMPLETED)
+            yield from self.finished()
+        lost += [values for future, values in asked.items() if _has_died(future)]
         if lost:
-            yield from self._run_one_by_one(parameters, sorted(lost))
+            yield from self._run_one_by_one(lost)
 
-    def _run_by_executor(
-        self, executor: Executor, parameters: Sequence[dict[str, Any]]
-    ) -> Iterator[tuple[int, Outcome]]:
-        futures: dict[Future[Outcome], int] = {}
-        try:
-            for i, values in enumerate(parameters):
-                futures[executor.submit(_called, self._model, values)] = i
-            for future in as_completed(futures):
-                yield futures[future], _result_of_executor(future)
-        except BrokenExecutor as error:
-            raise RuntimeError(
-                f"the executor has broken down ({error}); start a new one and run this again: what "
-                "a store holds is not lost"
-            ) from error
-        finally:
-            for future in futures:
-                future.cancel()
+    def finished(self) -> Iterator[tuple[dict[str, Any], Outcome]]:
+        """Yield what has been begun and is finished; what was lost with its process is left out."""
+        for future in [future for future in self._out if future.done()]:
+            values = self._out.pop(future)
+            outcome = _result(future) if self._executor is None else _result_of_executor(future)
+            if outcome is not None:
+                yield values, outcome
+
+    def _submit(self, values: dict[str, Any]) -> Future[Outcome] | None:
+        """Start a call; return None where the processes have broken down."""
+        future: Future[Outcome]
+        if self._executor is not None:
+            try:
+                future = self._executor.submit(_called, self._model, values)
+            except BrokenExecutor as error:
+                raise _broken(error) from error
+        else:
+            assert self._pool is not None
+            try:
+                future = self._pool.submit(_call_in_worker, values)
+            except BrokenProcessPool:
+                return None
+        self._out[future] = values
+        return future
 
     def _run_one_by_one(
-        self, parameters: Sequence[dict[str, Any]], indices: list[int]
-    ) -> Iterator[tuple[int, Outcome]]:
-        for i in indices:
+        self, calls: Sequence[dict[str, Any]]
+    ) -> Iterator[tuple[dict[str, Any], Outcome]]:
+        for values in calls:
             self._restart(1)
             started = time.perf_counter()
             assert self._pool is not None
-            outcome = _result(self._pool.submit(_call_in_worker, parameters[i]))
+            outcome = _result(self._pool.submit(_call_in_worker, values))
             seconds = time.perf_counter() - started
-            yield i, outcome or Outcome(None, "the worker process died", seconds)
+            yield values, outcome or Outcome(None, "the worker process died", seconds)
         self._restart(self._workers)
 
     def _start(self, workers: int) -> None:
@@ -215,20 +245,22 @@ def _message(error: Exception) -> str:
     return " ".join(f"{type(error).__name__}: {error}".split())[:_LONGEST_MESSAGE]
 
 
+def _has_died(future: Future[Outcome]) -> bool:
+    """Return whether the process died that ran a call."""
+    return isinstance(future.exception(), BrokenProcessPool)
+
+
 def _result(future: Future[Outcome]) -> Outcome | None:
     """Return the outcome, or None where the process died."""
-    try:
-        return future.result()
-    except BrokenProcessPool:
-        return None
+    return None if _has_died(future) else future.result()
 
 
 def _result_of_executor(future: Future[Outcome]) -> Outcome:
     """Return the outcome; what kills a worker of a cluster is a failed simulation."""
     try:
         return future.result()
-    except BrokenExecutor:
-        raise
+    except BrokenExecutor as error:
+        raise _broken(error) from error
     except (pickle.PicklingError, AttributeError, TypeError) as error:
         raise ValueError(
             f"the model cannot be sent to the executor's processes ({error}); define it at the "
@@ -236,6 +268,13 @@ def _result_of_executor(future: Future[Outcome]) -> Outcome:
         ) from error
     except Exception as error:  # dask's KilledWorker, say: the model's own are outcomes already
         return Outcome(None, _message(error), 0.0)
+
+
+def _broken(error: BrokenExecutor) -> RuntimeError:
+    return RuntimeError(
+        f"the executor has broken down ({error}); start a new one and run this again: what a store "
+        "holds is not lost"
+    )
 
 
 # What follows runs in the worker processes.

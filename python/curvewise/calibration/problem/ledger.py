@@ -53,6 +53,11 @@ class Ledger:
         How many parameter sets to evaluate at most.
     earlier_runs : sequence of (ndarray, Evaluation)
         Of the same models, by earlier searches, with their places in the unit cube.
+
+    Attributes
+    ----------
+    expected : list of tuple of float
+        Points that the course will ask for, and that are not done.
     """
 
     def __init__(
@@ -63,6 +68,7 @@ class Ledger:
         self.has_slopes, self.slopes = problem.has_slopes, problem.slopes
         self._limit = limit
         self._done: dict[Point, Evaluation] = {}
+        self.expected: list[Point] = []
         self._units: dict[Point, Array] = {}
         self._best: Point | None = None
         self._best_simulations: Any = None
@@ -134,6 +140,19 @@ class Ledger:
         new = list(dict.fromkeys(p for p in points if p not in self._done))
         return new if self._limit is None else new[: self._limit - len(self._done)]
 
+    def expect(self, units: Array) -> list[Point]:
+        """Take note of points that a course will ask for, in this order; return the new ones.
+
+        Whoever runs the models may begin with them, as many as the limit leaves. Nothing that a
+        method sees depends on it.
+        """
+        points = dict.fromkeys(self.space.point(unit) for unit in units)
+        new = [p for p in points if p not in self._done and p not in self.expected]
+        if self._limit is not None:
+            new = new[: max(0, self._limit - len(self._done) - len(self.expected))]
+        self.expected += new
+        return new
+
     def judged(self, ahead: int, point: Point, outcome: Outcome) -> Evaluation:
         """Return the evaluation of a point before which so many are still to be added."""
         # Its message in full, as the objective would give it for an exception.
@@ -165,6 +184,7 @@ class Ledger:
             if self._best is None or evaluation.value < self.best.value:
                 self._best = evaluation.point
                 self._best_simulations = simulations
+        self.expected = [point for point in self.expected if point not in self._done]
         if is_first and all(e.failed for e, _ in batch):
             raise RuntimeError(
                 f"no simulation succeeded, of {len(batch)} that the search begins with; "

@@ -82,7 +82,11 @@ class Problem:
         pool = ModelPool(Dispatch(self.models), self.workers, self.executor)
         opened = nullcontext() if self.store is None else SimulationStore(self.store)
         with pool, opened as store:
-            yield Simulator(pool, self.models, self.assemble, store)
+            simulator = Simulator(pool, self.models, self.assemble, store)
+            try:
+                yield simulator
+            finally:
+                simulator.keep_finished()
 
     @property
     def has_slopes(self) -> bool:

@@ -19,6 +19,8 @@ __all__ = ["Assemble", "Dispatch", "Simulator"]
 Assemble: TypeAlias = Callable[[list[Outcome]], Outcome]
 """Makes one outcome of those of all models."""
 
+_Run: TypeAlias = tuple[int, tuple[float, ...]]  # a model's number, and its parameters
+
 
 class Dispatch:
     """Several models as one, which the pool can send to its processes."""
@@ -72,33 +74,65 @@ class Simulator:
             for identity in self._identities:
                 store.register(identity)
         self.runs = self.looked_up = 0
+        self._early: dict[_Run, Outcome] = {}  # of what has been begun: known, and not asked for
+
+    def begin(self, parameters: Sequence[dict[str, float]]) -> None:
+        """Start runs that will be asked for, where something can make them meanwhile."""
+        for values in parameters:
+            known = self._known(values)
+            self._early |= {_run(self._call(j, values)): known[j] for j in known}
+            self._pool.begin(self._call(j, values) for j in range(self._count) if j not in known)
 
     def run(self, parameters: Sequence[dict[str, float]]) -> Iterator[tuple[int, Outcome]]:
-        """Yield index and outcome of every dict, those that are stored first."""
-        found = [self._stored(values) for values in parameters]
-        missing = []
+        """Yield index and outcome of every dict, those that are known first."""
+        found = [self._known(values) for values in parameters]
+        missing: dict[_Run, list[int]] = {}
+        calls = []
         for i, outcomes in enumerate(found):
             if len(outcomes) == self._count:
-                self.looked_up += 1
                 yield i, self._assembled(outcomes)
-            missing += [(i, j) for j in range(self._count) if j not in outcomes]
-        calls = [{"model": j, "parameters": parameters[i]} for i, j in missing]
-        for k, outcome in self._pool.run(calls):
-            i, j = missing[k]
-            self.runs += 1
-            if self.store is not None:
-                self.store.save(self._identities[j].text, parameters[i], outcome)
-            found[i][j] = outcome
-            if len(found[i]) == self._count:
-                yield i, self._assembled(found[i])
+            for j in range(self._count):
+                if j not in outcomes:
+                    calls.append(self._call(j, parameters[i]))
+                    missing.setdefault(_run(calls[-1]), []).append(i)
+        for call, outcome in self._pool.run(calls):
+            self._keep(call, outcome)
+            if waiting := missing.get(_run(call)):
+                i = waiting.pop(0)
+                found[i][call["model"]] = self._early.pop(_run(call))
+                if len(found[i]) == self._count:
+                    yield i, self._assembled(found[i])
+
+    def keep_finished(self) -> None:
+        """Save what has been begun and is finished, though nobody has asked for it yet."""
+        for call, outcome in self._pool.finished():
+            self._keep(call, outcome)
+
+    def _keep(self, call: dict[str, Any], outcome: Outcome) -> None:
+        self.runs += 1
+        self._early[_run(call)] = outcome
+        if self.store is not None:
+            text = self._identities[call["model"]].text
+            self.store.save(text, call["parameters"], outcome)
+
+    def _call(self, j: int, parameters: dict[str, float]) -> dict[str, Any]:
+        return {"model": j, "parameters": parameters}
 
     def _assembled(self, outcomes: dict[int, Outcome]) -> Outcome:
         return self._assemble([outcomes[j] for j in range(self._count)])
 
-    def _stored(self, values: dict[str, float]) -> dict[int, Outcome]:
-        """Return what the store has of a set of parameters, by the model's number."""
-        if self.store is None:
-            return {}
+    def _known(self, values: dict[str, float]) -> dict[int, Outcome]:
+        """Return what is known of a set of parameters, by the model's number."""
+        runs = {j: _run(self._call(j, values)) for j in range(self._count)}
+        early = {j: self._early.pop(run) for j, run in runs.items() if run in self._early}
+        if self.store is None or len(early) == self._count:
+            return early
         texts = [identity.text for identity in self._identities]
         looked_up = ((j, self.store.look_up(text, values)) for j, text in enumerate(texts))
-        return {j: outcome for j, outcome in looked_up if outcome is not None}
+        stored = {j: outcome for j, outcome in looked_up if outcome is not None}
+        self.looked_up += len(stored) == self._count
+        return stored | early
+
+
+def _run(call: dict[str, Any]) -> _Run:
+    return call["model"], tuple(call["parameters"].values())
