@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import argparse
 import time
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -43,34 +43,32 @@ def main() -> None:
     options = parser.parse_args()
     model, test, bounds = problem(options.test)
 
-    def searched(seconds: float, executor: Any = None) -> Identification:
-        return identify(
-            Slow(model, seconds),
-            test,
-            bounds,
-            max_runs=options.runs,
-            progress=False,
-            executor=executor,
-        )
+    def searched(seconds: float, **workers: Any) -> Identification:
+        slow = Slow(model, seconds)
+        return identify(slow, test, bounds, max_runs=options.runs, progress=False, **workers)
 
-    began, cpu = time.perf_counter(), time.process_time()
-    with ThreadPoolExecutor(options.workers) as threads:
-        found = searched(options.seconds, threads)
-    seconds, cpu = time.perf_counter() - began, time.process_time() - cpu
-    print(
-        f"{options.test}: {found.evaluations} runs, value {found.value:.6g}; {options.workers} "
-        f"workers {seconds:.0f} s, of which {cpu:.0f} s of CPU; "
-        f"{found.history.seconds.sum() / seconds:.1f} runs at a time"
-    )
-    print(found.message, flush=True)
-    for count, pool in ((1, None), (2, ThreadPoolExecutor), (options.workers, ProcessPoolExecutor)):
-        with pool(count) if pool else ThreadPoolExecutor() as executor:
-            other = searched(0.0, executor if pool else None)
-        same = all(
-            np.array_equal(other.history[name], found.history[name])
-            for name in ("evaluation", "value", *found.parameters)
+    with ThreadPoolExecutor(2) as two, ThreadPoolExecutor(options.workers) as threads:
+        began, cpu = time.perf_counter(), time.process_time()
+        found = searched(options.seconds, executor=threads)
+        seconds, cpu = time.perf_counter() - began, time.process_time() - cpu
+        print(
+            f"{options.test}: {found.evaluations} runs, value {found.value:.6g}; {options.workers} "
+            f"workers {seconds:.0f} s, of which {cpu:.0f} s of CPU; "
+            f"{found.history.seconds.sum() / seconds:.1f} runs at a time"
         )
-        print(f"same bits by {count} of {pool.__name__ if pool else 'none'}: {same}", flush=True)
+        print(found.message, flush=True)
+        for name, workers in {
+            "one worker": {},
+            "2 threads": {"executor": two},
+            "2 processes": {"workers": 2},
+            f"{options.workers} processes": {"workers": options.workers},
+        }.items():
+            other = searched(0.0, **workers)
+            same = all(
+                np.array_equal(other.history[column], found.history[column])
+                for column in ("evaluation", "value", *found.parameters)
+            )
+            print(f"same bits by {name}: {same}", flush=True)
 
 
 if __name__ == "__main__":

@@ -4,10 +4,11 @@ Where sbatch works; .ci/slurm makes a cluster of one node of any machine with De
 
     python tests/faults/cluster.py [--runs 50]
 
-The same search four times: here; by `sbatch --wait` as docs/solvers.md has it, while one running
+The same search five times: here; by `sbatch --wait` as docs/solvers.md has it, while one running
 job is killed and queued anew (what SLURM does where a node fails) and the node drained for a time;
-by submitit, a job for every run; and by sbatch while jobs are cancelled, which are failed runs.
-Ends with 1 unless the second and the third have the bits of the first, and the fourth has gone on.
+by submitit, a job for every run; by dask-jobqueue, whose jobs are workers that go on from run to
+run, while one of them is killed and queued anew; and by sbatch while jobs are cancelled, which are
+failed runs. Ends with 1 unless the first four have the same bits, and the fifth has gone on.
 Minutes: a job takes some 2 s, however short it is.
 """
 
@@ -93,12 +94,17 @@ def say(text: str) -> None:
     print(f"{time.strftime('%H:%M:%S')}  {text}", flush=True)
 
 
-def kill_one_and_drain() -> None:
-    """Have one job killed and queued anew, then no job begin for 15 seconds."""
+def kill_one() -> None:
+    """Have one job killed and queued anew."""
     while not (jobs := running()):
         time.sleep(0.2)
     slurm("scontrol", "requeue", jobs[0])
     say(f"job {jobs[0]} killed, and queued anew")
+
+
+def kill_one_and_drain() -> None:
+    """Have one job killed and queued anew, then no job begin for 15 seconds."""
+    kill_one()
     (node,) = slurm("sinfo", "--noheader", "--format=%n")
     time.sleep(10.0)
     slurm("scontrol", "update", f"nodename={node}", "state=drain", "reason=test")
@@ -143,6 +149,29 @@ def by_submitit(model: CommandModel, runs: int, folder: Path) -> Identification:
         return found_by(queued, runs, executor=threads)
 
 
+def by_dask(model: CommandModel, runs: int, folder: Path) -> Identification:
+    """Search on two workers of dask that dask-jobqueue queues as jobs; one of them is killed."""
+    from dask.distributed import Client
+    from dask_jobqueue import SLURMCluster
+
+    with (
+        SLURMCluster(
+            cores=1,
+            memory="500MB",
+            walltime="00:05:00",
+            job_name="curve",
+            job_extra_directives=["--requeue"],
+            job_directives_skip=["--mem"],  # of which the cluster of one node knows nothing
+            log_directory=folder,
+        ) as cluster,
+        Client(cluster) as client,
+    ):
+        cluster.scale(jobs=2)
+        client.wait_for_workers(2)
+        with meanwhile(kill_one):
+            return found_by(model, runs, executor=client.get_executor())
+
+
 def bits(found: Identification) -> list[str]:
     """Return the value and the parameters, every bit of them."""
     return [value.hex() for value in (found.value, *found.parameters.values())]
@@ -164,10 +193,12 @@ def main() -> int:
         say(f"sbatch    {queued.evaluations} runs, {len(queued.failures)} failed")
         handed = by_submitit(local, runs, folder / "jobs")
         say(f"submitit  {handed.evaluations} runs, {len(handed.failures)} failed")
+        on_dask = by_dask(local, runs, folder / "dask")
+        say(f"dask      {on_dask.evaluations} runs, {len(on_dask.failures)} failed")
         with meanwhile(cancel_two):
             cancelled = found_by(model_of(QUEUED, template, folder), 20, workers=2)
         say(f"cancelled {cancelled.evaluations} runs, failed: {cancelled.failures}")
-    same = bits(here) == bits(queued) == bits(handed)
+    same = bits(here) == bits(queued) == bits(handed) == bits(on_dask)
     say(f"same bits: {same}")
     return 0 if same and len(cancelled.failures) == 2 and cancelled.evaluations == 20 else 1
 

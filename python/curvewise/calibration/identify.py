@@ -90,11 +90,13 @@ def identify(
     start : mapping of str to float, optional
         Where the search starts: the middle of the bounds if not given.
     max_runs : int, optional
-        End the search after so many parameter sets, those that are looked up included.
+        End the search after so many parameter sets, those that are looked up included; no run is
+        begun beyond them.
     progress : bool, default True
         Show a progress bar (tqdm).
     callback : callable, optional
-        Told a :class:`Progress` after every batch of runs; a true result ends the search.
+        Told a :class:`Progress` after every batch of runs, those of one start; a true result ends
+        the search, and runs that have been begun by then for others do not count.
     **options
         Options of the measure, where `measure` is no criterion.
 

@@ -136,27 +136,37 @@ class ModelPool:
                 yield values, _called(self._model, values)
             return
         begun = list(self._out.items())
-        asked, lost = {}, []
+        asked, lost = set(), []
         for values in calls:
             future = next((future for future, of in begun if of == values), None)
             if future := future or self._submit(values):
-                asked[future] = values
+                asked.add(future)
             else:
                 lost.append(values)
         while not self._out.keys().isdisjoint(asked):
-            wait(self._out, return_when=FIRST_COMPLETED)
-            yield from self.finished()
-        lost += [values for future, values in asked.items() if _has_died(future)]
+            for future in wait(self._out, return_when=FIRST_COMPLETED).done:
+                values = self._out.pop(future)
+                if outcome := self._outcome(future):
+                    yield values, outcome
+                elif future in asked:
+                    lost.append(values)
         if lost:
             yield from self._run_one_by_one(lost)
 
     def finished(self) -> Iterator[tuple[dict[str, Any], Outcome]]:
-        """Yield what has been begun and is finished; what was lost with its process is left out."""
+        """Yield what has been begun, and has ended by itself meanwhile."""
         for future in [future for future in self._out if future.done()]:
-            values = self._out.pop(future)
-            outcome = _result(future) if self._executor is None else _result_of_executor(future)
-            if outcome is not None:
-                yield values, outcome
+            if not future.cancelled() and future.exception() is None:
+                yield self._out.pop(future), future.result()
+
+    def _outcome(self, future: Future[Outcome]) -> Outcome | None:
+        """Return the outcome, or None where a process of this pool died."""
+        if self._executor is not None:
+            return _result_of_executor(future)
+        try:
+            return future.result()
+        except BrokenProcessPool:
+            return None
 
     def _submit(self, values: dict[str, Any]) -> Future[Outcome] | None:
         """Start a call; return None where the processes have broken down."""
@@ -182,7 +192,7 @@ class ModelPool:
             self._restart(1)
             started = time.perf_counter()
             assert self._pool is not None
-            outcome = _result(self._pool.submit(_call_in_worker, values))
+            outcome = self._outcome(self._pool.submit(_call_in_worker, values))
             seconds = time.perf_counter() - started
             yield values, outcome or Outcome(None, "the worker process died", seconds)
         self._restart(self._workers)
@@ -243,16 +253,6 @@ def _called(model: Model, parameters: dict[str, Any]) -> Outcome:
 
 def _message(error: Exception) -> str:
     return " ".join(f"{type(error).__name__}: {error}".split())[:_LONGEST_MESSAGE]
-
-
-def _has_died(future: Future[Outcome]) -> bool:
-    """Return whether the process died that ran a call."""
-    return isinstance(future.exception(), BrokenProcessPool)
-
-
-def _result(future: Future[Outcome]) -> Outcome | None:
-    """Return the outcome, or None where the process died."""
-    return None if _has_died(future) else future.result()
 
 
 def _result_of_executor(future: Future[Outcome]) -> Outcome:
