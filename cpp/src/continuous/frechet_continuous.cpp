@@ -42,6 +42,13 @@ class FrechetContinuousMeasure {
     struct PreparedP {
         PreparedP(const CheckedCurve& curve, runtime::Poller& poller)
             : checked(curve), boxed(curve.curve, RangeScale(1.0), poller) {}
+        static bool holds_points() noexcept { return true; }
+        void look_at_own_points() noexcept {
+            const CurveView& given = checked.curve;
+            const double* const points = boxed.point<0>(0);
+            checked.curve = given.is_flat() ? CurveView(points, given.size(), 1, 1, 0)
+                                            : CurveView(points, given.size(), given.dim());
+        }
         CheckedCurve checked;
         BoxedCurve boxed;
     };

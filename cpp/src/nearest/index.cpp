@@ -1,5 +1,5 @@
-// Index: copies of the curves, prepared by their measure, and queries shared out among threads. A
-// query is one thread's, so that the number of threads changes nothing.
+// Index: the curves, prepared by their measure, which keeps their points, and queries shared out
+// among threads. A query is one thread's, so that the number of threads changes nothing.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -15,7 +15,6 @@
 #include "curvewise/nearest.hpp"
 #include "nearest/neighbor_search.hpp"
 #include "pairwise/batch.hpp"
-#include "runtime/room.hpp"
 #include "runtime/workers.hpp"
 
 namespace curvewise {
@@ -27,30 +26,6 @@ using nearest::NeighborSearch;
 using pairwise::TargetQuery;
 using pairwise::Targets;
 using runtime::Poller;
-
-// A curve with points of its own. Flat where the caller's is, for messages.
-class OwnedCurve {
-   public:
-    OwnedCurve(const CurveView& curve, Poller& poller)
-        : is_flat_(curve.is_flat()), dim_(curve.dim()) {
-        points_.reserve(static_cast<std::size_t>(curve.size() * dim_));
-        poller.in_runs(curve.size(), dim_, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-            for (std::ptrdiff_t i = first; i < end; ++i) {
-                for (std::ptrdiff_t c = 0; c < dim_; ++c) points_.push_back(curve(i, c));
-            }
-        });
-    }
-    CurveView view() const noexcept {
-        const auto n = static_cast<std::ptrdiff_t>(points_.size()) / dim_;
-        return is_flat_ ? CurveView(points_.data(), n, 1, 1, 0)
-                        : CurveView(points_.data(), n, dim_);
-    }
-
-   private:
-    bool is_flat_;
-    std::ptrdiff_t dim_;
-    std::vector<double> points_;
-};
 
 // What is asked: of curve `i` of the queries, by what is left out of the targets, or -1.
 using Answer = std::function<void(NeighborSearch& search, TargetQuery& query, std::size_t i,
@@ -128,37 +103,33 @@ class Index::State {
         Poller poller(control);
         const auto lock = locked<std::unique_lock<std::shared_timed_mutex>>(poller);
         check_like_first({curves, "curves"});
-        std::vector<OwnedCurve> owned;
-        owned.reserve(curves.size());
         const std::unique_ptr<Targets> added = measure_->make_targets();
         std::int64_t total = 0;
         for (const CurveView& curve : curves) total += curve.size();
         poller.begin(total);
+        added->reserve(curves.size());
         for (std::size_t i = 0; i < curves.size(); ++i) {
-            owned.emplace_back(curves[i], poller);
             const std::string name = CurveList(curves, "curves").name_of(i);
-            added->add(checked_curve(owned.back().view(), name, poller), poller);
+            added->add(checked_curve(curves[i], name, poller), poller);
             if (poller.count_steps(curves[i].size())) throw Stopped();
         }
         poller.finish();  // the last that may throw Stopped
-        for (const OwnedCurve& curve : owned) sizes_.insert(curve.view().size());
-        runtime::make_room(curves_, owned.size());
+        for (const CurveView& curve : curves) sizes_.insert(curve.size());
         targets_->make_room(*added);
-        // Nothing fails from here on.
-        runtime::move_behind(curves_, owned);
-        targets_->take(*added);
+        targets_->take(*added);  // does not fail
     }
 
     std::size_t size() const {
         const std::shared_lock<std::shared_timed_mutex> lock(mutex_);
-        return curves_.size();
+        return static_cast<std::size_t>(targets_->size());
     }
 
     std::vector<CurveView> curves() const {
         const std::shared_lock<std::shared_timed_mutex> lock(mutex_);
         std::vector<CurveView> views;
-        views.reserve(curves_.size());
-        for (const OwnedCurve& curve : curves_) views.push_back(curve.view());
+        for (std::ptrdiff_t j = 0; j < targets_->size(); ++j) {
+            views.push_back(targets_->curve(j).curve);
+        }
         return views;
     }
 
@@ -185,7 +156,8 @@ class Index::State {
         Poller poller(control);
         const auto lock = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
         check_radius(radius);
-        std::vector<std::vector<Neighbor>> results(X == nullptr ? curves_.size() : X->size());
+        std::vector<std::vector<Neighbor>> results(
+            X == nullptr ? static_cast<std::size_t>(targets_->size()) : X->size());
         ask(X, options, poller,
             [&](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
                 std::ptrdiff_t left_out) {
@@ -225,9 +197,11 @@ class Index::State {
     Queries checked(const std::vector<CurveView>* X, Poller& poller) const {
         Queries queries{{}, X == nullptr};
         if (X == nullptr) {
-            for (std::size_t i = 0; i < curves_.size(); ++i) {
-                queries.curves.push_back(
-                    checked_curve(curves_[i].view(), "curves[" + std::to_string(i) + "]", poller));
+            for (std::ptrdiff_t j = 0; j < targets_->size(); ++j) {
+                poller.poll_in_loop(static_cast<std::size_t>(j));
+                queries.curves.push_back(targets_->curve(j));
+                // It may have been added behind others.
+                queries.curves.back().name = "curves[" + std::to_string(j) + "]";
             }
         } else {
             const CurveList list(*X, "X");
@@ -253,16 +227,16 @@ class Index::State {
 
     // The shapes of a list, which must agree with those of the index.
     void check_like_first(const CurveList& list) const {
-        if (curves_.empty()) {
+        if (targets_->size() == 0) {
             check_shapes(measure_->requirements(), list);
         } else {
-            const CurveView first = curves_.front().view();
+            const CurveView& first = targets_->curve(0).curve;
             check_shapes(measure_->requirements(), {first, "curve 0 of the index"}, list);
         }
     }
 
     void check_count(std::ptrdiff_t count, bool leaves_itself_out) const {
-        const auto most = static_cast<std::ptrdiff_t>(curves_.size()) - (leaves_itself_out ? 1 : 0);
+        const std::ptrdiff_t most = targets_->size() - (leaves_itself_out ? 1 : 0);
         if (count >= 1 && count <= most) return;
         throw std::invalid_argument(
             "n_neighbors is " + std::to_string(count) + "; give a whole number from 1 to " +
@@ -272,7 +246,6 @@ class Index::State {
 
     std::unique_ptr<const pairwise::BatchMeasure> measure_;
     mutable std::shared_timed_mutex mutex_;
-    std::vector<OwnedCurve> curves_;
     std::set<std::ptrdiff_t> sizes_;
     std::unique_ptr<Targets> targets_;
 };

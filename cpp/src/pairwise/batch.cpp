@@ -69,18 +69,6 @@ struct Sides {
     }
 };
 
-// Row by row.
-std::vector<double> contiguous(const CurveView& curve, Poller& poller) {
-    std::vector<double> copy;
-    copy.reserve(static_cast<std::size_t>(curve.size() * curve.dim()));
-    poller.in_runs(curve.size(), curve.dim(), [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-        for (std::ptrdiff_t i = first; i < end; ++i) {
-            for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) copy.push_back(curve(i, c));
-        }
-    });
-    return copy;
-}
-
 PairTiles tiles_of(const BatchMeasure& measure, const Sizes& rows, const Sizes& columns,
                    PairSet set, const BatchOutput& output) {
     return {rows, columns, set, measure.steps(), runtime::resolve_workers(output.options.workers)};
@@ -139,9 +127,8 @@ PreparedCurve::PreparedCurve(std::unique_ptr<const BatchMeasure> measure, const 
 PreparedCurve::PreparedCurve(std::unique_ptr<const BatchMeasure> measure, const CurveView& P,
                              Poller&& poller)
     : measure_(std::move(measure)),
-      points_((check_shapes(measure_->requirements(), {P, "P"}), contiguous(P, poller))),
-      P_(P.is_flat() ? CurveView(points_.data(), P.size(), 1, 1, 0)
-                     : CurveView(points_.data(), P.size(), P.dim())),
+      points_((check_shapes(measure_->requirements(), {P, "P"}), curves::OwnedCurve(P, poller))),
+      P_(points_.view()),
       rows_(measure_->prepare_rows(checked(*measure_, {P_, "P"}, poller), poller)) {
     measure_->check_rows(*rows_, poller);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "curves/checks.hpp"
+#include "curves/owned_curve.hpp"
 #include "curvewise/pairwise.hpp"
 #include "pairwise/pair_run.hpp"
 #include "pairwise/targets.hpp"
@@ -86,7 +87,7 @@ class PreparedCurve {
     PreparedCurve(std::unique_ptr<const BatchMeasure> measure, const CurveView& P, Poller&& poller);
 
     std::unique_ptr<const BatchMeasure> measure_;
-    std::vector<double> points_;
+    curves::OwnedCurve points_;
     CurveView P_;
     std::unique_ptr<const BatchMeasure::Rows> rows_;
 };

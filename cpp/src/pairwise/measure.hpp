@@ -19,7 +19,14 @@
 //                                        curves of `points` points in all
 //   (prepared_p, prepared_q, call)       the value
 //
-// It may have, for searches that look at a bound before they compute a value (targets.hpp),
+// PreparedQ may have, where it holds the points of its curve in a form of its own, so that who
+// keeps it need not keep them beside it,
+//
+//     holds_points()                     whether this one does
+//     look_at_own_points()               makes `checked` look at these
+//
+// The measure may have, for searches that look at a bound before they compute a value
+// (targets.hpp),
 //
 //   M::Bounds                            what is kept of all Qs for that, by keep(prepared_q), and
 //                                        by make_room(others) and then take(others), which does

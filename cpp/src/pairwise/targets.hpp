@@ -48,12 +48,16 @@ class Targets {
     Targets& operator=(Targets&&) = delete;
     virtual ~Targets() = default;
 
-    // The points must outlive this. Throws where the curve serves no P.
+    // So many will be added.
+    virtual void reserve(std::size_t count) = 0;
+    // Keeps a copy of the points. Throws where the curve serves no P.
     virtual void add(const CheckedCurve& Q, Poller& poller) = 0;
     // Adds those of `others`, of the same measure, for which room was made, and leaves it empty.
     virtual void make_room(const Targets& others) = 0;
     virtual void take(Targets& others) noexcept = 0;
     virtual std::ptrdiff_t size() const noexcept = 0;
+    // As it was added, with the points that are kept.
+    virtual const CheckedCurve& curve(std::ptrdiff_t j) const noexcept = 0;
     // Throws where P serves no Q, as query() does.
     virtual void check(const CheckedCurve& P, Poller& poller) const = 0;
     virtual std::unique_ptr<TargetQuery> query(const CheckedCurve& P, Poller& poller) const = 0;

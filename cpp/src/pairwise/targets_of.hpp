@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "curves/owned_curve.hpp"
 #include "pairwise/measure.hpp"
 #include "pairwise/targets.hpp"
 #include "runtime/room.hpp"
@@ -59,29 +60,41 @@ struct BoundsOf<M, std::void_t<typename M::Bounds>> {
     using type = typename M::Bounds;
 };
 
+template <class PreparedQ, class = void>
+inline constexpr bool may_hold_points = false;
+template <class PreparedQ>
+inline constexpr bool
+    may_hold_points<PreparedQ, std::void_t<decltype(&PreparedQ::look_at_own_points)>> = true;
+
 template <class M>
 class TargetsOf final : public Targets {
    public:
     explicit TargetsOf(const M& measure) : measure_(measure) {}
 
+    void reserve(std::size_t count) override { curves_.reserve(count); }
     void add(const CheckedCurve& Q, Poller& poller) override {
-        curves_.emplace_back(Q, poller);
+        curves_.push_back(kept(Q, poller));
         bounds_.keep(curves_.back());
         points_ += Q.curve.size();
     }
     void make_room(const Targets& targets) override {
         const auto& others = static_cast<const TargetsOf&>(targets);
         runtime::make_room(curves_, others.curves_.size());
+        runtime::make_room(owned_, others.owned_.size());
         bounds_.make_room(others.bounds_);
     }
     void take(Targets& targets) noexcept override {
         auto& others = static_cast<TargetsOf&>(targets);
         runtime::move_behind(curves_, others.curves_);
+        runtime::move_behind(owned_, others.owned_);
         bounds_.take(others.bounds_);
         points_ += std::exchange(others.points_, 0);
     }
     std::ptrdiff_t size() const noexcept override {
         return static_cast<std::ptrdiff_t>(curves_.size());
+    }
+    const CheckedCurve& curve(std::ptrdiff_t j) const noexcept override {
+        return curves_[static_cast<std::size_t>(j)].checked;
     }
     void check(const CheckedCurve& P, Poller& poller) const override {
         measure_.check_p(typename M::PreparedP(P, poller), poller);
@@ -97,6 +110,7 @@ class TargetsOf final : public Targets {
     }
 
    private:
+    using PreparedQ = typename M::PreparedQ;
     using Bounds = typename BoundsOf<M>::type;
     struct OwnMemory final : ThreadMemory {
         typename M::Memory content;
@@ -137,8 +151,24 @@ class TargetsOf final : public Targets {
         typename Bounds::Query bounds_;
     };
 
+    // With points that are kept: those that it holds itself, or a copy beside it.
+    PreparedQ kept(const CheckedCurve& Q, Poller& poller) {
+        if constexpr (may_hold_points<PreparedQ>) {
+            PreparedQ prepared(Q, poller);
+            if (prepared.holds_points()) {
+                prepared.look_at_own_points();
+                return prepared;
+            }
+        }
+        owned_.emplace_back(Q.curve, poller);
+        CheckedCurve copy = Q;
+        copy.curve = owned_.back().view();
+        return PreparedQ(copy, poller);
+    }
+
     const M& measure_;
-    std::vector<typename M::PreparedQ> curves_;
+    std::vector<PreparedQ> curves_;
+    std::vector<curves::OwnedCurve> owned_;
     Bounds bounds_;
     std::int64_t points_ = 0;
 };

@@ -10,9 +10,11 @@
 
 namespace curvewise::runtime {
 
-// Room for `more` elements; at least twice what there is, so that many small steps stay cheap.
+// Room for `more` elements; at least twice what there is, so that many small steps stay cheap. An
+// empty vector needs none: move_behind() gives it the other's.
 template <class T>
 void make_room(std::vector<T>& to, std::size_t more) {
+    if (to.empty()) return;
     const std::size_t wanted = to.size() + more;
     if (wanted > to.capacity()) to.reserve(std::max(wanted, 2 * to.capacity()));
 }
@@ -21,6 +23,7 @@ void make_room(std::vector<T>& to, std::size_t more) {
 template <class T>
 void move_behind(std::vector<T>& to, std::vector<T>& from) noexcept {
     static_assert(std::is_nothrow_move_constructible_v<T>);
+    if (to.empty()) return to.swap(from);
     to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
     from.clear();
 }

@@ -14,6 +14,7 @@
 #include "pairwise/evaluate.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/ground_distance.hpp"
+#include "warping/packed_side.hpp"
 
 namespace curvewise {
 namespace {
@@ -31,16 +32,8 @@ class HausdorffMeasure {
         std::vector<double> point, distances, nearest;
     };
     static constexpr bool is_swept = true;
-    struct Side {
-        Side(const curves::CheckedCurve& curve, Poller& poller)
-            : checked(curve),
-              packed(PackedCurve::of(curve.curve, curve.on_sphere, RangeScale(1.0),
-                                     PointOrder::forward, poller)) {}
-        curves::CheckedCurve checked;
-        PackedCurve packed;
-    };
-    using PreparedP = Side;
-    using PreparedQ = Side;
+    using PreparedP = warping::PackedSide<PointOrder::forward>;
+    using PreparedQ = PreparedP;
 
     explicit HausdorffMeasure(const HausdorffOptions& options) : options_(options) {
         warping::check_ground_distance(options_.ground);

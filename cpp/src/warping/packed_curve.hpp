@@ -34,6 +34,13 @@ class PackedCurve {
     // [c * stride() + size() - 1 - i].
     const double* data() const noexcept { return storage_.data(); }
     std::ptrdiff_t stride() const noexcept { return stride_; }
+    // The points of one packed in this order, neither scaled nor on the sphere; flat where `like`
+    // is.
+    CurveView points(PointOrder order, const CurveView& like) const noexcept {
+        const bool is_reversed = order == PointOrder::reversed;
+        return {data() + (is_reversed ? n_ - 1 : 0), n_, dim_, is_reversed ? -1 : 1,
+                like.is_flat() ? 0 : stride_};
+    }
 
     // Whether every |coordinate| is 0 or at least 2^-400. Differences of two such curves are then 0
     // or at least 2^-452, the last bit of such a coordinate, and their squares 0 or at least

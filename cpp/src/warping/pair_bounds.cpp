@@ -18,16 +18,7 @@ constexpr std::ptrdiff_t fewest_cells = 1 << 10;
 // With more, the pruning of a single pair, which searches for its bounds, is the faster way.
 constexpr std::ptrdiff_t most_narrowed_cells = 3 << 18;
 
-// Of a level of the bounds.
-constexpr std::ptrdiff_t most_boxes[PairBounds::levels] = {1, 8, 32, 48};
 constexpr int point_level = 3;
-
-// The finest level of a tree with at most so many boxes.
-std::ptrdiff_t tree_level(const BoxTree& tree, std::ptrdiff_t most) noexcept {
-    std::ptrdiff_t level = 0;
-    while (tree.boxes(level) > most) ++level;
-    return level;
-}
 
 void append_summary(const BoxTree& tree, std::vector<double>& summary) {
     const PointAccess& points = tree.points();
@@ -79,23 +70,24 @@ double unfinished_distance(const double* a, const double* b, std::ptrdiff_t dim)
 }  // namespace
 
 void KeptBounds::keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrder order) {
-    trees_.emplace_back(packed, order);
+    const BoxTree tree(packed, order);
     dim_ = packed.dim();
-    append_summary(trees_.back(), summaries_);
+    append_summary(tree, summaries_);
+    boxes_.keep(tree);
     largest_.push_back(Q.largest);
 }
 
 void KeptBounds::make_room(const KeptBounds& others) {
     runtime::make_room(largest_, others.largest_.size());
     runtime::make_room(summaries_, others.summaries_.size());
-    runtime::make_room(trees_, others.trees_.size());
+    boxes_.make_room(others.boxes_);
 }
 
 void KeptBounds::take(KeptBounds& others) noexcept {
     dim_ = std::max(dim_, others.dim_);
     runtime::move_behind(largest_, others.largest_);
     runtime::move_behind(summaries_, others.summaries_);
-    runtime::move_behind(trees_, others.trees_);
+    boxes_.take(others.boxes_);
 }
 
 PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, const CheckedCurve& P,
@@ -135,7 +127,7 @@ double PairBounds::quick_bound(std::ptrdiff_t j) const noexcept {
         beyond = std::max(beyond, std::max(low, high));
         if (!is_open()) beyond = std::max(beyond, std::max(-low, -high));
     }
-    const bool is_one_cell = tree_.size() == 1 && kept_.tree(j).size() == 1;
+    const bool is_one_cell = tree_.size() == 1 && kept_.points(j) == 1;
     const bool is_sum = !is_frechet() && !is_one_cell;
     double bounds[] = {first, last, Norm::finish(Norm::add(0.0, beyond))};
     if (is_sum) {
@@ -144,7 +136,7 @@ double PairBounds::quick_bound(std::ptrdiff_t j) const noexcept {
     }
     double bound = *std::max_element(bounds, bounds + 3);
     if (!is_sum) finish(&bound, 1);
-    return bound / options_.divisor(tree_.size(), kept_.tree(j).size());
+    return bound / options_.divisor(tree_.size(), kept_.points(j));
 }
 
 void PairBounds::quick(double* bounds) const {
@@ -156,15 +148,14 @@ void PairBounds::quick(double* bounds) const {
     });
 }
 
-void BandedBoxes::assign(std::ptrdiff_t count, PointOrder order, const BoxTree& boxes,
-                         std::ptrdiff_t level, std::optional<std::ptrdiff_t> window) {
-    if (count == count_ && boxes.size() == size_) return;
+void BandedBoxes::assign(std::ptrdiff_t count, PointOrder order, std::ptrdiff_t size,
+                         std::ptrdiff_t points_per_box, std::optional<std::ptrdiff_t> window) {
+    if (count == count_ && size == size_) return;
     count_ = count;
-    size_ = boxes.size();
+    size_ = size;
     const Band band(count, size_, window);
     is_limited_ = band.is_limited();
     if (!is_limited_) return;
-    const std::ptrdiff_t points_per_box = BoxTree::leaf_points << level;
     first_.resize(static_cast<std::size_t>(count));
     last_.resize(static_cast<std::size_t>(count));
     for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -185,26 +176,27 @@ double PairBounds::combined(double rows, double columns, double first_row,
 }
 
 template <class Norm>
-double PairBounds::run_bound(const BoxTree& Q, std::ptrdiff_t most_runs) {
-    const std::ptrdiff_t level = tree_level(tree_, most_runs), q_level = tree_level(Q, most_runs);
-    const std::ptrdiff_t rows = tree_.boxes(level), columns = Q.boxes(q_level);
-    const std::ptrdiff_t row_points = BoxTree::leaf_points << level;
-    const std::ptrdiff_t column_points = BoxTree::leaf_points << q_level;
-    const Band band(tree_.size(), Q.size(), options_.window.between(tree_.size(), Q.size()));
+double PairBounds::run_bound(std::ptrdiff_t j, int level) {
+    const BoxLevel P = level_with(tree_, KeptBoxes::most_boxes[level - 1]);
+    const BoxLevel Q = kept_.boxes(j, level, boxes_);
+    const std::ptrdiff_t rows = P.count, columns = Q.count, dim = tree_.dim();
+    const std::ptrdiff_t row_points = P.points_per_box(), column_points = Q.points_per_box();
+    const std::ptrdiff_t n = tree_.size(), m = kept_.points(j);
+    const Band band(n, m, options_.window.between(n, m));
     run_terms_.assign(static_cast<std::size_t>(rows + columns), infinity);
     double* const row_terms = run_terms_.data();
     double* const column_terms = row_terms + rows;
     for (std::ptrdiff_t a = 0; a < rows; ++a) {
         std::ptrdiff_t first = 0, last = columns - 1;
         if (band.is_limited()) {
-            const std::ptrdiff_t end = std::min((a + 1) * row_points, tree_.size());
+            const std::ptrdiff_t end = std::min((a + 1) * row_points, n);
             first = band.columns(a * row_points).first / column_points;
             last = band.columns(end - 1).last / column_points;
         }
         double least = infinity;
         for (std::ptrdiff_t b = first; b <= last; ++b) {
             const double sum =
-                unfinished_distance<Norm>(tree_.box(level, a), Q.box(q_level, b), tree_.dim());
+                unfinished_distance<Norm>(P.boxes + a * 2 * dim, Q.boxes + b * 2 * dim, dim);
             least = std::min(least, sum);
             column_terms[b] = std::min(column_terms[b], sum);
         }
@@ -213,9 +205,9 @@ double PairBounds::run_bound(const BoxTree& Q, std::ptrdiff_t most_runs) {
     for (double& term : run_terms_) term = Norm::finish(term);
     finish(run_terms_.data(), rows + columns);
     if (is_frechet()) return *std::max_element(run_terms_.begin(), run_terms_.end());
-    const double rest_of_rows = sum_but_one(row_terms, rows, row_points, tree_.size());
+    const double rest_of_rows = sum_but_one(row_terms, rows, row_points, n);
     if (is_open()) return combined(rest_of_rows, 0.0, row_terms[0], 0.0);
-    const double rest_of_columns = sum_but_one(column_terms, columns, column_points, Q.size());
+    const double rest_of_columns = sum_but_one(column_terms, columns, column_points, m);
     return combined(rest_of_rows, rest_of_columns, row_terms[0], column_terms[0]);
 }
 
@@ -237,7 +229,7 @@ double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
     if (!is_bounded(j) || n * m < fewest_cells) return 0.0;
     const double bound =
         level == point_level ? point_bound(j, q) : with_norm(box_metric_, [&](auto norm) {
-            return run_bound<decltype(norm)>(kept_.tree(j), most_boxes[level]);
+            return run_bound<decltype(norm)>(j, level);
         });
     if (is_frechet()) return bound;
     // The table adds up as many terms in another order.
@@ -246,18 +238,21 @@ double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
 
 void PairBounds::compute_terms(std::ptrdiff_t j, const PackedCurve& q) {
     if (terms_of_ == j) return;
-    const auto least = [&](const PackedCurve& points, PointOrder order, const BoxTree& boxes,
-                           BandedBoxes& banded, AlignedBuffer& out) {
-        const std::ptrdiff_t level = tree_level(boxes, most_boxes[point_level]);
-        banded.assign(points.size(), order, boxes, level,
-                      options_.window.between(points.size(), boxes.size()));
+    const auto least = [&](const PackedCurve& points, PointOrder order, std::ptrdiff_t size,
+                           const BoxLevel& boxes, BandedBoxes& banded, AlignedBuffer& out) {
+        banded.assign(points.size(), order, size, boxes.points_per_box(),
+                      options_.window.between(points.size(), size));
         out.reserve(AlignedBuffer::rounded(points.size() + kernels::padding));
-        kernel_({points.data(), points.stride(), points.size(), points.dim(), boxes.box(level, 0),
-                 boxes.boxes(level), banded.first(), banded.last(), out.data()});
+        kernel_({points.data(), points.stride(), points.size(), points.dim(), boxes.boxes,
+                 boxes.count, banded.first(), banded.last(), out.data()});
         finish(out.data(), points.size());
     };
-    least(P_, PointOrder::forward, kept_.tree(j), boxes_of_rows_, row_terms_);
-    if (!is_open()) least(q, PointOrder::reversed, tree_, boxes_of_columns_, column_terms_);
+    least(P_, PointOrder::forward, q.size(), kept_.boxes(j, point_level, boxes_), boxes_of_rows_,
+          row_terms_);
+    if (!is_open()) {
+        const BoxLevel boxes = level_with(tree_, KeptBoxes::most_boxes[point_level - 1]);
+        least(q, PointOrder::reversed, tree_.size(), boxes, boxes_of_columns_, column_terms_);
+    }
     terms_of_ = j;
 }
 

@@ -28,6 +28,7 @@
 #include "runtime/aligned_buffer.hpp"
 #include "warping/box_tree.hpp"
 #include "warping/cost_sums.hpp"
+#include "warping/kept_boxes.hpp"
 #include "warping/packed_curve.hpp"
 #include "warping/warping_problem.hpp"
 
@@ -39,13 +40,13 @@ using curves::CheckedCurve;
 // its boxes.
 class KeptBounds {
    public:
-    // `packed` must outlive this, at the address of its points.
     void keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrder order);
     // Adds those of `others`, for which room was made, and leaves it empty.
     void make_room(const KeptBounds& others);
     void take(KeptBounds& others) noexcept;
 
-    std::ptrdiff_t size() const noexcept { return static_cast<std::ptrdiff_t>(trees_.size()); }
+    std::ptrdiff_t size() const noexcept { return boxes_.size(); }
+    std::ptrdiff_t points(std::ptrdiff_t j) const noexcept { return boxes_.points(j); }
     double largest(std::ptrdiff_t j) const noexcept {
         return largest_[static_cast<std::size_t>(j)];
     }
@@ -53,15 +54,17 @@ class KeptBounds {
     const double* summary(std::ptrdiff_t j) const noexcept {
         return summaries_.data() + j * 4 * dim_;
     }
-    const BoxTree& tree(std::ptrdiff_t j) const noexcept {
-        return trees_[static_cast<std::size_t>(j)];
+    // Those of a level above 0, in `room`.
+    BoxLevel boxes(std::ptrdiff_t j, int level, AlignedBuffer& room) const {
+        return boxes_.read(j, static_cast<std::size_t>(level - 1), summary(j) + 2 * dim_, dim_,
+                           room);
     }
 
    private:
     std::ptrdiff_t dim_ = 0;
     std::vector<double> largest_;  // |coordinate|
     std::vector<double> summaries_;
-    std::vector<BoxTree> trees_;
+    KeptBoxes boxes_;
 };
 
 // Which boxes of one curve the band leaves each point of the other, kept as long as the numbers of
@@ -69,8 +72,9 @@ class KeptBounds {
 class BandedBoxes {
    public:
     // Of `count` points, in the order in which they are stored.
-    void assign(std::ptrdiff_t count, PointOrder order, const BoxTree& boxes, std::ptrdiff_t level,
-                std::optional<std::ptrdiff_t> window);
+    // Of a curve of `size` points, `points_per_box` in a box.
+    void assign(std::ptrdiff_t count, PointOrder order, std::ptrdiff_t size,
+                std::ptrdiff_t points_per_box, std::optional<std::ptrdiff_t> window);
     // Null where there is no band.
     const std::ptrdiff_t* first() const noexcept { return is_limited_ ? first_.data() : nullptr; }
     const std::ptrdiff_t* last() const noexcept { return is_limited_ ? last_.data() : nullptr; }
@@ -108,7 +112,7 @@ class PairBounds {
     template <class Norm>
     double quick_bound(std::ptrdiff_t j) const noexcept;
     template <class Norm>
-    double run_bound(const BoxTree& Q, std::ptrdiff_t most_runs);
+    double run_bound(std::ptrdiff_t j, int level);
     double point_bound(std::ptrdiff_t j, const PackedCurve& q);
     void compute_terms(std::ptrdiff_t j, const PackedCurve& q);
     // Makes bounds of distances of boxes.
@@ -133,6 +137,7 @@ class PairBounds {
     BandedBoxes boxes_of_rows_;
     BandedBoxes boxes_of_columns_;
     std::vector<double> run_terms_;
+    AlignedBuffer boxes_;  // of Q
     CostSums sums_;
 };
 

@@ -16,6 +16,7 @@
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
 #include "warping/ground_distance.hpp"
+#include "warping/packed_side.hpp"
 #include "warping/recurrence_sweep.hpp"
 #include "warping/window.hpp"
 
@@ -96,18 +97,8 @@ class RecurrenceMeasure {
    public:
     using Memory = warping::RecurrenceMemory;
     static constexpr bool is_swept = true;
-    // Packed without scaling, which curves within the usual range do not need.
-    template <PointOrder order>
-    struct Side {
-        Side(const curves::CheckedCurve& curve, Poller& poller)
-            : checked(curve),
-              packed(
-                  PackedCurve::of(curve.curve, curve.on_sphere, RangeScale(1.0), order, poller)) {}
-        curves::CheckedCurve checked;
-        PackedCurve packed;
-    };
-    using PreparedP = Side<PointOrder::forward>;
-    using PreparedQ = Side<PointOrder::reversed>;
+    using PreparedP = warping::PackedSide<PointOrder::forward>;
+    using PreparedQ = warping::PackedSide<PointOrder::reversed>;
 
     explicit RecurrenceMeasure(Recurrence recurrence)
         : recurrence_(std::move(recurrence)), steps_(recurrence_, RangeScale(1.0)) {

@@ -11,6 +11,7 @@
 #include "pairwise/evaluate.hpp"
 #include "runtime/stopwatch.hpp"
 #include "warping/dtw_recurrence.hpp"
+#include "warping/packed_side.hpp"
 #include "warping/pair_bounds.hpp"
 #include "warping/warping_problem.hpp"
 
@@ -34,18 +35,8 @@ class WarpingMeasure {
    public:
     using Memory = SweepMemory;
     static constexpr bool is_swept = true;
-    // Packed without scaling, which curves within the usual range do not need.
-    template <PointOrder order>
-    struct Side {
-        Side(const curves::CheckedCurve& curve, Poller& poller)
-            : checked(curve),
-              packed(
-                  PackedCurve::of(curve.curve, curve.on_sphere, RangeScale(1.0), order, poller)) {}
-        curves::CheckedCurve checked;
-        PackedCurve packed;
-    };
-    using PreparedP = Side<PointOrder::forward>;
-    using PreparedQ = Side<PointOrder::reversed>;
+    using PreparedP = warping::PackedSide<PointOrder::forward>;
+    using PreparedQ = warping::PackedSide<PointOrder::reversed>;
 
     // Of dtw, or of frechet.
     template <class Options>

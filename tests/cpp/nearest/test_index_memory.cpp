@@ -1,0 +1,91 @@
+// What an index has of the heap, all its curves in place, beside the points of these: each
+// allocation is counted with what malloc adds to it.
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "curvewise/curvewise.hpp"
+
+namespace {
+
+std::size_t held = 0;
+
+// In front of a block: its size, in as many bytes as keep it aligned.
+constexpr std::size_t head = alignof(std::max_align_t);
+
+std::size_t taken(std::size_t size) { return (size + 8 + 15) / 16 * 16; }
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+    auto* const block = static_cast<std::byte*>(std::malloc(size + head));
+    if (block == nullptr) throw std::bad_alloc();
+    *reinterpret_cast<std::size_t*>(block) = size;
+    held += taken(size);
+    return block + head;
+}
+
+void operator delete(void* data) noexcept {
+    if (data == nullptr) return;
+    std::byte* const block = static_cast<std::byte*>(data) - head;
+    held -= taken(*reinterpret_cast<std::size_t*>(block));
+    std::free(block);
+}
+void operator delete(void* data, std::size_t /*size*/) noexcept { operator delete(data); }
+
+namespace {
+
+using namespace curvewise;
+
+struct Collection {
+    std::ptrdiff_t curves, points, dim;
+};
+
+// In ratio to the points.
+double memory_of(const Measure& measure, const Collection& size) {
+    const std::ptrdiff_t numbers = size.points * size.dim;
+    std::vector<double> points(static_cast<std::size_t>(size.curves * numbers));
+    for (std::size_t k = 0; k < points.size(); ++k) points[k] = static_cast<double>(k * k % 1009);
+    std::vector<CurveView> views;
+    for (std::ptrdiff_t j = 0; j < size.curves; ++j) {
+        views.emplace_back(points.data() + j * numbers, size.points, size.dim);
+    }
+    const std::size_t before = held;
+    const Index index(views, measure);
+    return static_cast<double>(held - before) / static_cast<double>(points.size() * sizeof(double));
+}
+
+void index_is_little_more_than_its_points() {
+    struct Limit {
+        const char* name;
+        Measure measure;
+        double ratio;
+    };
+    const Limit limits[] = {{"dtw", DtwOptions{}, 1.5},
+                            {"frechet", FrechetOptions{}, 1.5},
+                            {"hausdorff", HausdorffOptions{}, 1.5},
+                            {"area", AreaOptions{}, 1.25},
+                            {"frechet_continuous", FrechetContinuousOptions{}, 2.1}};
+    for (const Limit& limit : limits) {
+        for (const Collection& size :
+             {Collection{1000, 128, 1}, {1000, 128, 2}, {100, 1000, 1}, {100, 1000, 2}}) {
+            if (size.dim == 1 && std::string(limit.name) == "area") continue;
+            const check::Note note(std::string(limit.name) + " of " + std::to_string(size.points) +
+                                   " points in " + std::to_string(size.dim) + "-D");
+            const double ratio = memory_of(limit.measure, size);
+            CHECK(ratio >= 1.0);
+            CHECK(ratio <= limit.ratio);
+        }
+    }
+}
+
+}  // namespace
+
+int main() {
+    return check::run(
+        {{"an index is little more than its points", index_is_little_more_than_its_points}});
+}
