@@ -14,8 +14,8 @@ struct Curves {
         arrays.reserve(list.size());
         views.reserve(list.size());
         for (const py::handle& item : list) {
-            arrays.push_back(item.cast<CurveArray>());
-            views.push_back(view(arrays.back()));
+            arrays.push_back(py::reinterpret_borrow<py::object>(item));
+            views.push_back(listed_view(arrays.back()));
         }
     }
 
@@ -33,7 +33,7 @@ struct Curves {
     // What is read to check them, no less than a few for each of them.
     double entries() const noexcept { return size() * (10.0 + longest() * dim()); }
 
-    std::vector<CurveArray> arrays;
+    std::vector<py::object> arrays;
     std::vector<CurveView> views;
 };
 

@@ -8,6 +8,28 @@ CurveArray taken(const py::object& given) {
     return {};
 }
 
+// An aligned array of one or two dimensions, of that type, in this machine's byte order.
+bool is_curve_of(py::handle given, int type_num) noexcept {
+    static const PyTypeObject* const type = py::detail::npy_api::get().PyArray_Type_;
+    if (Py_TYPE(given.ptr()) != type) return false;
+    const py::detail::PyArray_Proxy& array = *py::detail::array_proxy(given.ptr());
+    const py::detail::PyArrayDescr_Proxy& descr = *py::detail::array_descriptor_proxy(array.descr);
+    const bool is_of_type = descr.type_num == type_num && descr.byteorder == '=';
+    const bool is_aligned = (array.flags & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
+    return is_of_type && is_aligned && array.nd >= 1 && array.nd <= 2;
+}
+
+template <class Number>
+CurveView view_of(const py::detail::PyArray_Proxy& array) {
+    constexpr auto item = static_cast<py::ssize_t>(sizeof(Number));
+    const auto* const data = reinterpret_cast<const Number*>(array.data);
+    const py::ssize_t rows = array.dimensions[0], row_stride = array.strides[0] / item;
+    if (array.nd == 1) return {data, rows, 1, row_stride, 0};
+    // A stride of 0 is kept for flat lists; that of a single column is never used.
+    const py::ssize_t columns = array.dimensions[1];
+    return {data, rows, columns, row_stride, columns == 1 ? 1 : array.strides[1] / item};
+}
+
 }  // namespace
 
 CurveArray::CurveArray(const py::object& given) : py::object(given) {
@@ -15,14 +37,7 @@ CurveArray::CurveArray(const py::object& given) : py::object(given) {
 }
 
 bool CurveArray::check_(py::handle given) noexcept {
-    static const PyTypeObject* const type = py::detail::npy_api::get().PyArray_Type_;
-    if (Py_TYPE(given.ptr()) != type) return false;
-    const py::detail::PyArray_Proxy& array = *py::detail::array_proxy(given.ptr());
-    const py::detail::PyArrayDescr_Proxy& descr = *py::detail::array_descriptor_proxy(array.descr);
-    const bool is_float64 =
-        descr.type_num == py::detail::npy_api::NPY_DOUBLE_ && descr.byteorder == '=';
-    const bool is_aligned = (array.flags & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
-    return is_float64 && is_aligned && array.nd >= 1 && array.nd <= 2;
+    return is_curve_of(given, py::detail::npy_api::NPY_DOUBLE_);
 }
 
 CurvePair::CurvePair(const py::object& given_p, const py::object& given_q)
@@ -35,12 +50,14 @@ CurvePair::CurvePair(const py::object& given_p, const py::object& given_q)
 }
 
 CurveView view(const CurveArray& array) {
-    constexpr auto item = static_cast<py::ssize_t>(sizeof(double));
-    const double* const data = array.data();
-    if (array.ndim() == 1) return {data, array.shape(0), 1, array.strides(0) / item, 0};
-    // A stride of 0 is kept for flat lists; that of a single column is never used.
-    const py::ssize_t col_stride = array.shape(1) == 1 ? 1 : array.strides(1) / item;
-    return {data, array.shape(0), array.shape(1), array.strides(0) / item, col_stride};
+    return view_of<double>(*py::detail::array_proxy(array.ptr()));
+}
+
+CurveView listed_view(const py::object& array) {
+    if (is_curve_of(array, py::detail::npy_api::NPY_FLOAT_)) {
+        return view_of<float>(*py::detail::array_proxy(array.ptr()));
+    }
+    return view(array.cast<CurveArray>());
 }
 
 void warn_if_transposed(const CurveArray& P) {

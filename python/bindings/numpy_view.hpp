@@ -33,6 +33,9 @@ class CurveArray : public py::object {
 
 CurveView view(const CurveArray& array);
 
+// Of one of a list, which may be of float32 too, and is not converted either.
+CurveView listed_view(const py::object& array);
+
 // Two curves as a user gives them. What is no CurveArray, the package's as_curves() makes one, or
 // refuses.
 struct CurvePair {

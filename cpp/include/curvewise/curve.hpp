@@ -9,6 +9,10 @@
 ///                                         two neighbouring members of a struct of doubles
 ///     CurveView(points)                   a std::vector<std::array<double, 2>>
 ///     curve_view(matrix)                  an Eigen matrix, map, block: curvewise/eigen.hpp
+///     CurveView(floats, 240, 2, 2, 1)     of floats, for lists: cdist, pdist, Prepared, Index
+///
+/// A list of floats is never copied as a whole: its curves are converted to doubles, exactly, where
+/// they are computed, some at a time. All else refuses floats.
 ///
 /// A view itself checks nothing: the function that is given one does, and throws
 /// std::invalid_argument, in words that name the argument and the place:
@@ -38,6 +42,11 @@ class CurveView {
               std::ptrdiff_t col_stride) noexcept
         : data_(data), n_(n), dim_(dim), row_stride_(row_stride), col_stride_(col_stride) {}
 
+    /// Of floats; strides count these.
+    CurveView(const float* data, std::ptrdiff_t n, std::ptrdiff_t dim, std::ptrdiff_t row_stride,
+              std::ptrdiff_t col_stride) noexcept
+        : floats_(data), n_(n), dim_(dim), row_stride_(row_stride), col_stride_(col_stride) {}
+
     /// Not explicit, so that every function takes the vector itself.
     template <std::size_t D, class Allocator>
     CurveView(const std::vector<std::array<double, D>, Allocator>& points) noexcept
@@ -47,13 +56,20 @@ class CurveView {
                       "the points of the vector must lie side by side");
     }
 
+    /// Of doubles.
     double operator()(std::ptrdiff_t i, std::ptrdiff_t c) const noexcept {
         return data_[i * row_stride_ + c * col_stride_];
+    }
+    bool has_floats() const noexcept { return floats_ != nullptr; }
+    /// Of floats.
+    float float_at(std::ptrdiff_t i, std::ptrdiff_t c) const noexcept {
+        return floats_[i * row_stride_ + c * col_stride_];
     }
 
     std::ptrdiff_t size() const noexcept { return n_; }
     std::ptrdiff_t dim() const noexcept { return dim_; }
-    /// The coordinates of all points where they lie side by side, row-major; null elsewhere.
+    /// The coordinates of all points where they are doubles side by side, row-major; null
+    /// elsewhere.
     const double* row_major() const noexcept {
         const bool is_row = col_stride_ == 1 || dim_ == 1;
         return is_row && row_stride_ == dim_ ? data_ : nullptr;
@@ -64,7 +80,8 @@ class CurveView {
     CURVEWISE_EXPORT std::string shape() const;
 
    private:
-    const double* data_;
+    const double* data_ = nullptr;
+    const float* floats_ = nullptr;
     std::ptrdiff_t n_;
     std::ptrdiff_t dim_;
     std::ptrdiff_t row_stride_;

@@ -9,8 +9,9 @@
 ///
 /// Threads take tiles of pairs, the largest pairs first; a pair that is large beside all others is
 /// swept by all threads together. Neither their number nor their order changes a value: each is
-/// what the measure's own function returns for the pair. Memory: a packed copy of the curves (two
-/// where a list is compared with itself), and some kilobytes a thread.
+/// what the measure's own function returns for the pair. Memory: packed copies of some of the
+/// curves at a time, some 100 MB at most, or four curves a thread where that is more, and some
+/// kilobytes a thread. Curves may be of floats.
 #pragma once
 
 #include <cstddef>

@@ -114,6 +114,7 @@ Magnitude magnitude(const double* values, std::ptrdiff_t count) noexcept {
 
 // The largest |entry|; throws for the first one, in row-major order, that is not finite.
 double largest_magnitude(const CurveView& curve, const std::string& name, runtime::Poller& poller) {
+    if (curve.has_floats()) refuse(name + " has floats, which only lists may have", "give doubles");
     Magnitude all;
     const double* const row_major = curve.row_major();
     const std::ptrdiff_t dim = curve.dim();

@@ -44,8 +44,8 @@ class CurveList {
     bool is_list_ = false;
 };
 
-// A curve found finite, and on the sphere where that is asked for, with the largest |coordinate|.
-// Refers to the caller's points.
+// A curve of doubles found finite, and on the sphere where that is asked for, with the largest
+// |coordinate|. Refers to the caller's points.
 struct CheckedCurve {
     CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller);
     // Asked here, and not in a call: where no measure of a kind is on the sphere, it costs nothing.

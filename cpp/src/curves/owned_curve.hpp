@@ -1,15 +1,19 @@
-// A curve with points of its own, row by row: a copy, for what outlives the caller's. Flat where
-// the caller's is, for messages. O(n) time.
+// Curves in doubles that are not the caller's: copies, row by row, for what outlives these, and of
+// curves of floats for as long as they are computed with. O(n) time.
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "curves/checks.hpp"
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
 
 namespace curvewise::curves {
 
+// A curve with points of its own. Flat where the caller's is, for messages.
 class OwnedCurve {
    public:
     // Throws Stopped where the poller says so.
@@ -21,6 +25,41 @@ class OwnedCurve {
     bool is_flat_;
     std::ptrdiff_t dim_;
     std::vector<double> points_;
+};
+
+// The caller's curve where that is of doubles, or a copy of one of floats.
+class CurveInDoubles {
+   public:
+    CurveInDoubles(const CurveView& curve, runtime::Poller& poller) : given_(curve) {
+        if (curve.has_floats()) copy_.emplace(curve, poller);
+    }
+    CurveView view() const noexcept { return copy_ ? copy_->view() : given_; }
+
+   private:
+    CurveView given_;
+    std::optional<OwnedCurve> copy_;
+};
+
+// Checks a curve of a list, which may be of floats: what comes back then refers to these, and
+// LoadedCurve makes of it what is computed with.
+CheckedCurve checked_listed(const CurveView& curve, std::string name, runtime::Poller& poller,
+                            bool on_sphere);
+
+class LoadedCurve {
+   public:
+    // `listed` must outlive this.
+    LoadedCurve(const CheckedCurve& listed, runtime::Poller& poller) : listed_(listed) {
+        if (!listed.curve.has_floats()) return;
+        points_.emplace(listed.curve, poller);
+        copy_ = listed;
+        copy_->curve = points_->view();
+    }
+    const CheckedCurve& checked() const noexcept { return copy_ ? *copy_ : listed_; }
+
+   private:
+    const CheckedCurve& listed_;
+    std::optional<OwnedCurve> points_;
+    std::optional<CheckedCurve> copy_;
 };
 
 }  // namespace curvewise::curves

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "curves/owned_curve.hpp"
 #include "curvewise/nearest.hpp"
 #include "nearest/neighbor_search.hpp"
 #include "pairwise/batch.hpp"
@@ -21,7 +22,9 @@ namespace curvewise {
 namespace {
 
 using curves::CheckedCurve;
+using curves::CurveInDoubles;
 using curves::CurveList;
+using curves::LoadedCurve;
 using nearest::NeighborSearch;
 using pairwise::TargetQuery;
 using pairwise::Targets;
@@ -59,7 +62,8 @@ class QueryRun {
         try {
             NeighborSearch search(targets_, poller);
             for (std::size_t i = next_++; i < queries_.curves.size() && !has_failed_; i = next_++) {
-                const CheckedCurve& P = queries_.curves[i];
+                const LoadedCurve loaded(queries_.curves[i], poller);
+                const CheckedCurve& P = loaded.checked();
                 const std::unique_ptr<TargetQuery> query = targets_.query(P, poller);
                 answer_(search, *query, i, targets_.steps(P.curve.size()),
                         queries_.are_targets ? static_cast<std::ptrdiff_t>(i) : -1);
@@ -110,7 +114,8 @@ class Index::State {
         added->reserve(curves.size());
         for (std::size_t i = 0; i < curves.size(); ++i) {
             const std::string name = CurveList(curves, "curves").name_of(i);
-            added->add(checked_curve(curves[i], name, poller), poller);
+            const CurveInDoubles curve(curves[i], poller);
+            added->add(checked_curve(curve.view(), name, poller), poller);
             if (poller.count_steps(curves[i].size())) throw Stopped();
         }
         poller.finish();  // the last that may throw Stopped
@@ -213,7 +218,7 @@ class Index::State {
         std::set<std::ptrdiff_t> sizes;
         for (const CheckedCurve& P : queries.curves) {
             sizes.insert(P.curve.size());
-            targets_->check(P, poller);
+            targets_->check(LoadedCurve(P, poller).checked(), poller);
         }
         for (const std::ptrdiff_t n : sizes) {
             for (const std::ptrdiff_t m : sizes_) measure_->check_sizes(n, m);
@@ -222,7 +227,8 @@ class Index::State {
     }
 
     CheckedCurve checked_curve(const CurveView& curve, std::string name, Poller& poller) const {
-        return {curve, std::move(name), poller, measure_->requirements().on_sphere};
+        return curves::checked_listed(curve, std::move(name), poller,
+                                      measure_->requirements().on_sphere);
     }
 
     // The shapes of a list, which must agree with those of the index.

@@ -22,7 +22,16 @@ class PairDestination {
     PairDestination(double* out, std::size_t columns, Shape shape) noexcept
         : out_(out), columns_(static_cast<std::ptrdiff_t>(columns)), shape_(shape) {}
 
+    // For pairs counted from this row and this column on.
+    PairDestination from(std::size_t row, std::size_t column) const noexcept {
+        PairDestination result = *this;
+        result.row_ = static_cast<std::ptrdiff_t>(row);
+        result.column_ = static_cast<std::ptrdiff_t>(column);
+        return result;
+    }
     void write(std::ptrdiff_t i, std::ptrdiff_t j, double value) const noexcept {
+        i += row_;
+        j += column_;
         if (shape_ == Shape::condensed) {
             out_[i * columns_ - i * (i + 1) / 2 + j - i - 1] = value;
             return;
@@ -35,6 +44,8 @@ class PairDestination {
     double* out_;
     std::ptrdiff_t columns_;
     Shape shape_;
+    std::ptrdiff_t row_ = 0;
+    std::ptrdiff_t column_ = 0;
 };
 
 // What one thread keeps from one pair to the next.

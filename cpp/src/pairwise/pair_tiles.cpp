@@ -28,8 +28,10 @@ std::ptrdiff_t tile_edge(double pairs, std::ptrdiff_t workers) noexcept {
     return static_cast<std::ptrdiff_t>(std::max(edge, std::ceil(std::sqrt(pairs / max_tiles))));
 }
 
-std::int64_t total_steps(const Sizes& rows, const Sizes& columns, PairSet set,
-                         PairTiles::Steps steps) noexcept {
+}  // namespace
+
+std::int64_t PairTiles::total(const Sizes& rows, const Sizes& columns, PairSet set,
+                              Steps steps) noexcept {
     auto count = static_cast<std::int64_t>(columns.size());
     std::int64_t points = std::accumulate(columns.begin(), columns.end(), std::int64_t{0});
     std::int64_t total = 0;
@@ -43,14 +45,11 @@ std::int64_t total_steps(const Sizes& rows, const Sizes& columns, PairSet set,
     return total;
 }
 
-}  // namespace
-
 PairTiles::PairTiles(const Sizes& rows, const Sizes& columns, PairSet set, Steps steps,
                      std::ptrdiff_t workers)
     : set_(set),
       rows_(largest_first(rows)),
-      columns_(set == PairSet::triangle ? rows_ : largest_first(columns)),
-      total_(total_steps(rows, columns, set, steps)) {
+      columns_(set == PairSet::triangle ? rows_ : largest_first(columns)) {
     const auto height = static_cast<std::ptrdiff_t>(rows.size());
     const auto width = static_cast<std::ptrdiff_t>(columns.size());
     const double share = set == PairSet::triangle ? 0.5 : 1.0;

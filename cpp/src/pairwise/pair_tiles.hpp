@@ -31,14 +31,15 @@ class PairTiles {
     using Steps = std::int64_t (*)(std::int64_t n, std::int64_t count,
                                    std::int64_t points) noexcept;
 
+    // The work of all pairs.
+    static std::int64_t total(const Sizes& rows, const Sizes& columns, PairSet set,
+                              Steps steps) noexcept;
+
     PairTiles(const Sizes& rows, const Sizes& columns, PairSet set, Steps steps,
               std::ptrdiff_t workers);
 
     PairSet set() const noexcept { return set_; }
     const std::vector<Tile>& tiles() const noexcept { return tiles_; }
-    // The work of all pairs.
-    std::int64_t total() const noexcept { return total_; }
-
     // Calls visit(i, j), indices of the lists as given, for every pair of the tile. In a triangle
     // i < j. Ends at once where `visit` returns false.
     template <class Visit>
@@ -63,7 +64,6 @@ class PairTiles {
     std::vector<std::ptrdiff_t> rows_;  // indices, the largest curve first
     std::vector<std::ptrdiff_t> columns_;
     std::vector<Tile> tiles_;
-    std::int64_t total_;
 };
 
 }  // namespace curvewise::pairwise

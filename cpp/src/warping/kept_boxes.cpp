@@ -32,23 +32,23 @@ std::uint16_t distance_of(double side, double whole_side, double part) noexcept 
     return 0;
 }
 
-// Of a level of the tree of so many points.
-std::ptrdiff_t boxes_of(std::ptrdiff_t points, std::ptrdiff_t level) noexcept {
-    return ((points + (BoxTree::leaf_points << level) - 1) >> level) / BoxTree::leaf_points;
-}
-
-// The number of the finest level of so many points with at most `most` boxes.
-std::ptrdiff_t level_of(std::ptrdiff_t points, std::ptrdiff_t most) noexcept {
+// A level of the tree of so many points, from the finest on.
+struct Level {
+    explicit Level(std::ptrdiff_t points) noexcept
+        : boxes((points + BoxTree::leaf_points - 1) / BoxTree::leaf_points) {}
+    void coarsen_to(std::ptrdiff_t most) noexcept {
+        for (; boxes > most; ++level) boxes = (boxes + 1) / 2;
+    }
     std::ptrdiff_t level = 0;
-    while (boxes_of(points, level) > most) ++level;
-    return level;
-}
+    std::ptrdiff_t boxes;
+};
 
 }  // namespace
 
 BoxLevel level_with(const BoxTree& tree, std::ptrdiff_t most) noexcept {
-    const std::ptrdiff_t level = level_of(tree.size(), most);
-    return {level, tree.boxes(level), tree.box(level, 0)};
+    Level found(tree.size());
+    found.coarsen_to(most);
+    return {found.level, found.boxes, tree.box(found.level, 0)};
 }
 
 void KeptBoxes::keep(const BoxTree& tree) {
@@ -86,25 +86,32 @@ void KeptBoxes::take(KeptBoxes& others) noexcept {
 }
 
 BoxLevel KeptBoxes::read(std::ptrdiff_t j, std::size_t limit, const double* whole,
-                         std::ptrdiff_t dim, AlignedBuffer& room) const {
-    const std::uint16_t* from = distances_.data() + first_[static_cast<std::size_t>(j)];
-    const std::ptrdiff_t level = level_of(points(j), most_boxes[limit]);
-    for (std::size_t coarser = 0; coarser < limit; ++coarser) {
-        const std::ptrdiff_t before = level_of(points(j), most_boxes[coarser]);
-        if (before > level_of(points(j), most_boxes[coarser + 1])) {
-            from += boxes_of(points(j), before) * 2 * dim;
+                         std::ptrdiff_t dim, BoxRoom& room) const {
+    Level found(points(j));
+    std::size_t before = 0;
+    found.coarsen_to(most_boxes[0]);
+    for (std::size_t coarser = 1; coarser <= limit; ++coarser) {
+        const Level finer = found;
+        found.coarsen_to(most_boxes[coarser]);
+        if (found.level > finer.level) before += static_cast<std::size_t>(finer.boxes * 2 * dim);
+    }
+    if (room.curve != j || room.level != found.level) {
+        room.curve = j;
+        room.level = found.level;
+        room.boxes.reserve(found.boxes * 2 * dim);
+        const std::uint16_t* from =
+            distances_.data() + first_[static_cast<std::size_t>(j)] + before;
+        double* const to = room.boxes.data();
+        for (std::ptrdiff_t c = 0; c < dim; ++c) {
+            const double part = part_of(whole, c, dim);
+            const double low = whole[c], high = whole[dim + c];
+            for (std::ptrdiff_t k = c; k < found.boxes * 2 * dim; k += 2 * dim) {
+                to[k] = side_at(low, part, from[k]);
+                to[k + dim] = side_at(high, -part, from[k + dim]);
+            }
         }
     }
-    const std::ptrdiff_t count = boxes_of(points(j), level);
-    room.reserve(count * 2 * dim);
-    for (std::ptrdiff_t c = 0; c < dim; ++c) {
-        const double part = part_of(whole, c, dim);
-        for (std::ptrdiff_t k = c; k < count * 2 * dim; k += 2 * dim) {
-            room.data()[k] = side_at(whole[c], part, from[k]);
-            room.data()[k + dim] = side_at(whole[dim + c], -part, from[k + dim]);
-        }
-    }
-    return {level, count, room.data()};
+    return {found.level, found.boxes, room.boxes.data()};
 }
 
 }  // namespace curvewise::warping

@@ -26,10 +26,17 @@ struct BoxLevel {
 // The finest level of a tree with at most so many boxes.
 BoxLevel level_with(const BoxTree& tree, std::ptrdiff_t most) noexcept;
 
+// Boxes that were read: the last ones are often asked for again.
+struct BoxRoom {
+    std::ptrdiff_t curve = -1;
+    std::ptrdiff_t level = -1;
+    AlignedBuffer boxes;
+};
+
 class KeptBoxes {
    public:
-    // Levels of at most so many boxes are kept, the finest of each, coarser ones first.
-    static constexpr std::ptrdiff_t most_boxes[] = {8, 32, 48};
+    // The finest levels of at most so many boxes are kept.
+    static constexpr std::ptrdiff_t most_boxes[] = {48, 32, 8};
 
     void keep(const BoxTree& tree);
     // Adds those of `others`, for which room was made, and leaves it empty.
@@ -41,10 +48,10 @@ class KeptBoxes {
     std::ptrdiff_t points(std::ptrdiff_t j) const noexcept {
         return points_[static_cast<std::size_t>(j)];
     }
-    // The finest level of curve j with at most most_boxes[limit] boxes, read into `room`. `whole`
-    // is the box around the curve, within the usual range.
+    // The finest level of curve j with at most most_boxes[limit] boxes, read into `room`, which
+    // serves this alone. `whole` is the box around the curve, within the usual range.
     BoxLevel read(std::ptrdiff_t j, std::size_t limit, const double* whole, std::ptrdiff_t dim,
-                  AlignedBuffer& room) const;
+                  BoxRoom& room) const;
 
    private:
     std::vector<std::ptrdiff_t> points_;

@@ -177,7 +177,7 @@ double PairBounds::combined(double rows, double columns, double first_row,
 
 template <class Norm>
 double PairBounds::run_bound(std::ptrdiff_t j, int level) {
-    const BoxLevel P = level_with(tree_, KeptBoxes::most_boxes[level - 1]);
+    const BoxLevel P = level_with(tree_, KeptBoxes::most_boxes[KeptBounds::limit_of(level)]);
     const BoxLevel Q = kept_.boxes(j, level, boxes_);
     const std::ptrdiff_t rows = P.count, columns = Q.count, dim = tree_.dim();
     const std::ptrdiff_t row_points = P.points_per_box(), column_points = Q.points_per_box();
@@ -250,7 +250,8 @@ void PairBounds::compute_terms(std::ptrdiff_t j, const PackedCurve& q) {
     least(P_, PointOrder::forward, q.size(), kept_.boxes(j, point_level, boxes_), boxes_of_rows_,
           row_terms_);
     if (!is_open()) {
-        const BoxLevel boxes = level_with(tree_, KeptBoxes::most_boxes[point_level - 1]);
+        const BoxLevel boxes =
+            level_with(tree_, KeptBoxes::most_boxes[KeptBounds::limit_of(point_level)]);
         least(q, PointOrder::reversed, tree_.size(), boxes, boxes_of_columns_, column_terms_);
     }
     terms_of_ = j;

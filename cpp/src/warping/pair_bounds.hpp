@@ -55,9 +55,12 @@ class KeptBounds {
         return summaries_.data() + j * 4 * dim_;
     }
     // Those of a level above 0, in `room`.
-    BoxLevel boxes(std::ptrdiff_t j, int level, AlignedBuffer& room) const {
-        return boxes_.read(j, static_cast<std::size_t>(level - 1), summary(j) + 2 * dim_, dim_,
-                           room);
+    BoxLevel boxes(std::ptrdiff_t j, int level, BoxRoom& room) const {
+        return boxes_.read(j, limit_of(level), summary(j) + 2 * dim_, dim_, room);
+    }
+    // Of a level of the bounds, among KeptBoxes::most_boxes: the finest boxes are the last level's.
+    static constexpr std::size_t limit_of(int level) noexcept {
+        return static_cast<std::size_t>(3 - level);
     }
 
    private:
@@ -137,7 +140,7 @@ class PairBounds {
     BandedBoxes boxes_of_rows_;
     BandedBoxes boxes_of_columns_;
     std::vector<double> run_terms_;
-    AlignedBuffer boxes_;  // of Q
+    BoxRoom boxes_;  // of Q
     CostSums sums_;
 };
 

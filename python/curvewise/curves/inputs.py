@@ -9,7 +9,7 @@ computes: the C++ library for the compiled functions, numpy code for the referen
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -51,7 +51,7 @@ _FEW_POINTS, _MANY_COORDINATES = 3, 10
 _MAY_HOLD_MASKED = (np.ma.MaskedArray, list, tuple)
 
 
-def as_curve(curve: Any, name: str) -> Array:
+def as_curve(curve: Any, name: str, keep_float32: bool = False) -> Array:
     """Return a curve that is to be measured, as :func:`as_numbers`; every column is a coordinate.
 
     Raises
@@ -59,7 +59,7 @@ def as_curve(curve: Any, name: str) -> Array:
     TypeError, ValueError
         As for :func:`as_numbers`; a table whose columns are hardly all meant, see column_roles.py.
     """
-    array = as_numbers(curve, name)
+    array = as_numbers(curve, name, keep_float32)
     names = column_names(curve)
     if len(names) > 2 and not are_coordinates(names):
         chosen = coordinates_among(names)
@@ -71,10 +71,11 @@ def as_curve(curve: Any, name: str) -> Array:
     return array
 
 
-def as_numbers(curve: Any, name: str) -> Array:
+def as_numbers(curve: Any, name: str, keep_float32: bool = False) -> Array:
     """Return `curve` as an aligned, native float64 array of shape (n, d) or (n,).
 
-    A float64 array is returned as it is, without a copy, whatever its strides.
+    A float64 array is returned as it is, without a copy, whatever its strides; where asked for, a
+    float32 array too, which the types do not say: compiled functions of lists take either.
 
     Raises
     ------
@@ -109,6 +110,8 @@ def as_numbers(curve: Any, name: str) -> Array:
             f"{name} has {array.ndim} array dimensions; give shape (n, d), or (n,) for d = 1"
             f"{_advice_on_a_single(array.shape, name)}"
         )
+    if keep_float32 and array.dtype.type is np.float32 and array.dtype.isnative:
+        return _aligned(cast("Array", array))
     # astype, not asarray: float64 of the other byte order must be converted too.
     with np.errstate(over="ignore"):  # a longdouble beyond float64 becomes inf: reported as such
         return _aligned(array.astype(_FLOAT64, copy=False))
@@ -187,10 +190,13 @@ def as_curves(P: Any, Q: Any) -> tuple[Array, Array]:
     return as_curve(P, "P"), as_curve(Q, "Q")
 
 
-def as_curve_list(curves: Any, name: str, like: Any = None) -> list[Array]:
+def as_curve_list(
+    curves: Any, name: str, like: Any = None, *, keep_float32: bool = False
+) -> list[Array]:
     """Return the curves of an array of shape (k, n, d), or of a sequence, as a list of arrays.
 
-    Labels are left out: who keeps them asks labels.py for them first.
+    Labels are left out: who keeps them asks labels.py for them first. float32 as for
+    :func:`as_numbers`.
 
     Raises
     ------
@@ -217,7 +223,16 @@ def as_curve_list(curves: Any, name: str, like: Any = None) -> list[Array]:
         first, first_name = column_names(others[0]), "XA[0]"
     for i, curve in enumerate(given):
         check_column_names(first, first_name, column_names(curve), f"{name}[{i}]")
-    converted = [as_curve(curve, f"{name}[{i}]") for i, curve in enumerate(given)]
+    converted = [
+        # What is to be returned as it is, found without a call.
+        curve
+        if type(curve) is np.ndarray
+        and curve.dtype is _FLOAT64
+        and 1 <= curve.ndim <= 2
+        and curve.flags.aligned
+        else as_curve(curve, f"{name}[{i}]", keep_float32)
+        for i, curve in enumerate(given)
+    ]
     if converted and isinstance(curves, np.ndarray):
         warn_if_transposed(converted[0], f"{name}[0]", f"{name}.transpose(0, 2, 1)")
     elif converted:

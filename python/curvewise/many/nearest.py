@@ -69,9 +69,9 @@ class Index:
     1998; with a window the bound is that of Keogh & Ratanamahatana, 2005, with several boxes for
     one). What this saves depends on the curves: nearly everything where they form groups, nothing
     where all are equally far apart. The other measures, and dtw and frechet with "minkowski",
-    compute every pair. Memory: at most 1.5 times that of the points from 128 numbers a curve on,
-    and little more than once from 1,000 on; some twice for frechet_continuous, and three times for
-    "haversine".
+    compute every pair. Memory: at most 1.5 times that of the points in float64 from 128 numbers a
+    curve on, and little more than once from 1,000 on; some twice for frechet_continuous, and three
+    times for "haversine".
 
     Examples
     --------
@@ -94,7 +94,9 @@ class Index:
         self._measure = _check_names(measure, options)
         self._options = options
         curves, self._labels = unlabelled(curves, "curves")
-        self._index = CompiledIndex(as_curve_list(curves, "curves"), self._measure, options)
+        self._index = CompiledIndex(
+            as_curve_list(curves, "curves", keep_float32=True), self._measure, options
+        )
         self._searching: list[int] = []  # threads; one stands as often as it searches
 
     def __len__(self) -> int:
@@ -140,7 +142,7 @@ class Index:
                 f"the curves of the index have {known} and those to be added {new}; give all of "
                 "them labels, as the keys of a dict, or none"
             )
-        self._index.add(as_curve_list(curves, "curves"))
+        self._index.add(as_curve_list(curves, "curves", keep_float32=True))
         if labels is not None:
             self._labels = [*self._labels, *labels]
 
@@ -365,7 +367,7 @@ class Index:
         if X is None:
             return None, self._labels
         X, names = unlabelled(X, "X")
-        queries = as_curve_list(X, "X")
+        queries = as_curve_list(X, "X", keep_float32=True)
         counted = names is None and self._labels is not None
         return queries, range(len(queries)) if counted else names
 

@@ -137,9 +137,11 @@ def cdist(
 
     Notes
     -----
-    Time: the sum of the pairs'. Memory: the result and a packed copy of the curves (two without
-    XB). Ctrl-C ends a call on the main thread, and all its threads, within 0.2 s; the exceptions
-    stand in docs/reliability.md.
+    Time: the sum of the pairs'. Memory: the result, 0.1 kB a curve, and packed copies of some of
+    the curves at a time: some 100 MB at most, or four curves a thread where that is more. float32
+    stays as it is in memory and is computed in float64, with the bits of a float64 copy.
+    Ctrl-C ends a call on the main thread, and all its threads, within 0.2 s; the exceptions stand
+    in docs/reliability.md.
 
     Examples
     --------
@@ -156,8 +158,9 @@ def cdist(
     """
     XA, row_labels = unlabelled(XA, "XA")
     XB, column_labels = (None, row_labels) if XB is None else unlabelled(XB, "XB")
-    rows = as_curve_list(XA, "XA")
-    columns = None if XB is None else as_curve_list(XB, "XB", like=XA)
+    kept = not callable(measure)
+    rows = as_curve_list(XA, "XA", keep_float32=kept)
+    columns = None if XB is None else as_curve_list(XB, "XB", like=XA, keep_float32=kept)
     shape = (len(rows), len(rows if columns is None else columns))
     out = _checked_out(out, shape, "cdist")
     rows, columns = _apart(rows, out), None if columns is None else _apart(columns, out)
@@ -249,7 +252,7 @@ def pdist(
     np.float64(2.0)
     """
     X, labels = unlabelled(X, "X")
-    curves = as_curve_list(X, "X")
+    curves = as_curve_list(X, "X", keep_float32=not callable(measure))
     out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
     curves = _apart(curves, out)
     limit = _checked_cutoff(cutoff)

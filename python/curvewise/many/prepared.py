@@ -112,7 +112,9 @@ class Prepared:
         if labels is not None or self._is_list(Q):
             for i, curve in enumerate(Q):
                 check_column_names(self._columns, "P", column_names(curve), f"Q[{i}]")
-            return labelled_column(self._prepared.values(as_curve_list(Q, "Q"), workers), labels)
+            return labelled_column(
+                self._prepared.values(as_curve_list(Q, "Q", keep_float32=True), workers), labels
+            )
         check_column_names(self._columns, "P", column_names(Q), "Q")
         return self._prepared.value(as_curve(Q, "Q"))
 

@@ -2,6 +2,7 @@
 // Control hears of a call, and how it ends one.
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -272,10 +273,51 @@ void a_stopped_call_throws() {
     }
 }
 
+// Every layout that two strides can describe, and doubles among them.
+void floats_are_computed_in_doubles() {
+    std::vector<Curve> curves = random_curves({9, 2, 40, 30, 7}, 2);
+    std::vector<std::vector<float>> floats;
+    for (Curve& curve : curves) {
+        floats.emplace_back();
+        for (std::ptrdiff_t c = 0; c < 2; ++c) {
+            for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+                floats.back().push_back(static_cast<float>(curve(i, c)));
+                curve(i, c) = floats.back().back();
+            }
+        }
+    }
+    const std::vector<CurveView> doubles = views_of(curves);
+    std::vector<CurveView> X;
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        X.emplace_back(floats[k].data(), curves[k].size(), 2, 1, curves[k].size());
+    }
+    X[2] = doubles[2];
+    for (const Measure& measure : measures()) {
+        const check::Note note("measure " + std::to_string(measure.index()));
+        std::vector<double> expected(25), found(25);
+        cdist(doubles, measure, expected.data());
+        cdist(X, measure, found.data());
+        CHECK_EQUAL(found, expected);
+        cdist(X, doubles, measure, found.data());
+        CHECK_EQUAL(found, expected);
+        Prepared(X[4], measure)(X, found.data());
+        CHECK(std::equal(found.begin(), found.begin() + 5, expected.begin() + 20));
+        Index known(doubles, measure), index(X, measure);
+        std::vector<std::int64_t> known_places(10), places(10);
+        known.kneighbors(doubles, 2, expected.data(), known_places.data());
+        index.kneighbors(X, 2, found.data(), places.data());
+        CHECK_EQUAL(places, known_places);
+        CHECK(std::equal(found.begin(), found.begin() + 10, expected.begin()));
+    }
+    CHECK_THROWS(dtw(X[0], X[1]), std::invalid_argument,
+                 "P has floats, which only lists may have; give doubles");
+}
+
 }  // namespace
 
 int main() {
     return check::run({{"batches equal single calls", batches_equal_single_calls},
+                       {"floats are computed in doubles", floats_are_computed_in_doubles},
                        {"prepared equals single calls", prepared_equals_single_calls},
                        {"symmetry is known", symmetry_is_known},
                        {"any number of workers", any_number_of_workers},

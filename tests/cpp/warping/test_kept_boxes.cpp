@@ -14,8 +14,8 @@
 namespace {
 
 using curvewise::curves::RangeScale;
-using curvewise::runtime::AlignedBuffer;
 using curvewise::warping::BoxLevel;
+using curvewise::warping::BoxRoom;
 using curvewise::warping::BoxTree;
 using curvewise::warping::KeptBoxes;
 using curvewise::warping::level_with;
@@ -75,7 +75,7 @@ void boxes_enclose(std::ptrdiff_t dim, Random& random) {
         kept.take(added);
         CHECK_EQUAL(added.size(), 0);
     }
-    AlignedBuffer room;
+    BoxRoom room;
     for (std::ptrdiff_t j = 0; j < kept.size(); ++j) {
         const BoxTree& tree = sides[static_cast<std::size_t>(j)].tree;
         const check::Note note("curve " + std::to_string(j) + " of " + std::to_string(tree.size()));
