@@ -20,7 +20,8 @@
 // Steps 2 to 4 are done to 10 bits first, which finds the bottleneck that counts, and then to the
 // last bit. What a walk reached with one radius is reached with every larger one, so that a walk
 // may begin where one with a smaller radius passed. One walk for curves whose witnesses decide,
-// four or five for others that are alike; memory O(n + m).
+// four or five for others that are alike; memory O(n + m). Where the windows of step 2 get too large
+// (white noise), the search is given up for one from both ends (both_ends.hpp).
 #pragma once
 
 #include <algorithm>
@@ -30,6 +31,7 @@
 #include <utility>
 #include <vector>
 
+#include "continuous/both_ends.hpp"
 #include "continuous/boxed_curve.hpp"
 #include "continuous/coupling.hpp"
 #include "continuous/exact_signs.hpp"
@@ -38,59 +40,12 @@
 #include "continuous/least_double.hpp"
 #include "continuous/nearest.hpp"
 #include "continuous/reachable.hpp"
+#include "continuous/trail.hpp"
 #include "curves/range_scale.hpp"
 #include "curvewise/curve.hpp"
 #include "runtime/poller.hpp"
 
 namespace curvewise::continuous {
-
-// What was reached of some rows, a few of them and not more than so many runs in all.
-class Trail {
-   public:
-    struct Mark {
-        std::ptrdiff_t row;
-        Runs runs;
-    };
-
-    explicit Trail(std::ptrdiff_t most_runs) noexcept : most_runs_(most_runs) {}
-
-    void note(std::ptrdiff_t row, const Runs& runs) {
-        if (row % stride_ != 0) return;
-        marks_.push_back({row, runs});
-        held_ += static_cast<std::ptrdiff_t>(runs.size());
-        if (held_ > most_runs_) thin_out();
-    }
-    void forget_from(std::ptrdiff_t row) {
-        while (!marks_.empty() && marks_.back().row >= row) {
-            held_ -= static_cast<std::ptrdiff_t>(marks_.back().runs.size());
-            marks_.pop_back();
-        }
-    }
-    // The last mark at `row` or before it. Row 0 is always marked.
-    const Mark& before(std::ptrdiff_t row) const noexcept {
-        std::size_t k = marks_.size() - 1;
-        while (k > 0 && marks_[k].row > row) --k;
-        return marks_[k];
-    }
-
-   private:
-    void thin_out() {
-        stride_ *= 2;
-        held_ = 0;
-        std::size_t kept = 0;
-        for (Mark& mark : marks_) {
-            if (mark.row % stride_ != 0) continue;
-            held_ += static_cast<std::ptrdiff_t>(mark.runs.size());
-            std::swap(marks_[kept++], mark);
-        }
-        marks_.resize(kept);
-    }
-
-    std::ptrdiff_t most_runs_;
-    std::ptrdiff_t held_ = 0;
-    std::ptrdiff_t stride_ = 8;
-    std::vector<Mark> marks_;
-};
 
 // What a search keeps from one pair to the next.
 struct LeashMemory {
@@ -103,7 +58,9 @@ class LeashSearch {
     // The curves, and the same boxed and scaled. The first one gives the rows.
     LeashSearch(const CurveView& P, const CurveView& Q, const BoxedCurve& p, const BoxedCurve& q,
                 const RangeScale& range, Poller& poller, LeashMemory& memory)
-        : range_(range),
+        : P_(P),
+          Q_(Q),
+          range_(range),
           poller_(poller),
           p_(p),
           q_(q),
@@ -148,13 +105,25 @@ class LeashSearch {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         if (cutoff < infinity && !is_within(cutoff)) return infinity;
         find_witnesses();
-        double low = least_of_witnesses();
+        const double low = least_of_witnesses();
+        const double found = value_above(low);
+        if (!is_astray()) return found;
+        return BothEnds<Dim>(P_, Q_, diagram_, range_, poller_).least_within(low);
+    }
+
+   private:
+    static constexpr double none = -1.0;
+
+    // The least double within which the curves are. It is not below `low`, which holds the
+    // witnesses. Of no use where the search is astray.
+    double value_above(double low) {
         if (is_within(low)) return low;  // and nothing below it holds the witnesses
-        double high = infinity;
+        double high = std::numeric_limits<double>::infinity();
         std::ptrdiff_t window = 16;
         for (const std::uint64_t tolerance : {std::uint64_t{1} << 42, std::uint64_t{1}}) {
             for (;;) {
                 high = climb(low, high, window, tolerance);
+                if (is_astray()) return high;
                 const double less = below(high, tolerance, low);
                 if (less == low || !is_within(less)) {
                     low = less;
@@ -167,8 +136,11 @@ class LeashSearch {
         return high;
     }
 
-   private:
-    static constexpr double none = -1.0;
+    // Whether the windows have taken as many steps as half a walk does where all is reached. Rows of
+    // which little is reached are passed sooner than that pays.
+    bool is_astray() const noexcept {
+        return cells_around_ > 128 * (p_.size() + q_.size()) && rows_around_ > last_ / 2;
+    }
 
     // The number that is `tolerance` doubles below x, not below `low`.
     static double below(double x, std::uint64_t tolerance, double low) noexcept {
@@ -228,8 +200,14 @@ class LeashSearch {
     std::ptrdiff_t walk(std::ptrdiff_t from, std::ptrdiff_t to, const Radius& radius,
                         Trail* trail) {
         for (std::ptrdiff_t i = from; i < to; ++i) {
-            poller_.spend(8 + 2 * diagram_.advance(i, runs_, radius, next_));
+            const std::ptrdiff_t cells = diagram_.advance(i, runs_, radius, next_);
+            poller_.spend(8 + 2 * cells);
             if (next_.empty()) return i;
+            if (trail == nullptr) {
+                cells_around_ += cells;
+                rows_around_ += 1;
+                if (is_astray()) return i;
+            }
             std::swap(runs_, next_);
             if (trail != nullptr) trail->note(i + 1, runs_);
         }
@@ -287,6 +265,7 @@ class LeashSearch {
         }
     }
 
+    CurveView P_, Q_;
     RangeScale range_;
     Poller& poller_;
     const BoxedCurve& p_;
@@ -300,6 +279,8 @@ class LeashSearch {
     Runs& runs_;
     Runs& next_;
     Trail trail_;
+    std::ptrdiff_t cells_around_ = 0;  // passed in windows
+    std::ptrdiff_t rows_around_ = 0;
     double trail_radius_ = none;  // of the walk from row 0 that left the trail
     std::ptrdiff_t trail_end_ = 0;
 };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "check.hpp"
+#include "continuous/both_ends.hpp"
 #include "continuous/leash_search.hpp"
 #include "curves.hpp"
 #include "curvewise/frechet_continuous.hpp"
@@ -21,7 +22,14 @@ namespace {
 using curvewise::frechet_continuous;
 using curvewise::frechet_within;
 using curvewise::continuous::bits_of;
+using curvewise::continuous::BothEnds;
+using curvewise::continuous::BoxedCurve;
+using curvewise::continuous::Diagram;
 using curvewise::continuous::double_of;
+using curvewise::continuous::ExactSigns;
+using curvewise::continuous::FreeSet;
+using curvewise::continuous::Radius;
+using curvewise::continuous::RangeScale;
 using curvewise::continuous::Runs;
 using curvewise::continuous::Trail;
 using test::Curve;
@@ -147,6 +155,56 @@ void zigzags() {
     }
 }
 
+// What the search from both ends finds, of curves whose squares need no scaling.
+double least_from_both_ends(const Curve& P, const Curve& Q) {
+    curvewise::runtime::Poller poller(nullptr);
+    const RangeScale range(1.0);
+    const BoxedCurve p(P, range, poller), q(Q, range, poller);
+    const Diagram<0> diagram({p, q, ExactSigns(P, Q)}, {q, p, ExactSigns(Q, P)});
+    const auto holds_ends = [&](double distance) {
+        const Radius radius(distance, range, P.dim(), FreeSet::closed);
+        return diagram.corner_is_free(0, 0, radius) &&
+               diagram.corner_is_free(p.size() - 1, q.size() - 1, radius);
+    };
+    const double low = holds_ends(0.0) ? 0.0
+                                       : curvewise::continuous::least_double(
+                                             0.0, std::numeric_limits<double>::infinity(),
+                                             std::uint64_t{1} << 40, 1, holds_ends);
+    return BothEnds<0>(P, Q, diagram, range, poller).least_within(low);
+}
+
+// Few points: on lattices, where many leashes are equally long, on a line, repeated, alone, back
+// and forth; and noise.
+void walks_from_both_ends() {
+    Random random(24);
+    for (int round = 0; round < 600; ++round) {
+        const check::Note note("round " + std::to_string(round));
+        const std::ptrdiff_t dim = 1 + random.index(3);
+        const auto draw = [&] {
+            const std::ptrdiff_t n = 1 + random.index(round % 20 == 0 ? 60 : 10);
+            return round % 3 == 0 ? random.curve(n, dim) : random.lattice_curve(n, dim);
+        };
+        const Curve P = draw();
+        Curve Q = draw();
+        if (round % 4 == 0) Q = P.part(random.index(P.size()), P.size());
+        CHECK_EQUAL(least_from_both_ends(P, Q), least_within(P, Q));
+        CHECK_EQUAL(least_from_both_ends(Q, P), least_within(P, Q));
+    }
+}
+
+// Noise that a single walk is led astray by: what it reaches grows to be most of the diagram, and
+// the row where it dies says nothing.
+void noise() {
+    Random random(25);
+    for (int round = 0; round < 12; ++round) {
+        const check::Note note("round " + std::to_string(round));
+        const std::ptrdiff_t n = 150 + 20 * random.index(8);
+        const Curve P = random.curve(n, 2), Q = random.curve(n - random.index(30), 2);
+        check_value(P, Q);
+        CHECK_EQUAL(least_from_both_ends(P, Q), frechet_continuous(P, Q));
+    }
+}
+
 // Rows are dropped where there are too many, each with its runs; row 0 stays, and those that stay
 // are spread evenly.
 void a_trail_is_thinned_out() {
@@ -176,5 +234,7 @@ int main() {
     return check::run({{"corridors that part", corridors_that_part},
                        {"peaks and pits", peaks_and_pits},
                        {"zigzags", zigzags},
+                       {"walks from both ends", walks_from_both_ends},
+                       {"noise", noise},
                        {"a trail is thinned out", a_trail_is_thinned_out}});
 }
