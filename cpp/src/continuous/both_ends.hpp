@@ -244,7 +244,9 @@ class BothEnds {
         if (!high.is_own_end()) {
             high = {last_ - high.index, high.radius, high.scaled_radius, 0.0, Bound::unknown};
         }
-        return !diagram_.second_edges().from(run.first, run.low, {false, {}, high}, radius).is_empty;
+        return !diagram_.second_edges()
+                    .from(run.first, run.low, {false, {}, high}, radius)
+                    .is_empty;
     }
 
     RangeScale range_;

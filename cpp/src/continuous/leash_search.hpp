@@ -20,8 +20,8 @@
 // Steps 2 to 4 are done to 10 bits first, which finds the bottleneck that counts, and then to the
 // last bit. What a walk reached with one radius is reached with every larger one, so that a walk
 // may begin where one with a smaller radius passed. One walk for curves whose witnesses decide,
-// four or five for others that are alike; memory O(n + m). Where the windows of step 2 get too large
-// (white noise), the search is given up for one from both ends (both_ends.hpp).
+// four or five for others that are alike; memory O(n + m). Where the windows of step 2 get too
+// large (white noise), the search is given up for one from both ends (both_ends.hpp).
 #pragma once
 
 #include <algorithm>
@@ -136,8 +136,8 @@ class LeashSearch {
         return high;
     }
 
-    // Whether the windows have taken as many steps as half a walk does where all is reached. Rows of
-    // which little is reached are passed sooner than that pays.
+    // Whether the windows have taken as many steps as half a walk does where all is reached. Rows
+    // of which little is reached are passed sooner than that pays.
     bool is_astray() const noexcept {
         return cells_around_ > 128 * (p_.size() + q_.size()) && rows_around_ > last_ / 2;
     }
