@@ -163,6 +163,8 @@ class Valleys:
         ("area", [float(5 + i) for i in range(40)], 10, 1),  # the most
         ("area", [5.0] * 30, 30, 30),  # flat ground: short starts, and more of them
         ("frechet", [float(5 + i) for i in range(40)], 30, 1),  # and of those by frechet
+        ("dtw", [float(5 + i) for i in range(40)], 30, 1),  # and by dtw
+        ("dtw", [5.0 + i / 1000.0 for i in range(40)], 9, 9),  # those near the best run do not tell
     ],
 )
 def test_starts_that_disagree_are_followed_by_others(
@@ -197,6 +199,7 @@ def test_starts_that_disagree_are_followed_by_others(
     said = [record.getMessage() for record in caplog.records]
     assert len(said) == (alike != count)
     assert all("more follow, of some 10 runs each" in text for text in said)
+    assert {rules.left_behind for rules in Valleys.rules} == {0.2 if measure == "dtw" else 0.0}
     # Where the runs promise most regions are smaller.
     radii = [rules.first_radius for rules in Valleys.rules[3:6]]
     if measure == "frechet":  # of many valleys the lowest are near the best run
@@ -204,7 +207,7 @@ def test_starts_that_disagree_are_followed_by_others(
         assert reaches == [HOP] * (count - 3)
     else:
         assert radii == [0.25, 0.5, 0.25]
-        assert set(reaches) == {1.0}
+        assert set(reaches) == {HOP if measure == "dtw" else 1.0}
 
 
 def test_a_bound_that_was_not_meant_has_not_converged():

@@ -44,6 +44,7 @@ class Rules:
     gain: float
     maxiter: int = 500
     always_fresh: bool = False
+    left_behind: float = 0.0  # ends where it promises less, of what it is above the best run
 
 
 class Descent(ABC):
@@ -111,6 +112,9 @@ class Descent(ABC):
                 yield from self._looks_around(radius)
             candidate, promised = self._lowest(radius)
             least = max(self._runs.negligible, rules.gain * self.value)
+            above = self.value - min(self._runs.values)
+            if rules.left_behind * above > max(promised, 0.0):
+                return Finish(False, "another start is far ahead")
             if promised <= least or radius < rules.tol:
                 if (yield from self._looks_around(radius)):
                     radius = max(radius, _AFTER_LOOK * self._reach(radius))

@@ -5,8 +5,9 @@ in a row each has a quarter of every axis to itself. (A sequence of low discrepa
 for so few points in so many dimensions, and scipy's takes half a second to import.) As long as
 starts end more than 1 % apart others follow, and every second of these begins where the runs so far
 promise most, or beside the best of them, in a smaller region, with a surface of the runs that are
-there, which costs one run in the place of k + 1: a hop out of a valley into the next. By frechet,
-which has many valleys beside each other, all of them do.
+there, which costs one run in the place of k + 1: a hop out of a valley into the next. By dtw,
+whose valleys have long floors, these are near the best run, and by frechet, which has many valleys
+beside each other, all later starts are.
 
 M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
 input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245;
@@ -49,12 +50,16 @@ _TRY = 'is flat or stepped here; try another method ("de"), measure or start ('
 
 
 class End(NamedTuple):
-    """How one start ended: from which value, at which and where, and what is said of it."""
+    """How one start ended: from which value, at which and where, and what is said of it.
+
+    One that stayed near the best run mostly comes back to it, which says nothing of other places.
+    """
 
     first: float
     value: float
     place: Array
     finish: Finish
+    stayed_near: bool = False
 
 
 def places(k: int, random: np.random.Generator) -> Iterator[Array]:
@@ -80,10 +85,10 @@ def hop(best: Array, random: np.random.Generator) -> Array:
     return np.clip(best + random.uniform(-HOP, HOP, best.size), 0.0, 1.0)
 
 
-def are_alike(ends: Sequence[End], negligible: float) -> int:
-    """Return how many of some starts have ended as low as the best of them."""
-    best = min(end.value for end in ends)
-    return sum(end.value <= _ALIKE * best + _nothing(ends, negligible) for end in ends)
+def are_alike(ends: Sequence[End], negligible: float, among: Sequence[End] | None = None) -> int:
+    """Return how many of some starts, or among a part of them, have ended as low as the best."""
+    most = _ALIKE * min(end.value for end in ends) + _nothing(ends, negligible)
+    return sum(end.value <= most for end in (ends if among is None else among))
 
 
 def check_regions(first_radius: float, diff_step: float, starts: int, most_starts: int) -> None:

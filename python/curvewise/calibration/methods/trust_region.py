@@ -43,8 +43,11 @@ __all__ = ["TrustRegion"]
 # Starts that have to come to the best value beyond `starts`: of all that there are, and where
 # others have ended elsewhere.
 _SURE, _NOT_SO = 2, 3
-# Times as many starts, where the measure is flat, or has many valleys beside each other (frechet).
+# Times as many starts, where they are short: where the measure is flat, and by the measures whose
+# later starts are near the best run.
 _OF_SHORT_ONES = 3
+# By dtw a start ends where its surface promises less than this part of what it is above the best.
+_LEFT_BEHIND = 0.2
 
 _log = logging.getLogger("curvewise.calibration")
 
@@ -72,9 +75,9 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
     most_starts : int, default 10
         Others follow until two more than `starts` have ended alike; where some have ended more than
         1 % above the best, until three more have come to it, or so many have been made in all.
-        Every second of them begins where a surface through all runs so far promises most. By
-        "frechet" all do, near the best run, and where the measure is flat or by "frechet" there are
-        three times as many.
+        Every second of them begins where a surface through all runs so far promises most, by "dtw"
+        near the best run. By "frechet" all do, near the best run. Where the measure is flat, and by
+        these two, there are three times as many.
     initial_range : float, optional
         Half the size of the first region of trust, as a fraction of the bounds' range; the first
         differences are over half of that. By default 0.5, and 0.1 where :func:`identify_each`
@@ -177,6 +180,7 @@ class _Starts:
         self._places = places(ledger.dimensions, self._random)
         self._runs = CurveRuns(ledger)
         self._is_leash = is_leash(ledger.objective)
+        self._is_path = all(measure == "dtw" for measure in ledger.objective.measures)
         self.begun, self._running = 0, 0
         self.ends: list[End] = []
 
@@ -191,16 +195,17 @@ class _Starts:
         options, ends = self._options, self.ends
         if self._given is not None or len(ends) < 2:
             return []
-        alike = are_alike(ends, self._ledger.negligible)
+        telling = [end for end in ends if not end.stayed_near]
+        alike = are_alike(ends, self._ledger.negligible, telling)
         flat = is_flat(ends, self._ledger.negligible)
-        if not flat and alike >= options.starts + (_SURE if alike == len(ends) else _NOT_SO):
+        if not flat and alike >= options.starts + (_SURE if alike == len(telling) else _NOT_SO):
             return []
-        # On flat ground a start is short, and the way down is found by chance; and so it is among
-        # many valleys, where later starts have the surfaces of those before.
-        is_short = flat or self._is_leash
+        # On flat ground a start is short, and the way down is found by chance; and so it is near
+        # the best run, where later starts have the surfaces of those before.
+        is_short = flat or self._is_path or self._is_leash
         most = _OF_SHORT_ONES * options.most_starts if is_short else options.most_starts
         count = min(options.starts - self._running, most - self.begun)
-        if count > 0 and self.begun == options.starts and alike < len(ends):
+        if count > 0 and self.begun == options.starts and alike < len(telling):
             _log.info(
                 "starts end more than 1 %% apart; up to %d more follow, of some %d runs each",
                 most - self.begun,
@@ -213,29 +218,34 @@ class _Starts:
 
         And beside the best run where they promise nothing but where starts have ended. Of the many
         valleys of frechet the lowest are beside each other: there all later starts are such, and
-        near the best run, unless the ground is flat.
+        near the best run, unless the ground is flat. Those of dtw have long floors, along which a
+        search comes down slowly: a start that is far above the best run is left behind, and every
+        second one goes on near that.
         """
         rules = self._options.rules
+        if self._is_path:
+            rules = replace(rules, left_behind=_LEFT_BEHIND)
         later = self.begun - self._options.starts
-        is_near = later >= 0 and self._is_leash
+        is_near = later >= 0 and (self._is_path or self._is_leash)
         is_near = is_near and not is_flat(self.ends, self._ledger.negligible)
-        if later >= 0 and (later % 2 == 0 or is_near):
+        if later >= 0 and (later % 2 == 0 or is_near and self._is_leash):
             reach = HOP if is_near else 1.0
             place = promising_place(self._ledger, self._random, self._runs, self.ends, reach)
             if place is None:
                 place = hop(self._ledger.best_unit, self._random)
             smaller = replace(rules, first_radius=min(HOP, rules.first_radius))
-            return self._descent(place, smaller)
+            return self._descent(place, smaller, stays_near=is_near and self._is_path)
         return self._descent(next(self._places), rules)
 
-    def _descent(self, place: Array, rules: Rules) -> Part[None]:
+    def _descent(self, place: Array, rules: Rules, *, stays_near: bool = False) -> Part[None]:
         random = np.random.default_rng((self._seed, self.begun))
         self.begun += 1
         self._running += 1
-        return self._ended(CurveDescent(self._ledger, random, rules, self._runs).course(place))
+        descent = CurveDescent(self._ledger, random, rules, self._runs)
+        return self._ended(descent.course(place), stays_near)
 
-    def _ended(self, course: Part[End | None]) -> Part[None]:
+    def _ended(self, course: Part[End | None], stays_near: bool) -> Part[None]:
         end = yield from course
         self._running -= 1
         if end is not None:
-            self.ends.append(end)
+            self.ends.append(end._replace(stayed_near=stays_near))
