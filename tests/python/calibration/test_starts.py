@@ -15,6 +15,8 @@ from test_methods import BOUNDS, TRUE, model, quiet_identify
 
 from curvewise import datasets
 from curvewise.calibration import Criterion, Objective, TrustRegion
+from curvewise.calibration.methods.descent import Descent, Rules
+from curvewise.calibration.methods.shared_runs import SharedRuns
 from curvewise.calibration.methods.side_by_side import Part, side_by_side
 from curvewise.calibration.methods.starts import (
     HOP,
@@ -208,6 +210,55 @@ def test_starts_that_disagree_are_followed_by_others(
     else:
         assert radii == [0.25, 0.5, 0.25]
         assert set(reaches) == {HOP if measure == "dtw" else 1.0}
+
+
+class Slow(Descent):
+    """A start whose surface promises a tenth at every step, of which it gains nothing."""
+
+    looks_at_once = True
+
+    def _lowest(self, radius: float) -> tuple[np.ndarray, float]:
+        return self.centre + 0.01, 0.1
+
+    def _end(self, radius: float, promised: float, least: float) -> Finish:
+        return Finish(True, "arrived")
+
+
+class Known(SharedRuns):
+    """Runs of which nothing but the values counts."""
+
+    negligible = 0.0
+
+    def _taken(self, run: Any) -> tuple[np.ndarray, float]:
+        return np.zeros(1), run.value
+
+    def _known_slopes(self, number: int, by_curve: Any) -> None:
+        return None
+
+
+@pytest.mark.parametrize(
+    ("best", "message"), [(9.51, "2 steps"), (9.49, "another start is far ahead")]
+)
+def test_a_start_far_above_the_best_run_is_left_behind(best, message):
+    """It is 10, and promises to gain a fifth of what it is above the best at 9.5."""
+    ledger: Any = SimpleNamespace(
+        dimensions=K,
+        has_slopes=True,
+        slopes=lambda point: None,
+        earlier_runs=[(np.zeros(K), SimpleNamespace(failed=False, value=best))],
+    )
+    rules = Rules(0.1, 0.02, 1e-3, 1e-3, maxiter=2, left_behind=0.2)
+    course = Slow(np.random.default_rng(0), rules, Known(ledger)).course(np.full(K, 0.5))
+    runs: Any = None
+    end = None
+    while end is None:
+        try:
+            asked = course.send(runs)
+        except StopIteration as stopped:
+            end = stopped.value
+        else:
+            runs = [SimpleNamespace(failed=False, value=10.0) for _ in asked]
+    assert end.finish.message == message
 
 
 def test_a_bound_that_was_not_meant_has_not_converged():

@@ -228,7 +228,7 @@ class _Starts:
         later = self.begun - self._options.starts
         is_near = later >= 0 and (self._is_path or self._is_leash)
         is_near = is_near and not is_flat(self.ends, self._ledger.negligible)
-        if later >= 0 and (later % 2 == 0 or is_near and self._is_leash):
+        if later >= 0 and (later % 2 == 0 or (is_near and self._is_leash)):
             reach = HOP if is_near else 1.0
             place = promising_place(self._ledger, self._random, self._runs, self.ends, reach)
             if place is None:
