@@ -76,8 +76,8 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
         Others follow until two more than `starts` have ended alike; where some have ended more than
         1 % above the best, until three more have come to it, or so many have been made in all.
         Every second of them begins where a surface through all runs so far promises most, by "dtw"
-        near the best run. By "frechet" all do, near the best run. Where the measure is flat, and by
-        these two, there are three times as many.
+        near the best run; those then do not count as alike. By "frechet" all begin near the best
+        run. Where the measure is flat, and by these two, there are three times as many.
     initial_range : float, optional
         Half the size of the first region of trust, as a fraction of the bounds' range; the first
         differences are over half of that. By default 0.5, and 0.1 where :func:`identify_each`
