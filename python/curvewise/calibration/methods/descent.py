@@ -112,8 +112,7 @@ class Descent(ABC):
                 yield from self._looks_around(radius)
             candidate, promised = self._lowest(radius)
             least = max(self._runs.negligible, rules.gain * self.value)
-            above = self.value - min(self._runs.values)
-            if rules.left_behind * above > max(promised, 0.0):
+            if rules.left_behind and self._is_behind(promised):
                 return Finish(False, "another start is far ahead")
             if promised <= least or radius < rules.tol:
                 if (yield from self._looks_around(radius)):
@@ -134,6 +133,11 @@ class Descent(ABC):
             elif ratio < _FAIR:
                 radius = max(_AFTER_POOR, self._after_failure) * length
         return Finish(False, f"{rules.maxiter} steps")
+
+    def _is_behind(self, promised: float) -> bool:
+        """Return whether the best run of all starts is too far ahead for what is promised."""
+        above = self.value - min(self._runs.values)
+        return self._rules.left_behind * above > max(promised, 0.0)
 
     def _run(self, points: Array) -> Part[None]:
         """Run points, and move to the best of them if it is better than all before."""
