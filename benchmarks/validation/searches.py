@@ -209,6 +209,12 @@ def row(found: list[dict[str, Any]], best: float) -> str:
     )
 
 
+def as_lines(results: dict[str, dict[str, Any]]) -> str:
+    """Return JSON with a search a line."""
+    lines = [f"{json.dumps(key)}: {json.dumps(results[key])}" for key in sorted(results)]
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
 def main() -> None:
     """Search, print, write."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
@@ -228,7 +234,7 @@ def main() -> None:
         for future in as_completed(futures):
             key, result = futures[future], future.result()
             results[key] = result
-            path.write_text(json.dumps(dict(sorted(results.items())), indent=0) + "\n")
+            path.write_text(as_lines(results))
             print(key, result["steps"][-1], result["message"], flush=True)
     (RESULTS / "searches.md").write_text(table(results))
     print(table(results))
