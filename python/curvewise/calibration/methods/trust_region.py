@@ -46,7 +46,8 @@ _SURE, _NOT_SO = 2, 3
 # Times as many starts, where they are short: where the measure is flat, and by the measures whose
 # later starts are near the best run.
 _OF_SHORT_ONES = 3
-# By dtw a start ends where its surface promises less than this part of what it is above the best.
+# By dtw and frechet a start ends where its surface promises less than this part of what it is above
+# the best.
 _LEFT_BEHIND = 0.2
 
 _log = logging.getLogger("curvewise.calibration")
@@ -223,7 +224,7 @@ class _Starts:
         second one goes on near that.
         """
         rules = self._options.rules
-        if self._is_path:
+        if self._is_path or self._is_leash:
             rules = replace(rules, left_behind=_LEFT_BEHIND)
         later = self.begun - self._options.starts
         is_near = later >= 0 and (self._is_path or self._is_leash)
