@@ -220,8 +220,8 @@ class _Starts:
         And beside the best run where they promise nothing but where starts have ended. Of the many
         valleys of frechet the lowest are beside each other: there all later starts are such, and
         near the best run, unless the ground is flat. Those of dtw have long floors, along which a
-        search comes down slowly: a start that is far above the best run is left behind, and every
-        second one goes on near that.
+        search comes down slowly: every second one goes on near the best run. By both a start that
+        is far above that is left behind.
         """
         rules = self._options.rules
         if self._is_path or self._is_leash:
