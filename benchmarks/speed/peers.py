@@ -106,7 +106,7 @@ def main() -> None:
         f"{machine['cpu']}, {machine['cores']} cores; curvewise at {timing.active_level()}, "
         f"one thread; commit {machine['commit']}"
     )
-    print("x v4: the time divided by that of curvewise v4 at the same n, likewise the others")
+    print("x <level>: the time divided by that of curvewise at this level and n")
     print(f"*: a call at the table's n would take over {effort.call_seconds} s; timed at this n")
     modules = load_modules()
     results: list[dict[str, Any]] = []
