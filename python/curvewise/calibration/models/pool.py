@@ -2,13 +2,13 @@
 
 With one worker the model is called here. With more, a pool of processes is started once and each
 gets the model once, pickled; outcomes come as they are finished. Calls may be begun before anybody
-waits for them. Ctrl-C stops the model in every
-process: workers raise KeyboardInterrupt while the model runs, so that it can end what it started (a
-solver, say), and ignore it while they are idle. Where SIGINT is ignored, as in what a shell script
-starts in the background, SIGTERM takes its place between these processes. A worker that dies
-(killed, or crashed in the model's compiled code) takes the pool with it; the points under way are
-then run again one by one, each in a fresh process, so that only the one that kills its process
-counts as failed. Workers end by themselves when the process that started them is killed.
+waits for them. Ctrl-C stops the model in every process: workers raise KeyboardInterrupt while the
+model runs, so that it can end what it started (a solver, say), and ignore it while they are idle.
+Where SIGINT is ignored, as in what a shell script starts in the background, SIGTERM takes its place
+between these processes. A worker that dies (killed, or crashed in the model's compiled code) takes
+the pool with it; the points under way are then run again one by one, each in a fresh process, so
+that only the one that kills its process counts as failed. Workers end by themselves when the
+process that started them is killed.
 
 An executor of the caller's takes the place of these processes: dask's, a cluster's. It is left as
 it was found; what it still runs after Ctrl-C is its owner's to stop.
