@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy import stats
+from scipy import signal, stats
 
 from curvewise.calibration import Problem, identify
 from curvewise.calibration.surfaces.surfaces import Responses, Surfaces
 from curvewise.calibration.uncertainty.correlation import (
     Correlation,
     Model,
+    _carried_on,
     _likelihood,
     correlation_of,
     white,
@@ -225,3 +226,11 @@ def test_intervals_of_area_hold_the_truth_where_the_model_is_wrong():
         intervals = found.uncertainty().intervals
         inside.append([a <= TRUTH[name] <= b for name, (a, b) in intervals.items()])
     assert np.mean(inside) > 0.9
+
+
+@pytest.mark.parametrize("rho", [0.0, 0.37, 0.9999])
+@pytest.mark.parametrize("shape", [(1,), (300,), (1, 3), (2, 3), (300, 8)])
+def test_what_is_carried_on_is_that_of_a_filter(shape, rho) -> None:
+    columns = np.random.default_rng(3).normal(size=shape)
+    filtered = signal.lfilter([1.0], [1.0, -rho], columns, axis=0)
+    np.testing.assert_array_equal(_carried_on(columns, rho), filtered)

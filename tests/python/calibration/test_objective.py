@@ -238,6 +238,51 @@ def test_residuals_add_up_to_the_value(measure):
     assert (failed**2).sum() == pytest.approx(penalty[0] + 3.0 * penalty[1])
 
 
+LEAST_SQUARES = {
+    "over x": Criterion("sum_of_squares", weights=[1.0, 3.0]),
+    "over x, raw": Criterion("sum_of_squares", preset="raw"),
+    "over the third column": Criterion("sum_of_squares", abscissa=2),
+    "over the second column": Criterion("sum_of_squares", abscissa=1),
+    "point by point": Criterion("sum_of_squares", abscissa="points", weights=[1.0, 3.0]),
+    "curve_length": Criterion("curve_length"),
+}
+
+
+@pytest.mark.parametrize("turned", [False, True], ids=["up", "down"])
+@pytest.mark.parametrize("case", LEAST_SQUARES)
+def test_residuals_move_as_their_slopes_say(case, turned):
+    random = np.random.default_rng(5)
+
+    def curve(count):
+        rising = np.linspace(0.0, 1.0, count) + random.uniform(-0.3, 0.3, count) / count
+        return np.column_stack((rising, rising**2 + rising, 2.0 * rising)) * [3.0, 200.0, 7.0]
+
+    experiments = [curve(count)[3:-3] for count in (37, 40)]
+    simulations = [curve(count) for count in (23, 30)]
+    if case == "point by point":
+        simulations = [test * [1.0, 1.3, 1.0] for test in experiments]
+    if case.startswith("over x") or case == "curve_length":
+        experiments, simulations = ([c[:, :2] for c in some] for some in (experiments, simulations))
+    if turned:
+        simulations = [c[::-1] for c in simulations]
+        if case == "point by point":
+            experiments = [c[::-1] for c in experiments]
+    objective = Objective(experiments, LEAST_SQUARES[case])
+    directions = [random.normal(size=(*c.shape, 4)) for c in simulations]
+    if case == "point by point":
+        directions = [along * [[0.0], [1.0], [1.0]] for along in directions]
+    slopes = objective.residual_slopes(simulations, directions)
+    for i, column in enumerate(slopes.T):
+        ends = [
+            objective.residuals(
+                [c + by * d[..., i] for c, d in zip(simulations, directions, strict=True)]
+            )
+            for by in (1e-6, -1e-6)
+        ]
+        moved = (ends[0] - ends[1]) / 2e-6
+        np.testing.assert_allclose(column, moved, rtol=1e-5, atol=1e-6 * np.abs(moved).max())
+
+
 @pytest.mark.parametrize("measure", ["area", curvewise.mse])
 def test_residuals_of_other_measures_are_refused(measure):
     name = Criterion(measure).name

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import logging
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -203,6 +205,18 @@ def test_the_command_goes_from_a_file_to_a_card(tmp_path: Path, capsys) -> None:
     assert "stress [MPa]" in (output / "report.html").read_text(encoding="utf-8")
     found = read_card(output / "card_abaqus.txt").parameters
     assert found["C1"] == pytest.approx(80e3, rel=0.05)
+
+
+def test_the_command_does_without_what_takes_a_second_to_import(tmp_path: Path) -> None:
+    test = write_test(tmp_path / "loop.csv")
+    code = (
+        "import sys\nfrom curvewise.commands import main\n"
+        f"main(['fit', {test!r}, '--backstresses', '1', '--output', {str(tmp_path)!r}])\n"
+        "slow = {'scipy.stats', 'scipy.signal', 'scipy.optimize'}\n"
+        "print(sorted(slow & set(sys.modules)))"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.endswith("[]\n")
 
 
 def test_runs_that_fail_are_counted_and_not_logged(tmp_path: Path, caplog, capsys) -> None:

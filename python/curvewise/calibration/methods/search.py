@@ -55,7 +55,7 @@ def run_search(problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()) -
         Those of earlier searches, from which some methods begin.
     """
     start = None if plan.start is None else problem.space.unit(plan.start)
-    required("scipy.optimize")
+    required("scipy")
     tqdm = required("tqdm").tqdm  # a line of text, in a notebook too: widgets may be missing there
     settings, details = _settings(problem, plan), details_of(problem, plan.max_runs)
     with problem.simulator() as simulator:

@@ -16,7 +16,6 @@ from .shared_runs import SharedRuns
 
 __all__ = ["SquaresDescent", "SquaresRules", "SquaresRuns"]
 
-_DIFFERENCE = 1e-6  # of a place in the unit cube, along slopes that the model knows
 # Of what is negligible elsewhere: near a perfect fit squares are smaller than distances.
 _OF_SQUARES = 1e-3
 # Planes of exact slopes lead right into the corners of the bounds, and a search that comes to one
@@ -69,24 +68,7 @@ class SquaresRuns(SharedRuns):
 
     def _known_slopes(self, number: int, by_curve: list[Array]) -> Array:
         """Residuals are differentiated along the slopes of the curves, which takes no runs."""
-        columns = range(self.points.shape[1])
-        return np.column_stack(
-            [self._along([slopes[..., i] for slopes in by_curve], number) for i in columns]
-        )
-
-    def _along(self, directions: list[Array], number: int) -> Array:
-        """Return the derivative of the residuals of a run as its curves move."""
-        ahead, behind = (
-            self._ledger.objective.residuals(
-                [
-                    curve + step * direction
-                    for curve, direction in zip(self._simulations[number], directions, strict=True)
-                ]
-            )
-            for step in (_DIFFERENCE, -_DIFFERENCE)
-        )
-        derivative: Array = (ahead - behind) / (2.0 * _DIFFERENCE)
-        return derivative
+        return self._ledger.objective.residual_slopes(self._simulations[number], by_curve)
 
     def surface(self, number: int, within: float) -> ResidualsAndSlopes:
         """Return the surface through the runs nearest to one, or the plane of its slopes."""

@@ -9,15 +9,17 @@ measured strains, is compared point by point instead, loops too. O(n log m) time
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ...curves.inputs import Array
+from ...curves.thinning import Rows
 
 __all__ = [
     "Abscissa",
     "check_common_x",
+    "difference_slopes",
     "differences",
     "squared_differences",
     "squared_differences_and_gradient",
@@ -123,24 +125,69 @@ def squared_differences_and_gradient(
 ) -> tuple[float, Array]:
     """Return the sum of the squared differences and its derivative by every coordinate of Q."""
     difference = differences(P, Q, abscissa=abscissa)
-    if abscissa == "points":
-        slopes = np.zeros_like(Q)
-        slopes[:, y_column(abscissa)] = 2.0 * difference
-        return float(difference @ difference), slopes
-    is_reversed = Q[0, abscissa] > Q[-1, abscissa]
-    rows = np.arange(len(Q))[::-1] if is_reversed else np.arange(len(Q))
-    x, y = Q[rows, abscissa], Q[rows, y_column(abscissa)]
     gradient = np.zeros_like(Q)
-    if len(Q) == 1:
-        gradient[0, y_column(abscissa)] = 2.0 * difference.sum()
+    if abscissa == "points":
+        gradient[:, y_column(abscissa)] = 2.0 * difference
         return float(difference @ difference), gradient
+    place = _place(P, Q, abscissa)
+    for rows, part in place.ends:
+        np.add.at(gradient[:, y_column(abscissa)], rows, 2.0 * difference * part)
+        np.add.at(gradient[:, abscissa], rows, -2.0 * difference * part * place.slope)
+    return float(difference @ difference), gradient
+
+
+def difference_slopes(P: Array, Q: Array, directions: Array, *, abscissa: Abscissa = 0) -> Array:
+    """Return how fast the differences change as Q moves.
+
+    Parameters
+    ----------
+    P, Q
+        As for `differences`, which accepts them.
+    directions : ndarray, shape (len(Q), d, k)
+        In which Q moves.
+
+    Returns
+    -------
+    ndarray, shape (len(P), k)
+    """
+    by_y: Array = directions[:, y_column(abscissa)]
+    if abscissa == "points":
+        return by_y
+    place = _place(P, Q, abscissa)
+    total = np.zeros((len(P), directions.shape[2]))
+    for rows, part in place.ends:
+        along = by_y[rows] - place.slope[:, np.newaxis] * directions[rows, abscissa]
+        total += part[:, np.newaxis] * along
+    return total
+
+
+class _Place(NamedTuple):
+    """Where the experiment's points are on a simulation.
+
+    Attributes
+    ----------
+    ends : two of (ndarray of int, ndarray)
+        The points of the simulation before and after each, and their parts in it.
+    slope : ndarray
+        Of y there.
+    """
+
+    ends: tuple[tuple[Rows, Array], tuple[Rows, Array]]
+    slope: Array
+
+
+def _place(P: Array, Q: Array, abscissa: int) -> _Place:
+    """Return between which points of Q those of P are."""
+    count = len(Q)
+    rows = np.arange(count)
+    if Q[0, abscissa] > Q[-1, abscissa]:
+        rows = rows[::-1]
+    x, y = Q[rows, abscissa], Q[rows, y_column(abscissa)]
     wanted = P[:, abscissa]
-    before = np.clip(np.searchsorted(x, wanted, side="right") - 1, 0, len(x) - 2)
-    length = x[before + 1] - x[before]
+    before = np.clip(np.searchsorted(x, wanted, side="right") - 1, 0, max(count - 2, 0))
+    after = np.minimum(before + 1, count - 1)
+    length = x[after] - x[before]
     length = np.where(length > 0, length, 1.0)
     share = np.clip((wanted - x[before]) / length, 0.0, 1.0)
-    slope = (y[before + 1] - y[before]) / length
-    for place, part in ((before, 1.0 - share), (before + 1, share)):
-        np.add.at(gradient[:, y_column(abscissa)], rows[place], 2.0 * difference * part)
-        np.add.at(gradient[:, abscissa], rows[place], -2.0 * difference * part * slope)
-    return float(difference @ difference), gradient
+    slope = (y[after] - y[before]) / length
+    return _Place(((rows[before], 1.0 - share), (rows[after], share)), slope)

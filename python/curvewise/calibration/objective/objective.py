@@ -277,6 +277,21 @@ class Objective:
             [math.sqrt(term.weight) * term.residuals_or_penalty(Q) for term, Q in pairs]
         )
 
+    def residual_slopes(self, simulations: Any, directions: Sequence[Array]) -> Array:
+        """Return the derivatives of `residuals`, shape (m, k), as simulations move.
+
+        Parameters
+        ----------
+        simulations
+            As for a call; none of them has failed.
+        directions : sequence of ndarray, shape (n, d, k)
+            For each simulation how it moves.
+        """
+        parts = zip(self._terms, self._matched(simulations), directions, strict=True)
+        return np.concatenate(
+            [math.sqrt(term.weight) * term.residual_slopes(Q, along) for term, Q, along in parts]
+        )
+
     @property
     def negligible(self) -> float:
         """Differences of the value below this do not count."""

@@ -1,8 +1,8 @@
 """A criterion as functions of the simulation alone, for one experiment.
 
-The measure itself, the differences that it squares, and its derivative: those of the package's
-measures where they exist, of sum_of_squares, and of a user's function the value. Cost: that of the
-measure.
+The measure itself, the differences that it squares, and the derivatives of both: those of the
+package's measures where they exist, of sum_of_squares, and of a user's function the value. Cost:
+that of the measure.
 """
 
 from __future__ import annotations
@@ -16,7 +16,12 @@ from ...many.prepared import Prepared
 from ...measures import dtw, pcm_match, value_and_gradient
 from ...measures.registry import MEASURES
 from ...measures.results import PcmMatch
-from .common_x import differences, squared_differences, squared_differences_and_gradient
+from .common_x import (
+    difference_slopes,
+    differences,
+    squared_differences,
+    squared_differences_and_gradient,
+)
 from .criterion import Criterion
 
 __all__ = ["OfSimulation", "of_simulation"]
@@ -31,6 +36,9 @@ class OfSimulation(NamedTuple):
         The measure; of pcm the match, which has its coverage.
     residuals
         The differences that the measure squares, where it does.
+    residual_slopes
+        Their derivatives, shape (m, k), as Q moves along directions of shape (n, d, k). None where
+        they are to be found by differences.
     gradient
         The measure with its derivative by Q. None where there is none: that of frechet is 0 except
         at one point, and of no use to whoever wants to go down.
@@ -38,6 +46,7 @@ class OfSimulation(NamedTuple):
 
     value: Callable[[Array], float | PcmMatch]
     residuals: Callable[[Array], Array] | None = None
+    residual_slopes: Callable[[Array, Array], Array] | None = None
     gradient: Callable[[Array], tuple[float, Array]] | None = None
 
 
@@ -50,6 +59,7 @@ def of_simulation(criterion: Criterion, P: Array) -> OfSimulation:
         return OfSimulation(
             partial(squared_differences, P, **options),
             partial(differences, P, **options),
+            partial(difference_slopes, P, **options),
             partial(squared_differences_and_gradient, P, **options),
         )
     info = MEASURES[measure]
@@ -63,7 +73,7 @@ def of_simulation(criterion: Criterion, P: Array) -> OfSimulation:
     )
     named: dict[str, Any] = {"measure": measure, **options}
     gradient = partial(value_and_gradient, P, **named) if differentiable else None
-    return OfSimulation(Prepared(P, info.name, **options), residuals, gradient)
+    return OfSimulation(Prepared(P, info.name, **options), residuals, gradient=gradient)
 
 
 def _called(function: Callable[..., float], P: Array, options: dict[str, Any], Q: Array) -> float:

@@ -31,6 +31,7 @@ T = TypeVar("T")
 
 # A failed simulation costs as much as so many simulations that are wrong by the loop's height.
 _FAILURE = 1e6
+_DIFFERENCE = 1e-6  # of a place in the unit cube, along slopes that a model knows
 
 
 class FailedSimulationError(Exception):
@@ -161,6 +162,27 @@ class Term(ABC):
             total = self.failure_value if self.is_least_squares else self.failure_value**2
             return np.full(self.residual_count, math.sqrt(total / self.residual_count))
 
+    def residual_slopes(self, simulation: Any, directions: Array) -> Array:
+        """Return how fast the residuals change as a simulation moves, by differences.
+
+        Parameters
+        ----------
+        simulation : ndarray, shape (n, d)
+            One that has not failed.
+        directions : ndarray, shape (n, d, k)
+            In which it moves.
+
+        Returns
+        -------
+        ndarray, shape (m, k)
+        """
+        step, moves = _DIFFERENCE, np.moveaxis(directions, -1, 0)
+        ahead, behind = (
+            [self.residuals_or_penalty(simulation + by * move) for move in moves]
+            for by in (step, -step)
+        )
+        return np.subtract(ahead, behind).T / (2.0 * step)
+
     def fitted(self, simulation: Any) -> Array:
         """Return the experiment with the simulated y, of a sum of squares."""
         return _moved(self.experiment, self.y, self.height * self.residuals(simulation))
@@ -251,6 +273,15 @@ class CurveTerm(Term):
         """Return the differences that the measure squares, or raise FailedSimulationError."""
         assert self._measured.residuals is not None, "Objective refuses measures without"
         return self._asked(self._measured.residuals, simulation).ravel()
+
+    def residual_slopes(self, simulation: Any, directions: Array) -> Array:
+        """Return how fast the residuals change as a simulation moves; exactly, of squares."""
+        slopes = self._measured.residual_slopes
+        if slopes is None:
+            return super().residual_slopes(simulation, directions)
+        if self._box is not None:
+            directions = directions / self._box[1][:, np.newaxis]
+        return slopes(self._checked(simulation), directions)
 
     def _asked(self, function: Callable[[Array], T], simulation: Any) -> T:
         """Return what a function of the measure makes of a simulation that can be compared."""

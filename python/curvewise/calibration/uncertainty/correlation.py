@@ -248,14 +248,20 @@ def _autoregression(white_noise: Array, rho: float) -> Array:
     """Return an autoregression of the deviation 1, of independent draws of the deviation 1."""
     changes = math.sqrt(1.0 - rho**2) * white_noise
     changes[0] = white_noise[0]
-    filtered: Array = required("scipy.signal").lfilter([1.0], [1.0, -rho], changes)
-    return filtered
+    return _carried_on(changes, rho)
 
 
 def _correlated(columns: Array, rho: float) -> Array:
     """Return R @ columns with R[i, j] = rho ** |i - j|, by a walk there and a walk back."""
-    lfilter = required("scipy.signal").lfilter
-    there = lfilter([1.0], [1.0, -rho], columns, axis=0)
-    back = lfilter([1.0], [1.0, -rho], columns[::-1], axis=0)[::-1]
-    correlated: Array = there + back - columns
+    correlated: Array = _carried_on(columns, rho) + _carried_on(columns[::-1], rho)[::-1] - columns
     return correlated
+
+
+def _carried_on(columns: Array, rho: float) -> Array:
+    """Return y with y[i] = columns[i] + rho y[i - 1], as scipy.signal's lfilter does.
+
+    To the bit, without the second that the import of scipy.signal takes.
+    """
+    bands = np.array([[1.0], [-rho]]).repeat(len(columns), axis=1)
+    found: Array = required("scipy.linalg").solve_banded((1, 0), bands, columns, check_finite=False)
+    return found

@@ -74,9 +74,10 @@ class Estimate(NamedTuple):
 
     def quantile(self, level: float) -> float:
         """Return how many standard errors half an interval has."""
-        stats, upper = required("scipy.stats"), (1.0 + level) / 2.0
-        distribution = stats.norm if math.isinf(self.freedom) else stats.t(self.freedom)
-        return float(distribution.ppf(upper))
+        special, upper = required("scipy.special"), (1.0 + level) / 2.0
+        if math.isinf(self.freedom):
+            return float(special.ndtri(upper))
+        return float(special.stdtrit(self.freedom, upper))
 
 
 def estimate_of(optimum: Optimum, noise: Noise) -> Estimate:
