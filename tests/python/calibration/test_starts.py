@@ -165,6 +165,8 @@ class Valleys:
         ("area", [float(5 + i) for i in range(40)], 10, 1),  # the most
         ("area", [5.0] * 30, 30, 30),  # flat ground: short starts, and more of them
         ("frechet", [float(5 + i) for i in range(40)], 30, 1),  # and of those by frechet
+        # Those in valleys that the surface shows do not tell, the others do: here every third.
+        ("frechet", [5.0 + i / 1000.0 for i in range(40)], 9, 9),
         ("dtw", [float(5 + i) for i in range(40)], 30, 1),  # and by dtw
         ("dtw", [5.0 + i / 1000.0 for i in range(40)], 9, 9),  # those near the best run do not tell
     ],
@@ -181,7 +183,12 @@ def test_starts_that_disagree_are_followed_by_others(
         reaches.append(known[-1])
         return np.full(2, 0.7)
 
+    def lowest_valley(*known: Any) -> Any:
+        reaches.append(0.0)
+        return None if len(reaches) % 3 == 0 else np.full(2, 0.7)
+
     monkeypatch.setattr(f"{room}.promising_place", promising_place)
+    monkeypatch.setattr(f"{room}.lowest_valley", lowest_valley)
     Valleys.values, Valleys.rules = list(values), []
     ledger: Any = SimpleNamespace(
         dimensions=2,
@@ -205,9 +212,9 @@ def test_starts_that_disagree_are_followed_by_others(
     assert behind == {0.0 if measure == "area" else 0.2}
     # Where the runs promise most regions are smaller.
     radii = [rules.first_radius for rules in Valleys.rules[3:6]]
-    if measure == "frechet":  # of many valleys the lowest are near the best run
-        assert radii == [0.25] * 3
-        assert reaches == [HOP] * (count - 3)
+    if measure == "frechet":  # where the surface shows no lower valley at another place
+        assert radii == [0.25, 0.25, 0.5]
+        assert reaches == [0.0] * (count - 3)
     else:
         assert radii == [0.25, 0.5, 0.25]
         assert set(reaches) == {HOP if measure == "dtw" else 1.0}

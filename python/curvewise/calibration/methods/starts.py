@@ -6,8 +6,8 @@ for so few points in so many dimensions, and scipy's takes half a second to impo
 starts end more than 1 % apart others follow, and every second of these begins where the runs so far
 promise most, or beside the best of them, in a smaller region, with a surface of the runs that are
 there, which costs one run in the place of k + 1: a hop out of a valley into the next. By dtw,
-whose valleys have long floors, these are near the best run, and by frechet, which has many valleys
-beside each other, all later starts are.
+whose valleys have long floors, these are near the best run; by frechet, which has many valleys
+beside each other, `valleys` says where they are.
 
 M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
 input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245;

@@ -37,6 +37,7 @@ from .descent import Rules
 from .method import Method, with_other_defaults
 from .side_by_side import Part, side_by_side
 from .starts import HOP, End, are_alike, check_regions, finish_of, hop, is_flat, places
+from .valleys import lowest_valley
 
 __all__ = ["TrustRegion"]
 
@@ -44,7 +45,7 @@ __all__ = ["TrustRegion"]
 # others have ended elsewhere.
 _SURE, _NOT_SO = 2, 3
 # Times as many starts, where they are short: where the measure is flat, and by the measures whose
-# later starts are near the best run.
+# later starts begin with the surfaces of those before.
 _OF_SHORT_ONES = 3
 # By dtw and frechet a start ends where its surface promises less than this part of what it is above
 # the best.
@@ -77,8 +78,9 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
         Others follow until two more than `starts` have ended alike; where some have ended more than
         1 % above the best, until three more have come to it, or so many have been made in all.
         Every second of them begins where a surface through all runs so far promises most, by "dtw"
-        near the best run; those then do not count as alike. By "frechet" all begin near the best
-        run. Where the measure is flat, and by these two, there are three times as many.
+        near the best run; by "frechet" all of them begin in other valleys, as long as the surface
+        promises lower ones. Those do not count as alike. Where the measure is flat, and by these
+        two, there are three times as many.
     initial_range : float, optional
         Half the size of the first region of trust, as a fraction of the bounds' range; the first
         differences are over half of that. By default 0.5, and 0.1 where :func:`identify_each`
@@ -184,6 +186,7 @@ class _Starts:
         self._is_path = all(measure == "dtw" for measure in ledger.objective.measures)
         self.begun, self._running = 0, 0
         self.ends: list[End] = []
+        self._valleys: list[Array] = []  # in which starts have begun
 
     def first(self) -> list[Part[None]]:
         """Return the starts with which a search begins."""
@@ -201,8 +204,8 @@ class _Starts:
         flat = is_flat(ends, self._ledger.negligible)
         if not flat and alike >= options.starts + (_SURE if alike == len(telling) else _NOT_SO):
             return []
-        # On flat ground a start is short, and the way down is found by chance; and so it is near
-        # the best run, where later starts have the surfaces of those before.
+        # On flat ground a start is short, and the way down is found by chance; and so it is where
+        # later starts have the surfaces of those before.
         is_short = flat or self._is_path or self._is_leash
         most = _OF_SHORT_ONES * options.most_starts if is_short else options.most_starts
         count = min(options.starts - self._running, most - self.begun)
@@ -217,26 +220,39 @@ class _Starts:
     def _next(self) -> Part[None]:
         """Begin the next start: every second of the later ones where the runs so far promise most.
 
-        And beside the best run where they promise nothing but where starts have ended. Of the many
-        valleys of frechet the lowest are beside each other: there all later starts are such, and
-        near the best run, unless the ground is flat. Those of dtw have long floors, along which a
-        search comes down slowly: every second one goes on near the best run. By both a start that
-        is far above that is left behind.
+        And beside the best run where they promise nothing but where starts have ended. The valleys
+        of dtw have long floors, along which a search comes down slowly: every second start goes on
+        near the best run. Of the many valleys of frechet those are begun in that the surface
+        promises to be lower, as long as there are any. By both a start that is far above the best
+        is left behind.
         """
         rules = self._options.rules
         if self._is_path or self._is_leash:
             rules = replace(rules, left_behind=_LEFT_BEHIND)
+        smaller = replace(rules, first_radius=min(HOP, rules.first_radius))
         later = self.begun - self._options.starts
-        is_near = later >= 0 and (self._is_path or self._is_leash)
-        is_near = is_near and not is_flat(self.ends, self._ledger.negligible)
-        if later >= 0 and (later % 2 == 0 or (is_near and self._is_leash)):
+        flat = later >= 0 and is_flat(self.ends, self._ledger.negligible)
+        if later >= 0 and self._is_leash and not flat:
+            place = self._valley()
+            if place is not None:
+                return self._descent(place, smaller, stays_near=True)
+        elif later >= 0 and later % 2 == 0:
+            is_near = self._is_path and not flat
             reach = HOP if is_near else 1.0
             place = promising_place(self._ledger, self._random, self._runs, self.ends, reach)
             if place is None:
                 place = hop(self._ledger.best_unit, self._random)
-            smaller = replace(rules, first_radius=min(HOP, rules.first_radius))
-            return self._descent(place, smaller, stays_near=is_near and self._is_path)
+            return self._descent(place, smaller, stays_near=is_near)
         return self._descent(next(self._places), rules)
+
+    def _valley(self) -> Array | None:
+        """Return where another valley promises to be lower than all runs, if one does."""
+        place = lowest_valley(
+            self._ledger, self._random, self._runs, self.ends, self._valleys, self._options.gain
+        )
+        if place is not None:
+            self._valleys.append(place)
+        return place
 
     def _descent(self, place: Array, rules: Rules, *, stays_near: bool = False) -> Part[None]:
         random = np.random.default_rng((self._seed, self.begun))

@@ -75,9 +75,9 @@ class KrigedSurface:
         )
 
     def at(self, point: Array) -> Array:
-        """Return the residuals at a point, shape (m,)."""
+        """Return the residuals at a point, shape (m,), or at several, shape (points, m)."""
         place = (point - self._centre) / self._extent
-        kernel, _ = _kernel(_lengths(place - self._places))
+        kernel, _ = _kernel(_lengths(place[..., np.newaxis, :] - self._places))
         return self._residuals(place, kernel)
 
     def with_slopes(self, point: Array) -> tuple[Array, Array]:

@@ -29,11 +29,12 @@ from ...curves.scaling import box
 from ...measures import dtw_path, frechet, frechet_path
 from ...measures.results import Alignment
 from ..objective.objective import Objective
+from .evolution import evolved
 from .kriged_surface import KrigedSurface
 from .surface_minimum import SurfaceMinimum, _Predicted
 from .surfaces import Responses, Surface, Surfaces
 
-__all__ = ["is_leash", "minimum_on_surfaces"]
+__all__ = ["LeashMinimum", "is_leash", "minimum_on_surfaces"]
 
 _GAIN = 1e-3  # the smallest that counts, of the value
 _STEPS, _POLISHING = 25, 6
@@ -42,6 +43,9 @@ _SMALL = 1e-4  # of the value: a promise that is less is none
 _POOR, _GOOD = 0.25, 0.7  # of what was promised
 _SHRUNK, _SMALLEST, _ANEW = 0.4, 1e-3, 0.1  # regions, in sides of the box
 _SIMPLEX = 20  # evaluations for each parameter
+# Of a hop into another valley: the first standard deviation, as a fraction of the bounds' range,
+# the population, and the steps from where it has settled.
+_WIDTH, _MEMBERS, _GENERATIONS, _IN_VALLEY = 0.05, 10, 60, 12
 
 Coupling = Callable[[Array, Array], Alignment]
 _COUPLINGS: tuple[Coupling, ...] = (partial(dtw_path, metric="sqeuclidean"), frechet_path)
@@ -61,11 +65,11 @@ def minimum_on_surfaces(
     gain: float = _GAIN,
 ) -> SurfaceMinimum:
     """Return what minimises an objective on surfaces; as the class that it returns."""
-    kind = _LeashMinimum if is_leash(objective) else SurfaceMinimum
+    kind = LeashMinimum if is_leash(objective) else SurfaceMinimum
     return kind(objective, responses, random, show_activity, gain)
 
 
-class _LeashMinimum(SurfaceMinimum):
+class LeashMinimum(SurfaceMinimum):
     """Minimises Fréchet distances on surfaces, as `SurfaceMinimum` does measures with a gradient.
 
     Parameters
@@ -85,6 +89,23 @@ class _LeashMinimum(SurfaceMinimum):
         super().__init__(objective, responses, random, show_activity, gain)
         for predicted in filter(None, (self._exact, self._thinned)):
             predicted.has_gradient = True  # something leads down
+
+    def valley(self, surface: KrigedSurface, place: Array) -> Array:
+        """Return a minimum over the whole cube beside a place, in whichever valley it is.
+
+        Cost: some 600 evaluations of the surface and of the measure, and twelve steps.
+        """
+        cube = np.zeros(place.size), np.ones(place.size)
+        leashes = _Leashes(self._thinned or self._exact, surface, cube)
+        settled = evolved(
+            leashes.values,
+            place,
+            _WIDTH,
+            self._random,
+            members=_MEMBERS,
+            generations=_GENERATIONS,
+        )
+        return leashes.descended(settled, _IN_VALLEY)
 
     def _minimised(
         self,
@@ -111,7 +132,7 @@ class _Leashes:
         self, predicted: _Predicted, surfaces: Surface, region: tuple[Array, Array]
     ) -> None:
         self.value = predicted.on(surfaces, region)
-        self._responses = predicted._responses
+        self._predicted, self._responses = predicted, predicted._responses
         self._seen = surfaces.of_places(predicted._places)
         self._low, high = region
         self._width = high - self._low
@@ -123,6 +144,11 @@ class _Leashes:
         for test in objective.experiments:
             low, extent = box(test) if condition.scaled else (np.zeros(1), np.ones(1))
             self._tests.append(((test - low) / extent, low, extent))
+
+    def values(self, places: Array) -> Array:
+        """Return the distances at several places, shape (places,)."""
+        vectors = self._seen.at(self._low + places * self._width)
+        return np.array([self._predicted.value(vector) for vector in vectors])
 
     def descended(self, place: Array, most: int) -> Array:
         """Return where up to so many steps lead from a place, to a distance that is not above."""
