@@ -14,7 +14,7 @@ from ..surfaces.leash_minimum import is_leash, minimum_on_surfaces
 from ..surfaces.surface_minimum import SurfaceMinimum
 from ..surfaces.surfaces import Responses, Surface, Surfaces
 from .descent import AFTER_FAILURE, FAR, Descent, Rules
-from .shared_runs import SharedRuns
+from .shared_runs import NEAREST, SharedRuns
 from .side_by_side import Part
 from .starts import End
 
@@ -27,6 +27,9 @@ _AFTER_FAILURE_OF_LEASH = 0.8
 # Before it ends, a search looks for other minima of the surface, which costs no runs, and tries so
 # many of those that it finds, over this much of the bounds' range to each side.
 _ATTEMPTS, _ELSEWHERE = 3, 0.5
+# And its surfaces go through so many of the nearest runs, in the place of some thirty: in what they
+# are off by is another valley. Beside its linear programs that costs little.
+_RUNS_OF_LEASH = 100
 # Of the runs, and of the places from which it goes down, in the search for another start.
 _MOST_RUNS, _PLACES = 500, 10
 
@@ -36,6 +39,7 @@ class CurveRuns(SharedRuns):
 
     def __init__(self, ledger: Ledger) -> None:
         self._responses: Responses | None = None
+        self._most = _RUNS_OF_LEASH if is_leash(ledger.objective) else NEAREST
         super().__init__(ledger)
 
     @property
@@ -62,7 +66,7 @@ class CurveRuns(SharedRuns):
         """Return the surface through the runs nearest to one, or the plane of its slopes."""
         centre, slopes = self.points[number], self.slopes(number)
         if slopes is None:
-            return self.through_nearest(centre, within, reduced=False)
+            return self.through_nearest(centre, within, reduced=False, most=self._most)
         return Surfaces(centre, self._vectors[number], slopes)
 
 

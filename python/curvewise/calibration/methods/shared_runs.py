@@ -15,9 +15,9 @@ from ..problem.ledger import Ledger
 from ..records.evaluation import Evaluation
 from ..surfaces.kriged_surface import KrigedSurface
 
-__all__ = ["SharedRuns"]
+__all__ = ["NEAREST", "SharedRuns"]
 
-_NEAREST = 30  # runs that make a surface, at most; 3 k + 3 where that is more
+NEAREST = 30  # runs that make a surface, at most; 3 k + 3 where that is more
 # Directions around a point are known if in each of them the runs within _AROUND times a reach are
 # spread by this much, in squares of the reach.
 _AROUND, _SPREAD = 3.0, 0.3
@@ -99,7 +99,7 @@ class SharedRuns(ABC):
         return list(directions.T[spread < _SPREAD])
 
     def through_nearest(
-        self, centre: Array, within: float, *, reduced: bool, most: int = _NEAREST
+        self, centre: Array, within: float, *, reduced: bool, most: int = NEAREST
     ) -> KrigedSurface:
         """Return the surface through the runs nearest to a point.
 
