@@ -128,11 +128,23 @@ def cancel_two() -> None:
 
 @contextmanager
 def meanwhile(trouble: Callable[[], None]) -> Iterator[None]:
-    """Make trouble in a thread while the block runs."""
-    thread = threading.Thread(target=trouble, daemon=True)
-    thread.start()
+    """Make trouble in a thread while the block runs, which has to take notice of it.
+
+    Raises
+    ------
+    RuntimeError
+        The block has ended before the trouble: it has shown nothing.
+    """
+    over = threading.Event()
+
+    def make() -> None:
+        trouble()
+        over.set()
+
+    threading.Thread(target=make, daemon=True).start()
     yield
-    thread.join()
+    if not over.is_set():
+        raise RuntimeError(f"the search ended before {trouble.__name__} did: it shows nothing")
 
 
 def by_submitit(model: CommandModel, runs: int, folder: Path) -> Identification:
