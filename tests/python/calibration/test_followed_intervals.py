@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from curvewise.calibration import identify, profile
+from curvewise.calibration.uncertainty.estimate import estimate_of
 from curvewise.calibration.uncertainty.followed import End
 from curvewise.calibration.uncertainty.noise import noise_of
 from curvewise.calibration.uncertainty.spread import linear_spread
@@ -196,3 +197,52 @@ def test_the_lower_end_goes_further_where_the_curve_notices_less():
     half = 1.959964 * 0.8 / math.sqrt(float(X @ X))
     assert high == pytest.approx(half, rel=0.01)  # exp bends up: the linear end is further
     assert low == pytest.approx(math.log(1.0 - half), rel=0.05)
+
+
+class Parabola:
+    """a + b x + c x ** 2, with its slopes."""
+
+    columns = np.column_stack((np.ones_like(X), X, X**2))
+
+    def __call__(self, p):
+        return np.column_stack((X, self.columns @ [p["a"], p["b"], p["c"]]))
+
+    def jacobian(self, p):
+        return np.stack((np.zeros_like(self.columns), self.columns), axis=1)
+
+
+@pytest.mark.parametrize("at_bound", [True, False])
+def test_where_a_parameter_is_at_its_bound_no_end_counts_for_its_parameter_alone(at_bound):
+    """Residuals that go on alike: ends then differ in height, and one holds what another needs."""
+    test = Parabola()({"a": 0.0, "b": 0.0, "c": 0.0})
+    test[:, 1] += np.sin(9.0 * X) + 0.5 * X**2
+    bounds = {"a": (-9.0, 9.0), "b": (-30.0, 30.0), "c": (8.0 if at_bound else -30.0, 30.0)}
+    found = identify(Parabola(), test, bounds, measure="sum_of_squares", progress=False)
+    uncertainty = found.uncertainty()
+    assert bool(uncertainty.at_bounds) is at_bound
+    optimum = uncertainty.optimum
+    estimate = estimate_of(optimum, noise_of(optimum, None))
+    errors = np.sqrt(np.diag(estimate.covariance))
+    heights = (estimate.quantile(0.95) * errors) ** 2 / np.diag(estimate.inverse)
+    slopes = estimate.factors[:, np.newaxis] * Parabola.columns * np.ptp(list(bounds.values()), 1)
+    ends = [
+        End(optimum.unit, slopes, i, way, square)
+        for i, square in enumerate(heights)
+        for way in (-1.0, 1.0)
+    ]
+    places = np.array(
+        [arrived(end, lambda p: slopes @ p, lambda p: slopes, optimum.unit) for end in ends]
+    )
+    low, high = np.array(list(bounds.values())).T
+    places = low + places * (high - low)
+    linear = np.array(linear_spread(optimum, noise_of(optimum, None), 0.95).intervals)
+    own = np.column_stack((places[::2].diagonal(), places[1::2].diagonal()))
+    own = np.column_stack(
+        (np.minimum(own, linear).min(axis=1), np.maximum(own, linear).max(axis=1))
+    )
+    everything = np.vstack((places, linear.T))
+    all_ends = np.column_stack((everything.min(axis=0), everything.max(axis=0)))
+    assert np.ptp(all_ends - own) > 0.01 * np.ptp(own)
+    assert np.array(list(uncertainty.intervals.values())) == pytest.approx(
+        all_ends if at_bound else own, rel=1e-6
+    )

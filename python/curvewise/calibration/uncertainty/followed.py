@@ -10,8 +10,14 @@ of the expected deviance, its height adjusted for correlated noise.
 
 Each step is exact for the linear model of the curves at its start: an ellipsoid's furthest point,
 with parameters that would leave the bounds held there. An end that has not settled after `_MOST`
-runs counts as far as it has come. No interval is narrower than the linear one. Cost: some 3 to 6
-runs of the model with slopes for each end, those of all ends side by side; O(n k^2) a run.
+runs counts as far as it has come. No interval is narrower than the linear one.
+
+Where a parameter has ended at a bound, the others have taken over its error, which the distances of
+their own ends do not allow for. There no end counts for its parameter alone: an interval goes as
+far as its parameter does at any of the ends.
+
+Cost: some 3 to 6 runs of the model with slopes for each end, those of all ends side by side;
+O(n k^2) a run.
 
 D. J. Venzon, S. H. Moolgavkar, Applied Statistics 37 (1988) 87-94 (following a profile's ends);
 R. E. Chandler, S. Bate, "Inference for clustered data using the independence loglikelihood",
@@ -60,13 +66,12 @@ def followed_spread(optimum: Optimum, noise: Noise, level: float) -> tuple[Sprea
         for way in (-1.0, 1.0)
     ]
     runs = _follow(ends, optimum, compared)
-    reached = [space.point(end.furthest) for end in ends]
-    intervals = [
-        (min(low, first[i], last[i]), max(high, first[i], last[i]))
-        for i, ((low, high), first, last) in enumerate(
-            zip(spread.intervals, reached[::2], reached[1::2], strict=True)
-        )
-    ]
+    places = np.array([space.point(end.furthest) for end in ends])
+    own = np.stack((places[::2].diagonal(), places[1::2].diagonal()))
+    counted = places if space.at_bounds(space.dictionary(space.point(optimum.unit))) else own
+    low, high = np.array(spread.intervals).T
+    low, high = np.minimum(low, counted.min(axis=0)), np.maximum(high, counted.max(axis=0))
+    intervals = list(zip(low.tolist(), high.tolist(), strict=True))
     return spread._replace(intervals=intervals), runs
 
 
