@@ -98,6 +98,8 @@ def test_a_page_is_small_complete_and_loads_nothing(search):
     assert not re.search(r'(src|href)="(?!#|data:)', visible)
     for title in ("Parameters", "Residuals by branch", "Weakest directions", "Settings"):
         assert f">{title}" in visible
+    assert "screening(found)" in visible
+    assert "front(store" not in visible  # of one measure
     assert found.failures
     assert "too &lt;steep&gt;" in visible
     assert "too <steep>" not in visible
@@ -317,6 +319,7 @@ def test_several_searches_of_a_store_on_one_page(tmp_path, capsys):
     assert "has no search 7; it has 1, 2" in capsys.readouterr().err
     text = page(list(records_of(store).values()))
     assert "Search 2: curve_length" in text
+    assert "front(store, tests, measures)" in text
     assert "Intervals would take runs of the model" in text
     each.report(tmp_path / "each.html")
     assert (tmp_path / "each.html").read_text() == text

@@ -26,6 +26,17 @@ AddFigure = Callable[[Figure, str], str]
 
 _MOST_FAILURES = 100  # in the table; the others are counted
 
+# What a page leaves to calls, since it runs no model and may be of one measure.
+_OF_THE_FRONT = (
+    "Which runs are good for two measures at once, and what a compromise costs each of them, says "
+    "front(store, tests, measures), of the runs that a store holds."
+)
+_OF_THE_BOUNDS = (
+    "All this is of the slopes at the optimum. What the parameters move between their bounds says "
+    "screening(found), in 10 runs for each parameter and 10 more. One that hardly moves a loop "
+    "here and there need not be searched for: give a number in the place of its bounds."
+)
+
 
 def overview(searches: Sequence[ShownSearch]) -> str:
     """Return the parameters that several searches have found, side by side."""
@@ -39,7 +50,9 @@ def overview(searches: Sequence[ShownSearch]) -> str:
         searched = [f"{number}", search.objective, record.settings["method"]]
         rows.append([*searched, *values, f"{len(record.evaluations)}", value])
     header = ["search", "measure", "method", *names, "evaluations", "value"]
-    return Table(rows, header).html()
+    table = Table(rows, header).html()
+    several = len({search.objective for search in searches}) > 1
+    return f"{table}\n{paragraph(_OF_THE_FRONT)}" if several else table
 
 
 def _with_error(name: str, parameters: dict[str, float], errors: dict[str, float]) -> str:
@@ -184,6 +197,7 @@ def _weakest(search: ShownSearch, add: AddFigure, most: int) -> str:
         _side_by_side(add(noticed, "How far each loop moves with each parameter")),
         Table(sensitivities, ["loop", *names]).html(),
         paragraph(f"The same for combinations of parameters, strongest to weakest: {singular} %."),
+        paragraph(_OF_THE_BOUNDS),
     ]
     return "\n".join(parts)
 
