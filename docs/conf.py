@@ -79,7 +79,9 @@ exclude_patterns = ["_build", "_doxygen", "gallery/*.py", "gallery/*.ipynb", "ga
 templates_path = ["_templates"]
 nitpicky = True
 nitpick_ignore = [("c:identifier", "ptrdiff_t"), ("std:ref", "curvewise_8h")]
-nitpick_ignore_regex = [("cpp:identifier", r"curvewise|std|Eigen|Eigen::DenseBase<Derived>")]
+nitpick_ignore_regex = [
+    ("cpp:identifier", r"curvewise|detail(::\w+)?|std|Eigen|Eigen::DenseBase<Derived>")
+]
 
 # Markdown. Links to headings are those of GitHub.
 myst_enable_extensions = ["colon_fence", "dollarmath", "attrs_block"]

@@ -143,9 +143,10 @@ class Material(ABC):
 
         Modulus, yield stress, and the stresses and plastic strains that are reached (`readings`);
         the rest follows from these: what hardens within a hundredth of a branch or hardly at all
-        within all of the test, up to several times the stress. :class:`Log` where that is more
-        than a decade. Wide on purpose: a parameter that ends at one of them is not determined by
-        the tests. Bounds at 0 are limits: nothing lies beyond.
+        within all of the test, up to several times the stress.
+        :class:`curvewise.calibration.Log` where that is more than a decade. Wide on purpose: a
+        parameter that ends at one of them is not determined by the tests. Bounds at 0 are limits:
+        nothing lies beyond.
 
         Parameters
         ----------

@@ -6,8 +6,8 @@ closed: the error is of fourth order in the step, some 1e-9 of the stress with a
 between two points of a loop. O(n steps), 0.1 ms each.
 
 Chaboche and Voce: J. L. Chaboche, Int. J. Plasticity 2 (1986) 149-188. Yoshida and Uemori:
-Int. J. Plasticity 18 (2002) 661-686, uniaxial, with the constants of *MAT_125 of LS-DYNA. A modulus
-that decays: Yoshida, Uemori & Fujiwara, ibid. 633-659.
+Int. J. Plasticity 18 (2002) 661-686, uniaxial, with the constants of `*MAT_125` of LS-DYNA. A
+modulus that decays: Yoshida, Uemori & Fujiwara, ibid. 633-659.
 """
 
 from __future__ import annotations

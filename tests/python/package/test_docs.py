@@ -47,6 +47,15 @@ def without_numbers(text: str) -> str:
     return re.sub(r" *\d[\d.]*(e[+-]?\d+)?", " #", text)
 
 
+def linked(page: Path) -> list[Path]:
+    """Return the files, and folders, that a page links to."""
+    text = re.sub(
+        r"^```.*?^```$|`[^`\n]+`", "", page.read_text(encoding="utf-8"), flags=re.M | re.S
+    )
+    links = re.findall(r"(?<=\]\()[^()\s#]+", text)
+    return [Path(os.path.normpath(page.parent / link)) for link in links if "://" not in link]
+
+
 def has_code(page: Path) -> bool:
     """Return whether there is something to run on a page."""
     return any(kind in page.read_text(encoding="utf-8") for kind in ("```python", "```console"))
@@ -254,17 +263,29 @@ def test_the_reference_has_every_command(capsys: pytest.CaptureFixture[str]) -> 
 
 def test_every_link_to_a_file_leads_to_one() -> None:
     """The build refuses such a link too; here it is found without one."""
-    broken = []
-    for page in [*ROOT.glob("*.md"), *(ROOT / "benchmarks").rglob("*.md"), *PAGES]:
-        text = re.sub(
-            r"^```.*?^```$|`[^`\n]+`", "", page.read_text(encoding="utf-8"), flags=re.M | re.S
-        )
-        for link in re.findall(r"(?<=\]\()[^()\s#]+", text):
-            target = page.parent / link
-            made_by_the_build = (DOCS / "gallery") in Path(os.path.normpath(target)).parents
-            if "://" not in link and not made_by_the_build and not target.exists():
-                broken.append(f"{name_of(page)}: {link}")
+    files = [*ROOT.glob("*.md"), *(ROOT / "benchmarks").rglob("*.md"), *PAGES]
+    broken = [
+        f"{name_of(file)}: {target}"
+        for file in files
+        for target in linked(file)
+        if DOCS / "gallery" not in target.parents and not target.exists()
+    ]
     assert broken == []
+
+
+def test_a_markdown_file_that_a_page_links_to_is_a_page_too() -> None:
+    """Else the build does not know where the link leads."""
+    mirrors = re.compile(r"^<!-- mirrors (\S+) -->$", re.MULTILINE)
+    found = [mirrors.search(page.read_text(encoding="utf-8")) for page in PAGES]
+    shown = {*PAGES, *(ROOT / mirror[1] for mirror in found if mirror)}
+    assert len(shown) > len(PAGES) > 50
+    unknown = [
+        f"{name_of(file)}: {name_of(target)}"
+        for file in sorted(shown)
+        for target in linked(file)
+        if target.suffix == ".md" and target not in shown and target.exists()
+    ]
+    assert unknown == []
 
 
 def test_every_path_to_a_benchmark_leads_to_a_file() -> None:
