@@ -47,6 +47,11 @@ class CurveView {
               std::ptrdiff_t col_stride) noexcept
         : floats_(data), n_(n), dim_(dim), row_stride_(row_stride), col_stride_(col_stride) {}
 
+    /// Of no points, as `nullptr` says; it would fit doubles and floats alike.
+    CurveView(std::nullptr_t, std::ptrdiff_t n, std::ptrdiff_t dim, std::ptrdiff_t row_stride,
+              std::ptrdiff_t col_stride) noexcept
+        : CurveView(static_cast<const double*>(nullptr), n, dim, row_stride, col_stride) {}
+
     /// Not explicit, so that every function takes the vector itself.
     template <std::size_t D, class Allocator>
     CurveView(const std::vector<std::array<double, D>, Allocator>& points) noexcept

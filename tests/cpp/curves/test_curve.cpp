@@ -182,6 +182,8 @@ void order_of_checks() {
                  "P has shape (1, 1) and Q has shape (1, 1); area needs 2 coordinates, x and y");
     CHECK_THROWS(curvewise::area(bad, no_points), std::invalid_argument,
                  "Q has shape (0, 2); area needs at least 2 points");
+    CHECK_THROWS(curvewise::area(bad, CurveView(nullptr, 0, 2, 2, 1)), std::invalid_argument,
+                 "Q has shape (0, 2); area needs at least 2 points");
     CHECK_THROWS(curvewise::area(no_points, no_points), std::invalid_argument,
                  "P has shape (0, 2); area needs at least 2 points");
     CHECK_THROWS(curvewise::area(good, bad), std::invalid_argument,
