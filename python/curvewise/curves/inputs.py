@@ -161,8 +161,8 @@ def _aligned(array: Array) -> Array:
 
 
 def copy_of(curve: Array) -> Array:
-    """Return a copy, made in pieces: Ctrl-C is heard between them, and never inside numpy."""
-    copy = np.empty(curve.shape)
+    """Return a copy of the same type, in pieces: Ctrl-C is heard between them, not inside numpy."""
+    copy = np.empty(curve.shape, curve.dtype)
     for first in range(0, len(curve), _ROWS_AT_ONCE):
         copy[first : first + _ROWS_AT_ONCE] = curve[first : first + _ROWS_AT_ONCE]
     return copy

@@ -53,8 +53,11 @@ def points_of(simulations: Any) -> tuple[Array, ...]:
 
 
 def digest(curves: Iterable[Array]) -> str:
-    """Return what tells these curves, by their shapes and bits, from any others (SHA-256)."""
+    """Return what tells these curves, by their shapes and their bits in float64, from any others.
+
+    SHA-256.
+    """
     found = hashlib.sha256()
     for curve in curves:
-        found.update(repr(curve.shape).encode() + curve.tobytes())
+        found.update(repr(curve.shape).encode() + curve.astype(np.float64, copy=False).tobytes())
     return found.hexdigest()

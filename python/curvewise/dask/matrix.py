@@ -102,8 +102,8 @@ def cdist(
     >>> lazy.compute(scheduler="threads").tolist()
     [[0.0, 2.0, 5.0], [2.0, 0.0, 3.0], [5.0, 3.0, 0.0]]
     """
-    rows = as_curve_list(XA, "XA")
-    columns = rows if XB is None else as_curve_list(XB, "XB", like=XA)
+    rows = as_curve_list(XA, "XA", keep_float32=True)
+    columns = rows if XB is None else as_curve_list(XB, "XB", like=XA, keep_float32=True)
     limit = pairwise._checked_cutoff(cutoff)
     refuse_local_only(options)
     mirrored = False
@@ -165,7 +165,7 @@ def pdist(
     >>> lazy.compute(scheduler="threads").tolist()
     [2.0, 5.0, 3.0]
     """
-    curves = as_curve_list(X, "X")
+    curves = as_curve_list(X, "X", keep_float32=True)
     limit = pairwise._checked_cutoff(cutoff)
     refuse_local_only(options)
     if not callable(measure):

@@ -71,8 +71,8 @@ def kneighbors(
     >>> [part.tolist() for part in dask.compute(*lazy, scheduler="threads")]
     [[[1.0, 1.0]], [[0, 1]]]
     """
-    queries = as_curve_list(X, "XA")
-    targets = as_curve_list(curves, "XB", like=X)
+    queries = as_curve_list(X, "XA", keep_float32=True)
+    targets = as_curve_list(curves, "XB", like=X, keep_float32=True)
     refuse_local_only(options)
     name = pairwise._check_names(measure, options)
     check_batch(queries, targets, name, options)

@@ -242,7 +242,7 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         ValueError, TypeError
             As for :func:`curvewise.cdist`.
         """
-        curves = as_curve_list(fitted_curves(self, X), "X")
+        curves = as_curve_list(fitted_curves(self, X), "X", keep_float32=True)
         mean, options = self._mean()
         return _nearest(curves, self.cluster_centers_, mean, options)[0]
 

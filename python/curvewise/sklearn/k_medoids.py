@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from .._options import Default, whole_number
 from ..curves.foreign_curves import warn
-from ..curves.inputs import as_curve_list, copy_of
+from ..curves.inputs import as_curve, as_curve_list, copy_of
 from ..many.k_medoids import k_medoids
 from ..many.pairwise import cdist
 from ..measures.registry import MeasureName
@@ -130,7 +130,7 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
                 )
         else:
             (given,) = curves_to_fit(self, X)
-            curves = as_curve_list(given, "X")
+            curves = as_curve_list(given, "X", keep_float32=True)
             distances = self._distances(curves, None)
         most = len(distances)
         advice = f"give a whole number from 1 to {most}, the curves (n_samples={most})"
@@ -148,7 +148,7 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
         self.n_iter_ = found.rounds
         self.__dict__.pop("cluster_centers_", None)
         if curves is not None:
-            self.cluster_centers_ = [copy_of(curves[i]) for i in found.medoids]
+            self.cluster_centers_ = [copy_of(as_curve(curves[i], f"X[{i}]")) for i in found.medoids]
         return self
 
     def predict(self, X: ManyCurves) -> npt.NDArray[np.int64]:

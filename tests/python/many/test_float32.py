@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 import tracemalloc
 from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -35,6 +37,14 @@ def unaligned(array: Any) -> Any:
     moved = room[1:].view(array.dtype).reshape(array.shape)
     moved[...] = array
     return moved
+
+
+def peak_memory(call: Callable[[], Any]) -> int:
+    tracemalloc.start()  # which numpy reports its arrays to
+    call()
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    return most
 
 
 LAYOUTS: dict[str, Callable[[Any], Any]] = {
@@ -121,11 +131,57 @@ def test_lists_are_not_copied(call: str) -> None:
         "Index": lambda: curvewise.Index(X, "area"),
         "kneighbors": lambda: curvewise.Index(X[:1], "area").kneighbors(X, 1),
     }
-    tracemalloc.start()  # which numpy reports its arrays to
-    calls[call]()
-    _, most = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert most < X.nbytes / 4
+    assert peak_memory(calls[call]) < X.nbytes / 4
+
+
+@pytest.mark.skipif(find_spec("distributed") is None, reason="no dask: in .[dev]")
+def test_lists_of_dask_stay_float32(tmp_path: Path) -> None:
+    import curvewise.dask
+
+    X = stacked(9, 30, 2)
+    doubles = X.astype(np.float64)
+    assert (curvewise.dask.cdist(X, block=4).compute() == curvewise.cdist(doubles)).all()
+    assert (curvewise.dask.cdist(X[:3], doubles).compute() == curvewise.cdist(X[:3], X)).all()
+    assert (curvewise.dask.pdist(X, block=4).compute() == curvewise.pdist(doubles)).all()
+    known = curvewise.Index(doubles).kneighbors(doubles[:2], 3)
+    for found, wanted in zip(curvewise.dask.kneighbors(X[:2], X, 3, block=4), known, strict=True):
+        assert (found.compute() == wanted).all()
+    long = stacked(100, 2000, 2)
+    assert peak_memory(lambda: curvewise.dask.cdist(long, measure="area")) < 1.5 * long.nbytes
+    assert peak_memory(lambda: curvewise.dask.pdist(long, "area")) < 1.5 * long.nbytes
+    kneighbors = curvewise.dask.kneighbors
+    assert peak_memory(lambda: kneighbors(long[:1], long, 1, "area")) < 1.5 * long.nbytes
+
+
+@pytest.mark.skipif(find_spec("zarr") is None, reason="no zarr: in .[dev]")
+def test_a_store_of_float32_is_that_of_their_values(tmp_path: Path) -> None:
+    import curvewise.dask
+
+    X = stacked(5, 10, 2)
+    curvewise.dask.pdist(X, store=tmp_path / "d.zarr").compute()
+    again = curvewise.dask.pdist(X.astype(np.float64), store=tmp_path / "d.zarr")
+    assert (again.compute() == curvewise.pdist(X)).all()
+
+
+@pytest.mark.skipif(find_spec("sklearn") is None, reason="no scikit-learn: in .[dev]")
+def test_clusters_of_float32() -> None:
+    from curvewise.sklearn import CurveKMeans, CurveKMedoids
+
+    X = stacked(9, 30, 2)
+    doubles = X.astype(np.float64)
+    for estimator in (CurveKMedoids(3), CurveKMeans(3, random_state=0)):
+        known, labels = estimator.fit(doubles).cluster_centers_, estimator.labels_.tolist()
+        assert estimator.predict(X).tolist() == estimator.predict(doubles).tolist()
+        estimator.fit(X)
+        assert estimator.labels_.tolist() == labels
+        for found, wanted in zip(estimator.cluster_centers_, known, strict=True):
+            assert found.dtype == np.float64
+            assert (found == wanted).all()
+    long = stacked(20, 2000, 2)
+    medoids = CurveKMedoids(1, measure="area")
+    assert peak_memory(lambda: medoids.fit(long)) < long.nbytes / 4
+    means = CurveKMeans(1, measure="frechet", random_state=0).fit(long[:1])
+    assert peak_memory(lambda: means.predict(long)) < long.nbytes / 4
 
 
 BLOCK = 2**21  # numbers; batch.cpp cuts lists there
