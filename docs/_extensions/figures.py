@@ -102,6 +102,8 @@ def first_panel(figure: Figure) -> Figure:
     first.set_title("")
     if len(first.get_ylabel()) > 20:
         first.set_ylabel("")
+    if hasattr(first, "set_zlabel"):
+        first.set_zlabel("")  # for which no layout leaves room
     first.set_subplotspec(GridSpec(1, 1, figure=figure)[0])
     for axis in (first.xaxis, first.yaxis):
         if isinstance(axis.get_major_locator(), MaxNLocator):

@@ -101,5 +101,5 @@ for (name, (parameters, runs)), color in zip(
     value = curvewise.area(test / box, simulated / box, spacing="matched")
     print(f"{name}: area {value:.4f} after {runs} runs")
     ax.plot(*simulated.T, color=color, linewidth=1.4, label=f"{name} ({value:.4f})")
-ax.set(xlabel="strain", ylabel="stress in MPa")
-ax.legend(loc="upper left")
+ax.set(xlabel="strain [-]", ylabel="stress [MPa]")
+ax.legend(loc="center", bbox_to_anchor=(0.45, 0.37))
