@@ -6,8 +6,9 @@
 Works on a copy of the sources in build/mutants, so nothing here is touched; builds no more than the
 tests that a mutant names, and ends at the first that fails. Before the first mutant the tests must
 pass; one that then takes far longer than it did has caught its mutant, too. A mutant that does not
-compile, or whose text is not there exactly once, is an error of the list. Ends with 1 where one
-survives. Needs Python 3.11, CMake and Ninja; ccache is used if CMAKE_CXX_COMPILER_LAUNCHER says so.
+compile is an error of the list; one whose text is not in its file exactly once ends the run before
+the first is made. Ends with 1 where one survives. Needs Python 3.11, CMake and Ninja; ccache is
+used if CMAKE_CXX_COMPILER_LAUNCHER says so.
 """
 
 from __future__ import annotations
@@ -25,9 +26,27 @@ import tomllib
 
 ROOT = Path(__file__).resolve().parents[2]
 COPY = ROOT / "build" / "mutants"
+LIST = Path(__file__).with_name("mutants.toml")
 # As in tests/cpp/CMakeLists.txt: a value that is read before it was written wins every minimum.
 FILLED = {"GLIBC_TUNABLES": "glibc.malloc.perturb=1:glibc.malloc.tcache_count=0"}
 TREES = ("cpp", "tests/cpp", "tests/stress", "CMakeLists.txt")
+
+
+def read_list() -> list[dict[str, Any]]:
+    """Read mutants.toml."""
+    listed: list[dict[str, Any]] = tomllib.loads(LIST.read_text("utf-8"))["mutant"]
+    return listed
+
+
+def misplaced(mutants: list[dict[str, Any]]) -> list[str]:
+    """Return the mutants whose text is not in their file exactly once, and how often it is."""
+    lines = []
+    for mutant in mutants:
+        path = ROOT / mutant["file"]
+        count = path.read_text("utf-8").count(mutant["from"]) if path.is_file() else 0
+        if count != 1:
+            lines.append(f"{mutant['file']}: {mutant['what']}: its text is there {count} times")
+    return lines
 
 
 def copy_sources() -> None:
@@ -97,8 +116,6 @@ def verdict(mutant: dict[str, Any], limits: dict[str, float], jobs: int) -> str:
     tests = mutant["tests"]
     path = COPY / mutant["file"]
     text = path.read_text(encoding="utf-8")
-    if text.count(mutant["from"]) != 1:
-        return f"ERROR: its text is there {text.count(mutant['from'])} times"
     path.write_text(text.replace(mutant["from"], mutant["to"]), encoding="utf-8")
     try:
         failure = build(tests, jobs)
@@ -116,7 +133,9 @@ def main() -> int:
     parser.add_argument("--only", default="", help="mutants whose description or file holds this")
     parser.add_argument("--jobs", type=int, default=2, help="of the compiler at a time")
     args = parser.parse_args()
-    listed = tomllib.loads((Path(__file__).with_name("mutants.toml")).read_text("utf-8"))["mutant"]
+    listed = read_list()
+    if lines := misplaced(listed):
+        sys.exit("\n".join(lines))
     mutants = [m for m in listed if args.only in m["what"] or args.only in m["file"]]
     copy_sources()
     configure()
