@@ -60,7 +60,9 @@ def is_nightly(item: pytest.Item) -> bool:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Have the tests of properties draw fewer examples by day, if they do not say how many."""
-    settings.register_profile("curvewise", max_examples=40 if leaves_out_nightly(config) else 200)
+    # No deadline: it says how busy the machine is.
+    examples = 40 if leaves_out_nightly(config) else 200
+    settings.register_profile("curvewise", max_examples=examples, deadline=None)
     settings.load_profile("curvewise")
 
 
