@@ -25,25 +25,29 @@ def listed(names: Iterable[str]) -> str:
     return "{" + ", ".join(f'"{name}"' for name in names) + "}"
 
 
+_ORDER_AND_RADIUS = f"""\
+p : float, 1 <= p <= inf, optional
+    The order of "minkowski"; 2 if not given.
+radius : float > 0, optional
+    Of the sphere of "haversine", in whose unit distances are; {EARTH_RADIUS}, the mean radius of
+    the Earth in metres, if not given."""
 _SHARED = {
     "measures": listed(measures()),
+    "curves": """\
+P, Q : array_like, shapes (n, d) and (m, d)
+    The curves, of any d.""",
     "metric": f"""\
 metric : {listed(get_args(Metric))}
     The ground distance between points; "haversine" is that along the great circle, of points
-    (longitude, latitude) in degrees.""",
+    (longitude, latitude) in degrees.
+{_ORDER_AND_RADIUS}""",
     "ground": f"""\
 metric : {listed(get_args(Metric))}, array_like of shape (n, m), or callable
     The ground distance between points; "haversine" is that along the great circle, of points
     (longitude, latitude) in degrees. Or one's own: the distances of all points of P and Q, or a
     function that is given some points of each, of shapes (p, d) and (q, d), and returns theirs, of
-    shape (p, q); at least 0, or inf where points must not meet.""",
-    "p": """\
-p : float, 1 <= p <= inf, optional
-    The order of "minkowski"; 2 if not given.""",
-    "radius": f"""\
-radius : float > 0, optional
-    Of the sphere of "haversine", in whose unit distances are; {EARTH_RADIUS}, the mean radius of
-    the Earth in metres, if not given.""",
+    shape (p, q); at least 0, or inf where points must not meet.
+{_ORDER_AND_RADIUS}""",
     "workers": """\
 workers : int
     Threads for this call: at least 1, or -1 for one per core. Never changes the result.""",
@@ -53,6 +57,17 @@ prune : bool
     "cutoff": """\
 cutoff : float >= 0, optional
     A distance above it is inf, and is found to be so early.""",
+    "invalid": """\
+ValueError
+    A curve is not finite or empty; the curves differ in d; an option is unknown or out of
+    range.
+TypeError
+    A curve does not hold real numbers.""",
+    "own_distances": """\
+With a metric of one's own, in one thread and without pruning: a callable is asked once for each
+256 rows of the table (fewer where these are more than 2^21 pairs), so that memory stays
+O(n + m), and up to three times for a path. It need not be symmetric. Its exceptions pass
+through.""",
 }
 # What the reference does not have: it computes the plain table in one thread.
 _NOT_OF_THE_REFERENCE = ("workers", "prune", "cutoff")

@@ -71,8 +71,6 @@ def subsequence(
     measure : {warpings}
         dtw has the step pattern "symmetric1", and no window except with `normalize`.
     {metric}
-    {p}
-    {radius}
     cutoff : float >= 0, optional
         Runs with a distance above it are no answers.
     path : bool
@@ -92,11 +90,7 @@ def subsequence(
 
     Raises
     ------
-    ValueError
-        A curve is not finite or empty; the curves differ in d; an option is unknown or out of
-        range.
-    TypeError
-        A curve does not hold real numbers.
+    {invalid}
 
     Notes
     -----

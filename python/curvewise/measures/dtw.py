@@ -43,11 +43,8 @@ def dtw(
 
     Parameters
     ----------
-    P, Q : array_like, shapes (n, d) and (m, d)
-        The curves, of any d.
+    {curves}
     {ground}
-    {p}
-    {radius}
     step_pattern : str or StepPattern
         "symmetric2" counts a diagonal step twice; it is R's default, with which the paper's
         tables were made. The others of R's dtw: "asymmetric", "symmetricP0", "symmetricP05",
@@ -98,10 +95,7 @@ def dtw(
     of the pattern, of c where the step begins, plus the penalty, plus the weighted distances of
     the cells that it visits, added in this order.
 
-    With a metric of one's own, in one thread and without pruning: a callable is asked once for each
-    256 rows of the table (fewer where these are more than 2^21 pairs), so that memory stays
-    O(n + m), and up to three times for a path. It need not be symmetric. Its exceptions pass
-    through.
+    {own_distances}
 
     What other packages call DTW, in these options:
 
@@ -195,16 +189,9 @@ def dtw_info(
     (1.0, 12, 1.0)
     """
     P, Q = as_curves(P, Q)
-    steps = {
-        "metric": metric,
-        "p": p,
-        "radius": radius,
-        "step_pattern": step_pattern,
-        "penalty": penalty,
-    }
-    ends = {"window": window, "open_begin": open_begin, "open_end": open_end}
-    how = {"workers": workers, "prune": prune}
-    return WarpingInfo(*compiled_dtw_info(P, Q, steps | ends | how))
+    steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end)
+    options = steps | {"workers": workers, "prune": prune}
+    return WarpingInfo(*compiled_dtw_info(P, Q, options))
 
 
 def dtw_path(
@@ -254,17 +241,9 @@ def dtw_path(
     [[0, 0], [1, 0], [2, 1], [3, 2]]
     """
     A, B = as_curves(P, Q)
-    steps = {
-        "metric": metric,
-        "p": p,
-        "radius": radius,
-        "step_pattern": step_pattern,
-        "penalty": penalty,
-    }
-    ends = {"window": window, "open_begin": open_begin, "open_end": open_end}
-    how = {"workers": workers, "prune": prune}
-    found = compiled_dtw_path(A, B, steps | ends | how)
-    return Alignment(*found, (copied(P, A), copied(Q, B)))
+    steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end)
+    options = steps | {"workers": workers, "prune": prune}
+    return Alignment(*compiled_dtw_path(A, B, options), (copied(P, A), copied(Q, B)))
 
 
 def dtw_table(
@@ -311,12 +290,19 @@ def dtw_table(
     [[0.0, 2.0, 5.0], [1.0, 1.0, 3.0]]
     """
     P, Q = as_curves(P, Q)
-    steps = {
-        "metric": metric,
-        "p": p,
-        "radius": radius,
-        "step_pattern": step_pattern,
-        "penalty": penalty,
-    }
-    ends = {"window": window, "open_begin": open_begin, "open_end": open_end}
-    return compiled_dtw_table(P, Q, steps | ends)
+    steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end)
+    return compiled_dtw_table(P, Q, steps)
+
+
+def _options(
+    metric: object,
+    p: object,
+    radius: object,
+    step_pattern: object,
+    penalty: object,
+    window: object,
+    open_begin: object,
+    open_end: object,
+) -> dict[str, object]:
+    """Return by name what a path and a table depend on."""
+    return locals()

@@ -27,9 +27,6 @@ __all__ = ["edit_path", "edit_table", "edr", "erp", "lcss", "msm", "twe", "wdtw"
 EditDistance: TypeAlias = Literal["erp", "edr", "lcss", "msm", "twe", "wdtw"]
 
 _SHARED = {
-    "curves": """\
-P, Q : array_like, shapes (n, d) and (m, d)
-    The curves, of any d.""",
     "window": """\
 window : int >= 0 or 0 < float < 1, optional
     Sakoe-Chiba band, as for :func:`dtw`.""",
@@ -60,8 +57,6 @@ def erp(
     ----------
     {curves}
     {metric}
-    {p}
-    {radius}
     gap : float
         All coordinates of the point from which a point that is left out has its distance.
     {window}
@@ -111,8 +106,6 @@ def edr(
     ----------
     {curves}
     {metric}
-    {p}
-    {radius}
     epsilon : float >= 0, optional
         Points nearer than this are equal. If not given, a quarter of the larger standard
         deviation of all coordinates of P and of Q.
@@ -162,8 +155,6 @@ def lcss(
     ----------
     {curves}
     {metric}
-    {p}
-    {radius}
     epsilon : float >= 0
         Points at most so far apart match.
     {window}
@@ -255,8 +246,6 @@ def twe(
     ----------
     {curves}
     {metric}
-    {p}
-    {radius}
     stiffness : float >= 0
         What each unit of time between matched points costs; points are one unit apart.
     penalty : float >= 0
@@ -306,8 +295,6 @@ def wdtw(
     ----------
     {curves}
     {metric}
-    {p}
-    {radius}
     steepness : float >= 0
         How sharply the weight rises about half of the longer curve.
     {window}

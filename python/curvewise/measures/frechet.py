@@ -36,11 +36,8 @@ def frechet(
 
     Parameters
     ----------
-    P, Q : array_like, shapes (n, d) and (m, d)
-        The curves, of any d.
+    {curves}
     {ground}
-    {p}
-    {radius}
     {workers}
     {prune}
     {cutoff}
@@ -65,10 +62,7 @@ def frechet(
     Eiter & Mannila (1994): c[i, j] = max(d(P[i], Q[j]), min(c[i-1, j], c[i, j-1],
     c[i-1, j-1])). Exact. Time O(n m), memory O(n + m).
 
-    With a metric of one's own, in one thread and without pruning: a callable is asked once for each
-    256 rows of the table (fewer where these are more than 2^21 pairs), so that memory stays
-    O(n + m), and up to three times for a path. It need not be symmetric. Its exceptions pass
-    through.
+    {own_distances}
 
     Examples
     --------

@@ -26,11 +26,8 @@ def hausdorff(
 
     Parameters
     ----------
-    P, Q : array_like, shapes (n, d) and (m, d)
-        The curves, of any d.
+    {curves}
     {metric}
-    {p}
-    {radius}
     {cutoff}
 
     Returns
@@ -40,11 +37,7 @@ def hausdorff(
 
     Raises
     ------
-    ValueError
-        A curve is not finite or empty; the curves differ in d; an option is unknown or out of
-        range.
-    TypeError
-        A curve does not hold real numbers.
+    {invalid}
 
     Notes
     -----

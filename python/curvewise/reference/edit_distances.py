@@ -1,13 +1,17 @@
 """Edit distances, and weighted dynamic time warping, by the table of reference/recurrence.py.
 
 Each says its steps: a match or change, a point of P left out, and one of Q, in this order; what
-lies before the first row and column; and what the last cell is divided by. Time and memory O(n m).
+lies before the first row and column; and what the last cell is divided by. Its function fills the
+table, of which callers get the value, and edit_path and edit_table the rest. Time and memory
+O(n m).
 """
 
 from __future__ import annotations
 
+import functools
 import math
-from typing import Any, Literal, NamedTuple, SupportsFloat, TypeAlias
+from collections.abc import Callable
+from typing import Any, Literal, NamedTuple, ParamSpec, SupportsFloat, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -22,88 +26,32 @@ from .recurrence import CellCost, Recurrence, Step, filled, path_through
 
 __all__ = ["edit_path", "edit_table", "edr", "erp", "lcss", "msm", "twe", "wdtw"]
 
-
 EditDistance: TypeAlias = Literal["erp", "edr", "lcss", "msm", "twe", "wdtw"]
+_Options = ParamSpec("_Options")
 
 
-def erp(
-    P: CurveLike,
-    Q: CurveLike,
-    *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
-    gap: SupportsFloat = 0.0,
-    window: Window = Default.window,
-) -> float:
-    """Time and memory O(n m)."""
-    return _erp(P, Q, metric, p, radius, gap, window).value()
+class _Found(NamedTuple):
+    """A filled table, with its value and the path to its last cell."""
+
+    table: Array
+    value: float
+    path: npt.NDArray[np.int64] | None
 
 
-def edr(
-    P: CurveLike,
-    Q: CurveLike,
-    *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
-    epsilon: SupportsFloat | None = None,
-    window: Window = Default.window,
-) -> float:
-    """Time and memory O(n m)."""
-    return _edr(P, Q, metric, p, radius, epsilon, window).value()
+def _value(fill: Callable[_Options, _Found]) -> Callable[_Options, float]:
+    """Make of a function that fills a table one that returns its value, and says so."""
+
+    @functools.wraps(fill)
+    def value(*curves: _Options.args, **options: _Options.kwargs) -> float:
+        return fill(*curves, **options).value
+
+    value.__annotations__["return"] = "float"  # those of `fill`, too, which its signature shows
+    return value
 
 
-def lcss(
-    P: CurveLike,
-    Q: CurveLike,
-    *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
-    epsilon: SupportsFloat = 1.0,
-    window: Window = Default.window,
-) -> float:
-    """Time and memory O(n m)."""
-    found = _lcss(P, Q, metric, p, radius, epsilon, window)
-    n, m = found.table.shape
-    return float(max(0.0, 1.0 + found.last() / min(n, m)))
-
-
-def msm(
-    P: CurveLike, Q: CurveLike, *, cost: SupportsFloat = 1.0, window: Window = Default.window
-) -> float:
-    """Time and memory O(n m)."""
-    return _msm(P, Q, cost, window).value()
-
-
-def twe(
-    P: CurveLike,
-    Q: CurveLike,
-    *,
-    metric: Metric = Default.metric,
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
-    stiffness: SupportsFloat = 0.001,
-    penalty: SupportsFloat = 1.0,
-    window: Window = Default.window,
-) -> float:
-    """Time and memory O(n m)."""
-    return _twe(P, Q, metric, p, radius, stiffness, penalty, window).value()
-
-
-def wdtw(
-    P: CurveLike,
-    Q: CurveLike,
-    *,
-    metric: Metric = "sqeuclidean",
-    p: Order = Default.p,
-    radius: Radius = Default.radius,
-    steepness: SupportsFloat = 0.05,
-    window: Window = Default.window,
-) -> float:
-    """Time and memory O(n m)."""
-    return _wdtw(P, Q, metric, p, radius, steepness, window).value()
+def _found(P: CurveLike, Q: CurveLike, measure: str, options: dict[str, Any]) -> _Found:
+    found: _Found = globals()[measure].__wrapped__(P, Q, **options)
+    return found
 
 
 def edit_path(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any) -> Alignment:
@@ -114,32 +62,12 @@ def edit_path(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any)
             f"{measure} has no path for curves of several coordinates, of which each has its own; "
             "take them one by one"
         )
-    return Alignment(globals()[measure](P, Q, **options), found.path)
+    return Alignment(found.value, found.path)
 
 
 def edit_table(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any) -> Array:
     """Time and memory O(n m)."""
     return _found(P, Q, measure, options).table
-
-
-class _Found(NamedTuple):
-    """A filled table, with the path to its last cell."""
-
-    table: Array
-    path: npt.NDArray[np.int64] | None
-    divisor: float = 1.0
-
-    def last(self) -> float:
-        return float(self.table[-1, -1])
-
-    def value(self) -> float:
-        return self.last() / self.divisor
-
-
-def _found(P: CurveLike, Q: CurveLike, measure: str, options: dict[str, Any]) -> _Found:
-    defaults = dict(globals()[measure].__kwdefaults__)
-    found: _Found = globals()[f"_{measure}"](P, Q, *(defaults | options).values())
-    return found
 
 
 class _Pair(NamedTuple):
@@ -179,16 +107,16 @@ class _Pair(NamedTuple):
     def found(self, recurrence: Recurrence, divisor: float = 1.0) -> _Found:
         """Fill the table."""
         table, taken = filled(recurrence, self.inside)
-        return _Found(table, path_through(recurrence, taken), divisor)
+        return _Found(table, float(table[-1, -1]) / divisor, path_through(recurrence, taken))
 
 
-def _steps(match: CellCost, row: float, column: float, *gaps: CellCost) -> list[Step]:
+def _steps(match: CellCost, constant: float, *gaps: CellCost) -> list[Step]:
     """Return the three steps: what a match costs, and what leaving out costs, and its gap."""
-    gap_of_row, gap_of_column = ([(1.0, gap)] for gap in gaps) if gaps else ([], [])
+    row, column = ([(1.0, gap)] for gap in gaps) if gaps else ([], [])
     return [
         Step(1, 1, 0.0, [(1.0, match)]),
-        Step(1, 0, row, gap_of_row),
-        Step(0, 1, column, gap_of_column),
+        Step(1, 0, constant, row),
+        Step(0, 1, constant, column),
     ]
 
 
@@ -196,7 +124,18 @@ def _cell(table: Array) -> CellCost:
     return lambda i, j: float(table[i, j])
 
 
-def _erp(P: Any, Q: Any, metric: Metric, p: Order, radius: Radius, gap: Any, window: Any) -> _Found:
+@_value
+def erp(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    radius: Radius = Default.radius,
+    gap: SupportsFloat = 0.0,
+    window: Window = Default.window,
+) -> _Found:
+    """Time and memory O(n m)."""
     pair = _Pair.checked(P, Q, metric, p, radius, window, "erp")
     number = real_number("gap", gap, -math.inf, "give a number")
     if pair.metric == "haversine" and abs(number) > 90:
@@ -207,18 +146,23 @@ def _erp(P: Any, Q: Any, metric: Metric, p: Order, radius: Radius, gap: Any, win
     point = np.full((1, pair.P.shape[1]), number)
     rows, columns = pair.between(pair.P, point), pair.between(pair.Q, point)
     steps = _steps(
-        _cell(pair.ground()),
-        0.0,
-        0.0,
-        lambda i, j: float(rows[i]),
-        lambda i, j: float(columns[j]),
+        _cell(pair.ground()), 0.0, lambda i, j: float(rows[i]), lambda i, j: float(columns[j])
     )
     return pair.found(Recurrence(steps, None, sum(columns.tolist()), sum(rows.tolist())))
 
 
-def _edr(
-    P: Any, Q: Any, metric: Metric, p: Order, radius: Radius, epsilon: Any, window: Any
+@_value
+def edr(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    radius: Radius = Default.radius,
+    epsilon: SupportsFloat | None = None,
+    window: Window = Default.window,
 ) -> _Found:
+    """Time and memory O(n m)."""
     pair = _Pair.checked(P, Q, metric, p, radius, window, "edr")
     if epsilon is None and pair.metric == "haversine":
         raise ValueError(
@@ -227,26 +171,39 @@ def _edr(
     quarter = max(float(np.std(curve)) for curve in (pair.P, pair.Q)) / 4
     least = quarter if epsilon is None else epsilon
     least = real_number("epsilon", least, 0.0, "give a number >= 0, or None")
-    apart = np.where(pair.ground() < least, 0.0, 1.0)
-    recurrence = Recurrence(_steps(_cell(apart), 1.0, 1.0), None, 0.0, 0.0)
-    return pair.found(recurrence, max(pair.inside.shape))
+    apart = _cell(np.where(pair.ground() < least, 0.0, 1.0))
+    return pair.found(Recurrence(_steps(apart, 1.0), None, 0.0, 0.0), max(pair.inside.shape))
 
 
-def _lcss(
-    P: Any, Q: Any, metric: Metric, p: Order, radius: Radius, epsilon: Any, window: Any
+@_value
+def lcss(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    radius: Radius = Default.radius,
+    epsilon: SupportsFloat = 1.0,
+    window: Window = Default.window,
 ) -> _Found:
+    """Time and memory O(n m)."""
     pair = _Pair.checked(P, Q, metric, p, radius, window, "lcss")
     most = real_number("epsilon", epsilon, 0.0, "give a number >= 0")
-    together = np.where(pair.ground() <= most, -1.0, 0.0)
-    return pair.found(Recurrence(_steps(_cell(together), 0.0, 0.0), None, 0.0, 0.0))
+    together = _cell(np.where(pair.ground() <= most, -1.0, 0.0))
+    found = pair.found(Recurrence(_steps(together, 0.0), None, 0.0, 0.0))
+    return found._replace(value=max(0.0, 1.0 + found.value / min(pair.inside.shape)))
 
 
-def _msm(P: Any, Q: Any, cost: Any, window: Any) -> _Found:
+@_value
+def msm(
+    P: CurveLike, Q: CurveLike, *, cost: SupportsFloat = 1.0, window: Window = Default.window
+) -> _Found:
+    """Time and memory O(n m)."""
     pair = _Pair.checked(P, Q, "cityblock", None, None, window, "msm")
     constant = real_number("cost", cost, 0.0, "give a number >= 0")
     found = [_msm_of_one(pair, c, constant) for c in range(pair.P.shape[1])]
     table = sum((one.table for one in found[1:]), found[0].table)
-    return _Found(table, found[0].path if len(found) == 1 else None)
+    return _Found(table, float(table[-1, -1]), found[0].path if len(found) == 1 else None)
 
 
 def _msm_of_one(pair: _Pair, coordinate: int, cost: float) -> _Found:
@@ -260,23 +217,25 @@ def _msm_of_one(pair: _Pair, coordinate: int, cost: float) -> _Found:
     steps = _steps(
         lambda i, j: abs(x[i] - y[j]),
         cost,
-        cost,
         lambda i, j: outside(x[i], x[i - 1], y[j]),
         lambda i, j: outside(y[j], y[j - 1], x[i]),
     )
     return pair.found(Recurrence(steps, first=abs(float(x[0] - y[0]))))
 
 
-def _twe(
-    P: Any,
-    Q: Any,
-    metric: Metric,
-    p: Order,
-    radius: Radius,
-    stiffness: Any,
-    penalty: Any,
-    window: Any,
+@_value
+def twe(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = Default.metric,
+    p: Order = Default.p,
+    radius: Radius = Default.radius,
+    stiffness: SupportsFloat = 0.001,
+    penalty: SupportsFloat = 1.0,
+    window: Window = Default.window,
 ) -> _Found:
+    """Time and memory O(n m)."""
     pair = _Pair.checked(P, Q, metric, p, radius, window, "twe")
     stiff = real_number("stiffness", stiffness, 0.0, "give a number >= 0")
     deletion = stiff + real_number("penalty", penalty, 0.0, "give a number >= 0")
@@ -287,7 +246,6 @@ def _twe(
     rows, columns = pair.between(led_P[1:], led_P[:-1]), pair.between(led_Q[1:], led_Q[:-1])
     match, above, left = _steps(
         lambda i, j: float(ground[i + 1, j + 1]),
-        deletion,
         deletion,
         lambda i, j: float(rows[i]),
         lambda i, j: float(columns[j]),
@@ -300,9 +258,18 @@ def _twe(
     return pair.found(Recurrence([match, above, left]))
 
 
-def _wdtw(
-    P: Any, Q: Any, metric: Metric, p: Order, radius: Radius, steepness: Any, window: Any
+@_value
+def wdtw(
+    P: CurveLike,
+    Q: CurveLike,
+    *,
+    metric: Metric = "sqeuclidean",
+    p: Order = Default.p,
+    radius: Radius = Default.radius,
+    steepness: SupportsFloat = 0.05,
+    window: Window = Default.window,
 ) -> _Found:
+    """Time and memory O(n m)."""
     pair = _Pair.checked(P, Q, metric, p, radius, window, "wdtw")
     steep = real_number("steepness", steepness, 0.0, "give a number >= 0")
     n, m = pair.inside.shape
