@@ -110,18 +110,19 @@ void all_cells(const RecurrenceStrip& strip, const Lanes& lanes) noexcept {
 // Makes costs of the distances of a diagonal.
 void apply_rule(const RecurrenceStrip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
                 std::ptrdiff_t high) noexcept {
-    if (strip.rule == PairRule::distance) return;
+    const PairRule rule = strip.rule;  // which a store of costs could change
+    if (rule == PairRule::distance) return;
     double* const pairs = strip.pairs[0];
     const Pack zero = simd::pset1<Pack>(0.0), one = simd::pset1<Pack>(1.0);
     const Pack threshold = simd::pset1<Pack>(strip.threshold);
     const double* const weights =
-        strip.rule == PairRule::weighted ? offsets_on(strip, t) : strip.pairs[0];
+        rule == PairRule::weighted ? offsets_on(strip, t) : strip.pairs[0];
     for (std::ptrdiff_t k = low; k <= high; k += width) {
         const Pack d = load(pairs + k);
         Pack cost = simd::pmul(d, load(weights + k));
-        if (strip.rule == PairRule::apart) {
+        if (rule == PairRule::apart) {
             cost = simd::pselect(simd::pcmp_le(threshold, d), one, zero);
-        } else if (strip.rule == PairRule::together) {
+        } else if (rule == PairRule::together) {
             cost = simd::pselect(simd::pcmp_le(d, threshold), simd::psub(zero, one), zero);
         }
         store(pairs + k, cost);
@@ -139,11 +140,15 @@ void fill_moves(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
     const std::ptrdiff_t skipped = strip.lanes - strip.ground.rows;
     const double* const p = strip.ground.p - skipped;
     const double* const q = strip.ground.q + strip.columns - 1 - t;
+    const double* const row_steps = strip.row_steps;
     const double* const column_steps = strip.column_steps + strip.columns - 1 - t;
-    for (std::ptrdiff_t k = strip.low_lane; k <= strip.high_lane; k += width) {
+    double* const row_moves = strip.row_moves;
+    double* const column_moves = strip.column_moves;
+    const std::ptrdiff_t high = strip.high_lane;
+    for (std::ptrdiff_t k = strip.low_lane; k <= high; k += width) {
         const Pack x = load(p + k), y = load(q + k);
-        store(strip.row_moves + k, outside(load(strip.row_steps + k), simd::psub(x, y)));
-        store(strip.column_moves + k, outside(load(column_steps + k), simd::psub(y, x)));
+        store(row_moves + k, outside(load(row_steps + k), simd::psub(x, y)));
+        store(column_moves + k, outside(load(column_steps + k), simd::psub(y, x)));
     }
 }
 
