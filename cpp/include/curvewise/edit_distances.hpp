@@ -25,9 +25,10 @@
 
 namespace curvewise {
 
-/// What all of them have.
+/// What all of them have. Each names besides what its steps cost, in visit_costs().
 struct EditOptions {
     static constexpr bool is_planar = false;  ///< for curves of any dimension
+    static constexpr bool has_ground = true;  ///< among its options
 
     GroundDistance ground;
     /// As for dtw().
@@ -63,6 +64,11 @@ struct ErpOptions : EditOptions {
     static constexpr const char* measure = "erp";
     double gap = 0.0;
 
+    template <class Visit>
+    void visit_costs(Visit& visit) {
+        visit("gap", gap, any_number_range);
+    }
+
     Recurrence recurrence() const {
         Recurrence result =
             EditOptions::recurrence(measure, {{1, 1, 0.0, {{0, 0, 1.0}}},
@@ -82,6 +88,11 @@ struct EdrOptions : EditOptions {
     static constexpr const char* measure = "edr";
     double epsilon = std::numeric_limits<double>::infinity();
 
+    template <class Visit>
+    void visit_costs(Visit& visit) {
+        visit("epsilon", epsilon, threshold_range);
+    }
+
     Recurrence recurrence() const {
         Recurrence result = EditOptions::recurrence(
             measure, {{1, 1, 0.0, {{0, 0, 1.0}}}, {1, 0, 1.0, {}}, {0, 1, 1.0, {}}});
@@ -99,6 +110,11 @@ struct LcssOptions : EditOptions {
     static constexpr const char* measure = "lcss";
     double epsilon = 1.0;
 
+    template <class Visit>
+    void visit_costs(Visit& visit) {
+        visit("epsilon", epsilon, least_zero_range);
+    }
+
     Recurrence recurrence() const {
         Recurrence result = EditOptions::recurrence(
             measure, {{1, 1, 0.0, {{0, 0, 1.0}}}, {1, 0, 0.0, {}}, {0, 1, 0.0, {}}});
@@ -114,7 +130,13 @@ struct LcssOptions : EditOptions {
 /// its own costs, the differences of numbers.
 struct MsmOptions : EditOptions {
     static constexpr const char* measure = "msm";
+    static constexpr bool has_ground = false;
     double cost = 1.0;
+
+    template <class Visit>
+    void visit_costs(Visit& visit) {
+        visit("cost", cost, least_zero_range);
+    }
 
     Recurrence recurrence() const {
         Recurrence result =
@@ -133,6 +155,12 @@ struct TweOptions : EditOptions {
     static constexpr const char* measure = "twe";
     double stiffness = 0.001;
     double penalty = 1.0;
+
+    template <class Visit>
+    void visit_costs(Visit& visit) {
+        visit("stiffness", stiffness, least_zero_range);
+        visit("penalty", penalty, least_zero_range);
+    }
 
     Recurrence recurrence() const {
         const double deletion = stiffness + penalty;
@@ -154,6 +182,12 @@ struct WdtwOptions : EditOptions {
     double steepness = 0.05;
 
     WdtwOptions() { ground.metric = Metric::sqeuclidean; }
+
+    template <class Visit>
+    void visit_costs(Visit& visit) {
+        visit("steepness", steepness, least_zero_range);
+    }
+
     Recurrence recurrence() const {
         Recurrence result = EditOptions::recurrence(
             measure,
@@ -172,45 +206,10 @@ template <class Options>
 inline constexpr bool is_edit_distance = std::is_base_of_v<EditOptions, Options>;
 
 /// Calls visit() with the name and the value of each option (options.hpp).
-template <class Visit>
-void visit_options(ErpOptions& options, Visit&& visit) {
-    visit(options.ground);
-    visit("gap", options.gap, any_number_range);
-    visit("window", options.window, options.window_fraction, window_range);
-    visit("cutoff", options.cutoff, cutoff_range);
-}
-template <class Visit>
-void visit_options(EdrOptions& options, Visit&& visit) {
-    visit(options.ground);
-    visit("epsilon", options.epsilon, threshold_range);
-    visit("window", options.window, options.window_fraction, window_range);
-    visit("cutoff", options.cutoff, cutoff_range);
-}
-template <class Visit>
-void visit_options(LcssOptions& options, Visit&& visit) {
-    visit(options.ground);
-    visit("epsilon", options.epsilon, least_zero_range);
-    visit("window", options.window, options.window_fraction, window_range);
-    visit("cutoff", options.cutoff, cutoff_range);
-}
-template <class Visit>
-void visit_options(MsmOptions& options, Visit&& visit) {
-    visit("cost", options.cost, least_zero_range);
-    visit("window", options.window, options.window_fraction, window_range);
-    visit("cutoff", options.cutoff, cutoff_range);
-}
-template <class Visit>
-void visit_options(TweOptions& options, Visit&& visit) {
-    visit(options.ground);
-    visit("stiffness", options.stiffness, least_zero_range);
-    visit("penalty", options.penalty, least_zero_range);
-    visit("window", options.window, options.window_fraction, window_range);
-    visit("cutoff", options.cutoff, cutoff_range);
-}
-template <class Visit>
-void visit_options(WdtwOptions& options, Visit&& visit) {
-    visit(options.ground);
-    visit("steepness", options.steepness, least_zero_range);
+template <class Options, class Visit, class = std::enable_if_t<is_edit_distance<Options>>>
+void visit_options(Options& options, Visit&& visit) {
+    if constexpr (Options::has_ground) visit(options.ground);
+    options.visit_costs(visit);
     visit("window", options.window, options.window_fraction, window_range);
     visit("cutoff", options.cutoff, cutoff_range);
 }

@@ -78,6 +78,22 @@ class LinearMeasure {
     }
 };
 
+// What measures have in common that sweep a table of n m cells; those that take several threads for
+// a pair, or refuse some sizes, say so themselves.
+class SweptMeasure {
+   public:
+    static constexpr bool is_swept = true;
+
+    static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
+    template <class PreparedP>
+    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
+    static std::ptrdiff_t workers() noexcept { return 1; }
+    static std::int64_t steps(std::int64_t n, std::int64_t /*count*/,
+                              std::int64_t points) noexcept {
+        return n * points;
+    }
+};
+
 // A side of a measure that prepares nothing.
 struct UnpreparedCurve {
     UnpreparedCurve(CheckedCurve curve, Poller& /*poller*/) : checked(std::move(curve)) {}

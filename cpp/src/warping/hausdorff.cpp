@@ -26,12 +26,11 @@ using warping::PointOrder;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-class HausdorffMeasure {
+class HausdorffMeasure : public pairwise::SweptMeasure {
    public:
     struct Memory {
         std::vector<double> point, distances, nearest;
     };
-    static constexpr bool is_swept = true;
     using PreparedP = warping::PackedSide<PointOrder::forward>;
     using PreparedQ = PreparedP;
 
@@ -42,13 +41,6 @@ class HausdorffMeasure {
     }
     curves::Requirements requirements() const noexcept {
         return warping::requirements(HausdorffOptions::measure, options_.ground);
-    }
-    static void check_sizes(std::ptrdiff_t /*n*/, std::ptrdiff_t /*m*/) noexcept {}
-    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
-    static std::ptrdiff_t workers() noexcept { return 1; }
-    static std::int64_t steps(std::int64_t n, std::int64_t /*count*/,
-                              std::int64_t points) noexcept {
-        return n * points;
     }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,

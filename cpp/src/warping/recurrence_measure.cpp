@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -27,6 +28,7 @@ using curves::RangeScale;
 using runtime::Poller;
 using warping::PackedCurve;
 using warping::PointOrder;
+using warping::RecurrenceProblem;
 using warping::RecurrenceSweep;
 using warping::StepTable;
 
@@ -46,23 +48,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
                                 "no deviation in metres");
 }
 
-// A curve with a point before its first, all of whose coordinates are 0.
-class LedCurve {
-   public:
-    explicit LedCurve(const CurveView& curve)
-        : points_(static_cast<std::size_t>((curve.size() + 1) * curve.dim()), 0.0),
-          view_(points_.data(), curve.size() + 1, curve.dim()) {
-        double* next = points_.data() + curve.dim();
-        for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-            for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) *next++ = curve(i, c);
-        }
+// The points of a curve, and one before its first, all of whose coordinates are 0.
+std::vector<double> led(const CurveView& curve) {
+    std::vector<double> points(static_cast<std::size_t>((curve.size() + 1) * curve.dim()), 0.0);
+    double* next = points.data() + curve.dim();
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) *next++ = curve(i, c);
     }
-    const CurveView& view() const noexcept { return view_; }
-
-   private:
-    std::vector<double> points_;
-    CurveView view_;
-};
+    return points;
+}
 
 // A quarter of the larger standard deviation of all coordinates of either curve.
 double quarter_of_deviation(const CurveView& P, const CurveView& Q) {
@@ -93,10 +87,9 @@ double largest_constant(const Recurrence& recurrence) noexcept {
     return largest;
 }
 
-class RecurrenceMeasure {
+class RecurrenceMeasure : public pairwise::SweptMeasure {
    public:
     using Memory = warping::RecurrenceMemory;
-    static constexpr bool is_swept = true;
     using PreparedP = warping::PackedSide<PointOrder::forward>;
     using PreparedQ = warping::PackedSide<PointOrder::reversed>;
 
@@ -114,14 +107,8 @@ class RecurrenceMeasure {
         return warping::requirements(recurrence_.measure, recurrence_.ground);
     }
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const { window().check_sizes(n, m); }
-    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
-    static std::ptrdiff_t workers() noexcept { return 1; }
-    static std::int64_t steps(std::int64_t n, std::int64_t /*count*/,
-                              std::int64_t points) noexcept {
-        return n * points;
-    }
 
-    // Calls use(recurrence, steps, curves, range), with curves as the recurrence takes them.
+    // Calls use(problem).
     template <class Use>
     auto with_curves(const PreparedP& P, const PreparedQ& Q, Poller& poller, Use use) const {
         const RangeScale range =
@@ -135,37 +122,34 @@ class RecurrenceMeasure {
         const Recurrence& recurrence = own ? *own : recurrence_;
         const bool is_led = recurrence.border == Border::origin;
         if (range.is_identity() && !is_led) {
-            return use(recurrence, steps_, warping::PackedPair{P.packed, Q.packed}, range);
+            return use(RecurrenceProblem{recurrence, steps_, {P.packed, Q.packed}, range});
         }
         const auto pack = [&](const curves::CheckedCurve& checked, PointOrder order) {
-            return is_led ? PackedCurve::of(LedCurve(checked.curve).view(), checked.on_sphere,
-                                            range, order, poller)
-                          : PackedCurve::of(checked.curve, checked.on_sphere, range, order, poller);
+            const CurveView& curve = checked.curve;
+            const std::vector<double> points = is_led ? led(curve) : std::vector<double>();
+            return PackedCurve::of(
+                is_led ? CurveView(points.data(), curve.size() + 1, curve.dim()) : curve,
+                checked.on_sphere, range, order, poller);
         };
         const PackedCurve p = pack(P.checked, PointOrder::forward);
         const PackedCurve q = pack(Q.checked, PointOrder::reversed);
-        return use(recurrence, StepTable(recurrence, range), warping::PackedPair{p, q}, range);
+        return use(RecurrenceProblem{recurrence, StepTable(recurrence, range), {p, q}, range});
     }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
                       const pairwise::Call<Memory>& call) const {
         const std::ptrdiff_t n = P.packed.size(), m = Q.packed.size();
         const double cutoff = std::min(call.cutoff, recurrence_.cutoff);
-        const double found = with_curves(
-            P, Q, call.poller,
-            [&](const Recurrence& recurrence, const StepTable& steps,
-                const warping::PackedPair& curves, const RangeScale& range) {
-                const bool may_give_up = range.is_identity() && recurrence.per != Per::matches;
-                const double give_up =
-                    may_give_up ? cutoff * divisor(n, m) * (1.0 + 1e-15) : infinity;
-                double sum = 0.0;
-                for_each_table(curves, [&](std::ptrdiff_t coordinate) {
-                    RecurrenceSweep sweep(recurrence, steps, curves, range, coordinate, call.poller,
-                                          call.memory);
-                    sum += sweep.value(give_up);
-                });
-                return finished(restored(sum, range), n, m);
+        const double found = with_curves(P, Q, call.poller, [&](const RecurrenceProblem& problem) {
+            const bool may_give_up = problem.range.is_identity() && recurrence_.per != Per::matches;
+            const double give_up = may_give_up ? cutoff * divisor(n, m) * (1.0 + 1e-15) : infinity;
+            double sum = 0.0;
+            for_each_table(problem.curves, [&](std::ptrdiff_t coordinate) {
+                sum +=
+                    RecurrenceSweep(problem, coordinate, call.poller, call.memory).value(give_up);
             });
+            return finished(restored(sum, problem.range), n, m);
+        });
         return found > recurrence_.cutoff ? infinity : found;
     }
 
@@ -179,13 +163,9 @@ class RecurrenceMeasure {
         }
         Alignment found;
         found.distance = (*this)(P, Q, call);
-        with_curves(P, Q, call.poller,
-                    [&](const Recurrence& recurrence, const StepTable& steps,
-                        const warping::PackedPair& curves, const RangeScale& range) {
-                        found.path = RecurrenceSweep(recurrence, steps, curves, range, -1,
-                                                     call.poller, call.memory)
-                                         .path();
-                    });
+        with_curves(P, Q, call.poller, [&](const RecurrenceProblem& problem) {
+            found.path = RecurrenceSweep(problem, -1, call.poller, call.memory).path();
+        });
         if (recurrence_.border == Border::origin) {  // without the point before the first
             found.path.erase(found.path.begin());
             for (auto& [i, j] : found.path) --i, --j;
@@ -197,23 +177,21 @@ class RecurrenceMeasure {
                      double* out) const {
         const std::ptrdiff_t n = P.packed.size(), m = Q.packed.size();
         std::fill_n(out, n * m, 0.0);
-        with_curves(P, Q, call.poller,
-                    [&](const Recurrence& recurrence, const StepTable& steps,
-                        const warping::PackedPair& curves, const RangeScale& range) {
-                        const std::ptrdiff_t led = curves.rows() - n, width = curves.columns();
-                        std::vector<double> table(static_cast<std::size_t>(curves.rows() * width));
-                        for_each_table(curves, [&](std::ptrdiff_t coordinate) {
-                            RecurrenceSweep(recurrence, steps, curves, range, coordinate,
-                                            call.poller, call.memory)
-                                .write_table(table.data());
-                            for (std::ptrdiff_t i = 0; i < n; ++i) {
-                                const double* const row = table.data() + (i + led) * width + led;
-                                for (std::ptrdiff_t j = 0; j < m; ++j) {
-                                    out[i * m + j] += restored(row[j], range);
-                                }
-                            }
-                        });
-                    });
+        with_curves(P, Q, call.poller, [&](const RecurrenceProblem& problem) {
+            const std::ptrdiff_t rows = problem.curves.rows(), width = problem.curves.columns();
+            const std::ptrdiff_t led = rows - n;
+            std::vector<double> table(static_cast<std::size_t>(rows * width));
+            for_each_table(problem.curves, [&](std::ptrdiff_t coordinate) {
+                RecurrenceSweep(problem, coordinate, call.poller, call.memory)
+                    .write_table(table.data());
+                for (std::ptrdiff_t i = 0; i < n; ++i) {
+                    const double* const row = table.data() + (i + led) * width + led;
+                    for (std::ptrdiff_t j = 0; j < m; ++j) {
+                        out[i * m + j] += restored(row[j], problem.range);
+                    }
+                }
+            });
+        });
     }
 
    private:
@@ -286,29 +264,18 @@ class RecurrenceMeasure {
 
 bool Recurrence::is_symmetric() const {
     if (per == Per::rows || per == Per::columns) return false;
-    const auto turned = [](CostFrom from) {
-        switch (from) {
-            case CostFrom::row_gap:
-                return CostFrom::column_gap;
-            case CostFrom::column_gap:
-                return CostFrom::row_gap;
-            case CostFrom::row_move:
-                return CostFrom::column_move;
-            case CostFrom::column_move:
-                return CostFrom::row_move;
-            case CostFrom::pair:
-            case CostFrom::offset:
-                break;
-        }
-        return from;
-    };
+    // Of each kind of cost the one with P and Q in each other's place, in the order of CostFrom.
+    constexpr CostFrom turned[] = {CostFrom::pair,   CostFrom::column_gap,  CostFrom::row_gap,
+                                   CostFrom::offset, CostFrom::column_move, CostFrom::row_move};
+    static_assert(static_cast<std::size_t>(CostFrom::column_move) + 1 == std::size(turned));
     const auto mirrors = [&](const Step& one, const Step& other) {
         return one.rows == other.columns && one.columns == other.rows &&
                one.constant == other.constant &&
                std::equal(one.terms.begin(), one.terms.end(), other.terms.begin(),
                           other.terms.end(), [&](const StepTerm& a, const StepTerm& b) {
                               return a.rows == b.columns && a.columns == b.rows &&
-                                     a.weight == b.weight && a.from == turned(b.from);
+                                     a.weight == b.weight &&
+                                     a.from == turned[static_cast<std::size_t>(b.from)];
                           });
     };
     return std::all_of(steps.begin(), steps.end(), [&](const Step& one) {

@@ -39,43 +39,43 @@ struct RecurrenceSweep::Codes {
     std::vector<std::uint8_t> content;
 };
 
-RecurrenceSweep::RecurrenceSweep(const Recurrence& recurrence, const StepTable& steps,
-                                 const PackedPair& curves, const RangeScale& range,
-                                 std::ptrdiff_t coordinate, Poller& poller,
-                                 RecurrenceMemory& memory)
-    : recurrence_(recurrence),
-      table_(steps),
-      curves_(curves),
-      advance_(active_level().recurrences->advance(
-          steps.steps.data(), static_cast<std::ptrdiff_t>(steps.steps.size()), steps.terms.data())),
-      band_(band_of(recurrence, curves)),
+RecurrenceSweep::RecurrenceSweep(const RecurrenceProblem& problem, std::ptrdiff_t coordinate,
+                                 Poller& poller, RecurrenceMemory& memory)
+    : recurrence_(problem.recurrence),
+      table_(problem.steps),
+      curves_(problem.curves),
+      advance_(active_level().recurrences->advance(table_.steps.data(),
+                                                   static_cast<std::ptrdiff_t>(table_.steps.size()),
+                                                   table_.terms.data())),
+      band_(band_of(recurrence_, curves_)),
       poller_(poller),
       memory_(memory),
       height_(max_height),
       reentry_(infinity) {
-    if (recurrence.ground.own != nullptr) {
-        height_ = std::clamp<std::ptrdiff_t>(max_own_distances / curves.columns(), 1, max_height);
+    if (recurrence_.ground.own != nullptr) {
+        height_ = std::clamp<std::ptrdiff_t>(max_own_distances / curves_.columns(), 1, max_height);
     }
     kernels::Strip& ground = whole_.ground;
     const std::ptrdiff_t first = std::max<std::ptrdiff_t>(coordinate, 0);
-    ground.p = curves.p.data() + first * curves.p.stride();
-    ground.q = curves.q.data() + first * curves.q.stride();
-    ground.p_stride = curves.p.stride();
-    ground.q_stride = curves.q.stride();
-    ground.dim = coordinate < 0 ? curves.dim() : 1;
-    ground.metric_parameter = recurrence.ground.parameter();
-    const kernels::Cost cost{canonical_metric(recurrence.ground, ground.dim),
-                             curves.squares_are_in_domain(), recurrence.ground.own != nullptr};
+    ground.p = curves_.p.data() + first * curves_.p.stride();
+    ground.q = curves_.q.data() + first * curves_.q.stride();
+    ground.p_stride = curves_.p.stride();
+    ground.q_stride = curves_.q.stride();
+    ground.dim = coordinate < 0 ? curves_.dim() : 1;
+    ground.metric_parameter = recurrence_.ground.parameter();
+    const kernels::Cost cost{canonical_metric(recurrence_.ground, ground.dim),
+                             curves_.squares_are_in_domain(), recurrence_.ground.own != nullptr};
     fill_ = active_level().recurrences->fill(cost, ground.dim);
     whole_.steps = table_.steps.data();
     whole_.step_count = static_cast<std::ptrdiff_t>(table_.steps.size());
     whole_.terms = table_.terms.data();
-    whole_.rule = static_cast<kernels::PairRule>(recurrence.pair);
-    whole_.threshold = range.restore(recurrence.threshold, -degree(recurrence.ground.metric));
+    whole_.rule = static_cast<kernels::PairRule>(recurrence_.pair);
+    whole_.threshold =
+        problem.range.restore(recurrence_.threshold, -degree(recurrence_.ground.metric));
     whole_.reach = table_.reach;
     whole_.value_count = table_.value_diagonals;
     whole_.pair_count = table_.pair_diagonals;
-    prepare_costs(range);
+    prepare_costs(problem.range);
 }
 
 // Every array has room for lanes before the first row and behind the last.

@@ -25,17 +25,23 @@ namespace curvewise::warping {
 // What one thread keeps from one pair to the next.
 struct RecurrenceMemory {
     AlignedBuffer lanes;
-    AlignedBuffer costs;  // of rows, columns and differences
-    AlignedBuffer boundary;
+    AlignedBuffer costs;          // of rows, columns and differences
     AlignedBuffer own_distances;  // of a strip
     std::vector<std::ptrdiff_t> columns;
+};
+
+// What is swept: the curves as the recurrence takes them, in units of a range.
+struct RecurrenceProblem {
+    const Recurrence& recurrence;
+    const StepTable& steps;
+    PackedPair curves;
+    const RangeScale& range;
 };
 
 class RecurrenceSweep {
    public:
     // One coordinate of the curves where `coordinate` is not negative.
-    RecurrenceSweep(const Recurrence& recurrence, const StepTable& steps, const PackedPair& curves,
-                    const RangeScale& range, std::ptrdiff_t coordinate, Poller& poller,
+    RecurrenceSweep(const RecurrenceProblem& problem, std::ptrdiff_t coordinate, Poller& poller,
                     RecurrenceMemory& memory);
 
     // Of the last cell; infinity where all paths are found to be above `give_up`.

@@ -44,24 +44,17 @@ WarpingOptions checked_options(const SoftDtwOptions& options) {
     return checked;
 }
 
-class SoftDtwMeasure {
+class SoftDtwMeasure : public pairwise::SweptMeasure {
    public:
     struct Memory {};
     using PreparedP = pairwise::UnpreparedCurve;
     using PreparedQ = pairwise::UnpreparedCurve;
-    static constexpr bool is_swept = true;
 
     explicit SoftDtwMeasure(const SoftDtwOptions& options)
         : options_(checked_options(options)), gamma_(options.gamma) {}
     curves::Requirements requirements() const noexcept { return {options_.measure, 1, false}; }
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const {
         options_.window.check_sizes(n, m);
-    }
-    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
-    static std::ptrdiff_t workers() noexcept { return 1; }
-    static std::int64_t steps(std::int64_t n, std::int64_t /*count*/,
-                              std::int64_t points) noexcept {
-        return n * points;
     }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,

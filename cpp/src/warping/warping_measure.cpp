@@ -31,10 +31,9 @@ using warping::Window;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-class WarpingMeasure {
+class WarpingMeasure : public pairwise::SweptMeasure {
    public:
     using Memory = SweepMemory;
-    static constexpr bool is_swept = true;
     using PreparedP = warping::PackedSide<PointOrder::forward>;
     using PreparedQ = warping::PackedSide<PointOrder::reversed>;
 
@@ -47,12 +46,7 @@ class WarpingMeasure {
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const {
         options_.window.check_sizes(n, m);
     }
-    static void check_p(const PreparedP& /*P*/, Poller& /*poller*/) noexcept {}
     std::ptrdiff_t workers() const noexcept { return options_.workers; }
-    static std::int64_t steps(std::int64_t n, std::int64_t /*count*/,
-                              std::int64_t points) noexcept {
-        return n * points;
-    }
 
     // Calls use(problem).
     template <class Use>
