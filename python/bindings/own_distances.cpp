@@ -6,6 +6,8 @@
 namespace curvewise::bindings {
 namespace {
 
+py::module_ answers() { return py::module_::import("curvewise.curves.own_distance"); }
+
 // Whether Python's function answered.
 bool is_written(const py::object& blocks, const TableBlock& block, double* out) {
     PyObject* const answer = PyObject_CallFunction(blocks.ptr(), "nnnn", block.first_row,
@@ -22,17 +24,11 @@ bool is_written(const py::object& blocks, const TableBlock& block, double* out) 
 }  // namespace
 
 bool is_own_metric(const py::object& metric) {
-    if (PyUnicode_Check(metric.ptr()) || PyBytes_Check(metric.ptr())) return false;
-    if (PyList_Check(metric.ptr()) || PyTuple_Check(metric.ptr())) {
-        const auto rows = py::reinterpret_borrow<py::sequence>(metric);
-        return rows.size() > 0 && !PyUnicode_Check(py::object(rows[0]).ptr());
-    }
-    return PyCallable_Check(metric.ptr()) != 0 || py::hasattr(metric, "__array__");
+    return answers().attr("is_own_metric")(metric).cast<bool>();
 }
 
 const BlockDistances* OwnDistances::of(const py::object& metric) {
-    const py::object module = py::module_::import("curvewise.curves.own_distance");
-    blocks_ = module.attr("block_distances")(metric, P_, Q_);
+    blocks_ = answers().attr("block_distances")(metric, P_, Q_);
     function_ = [this](const TableBlock& block, double* out) { write(block, out); };
     return &function_;
 }
