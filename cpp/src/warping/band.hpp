@@ -21,6 +21,10 @@ class Band {
           last_column_(m - 1),
           limited_(window.has_value() && n > 1 && m > 1 && *window < std::max(n, m)) {
         if (limited_) reach_ = *window * (std::max(n, m) - 1);
+        if (limited_ && n == m) {  // the same, without divisions
+            row_step_ = column_step_ = 1;
+            reach_ = *window;
+        }
     }
 
     bool is_limited() const noexcept { return limited_; }
@@ -29,6 +33,8 @@ class Band {
         if (!limited_) return {0, last_column_};
         const std::ptrdiff_t low = row * row_step_ - reach_;
         const std::ptrdiff_t high = row * row_step_ + reach_;
+        if (column_step_ == 1)
+            return {std::max<std::ptrdiff_t>(low, 0), std::min(last_column_, high)};
         const std::ptrdiff_t first = low <= 0 ? 0 : (low + column_step_ - 1) / column_step_;
         return {first, std::min(last_column_, high / column_step_)};
     }

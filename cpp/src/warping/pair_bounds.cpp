@@ -14,6 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // With fewer cells, the table is swept as fast as the points are compared with boxes.
 constexpr std::ptrdiff_t fewest_cells = 1 << 10;
+constexpr std::ptrdiff_t fewest_cells_of_lines = 1 << 6;
 
 // With more, the pruning of a single pair, which searches for its bounds, is the faster way.
 constexpr std::ptrdiff_t most_narrowed_cells = 3 << 18;
@@ -65,6 +66,25 @@ double unfinished_distance(const double* a, const double* b, std::ptrdiff_t dim)
         sum = Norm::add(sum, std::max(std::max(a[c] - b[dim + c], b[c] - a[dim + c]), 0.0));
     }
     return sum;
+}
+
+// Of boxes in one dimension. Gaps that are small beside all values lower a bound by little.
+std::ptrdiff_t merge(const BoxLevel& boxes, AlignedBuffer& merged) {
+    double low = infinity, high = -infinity;
+    for (std::ptrdiff_t b = 0; b < boxes.count; ++b) {
+        low = std::min(low, boxes.boxes[2 * b]);
+        high = std::max(high, boxes.boxes[2 * b + 1]);
+    }
+    merged.reserve(2 * boxes.count);
+    return merge_intervals(boxes.boxes, boxes.count, (high - low) / 16.0, merged.data());
+}
+
+// For every point.
+kernels::PointsAndBoxes all_of(const double* boxes, std::ptrdiff_t count) noexcept {
+    kernels::PointsAndBoxes all{};
+    all.boxes = boxes;
+    all.box_count = count;
+    return all;
 }
 
 }  // namespace
@@ -167,6 +187,15 @@ void BandedBoxes::assign(std::ptrdiff_t count, PointOrder order, std::ptrdiff_t 
     }
 }
 
+kernels::PointsAndBoxes BandedBoxes::of(const BoxLevel& boxes) const noexcept {
+    kernels::PointsAndBoxes banded = all_of(boxes.boxes, boxes.count);
+    if (is_limited_) {
+        banded.first_box = first_.data();
+        banded.last_box = last_.data();
+    }
+    return banded;
+}
+
 double PairBounds::combined(double rows, double columns, double first_row,
                             double first_column) const {
     // symmetric2 pays for rows and columns, except for the first cell: once.
@@ -212,7 +241,8 @@ double PairBounds::run_bound(std::ptrdiff_t j, int level) {
 }
 
 double PairBounds::point_bound(std::ptrdiff_t j, const PackedCurve& q) {
-    compute_terms(j, q);
+    compute_row_terms(j, q);
+    compute_column_terms(j, q);
     const std::ptrdiff_t n = P_.size(), m = q.size();
     const double* const rows = row_terms_.data();
     const double* const columns = column_terms_.data();
@@ -224,37 +254,80 @@ double PairBounds::point_bound(std::ptrdiff_t j, const PackedCurve& q) {
     return combined(rest_of_rows, sum_of(columns, m - 1), rows[0], columns[m - 1]);
 }
 
+double PairBounds::column_bound(std::ptrdiff_t j, const PackedCurve& q) {
+    if (is_open()) return 0.0;
+    compute_column_terms(j, q);
+    const double* const columns = column_terms_.data();
+    if (is_frechet()) return *std::max_element(columns, columns + q.size());
+    return sum_of(columns, q.size());
+}
+
+double PairBounds::undivided(std::ptrdiff_t j, const PackedCurve& q, int level) {
+    if (is_line() && level == 1) return column_bound(j, q);
+    if (is_line() && level == point_level) return 0.0;  // it was level 2
+    if (is_line() || level == point_level) return point_bound(j, q);
+    return with_norm(box_metric_, [&](auto norm) { return run_bound<decltype(norm)>(j, level); });
+}
+
 double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
     const std::ptrdiff_t n = P_.size(), m = q.size();
-    if (!is_bounded(j) || n * m < fewest_cells) return 0.0;
-    const double bound =
-        level == point_level ? point_bound(j, q) : with_norm(box_metric_, [&](auto norm) {
-            return run_bound<decltype(norm)>(j, level);
-        });
+    const bool is_short = n * m < (is_banded_line() ? fewest_cells_of_lines : fewest_cells);
+    if (!is_bounded(j) || is_short) return 0.0;
+    const double bound = undivided(j, q, level);
     if (is_frechet()) return bound;
     // The table adds up as many terms in another order.
     return bound * (1.0 - static_cast<double>(n + m + 2) * 0x1p-52) / options_.divisor(n, m);
 }
 
-void PairBounds::compute_terms(std::ptrdiff_t j, const PackedCurve& q) {
-    if (terms_of_ == j) return;
-    const auto least = [&](const PackedCurve& points, PointOrder order, std::ptrdiff_t size,
-                           const BoxLevel& boxes, BandedBoxes& banded, AlignedBuffer& out) {
-        banded.assign(points.size(), order, size, boxes.points_per_box(),
-                      options_.window.between(points.size(), size));
-        out.reserve(AlignedBuffer::rounded(points.size() + kernels::padding));
-        kernel_({points.data(), points.stride(), points.size(), points.dim(), boxes.boxes,
-                 boxes.count, banded.first(), banded.last(), out.data()});
-        finish(out.data(), points.size());
-    };
-    least(P_, PointOrder::forward, q.size(), kept_.boxes(j, point_level, boxes_), boxes_of_rows_,
-          row_terms_);
-    if (!is_open()) {
-        const BoxLevel boxes =
-            level_with(tree_, KeptBoxes::most_boxes[KeptBounds::limit_of(point_level)]);
-        least(q, PointOrder::reversed, tree_.size(), boxes, boxes_of_columns_, column_terms_);
+void PairBounds::compute_terms(const PackedCurve& points, kernels::PointsAndBoxes boxes,
+                               AlignedBuffer& terms) const {
+    terms.reserve(AlignedBuffer::rounded(points.size() + kernels::padding));
+    boxes.points = points.data();
+    boxes.stride = points.stride();
+    boxes.count = points.size();
+    boxes.dim = points.dim();
+    boxes.least = terms.data();
+    kernel_(boxes);
+    finish(terms.data(), points.size());
+}
+
+void PairBounds::compute_row_terms(std::ptrdiff_t j, const PackedCurve& q) {
+    if (row_terms_of_ == j) return;
+    row_terms_of_ = j;
+    const auto window = options_.window.between(P_.size(), q.size());
+    if (is_line() && values_of_rows_.assign(P_.size(), PointOrder::forward, q.size(), window)) {
+        values_of_rows_.enclose(q);
+        return compute_terms(P_, values_of_rows_.each(), row_terms_);
     }
-    terms_of_ = j;
+    const BoxLevel boxes = kept_.boxes(j, point_level, boxes_);
+    if (is_line()) {
+        const std::ptrdiff_t count = merge(boxes, merged_of_kept_);
+        return compute_terms(P_, all_of(merged_of_kept_.data(), count), row_terms_);
+    }
+    boxes_of_rows_.assign(P_.size(), PointOrder::forward, q.size(), boxes.points_per_box(), window);
+    compute_terms(P_, boxes_of_rows_.of(boxes), row_terms_);
+}
+
+void PairBounds::compute_column_terms(std::ptrdiff_t j, const PackedCurve& q) {
+    if (is_open() || column_terms_of_ == j) return;
+    column_terms_of_ = j;
+    const auto window = options_.window.between(q.size(), P_.size());
+    if (is_line() && values_of_columns_.assign(q.size(), PointOrder::reversed, P_.size(), window)) {
+        if (values_of_columns_.is_new()) values_of_columns_.enclose(P_);
+        return compute_terms(q, values_of_columns_.each(), column_terms_);
+    }
+    const BoxLevel boxes = point_level_boxes();
+    if (is_line()) {
+        if (merged_count_ == 0) merged_count_ = merge(boxes, merged_);
+        return compute_terms(q, all_of(merged_.data(), merged_count_), column_terms_);
+    }
+    boxes_of_columns_.assign(q.size(), PointOrder::reversed, P_.size(), boxes.points_per_box(),
+                             window);
+    compute_terms(q, boxes_of_columns_.of(boxes), column_terms_);
+}
+
+BoxLevel PairBounds::point_level_boxes() const noexcept {
+    return level_with(tree_, KeptBoxes::most_boxes[KeptBounds::limit_of(point_level)]);
 }
 
 std::optional<CostToGo> PairBounds::cost_to_go(std::ptrdiff_t j, const PackedCurve& q,
@@ -266,7 +339,8 @@ std::optional<CostToGo> PairBounds::cost_to_go(std::ptrdiff_t j, const PackedCur
     }
     sums_.assign(n, m, options_.recurrence == kernels::Recurrence::dtw_symmetric2);
     if (!is_frechet()) {
-        compute_terms(j, q);
+        compute_row_terms(j, q);
+        compute_column_terms(j, q);
         std::copy_n(row_terms_.data(), n, sums_.rows());
         if (!is_open()) {
             std::reverse_copy(column_terms_.data(), column_terms_.data() + m, sums_.columns());

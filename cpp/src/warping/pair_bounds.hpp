@@ -29,6 +29,7 @@
 #include "warping/box_tree.hpp"
 #include "warping/cost_sums.hpp"
 #include "warping/kept_boxes.hpp"
+#include "warping/matched_values.hpp"
 #include "warping/packed_curve.hpp"
 #include "warping/warping_problem.hpp"
 
@@ -78,9 +79,8 @@ class BandedBoxes {
     // Of a curve of `size` points, `points_per_box` in a box.
     void assign(std::ptrdiff_t count, PointOrder order, std::ptrdiff_t size,
                 std::ptrdiff_t points_per_box, std::optional<std::ptrdiff_t> window);
-    // Null where there is no band.
-    const std::ptrdiff_t* first() const noexcept { return is_limited_ ? first_.data() : nullptr; }
-    const std::ptrdiff_t* last() const noexcept { return is_limited_ ? last_.data() : nullptr; }
+    // These boxes for the kernel, which needs the points besides.
+    kernels::PointsAndBoxes of(const BoxLevel& boxes) const noexcept;
 
    private:
     std::ptrdiff_t count_ = -1;
@@ -101,12 +101,18 @@ class PairBounds {
 
     // Those of level 0, of all kept curves.
     void quick(double* bounds) const;
+    // Whether that of curve j holds the distances of the ends.
+    bool has_looked_at_ends(std::ptrdiff_t j) const noexcept { return is_bounded(j); }
     // That of a level above 0 and curve j, whose points are `q`.
     double refined(std::ptrdiff_t j, const PackedCurve& q, int level);
     // What the rest of a path costs at least, for a sweep that leaves out what is above `most`, in
     // the unit of the table. Nothing where the measure's own pruning does better, or where there
     // are no bounds. Valid until the next call.
     std::optional<CostToGo> cost_to_go(std::ptrdiff_t j, const PackedCurve& q, double most);
+    // Whether every path costs more than the last of these says.
+    bool is_hopeless(const CostToGo& cost_to_go) const noexcept {
+        return sums_.all() * cost_to_go.slack > cost_to_go.most;
+    }
 
    private:
     bool is_bounded(std::ptrdiff_t j) const noexcept;
@@ -117,7 +123,19 @@ class PairBounds {
     template <class Norm>
     double run_bound(std::ptrdiff_t j, int level);
     double point_bound(std::ptrdiff_t j, const PackedCurve& q);
-    void compute_terms(std::ptrdiff_t j, const PackedCurve& q);
+    double column_bound(std::ptrdiff_t j, const PackedCurve& q);
+    // The bound of a level above 0, before it is divided.
+    double undivided(std::ptrdiff_t j, const PackedCurve& q, int level);
+    bool is_line() const noexcept { return tree_.dim() == 1; }
+    bool is_banded_line() const noexcept {
+        return is_line() && (options_.window.radius || options_.window.fraction);
+    }
+    BoxLevel point_level_boxes() const noexcept;
+    void compute_row_terms(std::ptrdiff_t j, const PackedCurve& q);
+    void compute_column_terms(std::ptrdiff_t j, const PackedCurve& q);
+    // The distances of `points` to the nearest of these boxes, of which alone it says something.
+    void compute_terms(const PackedCurve& points, kernels::PointsAndBoxes boxes,
+                       AlignedBuffer& terms) const;
     // Makes bounds of distances of boxes.
     void finish(double* bounds, std::ptrdiff_t count) const noexcept;
     // The larger of what P's parts cost and what Q's do, or their sum.
@@ -136,9 +154,15 @@ class PairBounds {
     // are stored.
     AlignedBuffer row_terms_;
     AlignedBuffer column_terms_;
-    std::ptrdiff_t terms_of_ = -1;
+    std::ptrdiff_t row_terms_of_ = -1;
+    std::ptrdiff_t column_terms_of_ = -1;
     BandedBoxes boxes_of_rows_;
     BandedBoxes boxes_of_columns_;
+    BandedValues values_of_rows_;
+    BandedValues values_of_columns_;
+    AlignedBuffer merged_;          // boxes of P, in one dimension
+    AlignedBuffer merged_of_kept_;  // of Q
+    std::ptrdiff_t merged_count_ = 0;
     std::vector<double> run_terms_;
     BoxRoom boxes_;  // of Q
     CostSums sums_;

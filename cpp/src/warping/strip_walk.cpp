@@ -129,10 +129,12 @@ void StripWalk::enter(std::ptrdiff_t strip) noexcept {
         std::fill_n(columns_, strip_.rows, 0);
         std::fill_n(columns_ + plan_->height_, strip_.rows, strip_.columns - 1);
     } else {
-        for (std::ptrdiff_t k = 0; k < strip_.rows; ++k) {
+        std::ptrdiff_t* const first = columns_;
+        std::ptrdiff_t* const last = columns_ + plan_->height_;
+        for (std::ptrdiff_t k = 0, rows = strip_.rows; k < rows; ++k) {
             const ColumnRange range = plan_->columns(row + k);
-            columns_[k] = range.first;
-            columns_[plan_->height_ + k] = range.last;
+            first[k] = range.first;
+            last[k] = range.last;
         }
     }
     const bool is_dead = narrower_.is_on() && !narrower_.enter(strip_, strip, row, columns_);

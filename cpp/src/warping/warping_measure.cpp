@@ -120,8 +120,9 @@ class WarpingMeasure::Bounds {
             return measure_.value(P_, Q, call, [&](WarpingProblem& problem, double cutoff) {
                 const std::optional<CostToGo> cost_to_go =
                     bounds_.cost_to_go(j, Q.packed, problem.most_in_table(cutoff));
-                return cost_to_go ? problem.narrowed_distance(*cost_to_go)
-                                  : problem.distance(cutoff);
+                if (!cost_to_go) return problem.distance(cutoff, !bounds_.has_looked_at_ends(j));
+                return bounds_.is_hopeless(*cost_to_go) ? infinity
+                                                        : problem.narrowed_distance(*cost_to_go);
             });
         }
         bool is_within(std::ptrdiff_t j, const PreparedQ& Q, const pairwise::Call<Memory>& call) {

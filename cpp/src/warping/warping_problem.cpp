@@ -96,9 +96,9 @@ WarpingProblem::WarpingProblem(const WarpingOptions& options, const PackedPair& 
     if (is_frechet() && sweep_.own == nullptr) root_ = put_off_root(sweep_.cost, options.ground);
 }
 
-double WarpingProblem::distance(double cutoff) {
+double WarpingProblem::distance(double cutoff, bool looks_at_ends) {
     if (cutoff < infinity && range_.is_identity()) {
-        if (!ends_are_within(cutoff)) {
+        if (looks_at_ends && !ends_are_within(cutoff)) {
             sweep_.poller.count_steps(sweep_.curves.rows() * sweep_.curves.columns());
             return infinity;
         }

@@ -51,8 +51,9 @@ class WarpingProblem {
     WarpingProblem(const WarpingOptions& options, const PackedPair& curves, const RangeScale& range,
                    const pairwise::Call<SweepMemory>& call);
 
-    // One above `cutoff` may come back as any other that is.
-    double distance(double cutoff);
+    // One above `cutoff` may come back as any other that is. `looks_at_ends`: first at the
+    // distances of the ends, unless these are known to be within it.
+    double distance(double cutoff, bool looks_at_ends = true);
     // The same, for curves within the usual range, where the cells that are dead by `cost_to_go`
     // (in the unit of the table, of which `most_in_table` makes the cutoff) are left out.
     double narrowed_distance(const CostToGo& cost_to_go);

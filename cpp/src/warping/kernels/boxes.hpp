@@ -19,6 +19,10 @@ struct PointsAndBoxes {
     // never fall, or never rise, from point to point.
     const std::ptrdiff_t* first_box;
     const std::ptrdiff_t* last_box;
+    // In one dimension, where not null: each point has an interval of its own, and no boxes.
+    // Padded.
+    const double* low;
+    const double* high;
     // The distance of every point to the nearest of its boxes; padded.
     double* least;
 };

@@ -4,8 +4,23 @@
 // point within a box is nearer, to the bit. Included by the kernel of each level, inside its
 // anonymous namespace.
 
+// Each point's own interval.
+template <class Norm>
+void least_of_own(const PointsAndBoxes& sides) noexcept {
+    const double* const points = sides.points;
+    const double* const low = sides.low;
+    const double* const high = sides.high;
+    double* const least = sides.least;
+    for (std::ptrdiff_t k = 0, count = sides.count; k < count; k += width) {
+        const Pack x = load(points + k);
+        const Pack inside = simd::pmax(simd::pmin(x, load(high + k)), load(low + k));
+        store(least + k, Norm::finish(Norm::add(simd::pset1<Pack>(0.0), simd::psub(x, inside))));
+    }
+}
+
 template <class Norm, int fixed_dim>
 void least(const PointsAndBoxes& sides) noexcept {
+    if (fixed_dim == 1 && sides.low != nullptr) return least_of_own<Norm>(sides);
     const std::ptrdiff_t dim = fixed_dim > 0 ? fixed_dim : sides.dim;
     for (std::ptrdiff_t k = 0; k < sides.count; k += width) {
         std::ptrdiff_t begin = 0, end = sides.box_count;
