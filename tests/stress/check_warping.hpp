@@ -381,11 +381,11 @@ void check_subsequences(Choices& choices, const Judge& judge, const Options& opt
     struct Piece {
         std::ptrdiff_t begin, end;
     };
-    textbook::Rules rules = rules_of(options, P.size(), Q.size());
-    // Which of two runs is the better is decided by squares, of which fewer are equal.
-    const bool by_squares = rules.largest && textbook::is_euclidean(rules.ground) && P.dim() > 1;
-    if (by_squares) rules.ground = {curvewise::Metric::sqeuclidean};
-    const auto distance = [&](double value) { return by_squares ? std::sqrt(value) : value; };
+    const textbook::Rules rules = rules_of(options, P.size(), Q.size());
+    // That of a run of Q.
+    const auto distance = [&](std::ptrdiff_t first, std::ptrdiff_t last) {
+        return textbook::unscaled_value(P, Q.part(first, last + 1), rules);
+    };
     std::vector<Piece> pieces{{0, Q.size()}};
     const auto found = curvewise::subsequences(P, Q, choices.between(1, 3), options);
     // The library scales once, by all of Q, and a run by itself may be scaled otherwise.
@@ -397,8 +397,7 @@ void check_subsequences(Choices& choices, const Judge& judge, const Options& opt
             for (std::ptrdiff_t last = piece.begin; last < piece.end; ++last) {
                 double ending_here = infinity;
                 for (std::ptrdiff_t first = piece.begin; first <= last; ++first) {
-                    ending_here = std::min(
-                        ending_here, textbook::unscaled_value(P, Q.part(first, last + 1), rules));
+                    ending_here = std::min(ending_here, distance(first, last));
                 }
                 if (ending_here < best || (ending_here == best && last < stop)) {
                     best = ending_here;
@@ -406,7 +405,7 @@ void check_subsequences(Choices& choices, const Judge& judge, const Options& opt
                 }
             }
         }
-        judge.value("distance of a run", run.distance, distance(best), with);
+        judge.value("distance of a run", run.distance, best, with);
         judge.holds("stop of a run", run.stop == stop, with);
         std::vector<Piece> left;
         for (const Piece& piece : pieces) {
@@ -419,9 +418,7 @@ void check_subsequences(Choices& choices, const Judge& judge, const Options& opt
             left.push_back({run.stop + 1, piece.end});
         }
         pieces = std::move(left);
-        judge.value("distance from the run",
-                    textbook::unscaled_value(P, Q.part(run.start, run.stop + 1), rules), best,
-                    with);
+        judge.value("distance from the run", distance(run.start, run.stop), best, with);
     }
 }
 

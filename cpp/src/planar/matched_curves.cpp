@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -157,6 +158,11 @@ Route warping_path(const Side& P, const Side& Q, Poller& poller) {
                           poller.control() == nullptr ? nullptr : &control));
 }
 
+// Of a position along a curve, which is far from the largest whole number.
+bool is_at_sample(double position) noexcept {
+    return position == static_cast<double>(static_cast<std::int64_t>(position));
+}
+
 // The places along the path of a curve's vertices between its samples, of which the path's cells
 // have the numbers `samples`.
 std::vector<double> places_of_vertices(const Side& curve, const std::vector<double>& samples,
@@ -167,7 +173,7 @@ std::vector<double> places_of_vertices(const Side& curve, const std::vector<doub
     for (std::size_t k = 0; k < curve.positions.size(); ++k) {
         poller.poll_in_loop(k);
         const double position = curve.positions[k];
-        if (position == std::floor(position)) continue;
+        if (is_at_sample(position)) continue;
         while (samples[step + 1] < position) ++step;
         places.push_back(route.places[step] + (position - samples[step]) *
                                                   (route.places[step + 1] - route.places[step]));
@@ -178,14 +184,20 @@ std::vector<double> places_of_vertices(const Side& curve, const std::vector<doub
 // Both, in ascending order, each place once.
 std::vector<double> merged(const std::vector<double>& a, const std::vector<double>& b,
                            Poller& poller) {
-    std::vector<double> result;
-    result.reserve(a.size() + b.size());
-    for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
+    std::vector<double> result(a.size() + b.size());
+    double* const first = result.data();
+    double* last = first;
+    const auto add = [&](double place) {
+        if (last == first || last[-1] != place) *last++ = place;
+    };
+    std::size_t i = 0, j = 0;
+    while (i < a.size() && j < b.size()) {
         poller.poll_in_loop(i + j);
-        const bool takes_a = j == b.size() || (i < a.size() && a[i] <= b[j]);
-        const double place = takes_a ? a[i++] : b[j++];
-        if (result.empty() || result.back() != place) result.push_back(place);
+        add(a[i] <= b[j] ? a[i++] : b[j++]);
     }
+    for (; i < a.size(); ++i) add(a[i]);
+    for (; j < b.size(); ++j) add(b[j]);
+    result.resize(static_cast<std::size_t>(last - first));
     return result;
 }
 
@@ -196,27 +208,29 @@ void for_each_position(const std::vector<double>& places, const Side& curve,
                        const std::vector<double>& samples, const Route& route, Poller& poller,
                        Visit visit) {
     ArcPosition at(curve.positions);
-    std::size_t step = 0;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-        poller.poll_in_loop(k);
-        const double place = places[k];
-        while (step + 2 < route.places.size() && route.places[step + 1] <= place) ++step;
-        const double slope =
-            (samples[step + 1] - samples[step]) / (route.places[step + 1] - route.places[step]);
-        const double position = samples[step] + slope * (place - route.places[step]);
-        at.move_to(position);
-        visit(place, position, at);
+    const std::size_t steps = route.places.size() - 1;
+    for (std::size_t step = 0, k = 0; step < steps; ++step) {
+        const double from = samples[step], begin = route.places[step];
+        const double end = route.places[step + 1];
+        const double slope = (samples[step + 1] - from) / (end - begin);
+        const bool is_last = step + 1 == steps;
+        for (; k < places.size() && (is_last || places[k] < end); ++k) {
+            poller.poll_in_loop(k);
+            const double position = from + slope * (places[k] - begin);
+            at.move_to(position);
+            visit(places[k], position, at);
+        }
     }
 }
 
 // The points of a curve at places along the path.
 Polyline points_at(const std::vector<double>& places, const Side& curve,
                    const std::vector<double>& samples, const Route& route, Poller& poller) {
-    Polyline points;
-    points.reserve(places.size());
+    Polyline points(places.size());
+    Point* next = points.data();
     for_each_position(places, curve, samples, route, poller,
                       [&](double /*place*/, double /*position*/, const ArcPosition& at) {
-                          points.push_back(at.point_on(curve.points));
+                          *next++ = at.point_on(curve.points);
                       });
     return points;
 }
@@ -230,7 +244,7 @@ std::vector<PlacesOnCurve::Place> places_on(const std::vector<double>& places, c
     std::vector<std::size_t> vertices;  // of `of_vertices`
     for (std::size_t k = 0; k < curve.positions.size(); ++k) {
         poller.poll_in_loop(k);
-        if (curve.positions[k] != std::floor(curve.positions[k])) vertices.push_back(k);
+        if (!is_at_sample(curve.positions[k])) vertices.push_back(k);
     }
     std::vector<PlacesOnCurve::Place> found;
     found.reserve(places.size());

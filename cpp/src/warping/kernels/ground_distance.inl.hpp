@@ -83,19 +83,29 @@ struct BufferedCost {
     Pack at(std::ptrdiff_t, std::ptrdiff_t k) const noexcept { return load(cost + k); }
 };
 
+template <class Norm, int fixed_dim>
+void fill_cost_in(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
+                  std::ptrdiff_t high) noexcept {
+    const std::ptrdiff_t dim = fixed_dim > 0 ? fixed_dim : strip.dim;
+    const std::ptrdiff_t p_stride = strip.p_stride, q_stride = strip.q_stride;
+    const double* const p = strip.p;
+    const double* const q = strip.q + strip.columns - 1 - t;
+    double* const cost = strip.cost;
+    for (std::ptrdiff_t k = low; k <= high; k += width) {
+        Pack sum = simd::pset1<Pack>(0.0);
+        for (std::ptrdiff_t c = 0; c < dim; ++c) {
+            sum =
+                Norm::add(sum, simd::psub(load(p + c * p_stride + k), load(q + c * q_stride + k)));
+        }
+        store(cost + k, Norm::finish(sum));
+    }
+}
+
 template <class Norm>
 void fill_cost(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
                std::ptrdiff_t high) noexcept {
-    const double* const q = strip.q + strip.columns - 1 - t;
-    for (std::ptrdiff_t k = low; k <= high; k += width) {
-        Pack sum = simd::pset1<Pack>(0.0);
-        for (std::ptrdiff_t c = 0; c < strip.dim; ++c) {
-            const Pack delta = simd::psub(load(strip.p + c * strip.p_stride + k),
-                                          load(q + c * strip.q_stride + k));
-            sum = Norm::add(sum, delta);
-        }
-        store(strip.cost + k, Norm::finish(sum));
-    }
+    if (strip.dim == 2) return fill_cost_in<Norm, 2>(strip, t, low, high);
+    fill_cost_in<Norm, 0>(strip, t, low, high);
 }
 
 using Arc = Haversine<PackArithmetic, DividerRoot>;
