@@ -14,6 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // With fewer cells, the table is swept as fast as the points are compared with boxes.
 constexpr std::ptrdiff_t fewest_cells = 1 << 10;
+// In one dimension with a band, where each point has a single box.
 constexpr std::ptrdiff_t fewest_cells_of_lines = 1 << 6;
 
 // With more, the pruning of a single pair, which searches for its bounds, is the faster way.

@@ -9,6 +9,10 @@
 //   level 3   each point in the place of the runs, against some 48 boxes
 //
 // in the dimension d, O(d), O(64 d), O(1000 d) and O(48 (n + m) d) time, the last one in SIMD.
+// In one dimension boxes are intervals, and points are compared with few of them, or with one of
+// their own (matched_values.hpp): level 1 is then of Q's points alone, in O(m), level 2 of Q's and
+// P's in O(n + m), and no other is of use.
+//
 // A window leaves a point, or a run, only the boxes that its band reaches: the bound of Keogh &
 // Ratanamahatana (2005) with several boxes in the place of their one. The terms of the last level
 // say, besides, what the rest of a path costs at least: a sweep with a cutoff leaves out what is
