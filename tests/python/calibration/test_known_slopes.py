@@ -6,8 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from curvewise.calibration import TrustRegion, identify
+from curvewise.calibration import Below, Log, Tied, TrustRegion, identify
+from curvewise.calibration.problem.space import Space
 from curvewise.materials import ChabocheVoce, DrivenModel
 
 MATERIAL = ChabocheVoce(backstresses=1)
@@ -66,3 +69,36 @@ def test_known_slopes_give_the_errors_that_differences_give(found) -> None:
     ).uncertainty(sigma=1.0)
     for name in problem.space.names:
         assert exact.standard_errors[name] == pytest.approx(blind.standard_errors[name], rel=0.1)
+
+
+SPACE = Space(
+    {
+        "plain": (-2.0, 5.0),
+        "log": Log(1e-3, 1e4),
+        "known": 7.0,
+        "below log": Below("log", 1e-4, 20.0),
+        "tied": Tied(lambda p: p["log"] - 3.0 * p["plain"] + p["known"]),
+        "below below": Below("below log", 0.0, 3.0),
+    }
+)
+
+
+@given(st.lists(st.floats(0.01, 0.99), min_size=4, max_size=4))
+def test_parameters_move_as_their_rates_say(place) -> None:
+    unit, step = np.array(place), 1e-7
+
+    def at(moved) -> np.ndarray:
+        return np.array(list(SPACE.dictionary(SPACE.point(moved)).values()))
+
+    rates = SPACE.rates(unit)
+    sides = []
+    for sign in (-1.0, 1.0):
+        moved = [at(unit + sign * step * axis) - at(unit) for axis in np.eye(4)]
+        sides.append(np.column_stack(moved) / (sign * step))
+    # Where what a parameter stays below begins to be less than its own bound, the two sides differ.
+    scale = 1e-5 * np.abs(rates).max(axis=1, keepdims=True) + 1e-6
+    near = [np.abs(rates - side) <= scale for side in sides]
+    assert (near[0] | near[1]).all()
+    free = [0, 1, 3, 5]
+    np.testing.assert_array_equal(SPACE.differential(unit), rates[free])
+    assert not rates[2].any()

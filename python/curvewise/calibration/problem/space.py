@@ -246,28 +246,40 @@ class Space:
 
     def differential(self, unit: Array) -> Array:
         """Return the derivatives of the parameters by the place in the unit cube, shape (k, k)."""
-        if not self._logs and not self._others:
-            return np.diag(self._high - self._low)
-        step = 1e-6
-        columns = []
-        for axis in np.eye(len(unit)):
-            ends = np.clip((unit + step * axis, unit - step * axis), 0.0, 1.0)
-            difference = np.subtract(self.point(ends[0]), self.point(ends[1]))
-            columns.append(difference / float((ends[0] - ends[1]) @ axis))
-        return np.column_stack(columns)
+        unit = np.clip(unit, 0.0, 1.0)
+        values = self.point(unit)
+        slopes = np.diag(self._high - self._low)
+        for i in self._logs:
+            slopes[i, i] = values[i] * math.log(self._high[i] / self._low[i])
+        for below, above in self._others.items():
+            most = values[above] - self._gaps[below]
+            if most < self._high[below]:
+                slopes[below] = unit[below] * slopes[above]
+                slopes[below, below] = most - self._low[below]
+        return slopes
 
     def rates(self, unit: Array) -> Array:
         """Return the derivatives of all that a model is called with by the place in the unit cube.
 
-        Shape (p, k), by differences: parameters that are fixed or tied count among the p.
+        Shape (p, k): parameters that are fixed count among the p, and tied ones, by differences.
         """
+        free = self.differential(unit)
+        rows = np.zeros((len(self._given), len(self.names)))
+        for row, (name, given) in enumerate(self._given.items()):
+            if isinstance(given, Tied):
+                rows[row] = self._tied_rates(name, unit)
+            elif name in self.bounds:
+                rows[row] = free[self.names.index(name)]
+        return rows
+
+    def _tied_rates(self, name: str, unit: Array) -> Array:
         step = 1e-6
-        columns = []
+        rates = []
         for axis in np.eye(len(unit)):
             ends = np.clip((unit + step * axis, unit - step * axis), 0.0, 1.0)
-            high, low = (list(self.dictionary(self.point(end)).values()) for end in ends)
-            columns.append(np.subtract(high, low) / float((ends[0] - ends[1]) @ axis))
-        return np.column_stack(columns)
+            high, low = (self.dictionary(self.point(end))[name] for end in ends)
+            rates.append((high - low) / float((ends[0] - ends[1]) @ axis))
+        return np.array(rates)
 
     def dictionary(self, point: Point) -> dict[str, float]:
         """Return a point as the dict that a model is called with."""
