@@ -69,7 +69,10 @@ def test_where_the_surface_promises_nothing_there_is_no_place(places, gain):
 
 @pytest.mark.parametrize("k", [1, 2, 8])
 def test_a_population_finds_the_bottom_of_a_narrow_valley(k):
-    """Askew, with axes of 1 to 100, its bottom at a bound for one parameter."""
+    """Askew, with axes of 1 to 100, its bottom at a bound for one parameter.
+
+    In two thirds of the generations that it takes where the members do not shape its covariance.
+    """
     bottom = np.linspace(0.0, 0.7, k)
     turned = np.linalg.qr(np.random.default_rng(1).normal(size=(k, k)))[0]
     scales = np.geomspace(1.0, 100.0, k)
@@ -85,9 +88,9 @@ def test_a_population_finds_the_bottom_of_a_narrow_valley(k):
         0.1,
         np.random.default_rng(0),
         members=16,
-        generations=300,
+        generations=200,
     )
-    np.testing.assert_allclose(found, bottom, atol=5e-3)
+    np.testing.assert_allclose(found, bottom, atol=1e-3)
 
 
 def test_it_never_returns_more_than_the_lowest_of_what_it_has_seen():

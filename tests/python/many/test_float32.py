@@ -134,8 +134,10 @@ def test_lists_are_not_copied(call: str) -> None:
     assert peak_memory(calls[call]) < X.nbytes / 4
 
 
-@pytest.mark.skipif(find_spec("distributed") is None, reason="no dask: in .[dev]")
-def test_lists_of_dask_stay_float32(tmp_path: Path) -> None:
+@pytest.mark.skipif(
+    find_spec("distributed") is None, reason='no dask: pip install "curvewise[dask]"'
+)
+def test_lists_of_dask_stay_float32() -> None:
     import curvewise.dask
 
     X = stacked(9, 30, 2)
@@ -153,7 +155,10 @@ def test_lists_of_dask_stay_float32(tmp_path: Path) -> None:
     assert peak_memory(lambda: kneighbors(long[:1], long, 1, "area")) < 1.5 * long.nbytes
 
 
-@pytest.mark.skipif(find_spec("zarr") is None, reason="no zarr: in .[dev]")
+@pytest.mark.skipif(
+    find_spec("distributed") is None or find_spec("zarr") is None,
+    reason='no dask or no zarr: pip install "curvewise[zarr]"',
+)
 def test_a_store_of_float32_is_that_of_their_values(tmp_path: Path) -> None:
     import curvewise.dask
 
@@ -163,7 +168,9 @@ def test_a_store_of_float32_is_that_of_their_values(tmp_path: Path) -> None:
     assert (again.compute() == curvewise.pdist(X)).all()
 
 
-@pytest.mark.skipif(find_spec("sklearn") is None, reason="no scikit-learn: in .[dev]")
+@pytest.mark.skipif(
+    find_spec("sklearn") is None, reason='no scikit-learn: pip install "curvewise[sklearn]"'
+)
 def test_clusters_of_float32() -> None:
     from curvewise.sklearn import CurveKMeans, CurveKMedoids
 
