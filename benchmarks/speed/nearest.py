@@ -16,6 +16,7 @@ import timing  # before numpy: it sets the number of threads
 # isort: split
 import argparse
 import importlib
+import importlib.util
 import json
 import os
 import pickle
@@ -244,6 +245,29 @@ def run_subsequence() -> None:
             lambda part=part: align(cycle[:, 0].copy(), part[:, 0].copy(), use_c=True).best_match()
         )
         report("subsequence", f"1-D, 200 in {size}: dtaidistance", seconds=theirs, ours_s=ours)
+    run_normalized(random)
+
+
+def run_normalized(random: np.random.Generator) -> None:
+    """Two copies of a walk, scaled and with noise, in another of a million points."""
+    record, shape = random.normal(size=1_000_000).cumsum(), random.normal(size=128).cumsum()
+    for at in (123_456, 700_001):
+        record[at : at + 128] = 3 * shape + record[at] + 0.1 * random.normal(size=128)
+    for window, k in ((0, 5), (6, 3)):
+        seconds, found = timed(
+            lambda window=window, k=k: curvewise.subsequence(
+                shape, record, k=k, metric="sqeuclidean", window=window, normalize=True
+            )
+        )
+        assert {run.start for run in found[:2]} == {123_456, 700_001}
+        report("subsequence", f"normalize, 128 in 10^6, window = {window}", seconds=seconds)
+    if importlib.util.find_spec("stumpy") is None:
+        print("subsequence  install stumpy to time it, too")
+        return
+    match = importlib.import_module("stumpy").match
+    match(shape, record[:1000])  # compiles
+    seconds, _ = timed(lambda: match(shape, record, max_matches=5, max_distance=np.inf))
+    report("subsequence", "normalize, 128 in 10^6: stumpy", seconds=seconds)
 
 
 def run_memory() -> None:

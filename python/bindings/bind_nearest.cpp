@@ -181,6 +181,16 @@ py::list found_subsequences(const CurveArray& P, const CurveArray& Q, std::ptrdi
     return list;
 }
 
+// The totals of runs, and (d, runs) scales. `Q` is a part of a curve, some milliseconds' work.
+py::tuple found_outside(const CurveArray& low, const CurveArray& high, const CurveArray& Q,
+                        const py::dict& given, bool of_largest) {
+    const Metric metric = read_options<FrechetOptions>(given).ground.metric;
+    const RunsOutside found = runs_outside(view(low), view(high), view(Q), metric, of_largest);
+    const auto count = static_cast<py::ssize_t>(found.totals.size());
+    return py::make_tuple(as_array(found.totals),
+                          Numbers({Q.shape(1), count}, found.scales.data()));
+}
+
 py::tuple found_mean(const py::list& list, const std::vector<double>& weights,
                      const CurveArray& initial, const py::object& window, const py::object& rounds,
                      double tolerance, const py::object& workers, const py::object& progress) {
@@ -215,6 +225,7 @@ void bind_nearest(py::module_& module) {
         .def("radius_neighbors", &BoundIndex::radius_neighbors);
     module.def("dtw_subsequences", found_subsequences<DtwOptions>);
     module.def("frechet_subsequences", found_subsequences<FrechetOptions>);
+    module.def("runs_outside", found_outside);
     module.def("dtw_mean", found_mean);
 }
 

@@ -132,6 +132,9 @@ class Index:
 
 def dtw_subsequences(P: _Array, Q: _Array, count: int, options: _Options, /) -> _Runs: ...
 def frechet_subsequences(P: _Array, Q: _Array, count: int, options: _Options, /) -> _Runs: ...
+def runs_outside(
+    low: _Array, high: _Array, Q: _Array, options: _Options, of_largest: bool, /
+) -> tuple[_Array, _Array]: ...
 def dtw_mean(
     curves: list[_Array],
     weights: list[float],

@@ -49,4 +49,23 @@ CURVEWISE_EXPORT std::vector<Subsequence> subsequences(const CurveView& P, const
                                                        const FrechetOptions& options,
                                                        Control* control = nullptr);
 
+/// How far the runs of a curve lie outside of boxes.
+struct RunsOutside {
+    std::vector<double> totals;  ///< of each run
+    std::vector<double> scales;  ///< 1 / deviation: of coordinate c of run k, at [c * runs + k]
+};
+
+/// For every run of Q of as many points as there are boxes, the sum, or the largest, of the
+/// distances of its points to their boxes, after each of the run's coordinates has been shifted and
+/// scaled to mean 0 and deviation 1 (both of the run's own numbers, in two passes). Where the boxes
+/// hold the points that a curve may have matched with each, dtw and frechet of the normalised run
+/// are not below it, except for rounding, which differs by level (Keogh and Ratanamahatana 2005).
+/// Where a coordinate stands still, or its squares leave the range of a double, its scale is not
+/// to be relied on, nor is the total. O(n m d) time, O(m d) memory.
+///
+/// `low` and `high` are the boxes' corners. Throws std::invalid_argument for shapes that differ, no
+/// boxes, minkowski, and haversine; std::bad_alloc.
+CURVEWISE_EXPORT RunsOutside runs_outside(const CurveView& low, const CurveView& high,
+                                          const CurveView& Q, Metric metric, bool of_largest);
+
 }  // namespace curvewise

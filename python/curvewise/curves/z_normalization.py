@@ -7,6 +7,8 @@ window, in blocks of some megabytes.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 from numpy.lib.stride_tricks import sliding_window_view
@@ -46,34 +48,26 @@ def z_normalized(curve: CurveLike) -> Array:
     [-1.0, 1.0, -1.0, 1.0]
     """
     columns = checked_curve(curve, 1)
-    normalized = normalized_windows(columns, len(columns), 0, 1)[0]
+    normalized = normalized_windows(columns, len(columns), [0])[0]
     return np.asarray(normalized[:, 0] if np.ndim(curve) == 1 else normalized)
 
 
-def normalized_windows(curve: Array, points: int, first: int, end: int) -> Array:
-    """Return the windows of so many points that begin at `first` to `end` - 1.
+def normalized_windows(curve: Array, points: int, starts: Sequence[int] | Array) -> Array:
+    """Return the windows of so many points that begin at `starts`.
 
-    `curve` has shape (n, d), what is returned (end - first, points, d).
+    `curve` has shape (n, d), what is returned (starts, points, d).
     """
     # Coordinates first, so that sums run over numbers that lie side by side.
-    part = np.ascontiguousarray(curve[first : end - 1 + points].T)
-    windows = np.array(sliding_window_view(part, points, axis=1))
-    sizes = np.abs(part[part != 0])
+    windows = np.ascontiguousarray(sliding_window_view(curve.T, points, axis=1)[:, starts])
+    is_constant = (windows == windows[..., :1]).all(axis=-1)
+    sizes = np.abs(windows[windows != 0])
     if sizes.size > 0 and not 2.0**-500 < sizes.min() <= sizes.max() < 2.0**500:
         # A power of two changes no digit, and keeps squares within the range of a double.
         _, exponents = np.frexp(np.abs(windows).max(axis=-1, keepdims=True))
         windows = np.ldexp(windows, -exponents)
     windows -= windows.mean(axis=-1, keepdims=True)
     deviations = np.sqrt(np.square(windows).mean(axis=-1, keepdims=True))
-    is_constant = _is_constant(part, points)
     deviations[is_constant] = 1.0
     windows[is_constant] = 0.0
     windows /= deviations
     return np.moveaxis(windows, 0, -1)
-
-
-def _is_constant(rows: Array, points: int) -> npt.NDArray[np.bool_]:
-    """Return whether so many numbers from each on are the same, along the rows."""
-    changes = np.zeros(rows.shape, dtype=np.int64)
-    np.cumsum(rows[:, 1:] != rows[:, :-1], axis=1, out=changes[:, 1:])
-    return np.asarray(changes[:, points - 1 :] == changes[:, : rows.shape[1] - points + 1])

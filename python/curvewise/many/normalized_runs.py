@@ -19,41 +19,48 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Metric, WarpingName
-from ..curves.ground_distance import ground_distances
+from .._options import WarpingName
 from ..curves.inputs import Array
 from ..curves.z_normalization import normalized_windows
 from .pairwise import cdist
 
 __all__ = ["NormalizedRuns"]
 
-_NUMBERS_IN_A_BLOCK = 1 << 18
 _COMPUTED_AT_ONCE = 64
-# The bound adds up the terms of a path in another order.
-_SLACK = 1.0 - 1e-12
+_SORTED_FIRST = 1024
+
+
+def _in_order(bounds: Array) -> Iterator[int]:
+    """Yield the places of the bounds, the least first: few are looked at, and few are sorted."""
+    rest = np.arange(len(bounds))
+    some = _SORTED_FIRST
+    while rest.size > 0:
+        if rest.size > some:
+            rest = rest[np.argpartition(bounds[rest], some)]
+        yield from rest[:some][np.argsort(bounds[rest[:some]])].tolist()
+        rest = rest[some:]
+        some *= 8
 
 
 @dataclass
 class NormalizedRuns:
     """The runs of Q with as many points as P, both of shape (., d) and P normalised.
 
-    `window` is the half-width of the band of dtw, or None; `options` are those of the measure.
+    `bounds` are of their distances, and `options` those of the measure.
     """
 
     P: Array
     Q: Array
+    bounds: Array
     measure: WarpingName
-    metric: Metric
-    order: float
-    window: int | None
     options: dict[str, Any]
     workers: int
     _revisited: list[tuple[float, int, bool]] = field(default_factory=list)
 
     def best(self, count: int, cutoff: float) -> Iterator[tuple[float, int]]:
         """Yield the distance and the start of each answer, the best of what those before leave."""
-        bounds = self._bounds()
-        waiting = iter(np.argsort(bounds, kind="stable").tolist())
+        bounds = self.bounds
+        waiting = _in_order(bounds)
         following = next(waiting, None)
         is_left = np.ones(len(bounds), dtype=np.bool_)
         n = len(self.P)
@@ -89,10 +96,9 @@ class NormalizedRuns:
 
     def _compute(self, batch: list[int], limit: float) -> None:
         """Compute distances as far as they are at most `limit`; of others that is a bound."""
-        windows = [normalized_windows(self.Q, len(self.P), i, i + 1)[0] for i in batch]
         (row,) = cdist(
             [self.P],
-            windows,
+            list(normalized_windows(self.Q, len(self.P), batch)),
             self.measure,
             cutoff=None if limit == math.inf else limit,
             workers=self.workers,
@@ -102,26 +108,3 @@ class NormalizedRuns:
             is_exact = value <= limit
             bound = value if is_exact else math.nextafter(limit, math.inf)
             heapq.heappush(self._revisited, (bound, start, is_exact))
-
-    def _bounds(self) -> Array:
-        """Return a lower bound of the distance of each window."""
-        low, high = self._envelope()
-        n, d = self.P.shape
-        count = max(len(self.Q) - n + 1, 0)
-        bounds = np.empty(count)
-        step = max(_NUMBERS_IN_A_BLOCK // (n * d), 1)
-        for first in range(0, count, step):
-            end = min(first + step, count)
-            windows = normalized_windows(self.Q, n, first, end)
-            beyond = windows - np.clip(windows, low, high)
-            terms = ground_distances(beyond, np.zeros(d), self.metric, self.order)
-            total = terms.max(axis=1) if self.measure == "frechet" else terms.sum(axis=1)
-            bounds[first:end] = total * _SLACK
-        return bounds
-
-    def _envelope(self) -> tuple[Array, Array]:
-        """Return the box of the points that each point of a window may be matched to."""
-        n = len(self.P)
-        reach = n if self.window is None else min(self.window, n)
-        around = [self.P[max(i - reach, 0) : i + reach + 1] for i in range(n)]
-        return np.array([a.min(axis=0) for a in around]), np.array([a.max(axis=0) for a in around])

@@ -32,6 +32,7 @@ from ..curves.z_normalization import z_normalized
 from ..measures.registry import WARPINGS
 from ..measures.results import Subsequence
 from .normalized_runs import NormalizedRuns
+from .run_bounds import run_bounds
 
 __all__ = ["subsequence"]
 
@@ -163,8 +164,9 @@ def _normalized(
     limit = math.inf if cutoff is None else real_number("cutoff", cutoff, 0.0, _CUTOFF_ADVICE)
     P, columns = z_normalized(P), in_columns(Q)
     check_finite(Q, "Q")
-    runs = NormalizedRuns(in_columns(P), columns, measure, metric, order, window, options, workers)
-    n = len(P)
+    rows, n = in_columns(P), len(P)
+    bounds = run_bounds(rows, columns, measure, metric, order, window)
+    runs = NormalizedRuns(rows, columns, bounds, measure, options, workers)
     answers = [Subsequence(*found, found[1] + n - 1) for found in runs.best(count, limit)]
     if not path:
         return answers

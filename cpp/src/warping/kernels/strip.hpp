@@ -20,6 +20,7 @@
 #include "block.hpp"
 #include "boxes.hpp"
 #include "curvewise/ground_distance.hpp"
+#include "runs.hpp"
 #include "soft.hpp"
 
 namespace curvewise::kernels {
@@ -109,6 +110,7 @@ struct KernelSet {
     ReachFunction (*reach)(Metric metric, std::ptrdiff_t dim) noexcept;
     ValueFunction (*values)(Metric metric, std::ptrdiff_t dim) noexcept;
     LeastFunction (*least)(Metric metric, std::ptrdiff_t dim) noexcept;
+    RunFunction (*runs)(Metric metric, std::ptrdiff_t dim, bool of_largest) noexcept;
     ArcFunction arcs;
     SoftForward soft_forward;
     SoftForward soft_forward_with_shares;

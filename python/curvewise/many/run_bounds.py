@@ -1,0 +1,108 @@
+"""Lower bounds of what z-normalised windows are away from a curve.
+
+A point of a window may be matched to some points of the curve only; their box is its envelope, and
+what the window's points lie beyond theirs, added up, is not above dtw (Keogh & Ratanamahatana
+2005), and the largest not above frechet. The compiled library finds it for all windows of a block
+with a mean and a deviation of its own, and what is lost to rounding is taken off. With n points a
+window and no number above X, and g = (n + d + 16) 2^-52, which is above what rounding can do to
+sums of n numbers in any order, relatively, twice over:
+
+- Two means differ by g X at most, for each is within g X / 2 of the true one.
+- The root of the mean square about a number changes by no more than the number does, and its
+  rounding is g / 2 of it, which is at most 2 X: two deviations differ by 3 g X at most.
+- Two windows (x - mean) / deviation then differ, as root mean square, by 5 g X / deviation at most
+  and terms of higher order; eta = 8 g X / deviation leaves room for these.
+- No norm of d coordinates is above the sum of these. So with eta added up over the coordinates,
+  the sum of n distances differs by n eta at most, and so does the largest; the root of a sum of
+  squares by sqrt(n) eta.
+- The rest, (1 - 4 g), is for the rounding of distances and of their sums.
+
+A window that hardly moves, beside its level, has a large eta. It is normalised as the measure
+normalises it, and nothing but the last step is left to do. The same goes for blocks with numbers
+whose squares leave the range of a double, and for metrics that the library has no bounds of.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from .._core import runs_outside
+from .._options import Metric, WarpingName
+from ..curves.ground_distance import ground_distances
+from ..curves.inputs import Array
+from ..curves.z_normalization import normalized_windows
+
+__all__ = ["run_bounds"]
+
+_NUMBERS_IN_A_BLOCK = 1 << 22
+_LEAST_WINDOWS_IN_A_BLOCK = 256
+_NUMBERS_AT_ONCE = 1 << 17
+_LARGEST_ETA = 1e-4
+
+
+def run_bounds(
+    P: Array, Q: Array, measure: WarpingName, metric: Metric, order: float, window: int | None
+) -> Array:
+    """Return a lower bound for each window of Q, both of shape (., d) and P normalised."""
+    return _Bounds(P, Q, measure, metric, order, window).all()
+
+
+class _Bounds:
+    def __init__(
+        self,
+        P: Array,
+        Q: Array,
+        measure: WarpingName,
+        metric: Metric,
+        order: float,
+        window: int | None,
+    ) -> None:
+        n, d = self.shape = P.shape
+        self.Q, self.metric, self.order = Q, metric, order
+        self.of_largest = measure == "frechet"
+        reach = n if window is None else min(window, n)
+        around = [P[max(i - reach, 0) : i + reach + 1] for i in range(n)]
+        self.low = np.array([points.min(axis=0) for points in around])
+        self.high = np.array([points.max(axis=0) for points in around])
+        self.rounding = (n + d + 16) * 2.0**-52
+
+    def all(self) -> Array:
+        """Return the bound of each window, block by block."""
+        n, d = self.shape
+        bounds = np.empty(max(len(self.Q) - n + 1, 0))
+        step = max(_NUMBERS_IN_A_BLOCK // (n * d), _LEAST_WINDOWS_IN_A_BLOCK)
+        for first in range(0, len(bounds), step):
+            block = bounds[first : first + step]
+            is_certain = self._find(self.Q[first : first + len(block) + n - 1], block)
+            rest = np.flatnonzero(~is_certain)
+            at_once = max(_NUMBERS_AT_ONCE // (n * d), 1)
+            for i in range(0, len(rest), at_once):
+                some = rest[i : i + at_once]
+                block[some] = self._find_precisely(first + some)
+        return bounds * (1.0 - 4.0 * self.rounding)
+
+    def _find(self, part: Array, bounds: Array) -> npt.NDArray[np.bool_]:
+        """Find the bounds of the windows of a part of Q, and return which are to be relied on."""
+        n, d = self.shape
+        sizes = np.abs(part)
+        least = sizes.min(where=sizes > 0, initial=1.0)
+        is_in_range = 2.0**-400 < least and sizes.max() < 2.0**400
+        if not is_in_range or (self.metric == "minkowski" and d > 1):
+            return np.zeros(len(bounds), dtype=np.bool_)
+        options = {"metric": self.metric}
+        totals, scales = runs_outside(self.low, self.high, part, options, self.of_largest)
+        with np.errstate(invalid="ignore"):
+            eta = 8.0 * self.rounding * (sizes.max(axis=0) @ scales)
+            if self.metric == "sqeuclidean":
+                bounds[:] = np.square(np.maximum(np.sqrt(totals) - np.sqrt(n) * eta, 0.0))
+            else:
+                bounds[:] = totals - n * eta
+        return np.asarray(eta <= _LARGEST_ETA)
+
+    def _find_precisely(self, starts: npt.NDArray[np.intp]) -> Array:
+        n, d = self.shape
+        windows = normalized_windows(self.Q, n, starts)
+        beyond = windows - np.clip(windows, self.low, self.high)
+        terms = ground_distances(beyond, np.zeros(d), self.metric, self.order)
+        return np.asarray(terms.max(axis=1) if self.of_largest else terms.sum(axis=1))
