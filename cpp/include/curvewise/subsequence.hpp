@@ -64,7 +64,7 @@ struct RunsOutside {
 /// to be relied on, nor is the total. O(n m d) time, O(m d) memory.
 ///
 /// `low` and `high` are the boxes' corners. Throws std::invalid_argument for shapes that differ, no
-/// boxes, minkowski, and haversine; std::bad_alloc.
+/// boxes, minkowski (except in one dimension), and haversine; std::bad_alloc.
 CURVEWISE_EXPORT RunsOutside runs_outside(const CurveView& low, const CurveView& high,
                                           const CurveView& Q, Metric metric, bool of_largest);
 

@@ -17,11 +17,15 @@ RunsOutside runs_outside(const CurveView& low, const CurveView& high, const Curv
                                     high.shape() + " and " + Q.shape() +
                                     "; give the corners of one box or more, in Q's dimensions");
     }
-    // In one dimension all metrics except sqeuclidean are this one.
-    if (dim == 1 && metric != Metric::sqeuclidean) metric = Metric::cityblock;
+    const bool is_degree_one = metric != Metric::sqeuclidean && metric != Metric::haversine;
+    if (dim == 1 && is_degree_one) metric = Metric::cityblock;  // |difference|
     const kernels::RunFunction find =
         warping::active_level().kernels->runs(metric, dim, of_largest);
-    if (find == nullptr) throw std::invalid_argument("runs outside need a norm with bounds");
+    if (find == nullptr) {
+        throw std::invalid_argument(
+            "there are no bounds of this metric; give euclidean, sqeuclidean, cityblock or "
+            "chebyshev");
+    }
     const std::ptrdiff_t count = std::max<std::ptrdiff_t>(m - n + 1, 0);
     const std::ptrdiff_t stride = runtime::AlignedBuffer::rounded(m + kernels::runs_at_once);
     runtime::AlignedBuffer points(dim * stride), means(dim * stride), scales(dim * stride),

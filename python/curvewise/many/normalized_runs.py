@@ -55,7 +55,9 @@ class NormalizedRuns:
     measure: WarpingName
     options: dict[str, Any]
     workers: int
-    _revisited: list[tuple[float, int, bool]] = field(default_factory=list)
+    # Heaps of (distance, start), and of (bound, start) of those that were given up at a limit.
+    _known: list[tuple[float, int]] = field(default_factory=list)
+    _given_up: list[tuple[float, int]] = field(default_factory=list)
 
     def best(self, count: int, cutoff: float) -> Iterator[tuple[float, int]]:
         """Yield the distance and the start of each answer, the best of what those before leave."""
@@ -65,12 +67,15 @@ class NormalizedRuns:
         is_left = np.ones(len(bounds), dtype=np.bool_)
         n = len(self.P)
         while count > 0:
-            best = self._best_known(is_left)
-            limit = min(best, cutoff)
+            while self._known and not is_left[self._known[0][1]]:
+                heapq.heappop(self._known)
+            best = self._known[0][0] if self._known else math.inf
+            limit = reach = min(best, cutoff)
             batch: list[int] = []
             while len(batch) < _COMPUTED_AT_ONCE:
-                if self._revisited and not self._revisited[0][2] and self._revisited[0][0] <= limit:
-                    start = heapq.heappop(self._revisited)[1]
+                if self._given_up and self._given_up[0][0] <= limit:
+                    start = heapq.heappop(self._given_up)[1]
+                    reach = 2.0 * limit  # or each answer would have it computed again
                 elif following is not None and bounds[following] <= limit:
                     start, following = following, next(waiting, None)
                 else:
@@ -78,21 +83,14 @@ class NormalizedRuns:
                 if is_left[start]:
                     batch.append(start)
             if batch:
-                self._compute(batch, limit)
-            elif best <= cutoff and self._revisited:
-                distance, start, _ = heapq.heappop(self._revisited)
+                self._compute(batch, reach)
+            elif best <= cutoff and self._known:
+                distance, start = heapq.heappop(self._known)
                 yield distance, start
                 count -= 1
                 is_left[max(start - n + 1, 0) : start + n] = False
             else:
                 return
-
-    def _best_known(self, is_left: npt.NDArray[np.bool_]) -> float:
-        """Return the least distance that is known of a window that is left."""
-        while self._revisited and not is_left[self._revisited[0][1]]:
-            heapq.heappop(self._revisited)
-        known = (value for value, start, is_exact in self._revisited if is_exact and is_left[start])
-        return min(known, default=math.inf)
 
     def _compute(self, batch: list[int], limit: float) -> None:
         """Compute distances as far as they are at most `limit`; of others that is a bound."""
@@ -105,6 +103,7 @@ class NormalizedRuns:
             **self.options,
         )
         for start, value in zip(batch, row.tolist(), strict=True):
-            is_exact = value <= limit
-            bound = value if is_exact else math.nextafter(limit, math.inf)
-            heapq.heappush(self._revisited, (bound, start, is_exact))
+            if value <= limit:
+                heapq.heappush(self._known, (value, start))
+            else:
+                heapq.heappush(self._given_up, (math.nextafter(limit, math.inf), start))

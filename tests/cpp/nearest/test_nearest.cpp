@@ -1,6 +1,7 @@
 // The index against all distances and a stable sort, for every measure; runs of a long curve and
 // the mean under dtw against what defines them; how a Control ends a search.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -250,6 +251,76 @@ void of_equal_distances_the_first_run_comes_first() {
     }
 }
 
+// Every run by its definition, in more runs than are looked at together.
+void runs_outside_are_what_each_run_lies_outside() {
+    const std::ptrdiff_t n = 7;
+    for (const std::ptrdiff_t dim : {1, 2, 3, 4}) {
+        Random random(static_cast<unsigned>(dim));
+        const std::ptrdiff_t m = 90;
+        std::vector<double> Q, low, high;
+        for (std::ptrdiff_t i = 0; i < m * dim; ++i) Q.push_back(1e3 + random.uniform(-3.0, 3.0));
+        for (std::ptrdiff_t i = 0; i < n * dim; ++i) {
+            low.push_back(random.uniform(-1.0, 0.5));
+            high.push_back(low.back() + random.uniform(0.0, 0.7));
+        }
+        for (const Metric metric :
+             {Metric::euclidean, Metric::sqeuclidean, Metric::cityblock, Metric::chebyshev}) {
+            const auto outside = [&](bool of_largest) {
+                return runs_outside({low.data(), n, dim}, {high.data(), n, dim},
+                                    {Q.data(), m, dim}, metric, of_largest);
+            };
+            const RunsOutside sums = outside(false), largest = outside(true);
+            const std::size_t count = static_cast<std::size_t>(m - n + 1);
+            CHECK_EQUAL(sums.totals.size(), count);
+            CHECK_EQUAL(sums.scales.size(), count * static_cast<std::size_t>(dim));
+            for (std::size_t k = 0; k < count; ++k) {
+                const auto at = [&](std::ptrdiff_t i, std::ptrdiff_t c) {
+                    return static_cast<std::size_t>(i * dim + c);
+                };
+                std::vector<double> beyond(low.size());
+                for (std::ptrdiff_t c = 0; c < dim; ++c) {
+                    const double* const x = Q.data() + at(static_cast<std::ptrdiff_t>(k), c);
+                    double mean = 0.0, square = 0.0;
+                    for (std::ptrdiff_t i = 0; i < n; ++i) mean += x[i * dim] / n;
+                    for (std::ptrdiff_t i = 0; i < n; ++i) {
+                        square += (x[i * dim] - mean) * (x[i * dim] - mean) / n;
+                    }
+                    CHECK_CLOSE(sums.scales[static_cast<std::size_t>(c) * count + k],
+                                1.0 / std::sqrt(square), 1e-10);
+                    for (std::ptrdiff_t i = 0; i < n; ++i) {
+                        const double z = (x[i * dim] - mean) / std::sqrt(square);
+                        beyond[at(i, c)] =
+                            z - std::min(std::max(z, low[at(i, c)]), high[at(i, c)]);
+                    }
+                }
+                double sum = 0.0, most = 0.0;
+                const std::vector<double> origin(static_cast<std::size_t>(dim));
+                for (std::ptrdiff_t i = 0; i < n; ++i) {
+                    DtwOptions options;
+                    options.ground.metric = metric;
+                    const double distance = dtw({beyond.data() + at(i, 0), 1, dim},
+                                                {origin.data(), 1, dim}, options);
+                    sum += distance;
+                    most = std::max(most, distance);
+                }
+                CHECK_CLOSE(sums.totals[k], sum, 1e-9);
+                CHECK_CLOSE(largest.totals[k], most, 1e-9);
+            }
+        }
+    }
+    const double x[] = {0.0, 1.0, 2.0};
+    CHECK_EQUAL(runs_outside({x, 3, 1}, {x, 3, 1}, {x, 2, 1}, Metric::minkowski, false).totals,
+                std::vector<double>{});
+    CHECK_THROWS(runs_outside({x, 1, 1}, {x, 2, 1}, {x, 3, 1}, Metric::euclidean, false),
+                 std::invalid_argument,
+                 "low, high and Q have shapes (1, 1), (2, 1) and (3, 1); give the corners of one "
+                 "box or more, in Q's dimensions");
+    CHECK_THROWS(runs_outside({x, 1, 1}, {x, 1, 1}, {x, 3, 1}, Metric::haversine, false),
+                 std::invalid_argument,
+                 "there are no bounds of this metric; give euclidean, sqeuclidean, cityblock or "
+                 "chebyshev");
+}
+
 void the_mean_of_points_is_theirs() {
     const Curve zero{{0.0}}, four{{4.0}}, start{{1.0}};
     const DtwMean mean = dtw_mean({zero, four}, {1.0, 3.0}, start);
@@ -302,6 +373,8 @@ int main() {
          {"runs are those of open ends", runs_are_those_of_open_ends},
          {"of equal distances the first run comes first",
           of_equal_distances_the_first_run_comes_first},
+         {"runs outside are what each run lies outside",
+          runs_outside_are_what_each_run_lies_outside},
          {"the mean of points is theirs", the_mean_of_points_is_theirs},
          {"the mean lowers the sum", the_mean_lowers_the_sum}});
 }
