@@ -1,8 +1,8 @@
-"""Curves, and all windows of a curve, with mean 0 and deviation 1 in each coordinate.
+"""Curves, and windows of a curve, with mean 0 and deviation 1 in each coordinate.
 
 Mean and deviation are those of the window's own numbers, in two passes, and not differences of
 running sums, which have no digits left where a small wave rides on a large level. Time O(n) a
-window, in blocks of some megabytes.
+window.
 """
 
 from __future__ import annotations
@@ -52,7 +52,9 @@ def z_normalized(curve: CurveLike) -> Array:
     return np.asarray(normalized[:, 0] if np.ndim(curve) == 1 else normalized)
 
 
-def normalized_windows(curve: Array, points: int, starts: Sequence[int] | Array) -> Array:
+def normalized_windows(
+    curve: Array, points: int, starts: Sequence[int] | npt.NDArray[np.intp]
+) -> Array:
     """Return the windows of so many points that begin at `starts`.
 
     `curve` has shape (n, d), what is returned (starts, points, d).

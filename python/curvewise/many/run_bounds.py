@@ -80,14 +80,15 @@ class _Bounds:
             for i in range(0, len(rest), at_once):
                 some = rest[i : i + at_once]
                 block[some] = self._find_precisely(first + some)
-        return bounds * (1.0 - 4.0 * self.rounding)
+        bounds *= 1.0 - 4.0 * self.rounding
+        return bounds
 
     def _find(self, part: Array, bounds: Array) -> npt.NDArray[np.bool_]:
         """Find the bounds of the windows of a part of Q, and return which are to be relied on."""
         n, d = self.shape
         sizes = np.abs(part)
         least = sizes.min(where=sizes > 0, initial=1.0)
-        is_in_range = 2.0**-400 < least and sizes.max() < 2.0**400
+        is_in_range = least > 2.0**-400 and sizes.max() < 2.0**400
         if not is_in_range or (self.metric == "minkowski" and d > 1):
             return np.zeros(len(bounds), dtype=np.bool_)
         options = {"metric": self.metric}

@@ -266,8 +266,8 @@ void runs_outside_are_what_each_run_lies_outside() {
         for (const Metric metric :
              {Metric::euclidean, Metric::sqeuclidean, Metric::cityblock, Metric::chebyshev}) {
             const auto outside = [&](bool of_largest) {
-                return runs_outside({low.data(), n, dim}, {high.data(), n, dim},
-                                    {Q.data(), m, dim}, metric, of_largest);
+                return runs_outside({low.data(), n, dim}, {high.data(), n, dim}, {Q.data(), m, dim},
+                                    metric, of_largest);
             };
             const RunsOutside sums = outside(false), largest = outside(true);
             const std::size_t count = static_cast<std::size_t>(m - n + 1);
@@ -289,8 +289,7 @@ void runs_outside_are_what_each_run_lies_outside() {
                                 1.0 / std::sqrt(square), 1e-10);
                     for (std::ptrdiff_t i = 0; i < n; ++i) {
                         const double z = (x[i * dim] - mean) / std::sqrt(square);
-                        beyond[at(i, c)] =
-                            z - std::min(std::max(z, low[at(i, c)]), high[at(i, c)]);
+                        beyond[at(i, c)] = z - std::min(std::max(z, low[at(i, c)]), high[at(i, c)]);
                     }
                 }
                 double sum = 0.0, most = 0.0;
@@ -298,8 +297,8 @@ void runs_outside_are_what_each_run_lies_outside() {
                 for (std::ptrdiff_t i = 0; i < n; ++i) {
                     DtwOptions options;
                     options.ground.metric = metric;
-                    const double distance = dtw({beyond.data() + at(i, 0), 1, dim},
-                                                {origin.data(), 1, dim}, options);
+                    const double distance =
+                        dtw({beyond.data() + at(i, 0), 1, dim}, {origin.data(), 1, dim}, options);
                     sum += distance;
                     most = std::max(most, distance);
                 }

@@ -16,9 +16,8 @@ namespace {
 #include "soft.inl.hpp"
 }  // namespace
 
-const KernelSet CURVEWISE_LEVEL = {select_advance,      select_fill,        select_reach,
-                                   select_values,       select_least,       select_runs,
-                                   arcs,                soft_forward<false>, soft_forward<true>,
-                                   soft_backward};
+const KernelSet CURVEWISE_LEVEL = {
+    select_advance, select_fill, select_reach,        select_values,      select_least,
+    select_runs,    arcs,        soft_forward<false>, soft_forward<true>, soft_backward};
 
 }  // namespace curvewise::kernels

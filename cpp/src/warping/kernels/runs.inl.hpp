@@ -47,16 +47,16 @@ void run_totals(const RunsAndBoxes& runs) noexcept {
                 Pack sum = simd::pset1<Pack>(0.0);
                 for (std::ptrdiff_t c = 0; c < dim; ++c) {
                     const std::ptrdiff_t at = c * runs.stride + k + g * width;
-                    const Pack x = simd::pmul(
-                        simd::psub(load(runs.points + at + i), load(runs.means + at)),
-                        load(runs.scales + at));
+                    const Pack x =
+                        simd::pmul(simd::psub(load(runs.points + at + i), load(runs.means + at)),
+                                   load(runs.scales + at));
                     const Pack inside = simd::pmax(simd::pmin(x, simd::pset1<Pack>(high[c])),
                                                    simd::pset1<Pack>(low[c]));
                     sum = Norm::add(sum, simd::psub(x, inside));
                 }
                 const Pack distance = Norm::finish(sum);
-                totals[g] = of_largest ? simd::pmax(totals[g], distance)
-                                       : simd::padd(totals[g], distance);
+                totals[g] =
+                    of_largest ? simd::pmax(totals[g], distance) : simd::padd(totals[g], distance);
             }
         }
         for (std::ptrdiff_t g = 0; g < run_packs; ++g) {
