@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 from numpy.lib.stride_tricks import sliding_window_view
 
 from .checks import checked_curve
@@ -48,22 +47,25 @@ def z_normalized(curve: CurveLike) -> Array:
     [-1.0, 1.0, -1.0, 1.0]
     """
     columns = checked_curve(curve, 1)
-    normalized = normalized_windows(columns, len(columns), [0])[0]
+    normalized = normalized_windows(columns, len(columns), slice(0, 1))[0]
     return np.asarray(normalized[:, 0] if np.ndim(curve) == 1 else normalized)
 
 
-def normalized_windows(
-    curve: Array, points: int, starts: Sequence[int] | npt.NDArray[np.intp]
-) -> Array:
+def normalized_windows(curve: Array, points: int, starts: slice | Sequence[int]) -> Array:
     """Return the windows of so many points that begin at `starts`.
 
     `curve` has shape (n, d), what is returned (starts, points, d).
     """
     # Coordinates first, so that sums run over numbers that lie side by side.
-    windows = np.ascontiguousarray(sliding_window_view(curve.T, points, axis=1)[:, starts])
-    is_constant = (windows == windows[..., :1]).all(axis=-1)
-    sizes = np.abs(windows[windows != 0])
-    if sizes.size > 0 and not 2.0**-500 < sizes.min() <= sizes.max() < 2.0**500:
+    windows = np.array(sliding_window_view(curve.T, points, axis=1)[:, starts], order="C")
+    is_constant = windows[..., 0] == windows[..., -1]
+    candidates = windows[is_constant]
+    is_constant[is_constant] = (candidates == candidates[:, :1]).all(axis=-1)
+    if isinstance(starts, slice):
+        sizes = np.abs(curve[starts.start : starts.stop + points - 1])
+    else:
+        sizes = np.abs(windows)
+    if sizes.max(initial=0.0) > 2.0**500 or ((sizes > 0.0) & (sizes < 2.0**-500)).any():
         # A power of two changes no digit, and keeps squares within the range of a double.
         _, exponents = np.frexp(np.abs(windows).max(axis=-1, keepdims=True))
         windows = np.ldexp(windows, -exponents)

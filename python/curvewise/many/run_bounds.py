@@ -37,7 +37,7 @@ __all__ = ["run_bounds"]
 
 _NUMBERS_IN_A_BLOCK = 1 << 22
 _LEAST_WINDOWS_IN_A_BLOCK = 256
-_NUMBERS_AT_ONCE = 1 << 17
+_NUMBERS_AT_ONCE = 1 << 16
 _LARGEST_ETA = 1e-4
 
 
@@ -75,11 +75,11 @@ class _Bounds:
         for first in range(0, len(bounds), step):
             block = bounds[first : first + step]
             is_certain = self._find(self.Q[first : first + len(block) + n - 1], block)
-            rest = np.flatnonzero(~is_certain)
             at_once = max(_NUMBERS_AT_ONCE // (n * d), 1)
-            for i in range(0, len(rest), at_once):
-                some = rest[i : i + at_once]
-                block[some] = self._find_precisely(first + some)
+            for i in range(0, len(block), at_once):
+                if not is_certain[i : i + at_once].all():
+                    end = min(i + at_once, len(block))
+                    block[i:end] = self._find_precisely(slice(first + i, first + end))
         bounds *= 1.0 - 4.0 * self.rounding
         return bounds
 
@@ -101,7 +101,7 @@ class _Bounds:
                 bounds[:] = totals - n * eta
         return np.asarray(eta <= _LARGEST_ETA)
 
-    def _find_precisely(self, starts: npt.NDArray[np.intp]) -> Array:
+    def _find_precisely(self, starts: slice) -> Array:
         n, d = self.shape
         windows = normalized_windows(self.Q, n, starts)
         beyond = windows - np.clip(windows, self.low, self.high)
