@@ -230,6 +230,28 @@ def test_steps_that_gain_nothing_of_what_is_promised_are_no_end():
     assert "steps do not gain what the surface promises" in found.message
 
 
+def test_two_valleys_of_nearly_the_same_depth_are_no_convergence():
+    """Where starts end in both, there may be a third; their values are 0.6 % apart."""
+
+    def valleys(p):
+        a, level = p["a"], p["level"]
+        y = (a**2 - 0.25) * np.sin(X) + 0.01 * a * np.cos(X) + level
+        return np.column_stack((X, y))
+
+    test = valleys({"a": 0.5, "level": 0.1})
+    test[:, 1] += 0.2 * np.cos(9.0 * X)
+    bounds = {"a": (-1.0, 1.2), "level": (-1.0, 1.0)}
+    found = [
+        identify(valleys, test, bounds, method="least-squares", seed=seed, **SQUARES)
+        for seed in range(4)
+    ]
+    lowest = min(run.value for run in found)
+    assert all(run.value < 1.001 * lowest for run in found)
+    together = ["3 of 3 starts within 0.1 %" in run.message for run in found]
+    assert [run.converged for run in found] == together
+    assert set(together) == {True, False}
+
+
 def test_auto_takes_it_for_sums_of_squares_alone():
     chosen = {
         measure: method_of("auto").chosen_for(Objective(TEST, measure))

@@ -102,6 +102,10 @@ def test_what_may_be_said_of_the_ends():
         False,
         "2 of 3 starts within 1 % of the best, others up to 2 % above; ended at 5.0",
     )
+    assert finish_of([best, ended(5.004), ended(5.02)], 3, 0.0, within=1e-3) == (
+        False,
+        "2 of 3 starts within 0.1 % of the best, others up to 0.4 % above; ended at 5.0",
+    )
     assert not finish_of([best, ended(5.01)], 3, 0.0).converged  # one found no run that succeeds
     assert not finish_of([ended(5.0, converged=False), ended(5.01)], 2, 0.0).converged
     flat = finish_of([best, ended(5.0, place=0.3)], 2, 0.0)

@@ -35,6 +35,11 @@ from .starts import End, are_alike, check_regions, finish_of, hop, places
 
 __all__ = ["LeastSquares"]
 
+# Starts that come down one valley end within a ten-thousandth of each other, since each goes on
+# until it would gain a hundred-thousandth. Those that end further apart are in several valleys, and
+# where there are several, there may be a lower one.
+_SAME_VALLEY = 1e-3
+
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_squares=True):
@@ -52,7 +57,8 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
         another has ended takes few.
     most_starts : int, default 6
         As long as starts end more than 1 % apart others follow, up to so many in all, unless
-        `starts` of them have come within 1 % of the best.
+        `starts` of them have come within 1 % of the best. It has converged where all have ended
+        within 0.1 %, in one valley.
     initial_range : float, optional
         Half the size of the first region of trust, as a fraction of the bounds' range; the first
         differences are over half of that. By default 0.2, and 0.1 where :func:`identify_each`
@@ -133,7 +139,7 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
                 "simulations fail all around the start; give identify another start=, or closer "
                 "bounds"
             )
-        return finish_of(starts.ends, starts.begun, starts.runs.negligible)
+        return finish_of(starts.ends, starts.begun, starts.runs.negligible, within=_SAME_VALLEY)
 
 
 class _Starts:

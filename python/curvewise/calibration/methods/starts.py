@@ -40,10 +40,10 @@ __all__ = [
 HOP = 0.25  # how far from the best run a hop leads, along each axis, as a fraction of the bounds
 _QUARTERS = 4
 _DRAWN = (0.1, 0.9)  # where starts are, between the bounds
-_ALIKE = 1.01  # ends within this of the best are alike
-# And so are those whose difference is negligible, or next to nothing beside what was gained: fits
-# to curves of the model itself.
-_PERFECT, _OF_FIRST = 1e3, 1e-4
+_ALIKE = 0.01  # ends that are above the best by this fraction at most are alike
+# And so are those whose difference is negligible, or next to nothing beside what was gained, that
+# fraction squared: fits to curves of the model itself.
+_PERFECT = 1e3
 _SAME_PLACE = 0.01  # of the bounds' range
 _MAYBE = "the start is a minimum already, or "
 _TRY = 'is flat or stepped here; try another method ("de"), measure or start ('
@@ -85,9 +85,14 @@ def hop(best: Array, random: np.random.Generator) -> Array:
     return np.clip(best + random.uniform(-HOP, HOP, best.size), 0.0, 1.0)
 
 
-def are_alike(ends: Sequence[End], negligible: float, among: Sequence[End] | None = None) -> int:
+def are_alike(
+    ends: Sequence[End],
+    negligible: float,
+    among: Sequence[End] | None = None,
+    within: float = _ALIKE,
+) -> int:
     """Return how many of some starts, or among a part of them, have ended as low as the best."""
-    most = _ALIKE * min(end.value for end in ends) + _nothing(ends, negligible)
+    most = (1.0 + within) * min(end.value for end in ends) + _nothing(ends, negligible, within)
     return sum(end.value <= most for end in (ends if among is None else among))
 
 
@@ -113,14 +118,17 @@ def is_flat(ends: Sequence[End], negligible: float) -> bool:
     return bool(max(np.abs(place - best.place).max() for place in same) > _SAME_PLACE)
 
 
-def finish_of(ends: Sequence[End], begun: int, negligible: float) -> Finish:
+def finish_of(
+    ends: Sequence[End], begun: int, negligible: float, *, within: float = _ALIKE
+) -> Finish:
     """Return what may be said of starts that have ended, of all that were begun."""
     best = min(ends, key=lambda end: end.value)
     converged, message = best.finish
-    alike = are_alike(ends, negligible)
+    alike = are_alike(ends, negligible, within=within)
     if begun > 1:
         others = "" if alike == len(ends) else f", others{_above(ends, best.value)}"
-        message = f"{alike} of {begun} starts within 1 % of the best{others}; {message}"
+        part = f"{100.0 * within:g} %"
+        message = f"{alike} of {begun} starts within {part} of the best{others}; {message}"
     if is_flat(ends, negligible):
         return Finish(False, f"several places have the best value: the measure {_TRY}{message})")
     if best.value == best.first and best.value > _nothing(ends, negligible):
@@ -128,8 +136,8 @@ def finish_of(ends: Sequence[End], begun: int, negligible: float) -> Finish:
     return Finish(converged and alike == begun, message)
 
 
-def _nothing(ends: Sequence[End], negligible: float) -> float:
-    return max(_PERFECT * negligible, _OF_FIRST * min(end.first for end in ends))
+def _nothing(ends: Sequence[End], negligible: float, within: float = _ALIKE) -> float:
+    return max(_PERFECT * negligible, within**2 * min(end.first for end in ends))
 
 
 def _above(ends: Sequence[End], best: float) -> str:
