@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy import signal, stats
+from scipy import signal, special, stats
 
 from curvewise.calibration import Problem, identify
 from curvewise.calibration.surfaces.surfaces import Responses, Surfaces
@@ -17,10 +17,12 @@ from curvewise.calibration.uncertainty.correlation import (
     Correlation,
     Model,
     _carried_on,
+    _expected_square,
     _likelihood,
     correlation_of,
     white,
 )
+from curvewise.calibration.uncertainty.estimate import Estimate
 from curvewise.calibration.uncertainty.noise import noise_of
 from curvewise.calibration.uncertainty.repeats import PARTS, Branches, branches_of_tests
 from curvewise.calibration.uncertainty.sensitivity import Optimum
@@ -93,6 +95,41 @@ def test_the_scatter_is_that_of_dense_matrices(model):
     assert correlation.independent == pytest.approx(40**2 / ones, rel=1e-9)
 
 
+@given(MODELS)
+@settings(max_examples=20, deadline=None)
+def test_the_expected_sum_of_squares_is_that_of_dense_matrices(model):
+    reach, share, common, _ = model
+    models = [Model(0.25, reach, share, common, 4.0), Model(0.75, 0.0, 1.0, 0.0, 9.0)]
+    basis, _ = np.linalg.qr(DESIGN)
+    covariance = dense(REPEATED, reach, share, common) + 6.75 * np.eye(40)
+    expected = np.trace((np.eye(40) - basis @ basis.T) @ covariance)
+    assert _expected_square(models, basis, REPEATED) == pytest.approx(expected, rel=1e-9)
+
+
+@given(MODELS)
+@settings(max_examples=20, deadline=None)
+def test_independent_squares_are_counted_by_squared_correlations(model):
+    reach, share, _, _ = model
+    alike = Correlation([Model(1.0, reach, share, 0.0, 4.0)], BRANCHES)
+    squares = np.sum(dense(BRANCHES, reach, share) ** 2)
+    assert alike.independent_squares == pytest.approx(40**2 / squares, rel=1e-9)
+    assert alike.independent <= alike.independent_squares <= 40.0 + 1e-9
+
+
+def test_squares_exceed_what_is_expected_where_an_error_goes_on_longer_than_neighbours_say():
+    """Half a wave under a rough autoregression that says little of it."""
+    branches = Branches([slice(0, 200)])
+    random, x = np.random.default_rng(1), np.linspace(0.0, 1.0, 200)
+    slopes = np.ones((200, 1))
+    noise = Correlation([Model(1.0, 0.02, 0.03, 0.0, 1.0)], branches)
+    rough = [noise.draw(random) for _ in range(40)]
+    alone = [correlation_of(one, slopes, branches).excess for one in rough]
+    assert np.mean(alone) == pytest.approx(1.0, abs=0.2)
+    wave = 8.0 * np.cos(np.pi * x)
+    waved = [correlation_of(one + wave, slopes, branches).excess for one in rough]
+    assert np.median(waved) > 2.0
+
+
 @pytest.mark.parametrize("common", [0.0, 0.9])
 def test_draws_have_the_covariance_of_their_model(common):
     correlation = Correlation([Model(1.0, 0.3, 0.2, common, 4.0)], REPEATED)
@@ -110,6 +147,7 @@ def test_white_noise_is_white_and_a_wave_is_not():
     assert all(model.share < 1.0 for model in wave.models)
     assert sum(model.probability for model in wave.models) == pytest.approx(1.0)
     assert wave.independent < 12.0
+    assert {correlation_of(one, slopes, branches).excess for one in noise[:20]} == {1.0}
     assert white(branches).independent == pytest.approx(40.0)
 
 
@@ -234,3 +272,18 @@ def test_what_is_carried_on_is_that_of_a_filter(shape, rho) -> None:
     columns = np.random.default_rng(3).normal(size=shape)
     filtered = signal.lfilter([1.0], [1.0, -rho], columns, axis=0)
     np.testing.assert_array_equal(_carried_on(columns, rho), filtered)
+
+
+def test_an_interval_is_as_wide_as_the_likelihood_or_the_squares_say():
+    """Whichever says more, each with its own degrees of freedom."""
+    nothing, branches = np.zeros((40, 3)), Branches([slice(0, 40)])
+
+    def quantile(excess, freedom=3.0, of_squares=8.0):
+        noise = white(branches)._replace(excess=excess)
+        given = (nothing, nothing, X, np.eye(3), noise, freedom, of_squares)
+        return Estimate(*given, is_median=False).quantile(0.95)
+
+    assert quantile(1.0, 37.0, 20.0) == special.stdtrit(37.0, 0.975)
+    assert quantile(1.5) == special.stdtrit(3.0, 0.975)
+    assert quantile(4.0) == pytest.approx(2.0 * stats.t(8.0).ppf(0.975), rel=1e-12)
+    assert quantile(4.0, math.inf, math.inf) == special.ndtri(0.975)

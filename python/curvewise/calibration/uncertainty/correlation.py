@@ -6,7 +6,10 @@ anew at every turning point, plus white noise. How far the autoregression reache
 the variance is white are known from the residuals only roughly, and a fit takes from them most of
 what reaches furthest; so no best pair is taken, a grid of pairs is, each with the probability that
 the residuals give it. Restricted likelihood allows exactly for the parameters that were fitted.
-Cost: O(n k) for each of `_MODELS`, since the inverse of an autoregression's covariance has three
+It goes by the differences of neighbours above all, which are many. The error of a model is no
+autoregression, and what of it goes on longest, which an estimate takes over, may be larger than
+these say; then the squares of the residuals add up to more than is expected (`excess`). Cost: O(n
+k) for each model that is tried, since the inverse of an autoregression's covariance has three
 diagonals.
 
 Where branches repeat (`repeats`), a model that is wrong is wrong alike in each of them, and many
@@ -76,10 +79,13 @@ class Correlation(NamedTuple):
     models : list of Model
         Whose probabilities add up to 1.
     branches : Branches
+    excess : float
+        The sum of squares of the residuals, in parts of what the models expect.
     """
 
     models: list[Model]
     branches: Branches
+    excess: float = 1.0
 
     def scatter(self, columns: Array, white: float = 1.0, alike: float = 1.0) -> Array:
         """Return columns' V columns for the covariance V of the noise, in the mean of the models.
@@ -132,12 +138,26 @@ class Correlation(NamedTuple):
     @property
     def independent(self) -> float:
         """How many independent points would say as much: points by the sum of correlations."""
+        return self._independent(1)
+
+    @property
+    def independent_squares(self) -> float:
+        """How many independent squares would say as much: by the sum of squared correlations."""
+        return self._independent(2)
+
+    def _independent(self, power: int) -> float:
+        """Return the points by the mean of the models' sums of correlations to a power.
+
+        Powers of an autoregression's correlations are the correlations of a shorter one.
+        """
         ones = np.ones((self.branches.slices[-1].stop, 1))
         alike = 0.0
         for model in self.models:
-            together = model.share * len(ones)
-            if model.share < 1.0:
-                together += (1.0 - model.share) * float(self._along(ones, model)[0, 0])
+            together, part = float(len(ones)), (1.0 - model.share) ** power
+            if part > 0.0:
+                reach, common = model.reach / power, model.common**power
+                shorter = model._replace(reach=reach, common=common)
+                together += part * (float(self._along(ones, shorter)[0, 0]) - together)
             alike += model.probability * together
         return float(len(ones)) ** 2 / alike
 
@@ -173,14 +193,27 @@ def correlation_of(residuals: Array, slopes: Array, branches: Branches) -> Corre
     chances = np.exp(logarithms - logarithms.max())
     chances[chances < _IMPOSSIBLE * chances.sum()] = 0.0
     chances /= chances.sum()
-    return Correlation(
-        [
-            Model(float(chance), *model, square * variance)
-            for chance, model, (_, variance) in zip(chances, tried, found, strict=True)
-            if chance > 0.0
-        ],
-        branches,
-    )
+    models = [
+        Model(float(chance), *model, square * variance)
+        for chance, model, (_, variance) in zip(chances, tried, found, strict=True)
+        if chance > 0.0
+    ]
+    return Correlation(models, branches, square / _expected_square(models, basis, branches))
+
+
+def _expected_square(models: list[Model], basis: Array, branches: Branches) -> float:
+    """Return the sum of squares that fitted residuals are expected to have.
+
+    The trace of (I - B B') V for an orthonormal basis B and the covariance V.
+    """
+    count = len(basis)
+    repeated = 0 if branches.places is None else int(np.sum(branches.places >= 0))
+    whole = 0.0
+    for model in models:
+        alike = (1.0 - model.common) * count + model.common * repeated
+        one = model.share * count + (1.0 - model.share) * alike
+        whole += model.probability * model.variance * one
+    return whole - float(np.trace(Correlation(models, branches).scatter(basis)))
 
 
 def _likelihood(

@@ -5,11 +5,14 @@ there and the weight that the measure gives to the point say. For a sum of squar
 linear theory of least squares. A measure that adds up distances rather than their squares has the
 weights of its gradient, and takes, as a median does, pi / 2 of the variance of white noise, and
 pi / 2 log 2 of that of noise that goes on alike (the sums over all lags of an autoregression's
-correlations, and of their arcsines). Cost: two evaluations of the residuals a parameter, or one
+correlations, and of their arcsines). Where the residuals' squares add up to more than the likely
+correlation expects, their sum says how large the error is, with Satterthwaite's degrees of freedom,
+if that makes an interval wider. Cost: two evaluations of the residuals a parameter, or one
 gradient; and that of `correlation_of`.
 
 P. J. Huber, "The behavior of maximum likelihood estimates under nonstandard conditions", Proc. 5th
-Berkeley Symp. Math. Stat. Prob. 1 (1967) 221-233.
+Berkeley Symp. Math. Stat. Prob. 1 (1967) 221-233; F. E. Satterthwaite, "An approximate distribution
+of estimates of variance components", Biometrics Bull. 2 (1946) 110-114.
 """
 
 from __future__ import annotations
@@ -34,6 +37,10 @@ _WHITE, _ALIKE = math.pi / 2.0, math.pi / 2.0 * math.log(2.0)
 # Where the noise goes on alike, hardly more independent points are left than parameters: the fewest
 # degrees of freedom with which Student's t has a variance.
 _LEAST_FREEDOM = 3.0
+# Of the independent squares. The variance and the reach of an autoregression are both estimated,
+# each with a relative variance of 2 by their number, and the error of what goes on longest is
+# proportional to both.
+_OF_SQUARES = 0.5
 
 
 class Estimate(NamedTuple):
@@ -54,6 +61,8 @@ class Estimate(NamedTuple):
     freedom : float
         The degrees of freedom of its deviation: of points that are independent; infinite where it
         is given.
+    freedom_of_squares : float
+        Those of the sum of squares of the residuals, where these go on alike.
     is_median : bool
         Whether it is that of distances, and not of their squares.
     """
@@ -64,6 +73,7 @@ class Estimate(NamedTuple):
     inverse: Array
     correlation: Correlation
     freedom: float
+    freedom_of_squares: float
     is_median: bool
 
     @property
@@ -73,11 +83,18 @@ class Estimate(NamedTuple):
         return self.correlation.scatter(self.moves, white, alike)
 
     def quantile(self, level: float) -> float:
-        """Return how many standard errors half an interval has."""
+        """Return how many standard errors half an interval has.
+
+        By the likelihood's deviation, or by that of the sum of squares: whichever says more.
+        """
         special, upper = required("scipy.special"), (1.0 + level) / 2.0
         if math.isinf(self.freedom):
             return float(special.ndtri(upper))
-        return float(special.stdtrit(self.freedom, upper))
+        by_likelihood = float(special.stdtrit(self.freedom, upper))
+        if self.correlation.excess <= 1.0:
+            return by_likelihood
+        by_squares = float(special.stdtrit(self.freedom_of_squares, upper))
+        return max(by_likelihood, math.sqrt(self.correlation.excess) * by_squares)
 
 
 def estimate_of(optimum: Optimum, noise: Noise) -> Estimate:
@@ -99,19 +116,23 @@ def estimate_of(optimum: Optimum, noise: Noise) -> Estimate:
         slopes = point_slopes(optimum, counts) / deviations[:, np.newaxis]
     if noise.residuals is None:
         correlation = white(branches)
-        freedom = math.inf
+        freedom = freedom_of_squares = math.inf
     else:
         residuals = np.concatenate([r / s for r, s in zip(noise.residuals, sigma, strict=True)])
         correlation = correlation_of(residuals, slopes, branches)
         over = correlation.independent - slopes.shape[1]
         freedom = min(float(noise.freedom), max(over, _LEAST_FREEDOM))
+        squares = _OF_SQUARES * correlation.independent_squares
+        freedom_of_squares = min(float(noise.freedom), max(squares, _LEAST_FREEDOM))
     left, values, right = np.linalg.svd(weights[:, np.newaxis] * slopes, full_matrices=False)
     # What no point notices is as uncertain as the bounds are wide, and no more.
     noticed = np.maximum(values, float(np.sqrt(np.mean(weights**2))))
     moves = weights[:, np.newaxis] * (left / noticed) @ right
     inverse, factors = (right.T / noticed**2) @ right, weights / deviations
     is_median = not objective.is_least_squares
-    return Estimate(moves, slopes, factors, inverse, correlation, freedom, is_median)
+    return Estimate(
+        moves, slopes, factors, inverse, correlation, freedom, freedom_of_squares, is_median
+    )
 
 
 def _residual_slopes(optimum: Optimum) -> Array:
