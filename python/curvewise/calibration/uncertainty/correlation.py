@@ -150,16 +150,22 @@ class Correlation(NamedTuple):
 
         Powers of an autoregression's correlations are the correlations of a shorter one.
         """
-        ones = np.ones((self.branches.slices[-1].stop, 1))
+        branches = self.branches
+        count = branches.slices[-1].stop
         alike = 0.0
         for model in self.models:
-            together, part = float(len(ones)), (1.0 - model.share) ** power
+            together, part = float(count), (1.0 - model.share) ** power
             if part > 0.0:
                 reach, common = model.reach / power, model.common**power
-                shorter = model._replace(reach=reach, common=common)
-                together += part * (float(self._along(ones, shorter)[0, 0]) - together)
+                whole = sum(_all_pairs(reach, one.stop - one.start) for one in branches.slices)
+                if common > 0.0:
+                    whole *= 1.0 - common
+                    for sums in branches.gathered(np.ones((count, 1))):
+                        shared = sums.T @ _correlated(sums, _neighbours(reach, PARTS))
+                        whole += common * float(shared[0, 0])
+                together += part * (whole - together)
             alike += model.probability * together
-        return float(len(ones)) ** 2 / alike
+        return float(count) ** 2 / alike
 
 
 def white(branches: Branches, variance: float = 1.0) -> Correlation:
@@ -275,6 +281,13 @@ def _shared_factor(reach: float, share: float, common: float, branches: Branches
 def _neighbours(reach: float, count: int) -> float:
     """Return the correlation of neighbours, of a reach in parts of a branch of so many points."""
     return math.exp(-1.0 / (reach * count)) if reach > 0.0 else 0.0
+
+
+def _all_pairs(reach: float, count: int) -> float:
+    """Return the sum of the correlations of all pairs of points of a branch, a series summed."""
+    rho = _neighbours(reach, count)
+    ends = (1.0 - rho**count) / (1.0 - rho)
+    return count + 2.0 * rho / (1.0 - rho) * (count - ends)
 
 
 def _autoregression(white_noise: Array, rho: float) -> Array:
