@@ -17,9 +17,12 @@ constexpr std::ptrdiff_t max_table_height = 32;
 constexpr std::ptrdiff_t strips_per_worker = 4;
 constexpr std::ptrdiff_t min_shared_height = 64;
 
-kernels::Output output_of(const Destination& destination) noexcept {
+kernels::Output output_of(const Destination& destination, const LiveColumns& columns) noexcept {
     if (destination.table != nullptr) return kernels::Output::table;
-    if (destination.codes != nullptr) return kernels::Output::codes;
+    if (destination.codes != nullptr) {
+        return columns.cost_to_go() != nullptr ? kernels::Output::narrow_codes
+                                               : kernels::Output::codes;
+    }
     if (destination.origins != nullptr) return kernels::Output::origins;
     return kernels::Output::boundary_only;
 }
@@ -59,7 +62,7 @@ StripPlan::StripPlan(const SweepProblem& problem, const Region& region, std::ptr
     : problem_(&problem),
       region_(region),
       destination_(destination),
-      output_(output_of(destination)),
+      output_(output_of(destination, problem.columns)),
       height_(strip_height(problem, region, workers, output_)),
       workers_(std::min(workers, (region.rows + height_ - 1) / height_)) {}
 
@@ -167,7 +170,7 @@ void StripWalk::aim(std::ptrdiff_t strip) noexcept {
         strip_.origin_current = lanes + (origins + 2) * lane_stride_;
         if (first > 0) strip_.origin_before_last[0] = strip_.origin_boundary[first - 1];
     }
-    if (plan_->output_ == kernels::Output::codes) {
+    if (destination.codes != nullptr) {
         const StripCodes& codes = destination.layout[strip];
         strip_.codes = destination.codes + codes.offset - codes.first_diagonal * plan_->height_;
     }
@@ -228,7 +231,7 @@ CodeLayout::CodeLayout(const SweepProblem& problem, const Region& region) {
         const std::ptrdiff_t last_row = std::min((s + 1) * height, region.rows) - 1;
         const std::ptrdiff_t end = plan.columns(last_row).last + last_row - s * height + 1;
         strips.push_back({first, size});
-        size += (end - first) * height;
+        size += (end - first) * height + kernels::padding;
     }
 }
 

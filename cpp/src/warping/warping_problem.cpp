@@ -8,6 +8,7 @@
 #include "curves/checks.hpp"
 #include "runtime/stopwatch.hpp"
 #include "runtime/workers.hpp"
+#include "warping/cheap_cells.hpp"
 #include "warping/dispatch.hpp"
 #include "warping/dtw_pruned.hpp"
 #include "warping/dtw_recurrence.hpp"
@@ -203,7 +204,9 @@ std::optional<Path> WarpingProblem::pruned_path() const {
     if (!prune_) return std::nullopt;
     if (is_frechet()) return frechet_path_in_corridor();
     DtwPruningRecord record;
-    return dtw_path_pruned(sweep_, {infinity, open_end_}, record);
+    std::optional<Path> path = dtw_path_pruned(sweep_, {infinity, open_end_}, record);
+    if (!path) path = find_path_of_cheap_cells(sweep_, open_end_);
+    return path;
 }
 
 std::optional<Path> WarpingProblem::frechet_path_in_corridor() const {

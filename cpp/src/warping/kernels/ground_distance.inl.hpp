@@ -42,9 +42,13 @@ struct SquaredCost {
         return sum;
     }
 
+    Pack difference(std::ptrdiff_t t, std::ptrdiff_t k, int c) const noexcept {
+        return simd::psub(load(p[c] + k), load(q[c] - t + k));
+    }
+
    private:
     Pack square(std::ptrdiff_t t, std::ptrdiff_t k, int c) const noexcept {
-        const Pack delta = simd::psub(load(p[c] + k), load(q[c] - t + k));
+        const Pack delta = difference(t, k, c);
         return simd::pmul(delta, delta);
     }
 };
@@ -57,17 +61,14 @@ struct EuclideanCost : SquaredCost<dim> {
     }
 };
 
-// |difference|, which every metric except sqeuclidean is in one dimension.
-struct AbsoluteCost {
-    const double* p;
-    const double* q;
-
-    explicit AbsoluteCost(const Strip& strip) noexcept
-        : p(strip.p), q(strip.q + strip.columns - 1) {}
-    void prepare(const Strip&, std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t,
-                 CostFunction) const noexcept {}
+// Sum of |difference|: what every metric except sqeuclidean is in one dimension.
+template <int dim>
+struct AbsoluteCost : SquaredCost<dim> {
+    using SquaredCost<dim>::SquaredCost;
     Pack at(std::ptrdiff_t t, std::ptrdiff_t k) const noexcept {
-        return simd::pabs(simd::psub(load(p + k), load(q - t + k)));
+        Pack sum = simd::pabs(this->difference(t, k, 0));
+        for (int c = 1; c < dim; ++c) sum = simd::padd(sum, simd::pabs(this->difference(t, k, c)));
+        return sum;
     }
 };
 

@@ -281,7 +281,7 @@ void fill_pairs_with(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
 // In few dimensions without a loop over them.
 CostFunction select_pairs(Cost cost, std::ptrdiff_t dim) noexcept {
     if (cost.is_own) return fill_own;
-    if (cost.metric == Metric::cityblock && dim == 1) return fill_pairs_with<AbsoluteCost>;
+    if (cost.metric == Metric::cityblock && dim == 1) return fill_pairs_with<AbsoluteCost<1>>;
     if (cost.metric == Metric::sqeuclidean) {
         if (dim == 1) return fill_pairs_with<SquaredCost<1>>;
         if (dim == 2) return fill_pairs_with<SquaredCost<2>>;

@@ -91,7 +91,8 @@ using ArcFunction = void (*)(double* values, std::ptrdiff_t count, double radius
 // per diagonal where the cost is not fused.
 using AdvanceFunction = void (*)(Strip& strip, std::ptrdiff_t end, CostFunction fill) noexcept;
 
-enum class Output { boundary_only, origins, codes, table };
+// Narrow: where few lanes are expected to be live at a time.
+enum class Output { boundary_only, origins, codes, narrow_codes, table };
 
 // A ground distance, and whether every sum of squares is 0 or within the domain of the fast square
 // root; or one of the caller's own, in place of the metric.

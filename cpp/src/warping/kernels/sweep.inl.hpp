@@ -115,6 +115,50 @@ struct KeepCodes {
     }
 };
 
+// The same where few lanes are live, and a second loop over them would take longer than the cells:
+// the codes of a SIMD vector are the bytes of one number, the sum of its lanes, which is written
+// past the last active lane, too.
+struct KeepFewCodes {
+    using Word = std::conditional_t<width == 4, std::uint32_t,
+                                    std::conditional_t<width == 2, std::uint16_t, std::uint8_t>>;
+    Pack if_up;
+    Pack if_left;
+    std::uint8_t* to = nullptr;
+
+    explicit KeepFewCodes(const Strip&) noexcept
+        : if_up(words(Predecessor::up)), if_left(words(Predecessor::left)) {}
+    void begin(Strip& strip, std::ptrdiff_t t) noexcept {
+        to = strip.codes + t * strip.code_stride;
+    }
+    template <class Rule>
+    void cells(std::ptrdiff_t k, const Pack& up, const Pack& left, const Pack& diag,
+               const Pack& d) noexcept {
+        static_assert(Predecessor::diagonal == 0);
+        const Pack none = simd::pset1<Pack>(0.0);
+        const Pack codes = by_predecessor<Rule>(up, left, diag, d, none, if_up, if_left);
+        const auto word = static_cast<Word>(static_cast<std::int64_t>(simd::predux(codes)));
+        std::memcpy(to + k, &word, sizeof word);
+    }
+    void diagonal(Strip&, std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t) noexcept {}
+
+   private:
+    // In lane l, the word of which byte l is the code.
+    static Pack words(Predecessor predecessor) noexcept {
+        double lanes[width];
+        for (std::ptrdiff_t l = 0; l < width; ++l) {
+            std::uint8_t bytes[width] = {};
+            bytes[l] = predecessor;
+            Word word = 0;
+            std::memcpy(&word, bytes, sizeof word);
+            lanes[l] = static_cast<double>(word);
+        }
+        return load(lanes);
+    }
+};
+
+// A double does not hold the bytes of eight cells.
+using KeepNarrowCodes = std::conditional_t<(width > 4), KeepCodes, KeepFewCodes>;
+
 struct KeepTable {
     explicit KeepTable(const Strip&) noexcept {}
     void begin(Strip&, std::ptrdiff_t) noexcept {}
@@ -176,7 +220,7 @@ void advance(Strip& strip, std::ptrdiff_t end, CostFunction fill) noexcept {
 template <class Rule, class Keep>
 AdvanceFunction select_cost(Cost cost, std::ptrdiff_t dim) noexcept {
     if (cost.is_own) return advance<Rule, BufferedCost, Keep>;
-    if (cost.metric == Metric::cityblock && dim == 1) return advance<Rule, AbsoluteCost, Keep>;
+    if (cost.metric == Metric::cityblock && dim == 1) return advance<Rule, AbsoluteCost<1>, Keep>;
     if (cost.metric == Metric::sqeuclidean) {
         if (dim == 1) return advance<Rule, SquaredCost<1>, Keep>;
         if (dim == 2) return advance<Rule, SquaredCost<2>, Keep>;
@@ -198,6 +242,11 @@ AdvanceFunction select_output(Cost cost, std::ptrdiff_t dim, Output output) noex
             return select_cost<Rule, KeepOrigins>(cost, dim);
         case Output::codes:  // bound by what they write: one form is enough
             return advance<Rule, BufferedCost, KeepCodes>;
+        case Output::narrow_codes:
+            if (cost.metric == Metric::cityblock && dim == 2 && !cost.is_own) {
+                return advance<Rule, AbsoluteCost<2>, KeepNarrowCodes>;
+            }
+            return advance<Rule, BufferedCost, KeepNarrowCodes>;
         case Output::table:
             break;
     }
