@@ -125,9 +125,10 @@ class AreaMeasure : public pairwise::LinearMeasure {
         double sum = 0.0;
         const auto add = [&](double area) { sum += options_.squared ? area * area : area; };
         if (options_.spacing == Spacing::matched) {
-            for_each_piece(planar::match(P.checked.curve, Q.checked.curve, range, call.poller),
-                           call.poller,
-                           [&](const auto&, auto, auto, double area) { add(std::abs(area)); });
+            for (const double piece :
+                 planar::matched_areas(P.checked.curve, Q.checked.curve, range, call.poller)) {
+                add(std::abs(piece));
+            }
         } else {
             for_each_quad(P, Q, range, call.poller, [&](const Quad& quad) {
                 add(planar::measured_area(quad, options_.crossing));

@@ -9,7 +9,7 @@
 // coordinates rounded to 30 bits, so that no rounding error decides between two paths that cost the
 // same. It is cut into pieces that are short, a tenth of the box, and long beside the spacing of
 // noisy points. Areas within a piece are added with their signs, so that what noise sweeps to and
-// fro cancels.
+// fro cancels. Both curves are walked along once, and a piece's area is added up on the way.
 //
 // Time O(n + m + k^2), memory O(n + m + k), where k = 50 T samples are matched and T is how many
 // widths and heights of its box P travels. Where T is above 280, samples are matched whose places
@@ -56,6 +56,11 @@ struct PlacesOnCurves {
     std::array<double, 2> slopes;     // of the scaling
     std::array<bool, 2> is_box_of_p;  // that it is by, or else of Q
 };
+
+// The areas between the curves, with their signs, piece by piece: of the quadrilaterals between the
+// segments of MatchedCurves, added up in their order. Throws Stopped where the poller says so.
+std::vector<double> matched_areas(const CurveView& P, const CurveView& Q,
+                                  const curves::RangeScale& range, Poller& poller);
 
 // P and Q with a vertex at every vertex of the other, and at every end of a piece. Coordinates come
 // out in `range`. Throws Stopped where the poller says so. `on_curves`, if given, is filled in.
