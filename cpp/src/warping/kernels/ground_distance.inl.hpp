@@ -61,6 +61,27 @@ struct EuclideanCost : SquaredCost<dim> {
     }
 };
 
+// By both kinds of root (see each_mixed_root) in the plane: in space loads are the limit, and more
+// is lost than gained. Fewer rows do not last long enough for more than a few per cent.
+constexpr std::ptrdiff_t min_rows_of_mixed_roots = 112;
+
+struct MixedEuclideanCost : SquaredCost<2> {
+    using SquaredCost<2>::SquaredCost;
+};
+
+// Calls use(k, distances) of the vectors of lanes low to high of diagonal t, in any order.
+template <class GroundCost, class Use>
+void each_distance(const GroundCost& cost, std::ptrdiff_t t, std::ptrdiff_t low,
+                   std::ptrdiff_t high, const Use& use) noexcept {
+    for (std::ptrdiff_t k = low; k <= high; k += width) use(k, cost.at(t, k));
+}
+template <class Use>
+void each_distance(const MixedEuclideanCost& cost, std::ptrdiff_t t, std::ptrdiff_t low,
+                   std::ptrdiff_t high, const Use& use) noexcept {
+    each_mixed_root(
+        low, high, [&](std::ptrdiff_t k) { return cost.at(t, k); }, use);
+}
+
 // Sum of |difference|: what every metric except sqeuclidean is in one dimension.
 template <int dim>
 struct AbsoluteCost : SquaredCost<dim> {
@@ -156,6 +177,6 @@ CostFunction select_fill_with(Metric metric) noexcept {
 
 CostFunction select_fill(Cost cost) noexcept {
     if (cost.is_own) return fill_own;
-    return cost.squares_in_domain ? select_fill_with<FastRoot>(cost.metric)
+    return cost.squares_in_domain ? select_fill_with<UniformRoot>(cost.metric)
                                   : select_fill_with<DividerRoot>(cost.metric);
 }

@@ -274,8 +274,18 @@ AdvanceRecurrence select_steps(const LaneStep* steps, std::ptrdiff_t step_count,
 template <class GroundCost>
 void fill_pairs_with(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
                      std::ptrdiff_t high) noexcept {
-    const GroundCost cost(strip);
-    for (std::ptrdiff_t k = low; k <= high; k += width) store(strip.cost + k, cost.at(t, k));
+    each_distance(GroundCost(strip), t, low, high,
+                  [&](std::ptrdiff_t k, const Pack& d) { store(strip.cost + k, d); });
+}
+
+void fill_pairs_in_plane(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
+                         std::ptrdiff_t high) noexcept {
+    if constexpr (mixes_roots) {
+        if (strip.rows >= min_rows_of_mixed_roots) {
+            return fill_pairs_with<MixedEuclideanCost>(strip, t, low, high);
+        }
+    }
+    fill_pairs_with<EuclideanCost<2, UniformRoot>>(strip, t, low, high);
 }
 
 // In few dimensions without a loop over them.
@@ -288,8 +298,8 @@ CostFunction select_pairs(Cost cost, std::ptrdiff_t dim) noexcept {
         if (dim == 3) return fill_pairs_with<SquaredCost<3>>;
     }
     if (cost.metric == Metric::euclidean && cost.squares_in_domain) {
-        if (dim == 2) return fill_pairs_with<EuclideanCost<2, FastRoot>>;
-        if (dim == 3) return fill_pairs_with<EuclideanCost<3, FastRoot>>;
+        if (dim == 2) return fill_pairs_in_plane;
+        if (dim == 3) return fill_pairs_with<EuclideanCost<3, UniformRoot>>;
     }
     return select_fill(cost);
 }

@@ -1,50 +1,131 @@
-// A correctly rounded square root that does not wait for the divider, where the level has fused
-// multiply-add and 14-bit reciprocal square roots: Goldschmidt's iteration and one correction.
-// Included by the kernel of each level, inside its anonymous namespace.
+// Correctly rounded square roots that do not wait for the divider, where the level has fused
+// multiply-add: a first guess, Goldschmidt's iteration, one correction. Included by the kernel of
+// each level, inside its anonymous namespace.
 //
-// With y = rsqrt14(x), s = x y and h = y / 2, two steps r = 1/2 - s h, s += s r, h += h r leave s
-// within two ulps of sqrt(x) and h within 2^-51 of 1 / (2 sqrt(x)), relatively. Then
-// s + h (x - s s), with an exact residual, is the square root to about 2^-50 ulp before its one
+// With y close to 1 / sqrt(x), s = x y and h = y / 2, a step r = 1/2 - s h, s += s r, h += h r
+// squares the relative error of both. The last one leaves s within 2^-50 of sqrt(x) and h as close
+// to 1 / (2 sqrt(x)). Then s + h (x - s s) is the square root to about 2^-45 ulp before its one
 // rounding, so that it is rounded right unless sqrt(x) lies that close to the middle between two
 // doubles. Those x can be listed, and all come out right: tests/cpp/warping/test_square_root.cpp.
 //
-// (To step once and correct twice with the h of that step is one operation shorter. Its error is
-// 2^-28 ulp: one argument in some 10^9 comes out wrong, and a third of the listed ones.)
+// (To step once less and correct twice with the h of that step is one operation shorter. Its error
+// is 2^-28 ulp: one argument in some 10^9 comes out wrong, and a third of the listed ones.)
 //
 // Domain: 0, and 2^-904 to 2^1020: below, the residual would not be exact. What keeps sums of
 // squares in it is in ../packed_curve.hpp.
+//
+// Each root is begun when it is made and finished by root(), so that others may come between.
 
 #include "pack.inl.hpp"
 
 // The hardware's instruction: any argument.
-struct DividerRoot {
+class DividerRoot {
+   public:
+    explicit DividerRoot(const Pack& x) noexcept : x_(x) {}
+    Pack root() const noexcept { return simd::psqrt(x_); }
     static Pack of(const Pack& x) noexcept { return simd::psqrt(x); }
+
+   private:
+    Pack x_;
 };
 
-#ifdef __AVX512F__
+#if defined(__AVX512F__)
 
-struct FastRoot {
-    static Pack of(const Pack& x) noexcept {
+// From a reciprocal root to 14 bits, in two steps.
+class FastRoot {
+   public:
+    // The smallest x above 0 stands for 0, whose reciprocal root is infinite; s is 0 then.
+    explicit FastRoot(const Pack& x) noexcept
+        : x_(x), y_(_mm512_rsqrt14_pd(simd::pmax(x, simd::pset1<Pack>(0x1p-904)))) {}
+    Pack root() const noexcept {
         const Pack half = simd::pset1<Pack>(0.5);
-        // The smallest x above 0 stands for 0, whose reciprocal root is infinite; s is 0 then.
-        const Pack y = _mm512_rsqrt14_pd(simd::pmax(x, simd::pset1<Pack>(0x1p-904)));
-        Pack s = simd::pmul(x, y);
-        Pack h = simd::pmul(y, half);
+        Pack s = simd::pmul(x_, y_);
+        Pack h = simd::pmul(y_, half);
         for (int step = 0; step < 2; ++step) {
             const Pack r = _mm512_fnmadd_pd(s, h, half);
             s = _mm512_fmadd_pd(s, r, s);
             h = _mm512_fmadd_pd(h, r, h);
         }
-        return _mm512_fmadd_pd(h, _mm512_fnmadd_pd(s, s, x), s);
+        return _mm512_fmadd_pd(h, _mm512_fnmadd_pd(s, s, x_), s);
     }
+    static Pack of(const Pack& x) noexcept { return FastRoot(x).root(); }
+
+   private:
+    Pack x_, y_;
 };
+using UniformRoot = FastRoot;
+constexpr bool mixes_roots = false;
+
+#elif defined(__AVX2__) && defined(__FMA__)
+
+// From a reciprocal root to 4.8 bits, which is an integer less half the bits of x (Robertson, A
+// brief history of InvSqrt, 2012): r lies between -0.0346 and 0.0338, where the polynomial of r,
+// of degree 4 through the Chebyshev nodes, is 1 / sqrt(1 - 2 r) to 2^-25.3. A second step, of the
+// plain kind, leaves 2^-50. Of 0 the guess is finite, and s remains 0.
+class FastRoot {
+   public:
+    explicit FastRoot(const Pack& x) noexcept : x_(x) {
+        const __m256i half_bits = _mm256_srli_epi64(_mm256_castpd_si256(x), 1);
+        const __m256i y = _mm256_sub_epi64(_mm256_set1_epi64x(0x5FE6EB50C7B537A9), half_bits);
+        const __m256i one_less = _mm256_set1_epi64x(std::int64_t{1} << 52);  // in the exponent
+        s_ = simd::pmul(x, _mm256_castsi256_pd(y));
+        h_ = _mm256_castsi256_pd(_mm256_sub_epi64(y, one_less));
+    }
+    Pack root() const noexcept {
+        const Pack half = simd::pset1<Pack>(0.5);
+        Pack r = _mm256_fnmadd_pd(s_, h_, half);
+        Pack q = _mm256_fmadd_pd(r, simd::pset1<Pack>(0x1.f8d92c7062284p+2),
+                                 simd::pset1<Pack>(0x1.199ee57f0abb4p+2));
+        q = _mm256_fmadd_pd(r, q, simd::pset1<Pack>(0x1.40009e0a4b660p+1));
+        q = _mm256_fmadd_pd(r, q, simd::pset1<Pack>(0x1.7fff46371e277p+0));
+        q = _mm256_fmadd_pd(r, q, simd::pset1<Pack>(0x1.ffffffc160d43p-1));
+        q = _mm256_fmadd_pd(r, q, simd::pset1<Pack>(0x1.000000031457fp+0));
+        Pack s = simd::pmul(s_, q);
+        Pack h = simd::pmul(h_, q);
+        r = _mm256_fnmadd_pd(s, h, half);
+        s = _mm256_fmadd_pd(s, r, s);
+        h = _mm256_fmadd_pd(h, r, h);
+        return _mm256_fmadd_pd(h, _mm256_fnmadd_pd(s, s, x_), s);
+    }
+    static Pack of(const Pack& x) noexcept { return FastRoot(x).root(); }
+
+   private:
+    Pack x_, s_, h_;
+};
+// Alone it is no faster than the divider; beside it, it is.
+using UniformRoot = DividerRoot;
+constexpr bool mixes_roots = true;
 
 #else
 
-// AVX2 has no such start. One of its own (an integer's shift, then a polynomial of degree 4 to
-// 2^-26, one step, one correction) makes 0.87 of 10^9 cells a second where the
-// divider makes 1.40, which is its limit (Zen, nine cycles for four roots); for every second
-// vector 1.23, for every third 1.39.
 using FastRoot = DividerRoot;
+using UniformRoot = DividerRoot;
+constexpr bool mixes_roots = false;
 
 #endif
+
+// Calls use(k, root) of the vectors of lanes low to high, given squares(k) of each: one of four
+// takes the fast root, three the divider, so that both are busy. The next fast root is begun
+// before this one is finished: a processor does not hold as many instructions as it would take to
+// find that by itself, and would wait for each chain of multiplications.
+template <class Squares, class Use>
+void each_mixed_root(std::ptrdiff_t low, std::ptrdiff_t high, const Squares& squares,
+                     const Use& use) noexcept {
+    constexpr std::ptrdiff_t together = 4 * width;
+    if (low > high) return;
+    std::ptrdiff_t k = low;
+    FastRoot begun(squares(k));
+    const auto finish = [&](std::ptrdiff_t end) {
+        const Pack root = begun.root();
+        for (std::ptrdiff_t j = k + width; j < end; j += width) {
+            use(j, DividerRoot::of(squares(j)));
+        }
+        use(k, root);
+    };
+    for (; k + 2 * together - width <= high; k += together) {
+        const FastRoot next(squares(k + together));
+        finish(k + together);
+        begun = next;
+    }
+    finish(high + 1);
+}

@@ -194,14 +194,13 @@ void advance(Strip& strip, std::ptrdiff_t end, CostFunction fill) noexcept {
         before[0] = strip.boundary[t];  // read, but not used, once lane 0 is past its last column
         keep.begin(strip, t);
         cost.prepare(strip, t, low, high, fill);
-        for (std::ptrdiff_t k = low; k <= high; k += width) {
+        each_distance(cost, t, low, high, [&](std::ptrdiff_t k, const Pack& d) {
             const Pack up = load(before + k);
             const Pack left = load(before + k + 1);
             const Pack diag = load(before_last + k);
-            const Pack d = cost.at(t, k);
             keep.template cells<Rule>(k, up, left, diag, d);
             store(current + k + 1, Rule::cell(up, left, diag, d));
-        }
+        });
         // The neighbours of the active lanes: the next two diagonals read no further.
         current[low] = infinity;
         current[high + 2] = infinity;
@@ -216,6 +215,16 @@ void advance(Strip& strip, std::ptrdiff_t end, CostFunction fill) noexcept {
     strip.next_diagonal = end;
 }
 
+template <class Rule, class Keep>
+void advance_in_plane(Strip& strip, std::ptrdiff_t end, CostFunction fill) noexcept {
+    if constexpr (mixes_roots) {
+        if (strip.rows >= min_rows_of_mixed_roots) {
+            return advance<Rule, MixedEuclideanCost, Keep>(strip, end, fill);
+        }
+    }
+    advance<Rule, EuclideanCost<2, UniformRoot>, Keep>(strip, end, fill);
+}
+
 // The ground distances that are worth their own loop are fused.
 template <class Rule, class Keep>
 AdvanceFunction select_cost(Cost cost, std::ptrdiff_t dim) noexcept {
@@ -227,8 +236,8 @@ AdvanceFunction select_cost(Cost cost, std::ptrdiff_t dim) noexcept {
         if (dim == 3) return advance<Rule, SquaredCost<3>, Keep>;
     }
     if (cost.metric == Metric::euclidean && cost.squares_in_domain) {
-        if (dim == 2) return advance<Rule, EuclideanCost<2, FastRoot>, Keep>;
-        if (dim == 3) return advance<Rule, EuclideanCost<3, FastRoot>, Keep>;
+        if (dim == 2) return advance_in_plane<Rule, Keep>;
+        if (dim == 3) return advance<Rule, EuclideanCost<3, UniformRoot>, Keep>;
     }
     return advance<Rule, BufferedCost, Keep>;
 }
