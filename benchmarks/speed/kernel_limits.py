@@ -30,7 +30,7 @@ Loop = tuple[str, str]  # a pattern of the function, and an instruction of the l
 
 def variants(dim: int) -> dict[str, tuple[list[Loop], str, dict[str, Any]]]:
     """Return of each its loops, its function, and the options that it is called with."""
-    root = {1: "fill_pairs_with<AbsoluteCost", 2: "fill_pairs_in_plane"}[dim]
+    root = {1: "fill_pairs_with<AbsoluteCost", 2: "fill_pairs_(in_plane|with<Mixed)"}[dim]
     sweep = {1: "advance<{}, AbsoluteCost", 2: "advance_in_plane<{}, KeepNothing"}[dim]
     square = f"SquaredCost<{dim}>"
     patterns = list(step_patterns())
