@@ -65,7 +65,7 @@ RecurrenceSweep::RecurrenceSweep(const RecurrenceProblem& problem, std::ptrdiff_
     ground.metric_parameter = recurrence_.ground.parameter();
     const kernels::Cost cost{canonical_metric(recurrence_.ground, ground.dim),
                              curves_.squares_are_in_domain(), recurrence_.ground.own != nullptr};
-    fill_ = active_level().recurrences->fill(cost, ground.dim);
+    fill_ = active_level().recurrences->fill(cost, ground.dim, std::min(curves_.rows(), height_));
     whole_.steps = table_.steps.data();
     whole_.step_count = static_cast<std::ptrdiff_t>(table_.steps.size());
     whole_.terms = table_.terms.data();

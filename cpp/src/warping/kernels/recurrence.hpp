@@ -95,7 +95,8 @@ struct RecurrenceKernels {
     // The sweep that is compiled for these steps, or that of any.
     AdvanceRecurrence (*advance)(const LaneStep* steps, std::ptrdiff_t step_count,
                                  const LaneTerm* terms) noexcept;
-    CostFunction (*fill)(Cost cost, std::ptrdiff_t dim) noexcept;
+    // `rows`: of a strip, at most.
+    CostFunction (*fill)(Cost cost, std::ptrdiff_t dim, std::ptrdiff_t rows) noexcept;
 };
 
 namespace recurrences {

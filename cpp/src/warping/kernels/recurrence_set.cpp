@@ -278,18 +278,8 @@ void fill_pairs_with(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
                   [&](std::ptrdiff_t k, const Pack& d) { store(strip.cost + k, d); });
 }
 
-void fill_pairs_in_plane(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
-                         std::ptrdiff_t high) noexcept {
-    if constexpr (mixes_roots) {
-        if (strip.rows >= min_rows_of_mixed_roots) {
-            return fill_pairs_with<MixedEuclideanCost>(strip, t, low, high);
-        }
-    }
-    fill_pairs_with<EuclideanCost<2, UniformRoot>>(strip, t, low, high);
-}
-
 // In few dimensions without a loop over them.
-CostFunction select_pairs(Cost cost, std::ptrdiff_t dim) noexcept {
+CostFunction select_pairs(Cost cost, std::ptrdiff_t dim, std::ptrdiff_t rows) noexcept {
     if (cost.is_own) return fill_own;
     if (cost.metric == Metric::cityblock && dim == 1) return fill_pairs_with<AbsoluteCost<1>>;
     if (cost.metric == Metric::sqeuclidean) {
@@ -298,7 +288,10 @@ CostFunction select_pairs(Cost cost, std::ptrdiff_t dim) noexcept {
         if (dim == 3) return fill_pairs_with<SquaredCost<3>>;
     }
     if (cost.metric == Metric::euclidean && cost.squares_in_domain) {
-        if (dim == 2) return fill_pairs_in_plane;
+        if (dim == 2 && mixes_roots && rows >= min_rows_of_mixed_roots) {
+            return fill_pairs_with<MixedEuclideanCost>;
+        }
+        if (dim == 2) return fill_pairs_with<EuclideanCost<2, UniformRoot>>;
         if (dim == 3) return fill_pairs_with<EuclideanCost<3, UniformRoot>>;
     }
     return select_fill(cost);

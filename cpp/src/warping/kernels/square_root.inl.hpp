@@ -112,8 +112,11 @@ template <class Squares, class Use>
 void each_mixed_root(std::ptrdiff_t low, std::ptrdiff_t high, const Squares& squares,
                      const Use& use) noexcept {
     constexpr std::ptrdiff_t together = 4 * width;
-    if (low > high) return;
     std::ptrdiff_t k = low;
+    if (high - low < 4 * together) {  // too few to come between the steps of a fast root
+        for (; k <= high; k += width) use(k, DividerRoot::of(squares(k)));
+        return;
+    }
     FastRoot begun(squares(k));
     const auto finish = [&](std::ptrdiff_t end) {
         const Pack root = begun.root();
