@@ -30,7 +30,8 @@ Loop = tuple[str, str]  # a pattern of the function, and an instruction of the l
 
 def variants(dim: int) -> dict[str, tuple[list[Loop], str, dict[str, Any]]]:
     """Return of each its loops, its function, and the options that it is called with."""
-    root = {1: "fill_pairs_with<AbsoluteCost", 2: "fill_pairs_(in_plane|with<Mixed)"}[dim]
+    plane = "fill_pairs_with<(Mixed|EuclideanCost<2, FastRoot)"
+    root = {1: "fill_pairs_with<AbsoluteCost", 2: plane}[dim]
     sweep = {1: "advance<{}, AbsoluteCost", 2: "advance_in_plane<{}, KeepNothing"}[dim]
     square = f"SquaredCost<{dim}>"
     patterns = list(step_patterns())
@@ -75,7 +76,8 @@ def innermost_loops(build: Path, level: str) -> list[tuple[str, str]]:
     for entry in json.loads((build / "compile_commands.json").read_text()):
         if f"-DCURVEWISE_LEVEL={level} " in entry["command"]:
             command = shlex.split(entry["command"])
-            text += run(*command[: command.index("-o")], "-S", "-o", "-", entry["file"])
+            without_lines = ("-g0", "-S", "-o", "-", entry["file"])
+            text += run(*command[: command.index("-o")], *without_lines)
     text = re.sub(r"curvewise::kernels::|\(anonymous namespace\)::", "", run("c++filt", given=text))
     loop = re.compile(r"\n(\.L\d+):\n((?:\t[^.\n].*\n)+?)\tj\w+\t\1\n")
     bodies = re.split(r"\n(?=\S.*\):\n)", text)
