@@ -2,7 +2,7 @@
 // random arguments in its domain (or as many as the first command-line argument says), special
 // ones, and those that are hardest to round, which makes it a proof.
 //
-// Before its one rounding the square root is right to about 2^-50 ulp (see square_root.inl.hpp), so
+// Before its one rounding the square root is right to about 2^-45 ulp (see square_root.inl.hpp), so
 // that it can only be rounded wrongly where sqrt(x) is that close to the middle between two
 // doubles. With M = 2 sqrt(x) scaled to an integer of 54 bits, x scaled to 2^k X, such a middle is
 // an odd M with M^2 = 2^j X + r, j = 54 or 55 and r small: the middle is r / (2 M) half ulps away.
