@@ -81,6 +81,16 @@ void number_of_pieces() {
     CHECK_EQUAL(matched({{1.0, 1.0}, {1.0, 1.0}}, any).ends.size(), std::size_t{1});
 }
 
+// A reversal between values that are looked at together, of which the first are below it and those
+// behind them above it.
+void a_reversal_among_a_few_values() {
+    Curve P(std::vector<double>(42, 0.0), 2);
+    for (int i = 0; i < 16; ++i) P(i, 0) = 0.025 * i;
+    int i = 16;
+    for (const double x : {0.6, 0.8, 0.4, 0.9, 1.0}) P(i++, 0) = x;
+    CHECK_EQUAL(matched(P, P).ends.size(), std::size_t{18});
+}
+
 void a_curve_and_itself() {
     Random random(72);
     for (const std::ptrdiff_t n : {2, 30, 2500}) {
@@ -106,6 +116,7 @@ void stops() {
 int main() {
     return check::run({{"vertices and pieces", vertices_and_pieces},
                        {"number of pieces", number_of_pieces},
+                       {"a reversal among a few values", a_reversal_among_a_few_values},
                        {"a curve and itself", a_curve_and_itself},
                        {"stops", stops}});
 }

@@ -94,6 +94,20 @@ void the_steps_of_dtw_give_its_bits() {
     CHECK_EQUAL(warp(recurrence, P, Q), curvewise::dtw(P, Q));
 }
 
+// They are compiled, and steps add what they have in common once: bits stay those of the rows.
+void all_named_patterns() {
+    Random random(6);
+    const Curve P = random.curve(61, 2), Q = random.curve(59, 2);
+    for (const curvewise::StepSet& pattern : curvewise::step_patterns) {
+        const Recurrence recurrence{pattern.name, steps_of(step_rows(pattern)), {}};
+        const std::vector<double> expected = written_down(recurrence.steps, P, Q);
+        std::vector<double> table(expected.size());
+        warp_table(recurrence, P, Q, table.data());
+        CHECK_EQUAL(table, expected);
+        CHECK_EQUAL(warp(recurrence, P, Q), expected.back());
+    }
+}
+
 void named_patterns() {
     Random random(7);
     const Curve P = random.curve(40, 2), Q = random.curve(37, 2);
@@ -132,6 +146,7 @@ void messages() {
 int main() {
     return check::run({{"own steps", own_steps},
                        {"the steps of dtw", the_steps_of_dtw_give_its_bits},
+                       {"all named patterns", all_named_patterns},
                        {"named patterns", named_patterns},
                        {"edit distances", edit_distances},
                        {"messages", messages}});

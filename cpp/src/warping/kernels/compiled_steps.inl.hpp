@@ -1,7 +1,8 @@
 // Steps that are compiled: those of every named pattern, and of the edit distances, of which only
-// the weights that are not 1 and the costs of a step are read when it runs. A cell takes the same
-// operations in the same order as with any steps. Included by recurrence_set.cpp, inside its
-// anonymous namespace.
+// the weights that are not 1 and the costs of a step are read when it runs. What steps add last in
+// common is added once, to the least of them: rounding never reverses an order, so that a cell
+// keeps its bits, and "typeIVc" adds 3 costs in the place of 18. Included by recurrence_set.cpp,
+// inside its anonymous namespace.
 
 // What of a table of steps decides which code it runs.
 struct Shape {
@@ -22,6 +23,16 @@ struct Shape {
     int step_count = 0;
     int term_count = 0;
 
+    constexpr int first_term(int s) const noexcept { return s == 0 ? 0 : steps[s - 1].end_term; }
+
+    // Weights that are not 1 are known only when it runs.
+    constexpr bool has_same_term(int s, int other, int depth) const noexcept {
+        const int x = steps[s].end_term - 1 - depth, y = steps[other].end_term - 1 - depth;
+        if (x < first_term(s) || y < first_term(other)) return false;
+        return terms[x].is_plain && terms[y].is_plain && terms[x].source == terms[y].source &&
+               terms[x].diagonals_back == terms[y].diagonals_back &&
+               terms[x].rows_back == terms[y].rows_back;
+    }
     constexpr int pair_diagonals() const noexcept {
         int most = 1;
         for (int x = 0; x < term_count; ++x) {
@@ -131,66 +142,91 @@ struct CompiledSteps {
         Pack constants[shape.step_count];
         Pack weights[shape.term_count];
 
-        Sources(const RecurrenceStrip& strip, const Lanes& lanes) noexcept {
+        Sources(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
             for (int s = 0; s < shape.step_count; ++s) {
-                values[s] = lanes.values[s];
+                values[s] = strip.values[shape.steps[s].diagonals_back] - shape.steps[s].rows_back;
                 constants[s] = simd::pset1<Pack>(strip.steps[s].constant);
             }
             for (int x = 0; x < shape.term_count; ++x) {
-                terms[x] = lanes.terms[x];
+                if (shape.terms[x].source != Source::pair) {
+                    terms[x] = source_on(strip, strip.terms[x], t) - shape.terms[x].rows_back;
+                }
                 weights[x] = simd::pset1<Pack>(strip.terms[x].weight);
             }
-            for (int b = 0; b < shape.pair_diagonals(); ++b) pairs[b] = lanes.pairs[b];
+            for (int b = 0; b < shape.pair_diagonals(); ++b) pairs[b] = strip.pairs[b];
         }
     };
 
-    template <int s, int x>
-    static Pack with_terms(const Pack& sum, const Sources& from, std::ptrdiff_t k) noexcept {
-        if constexpr (x < shape.steps[s].end_term) {
-            constexpr Shape::Term term = shape.terms[x];
-            Pack cost;
-            if constexpr (term.source == Source::pair) {
-                cost = load(from.pairs[term.diagonals_back] + k - term.rows_back);
-            } else {
-                cost = load(from.terms[x] + k);
+    // A set of steps is a word of bits.
+    using Set = std::uint32_t;
+
+    static constexpr int first_of(Set steps) noexcept {
+        int s = 0;
+        while ((steps >> s & 1) == 0) ++s;
+        return s;
+    }
+
+    // Those of the steps whose term `depth` before their last one is that of step s.
+    static constexpr Set sharing(Set steps, int s, int depth) noexcept {
+        Set found = Set{1} << s;
+        for (int other = s + 1; other < shape.step_count; ++other) {
+            if ((steps >> other & 1) != 0 && shape.has_same_term(s, other, depth)) {
+                found |= Set{1} << other;
             }
-            if constexpr (!term.is_plain) {
-                cost = simd::pmul(from.weights[x], cost);
+        }
+        return found;
+    }
+
+    template <int x>
+    static Pack cost(const Sources& from, std::ptrdiff_t k) noexcept {
+        constexpr Shape::Term term = shape.terms[x];
+        Pack cost;
+        if constexpr (term.source == Source::pair) {
+            cost = load(from.pairs[term.diagonals_back] + k - term.rows_back);
+        } else {
+            cost = load(from.terms[x] + k);
+        }
+        if constexpr (!term.is_plain) {
+            cost = simd::pmul(from.weights[x], cost);
+        }
+        return cost;
+    }
+
+    // The least over steps that have their last `depth` terms in common, before these are added.
+    template <Set steps, int depth>
+    static Pack least(const Sources& from, std::ptrdiff_t k) noexcept {
+        constexpr int s = first_of(steps);
+        constexpr int x = shape.steps[s].end_term - 1 - depth;
+        constexpr Set group = x < shape.first_term(s) ? Set{1} << s : sharing(steps, s, depth);
+        Pack sum;
+        if constexpr (x < shape.first_term(s)) {
+            sum = load(from.values[s] + k);
+            if constexpr (shape.steps[s].has_constant) {
+                sum = simd::padd(sum, from.constants[s]);
             }
-            return with_terms<s, x + 1>(simd::padd(sum, cost), from, k);
+        } else {
+            sum = simd::padd(least<group, depth + 1>(from, k), cost<x>(from, k));
+        }
+        if constexpr (steps != group) {
+            return simd::pmin(sum, least<(steps & ~group), depth>(from, k));
         } else {
             return sum;
         }
     }
 
-    // The least over steps s and those behind it.
-    template <int s>
-    static Pack best(const Sources& from, std::ptrdiff_t k) noexcept {
-        Pack sum = load(from.values[s] + k);
-        if constexpr (shape.steps[s].has_constant) {
-            sum = simd::padd(sum, from.constants[s]);
-        }
-        constexpr int first = s == 0 ? 0 : shape.steps[s == 0 ? 0 : s - 1].end_term;
-        sum = with_terms<s, first>(sum, from, k);
-        if constexpr (s + 1 < shape.step_count) {
-            return simd::pmin(sum, best<s + 1>(from, k));
-        } else {
-            return sum;
-        }
-    }
-
-    static void cells(const RecurrenceStrip& strip, const Lanes& lanes) noexcept {
-        const Sources from(strip, lanes);
+    static void cells(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
+        constexpr Set all_steps = (Set{1} << shape.step_count) - 1;
+        const Sources from(strip, t);
         double* const values = strip.values[0];
         const std::ptrdiff_t high = strip.high_lane;
         for (std::ptrdiff_t k = strip.low_lane; k <= high; k += width) {
-            store(values + k, best<0>(from, k));
+            store(values + k, least<all_steps, 0>(from, k));
         }
     }
 };
 
 struct AnySteps {
-    static void cells(const RecurrenceStrip& strip, const Lanes& lanes) noexcept {
-        all_cells<false>(strip, lanes);
+    static void cells(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
+        all_cells<false>(strip, t);
     }
 };

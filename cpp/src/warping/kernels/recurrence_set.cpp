@@ -20,7 +20,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 struct Lanes {
     const double* values[max_steps];
     const double* terms[max_terms];
-    const double* pairs[2 * max_reach + 1];
 };
 
 const double* offsets_on(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
@@ -50,7 +49,6 @@ const double* source_on(const RecurrenceStrip& strip, const LaneTerm& term,
 
 void look_up(const RecurrenceStrip& strip, std::ptrdiff_t t, Lanes& lanes) noexcept {
     std::ptrdiff_t x = 0;
-    for (std::ptrdiff_t b = 0; b < strip.pair_count; ++b) lanes.pairs[b] = strip.pairs[b];
     for (std::ptrdiff_t s = 0; s < strip.step_count; ++s) {
         const LaneStep& step = strip.steps[s];
         lanes.values[s] = strip.values[step.diagonals_back] - step.rows_back;
@@ -96,8 +94,10 @@ inline void cells(const RecurrenceStrip& strip, const Lanes& lanes, std::ptrdiff
 }
 
 template <bool with_codes>
-void all_cells(const RecurrenceStrip& strip, const Lanes& lanes) noexcept {
+void all_cells(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
     constexpr int together = 4;
+    Lanes lanes;
+    look_up(strip, t, lanes);
     std::ptrdiff_t k = strip.low_lane;
     for (; k + together * width <= strip.high_lane + 1; k += together * width) {
         cells<together, with_codes>(strip, lanes, k);
@@ -223,7 +223,6 @@ void rotate(double** diagonals, std::ptrdiff_t count) noexcept {
 
 template <class Steps>
 void advance(RecurrenceStrip& strip, std::ptrdiff_t end, CostFunction fill) noexcept {
-    Lanes lanes;
     for (std::ptrdiff_t t = strip.next_diagonal; t < end; ++t) {
         std::ptrdiff_t& low = strip.low_lane;
         std::ptrdiff_t& high = strip.high_lane;
@@ -236,11 +235,10 @@ void advance(RecurrenceStrip& strip, std::ptrdiff_t end, CostFunction fill) noex
         if (low < strip.lanes) fill_pairs(strip, t, fill);
         if (low <= high) {
             if (strip.row_moves != nullptr) fill_moves(strip, t);
-            look_up(strip, t, lanes);
             if (strip.codes != nullptr) {
-                all_cells<true>(strip, lanes);
+                all_cells<true>(strip, t);
             } else {
-                Steps::cells(strip, lanes);
+                Steps::cells(strip, t);
             }
             if (strip.starts_here && t == strip.reach && low == strip.reach) {
                 strip.values[0][low] = strip.pairs[0][low];

@@ -60,8 +60,8 @@ constexpr bool mixes_roots = false;
 
 // From a reciprocal root to 4.8 bits, which is an integer less half the bits of x (Robertson, A
 // brief history of InvSqrt, 2012): r lies between -0.0346 and 0.0338, where the polynomial of r,
-// of degree 5 through the Chebyshev nodes, is 1 / sqrt(1 - 2 r) to 2^-30.3. A step would leave 2^-60,
-// if its numbers had as many bits. Of 0 the guess is finite, and s remains 0.
+// of degree 5 through the Chebyshev nodes, is 1 / sqrt(1 - 2 r) to 2^-30.3. A step would leave
+// 2^-60, if its numbers had as many bits. Of 0 the guess is finite, and s remains 0.
 class FastRoot {
    public:
     explicit FastRoot(const Pack& x) noexcept : x_(x) {
