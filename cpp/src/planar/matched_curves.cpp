@@ -11,6 +11,7 @@
 #include "curvewise/control.hpp"
 #include "curvewise/dtw.hpp"
 #include "planar/matched_side.hpp"
+#include "planar/matched_walk.hpp"
 #include "planar/quad.hpp"
 
 namespace curvewise::planar {
@@ -22,8 +23,6 @@ constexpr double places_per_piece = 2.0 * samples_per_piece;
 // Of the table of the warping path: a second or two. Curves that travel further than 280 sides,
 // as those that oscillate do, are matched within a band of so many.
 constexpr std::ptrdiff_t most_cells = 200'000'000;
-
-using Cells = std::vector<std::array<std::int64_t, 2>>;
 
 // Another Control watches the path: its cells are none of the steps that the poller counts.
 Cells warping_path(const Side& P, const Side& Q, Poller& poller) {
@@ -43,7 +42,9 @@ Cells warping_path(const Side& P, const Side& Q, Poller& poller) {
 struct Matching {
     Matching(const CurveView& P, const CurveView& Q, const CommonBox& box,
              const curves::RangeScale& range, Poller& poller)
-        : Matching(P, Q, box, box.scaled(P, poller), range, poller) {}
+        : Matching(P, Q, box, box.scaled(P, poller), range, poller) {
+        cells = warping_path(p, q, poller);
+    }
 
     std::size_t pieces;
     Side p;
@@ -55,108 +56,11 @@ struct Matching {
              const AlignedBuffer& scaled_p, const curves::RangeScale& range, Poller& poller)
         : pieces(pieces_of(travel(scaled_p, P.size(), poller))),
           p(P, range, scaled_p, samples_per_piece * pieces, poller),
-          q(Q, range, box.scaled(Q, poller), samples_per_piece * pieces, poller),
-          cells(warping_path(p, q, poller)) {}
+          q(Q, range, box.scaled(Q, poller), samples_per_piece * pieces, poller) {}
 
     static std::size_t pieces_of(double travel) noexcept {
         return static_cast<std::size_t>(std::max(1.0, std::ceil(pieces_per_side * travel)));
     }
-};
-
-// Goes along both curves, from place to place. A place is i + j in cell (i, j) of the path, and
-// between two cells by proportion. Calls visit(place, p, q) where a cell is, a vertex of a curve,
-// or the end of a piece, in ascending order, each place once, p and q being the Walkers there;
-// then, at the end of a piece, end_piece().
-template <class Visit, class EndPiece>
-class Walk {
-   public:
-    Walk(const Matching& matching, Poller& poller, Visit visit, EndPiece end_piece)
-        : p_(matching.p.walker()),
-          q_(matching.q.walker()),
-          poller_(poller),
-          visit_(visit),
-          end_piece_(end_piece) {}
-
-    void along(const Cells& cells) {
-        visit_at(0.0);
-        for (std::size_t k = 1; k < cells.size(); ++k) {
-            const auto i = static_cast<double>(cells[k - 1][0]);
-            const auto j = static_cast<double>(cells[k - 1][1]);
-            if (cells[k][1] == cells[k - 1][1]) {
-                go_alone(p_, i, i + j);
-            } else if (cells[k][0] == cells[k - 1][0]) {
-                go_alone(q_, j, i + j);
-            } else {
-                go_together(i, j);
-            }
-        }
-    }
-
-   private:
-    // From a sample of one curve to the next, while the other one stays where it is.
-    void go_alone(Walker& walker, double sample, double begin) {
-        walker.look_behind(sample);
-        const double end = begin + 1.0;
-        for (double place; (place = walker.place(sample, begin, 1.0)) < end;
-             walker.look_further()) {
-            if (place <= last_) continue;
-            walker.move_to(sample + (place - begin));
-            visit_at(place);
-        }
-        walker.move_to(sample + 1.0);
-        visit_whole(end);
-    }
-
-    // From one sample of each to the next.
-    void go_together(double i, double j) {
-        const double begin = i + j;
-        p_.look_behind(i);
-        q_.look_behind(j);
-        const auto move_to = [&](double place) {
-            p_.move_to(i + 0.5 * (place - begin));
-            q_.move_to(j + 0.5 * (place - begin));
-        };
-        double of_p = p_.place(i, begin, 2.0), of_q = q_.place(j, begin, 2.0);
-        const bool is_cut = begin + 1.0 == end_of_piece_;
-        for (double end = begin + (is_cut ? 1.0 : 2.0);; end = begin + 2.0) {
-            for (double place; (place = std::min(of_p, of_q)) < end;) {
-                if (of_p <= place) {
-                    p_.look_further();
-                    of_p = p_.place(i, begin, 2.0);
-                }
-                if (of_q <= place) {
-                    q_.look_further();
-                    of_q = q_.place(j, begin, 2.0);
-                }
-                if (place <= last_) continue;
-                move_to(place);
-                visit_at(place);
-            }
-            move_to(end);
-            visit_whole(end);
-            if (end == begin + 2.0) return;
-        }
-    }
-
-    void visit_at(double place) {
-        poller_.poll_in_loop(visits_++);
-        visit_(place, p_, q_);
-        last_ = place;
-    }
-    void visit_whole(double place) {
-        visit_at(place);
-        if (place != end_of_piece_) return;
-        end_piece_();
-        end_of_piece_ += places_per_piece;
-    }
-
-    Walker p_, q_;
-    Poller& poller_;
-    Visit visit_;
-    EndPiece end_piece_;
-    double end_of_piece_ = places_per_piece;
-    double last_ = 0.0;  // that was visited
-    std::size_t visits_ = 0;
 };
 
 // Of a position along a curve, which is far from the largest whole number.
@@ -185,21 +89,21 @@ struct VertexPlaces {
     std::vector<double> places;
 };
 
-// Where a Walker is, one place after the other.
+// Spots, one place after the other.
 class PlaceRecorder {
    public:
     PlaceRecorder(const Side& curve, const Cells& cells, std::size_t side, Poller& poller)
         : of_vertices_(curve, cells, side, poller),
           length_(static_cast<double>(curve.sample_count - 1)) {}
 
-    void add(double place, const Walker& walker) {
+    void add(double place, const Spot& spot) {
         const auto& [vertices, places] = of_vertices_;
         while (next_ < places.size() && places[next_] < place) ++next_;
         if (next_ < places.size() && places[next_] == place) {
             found_.push_back({true, vertices[next_], 0.0, 0.0});
         } else {
-            found_.push_back(
-                {false, walker.segment(), walker.fraction(), walker.position() / length_});
+            found_.push_back({false, static_cast<std::size_t>(spot.segment), spot.fraction,
+                              spot.position / length_});
         }
     }
     std::vector<PlacesOnCurve::Place> take() { return std::move(found_); }
@@ -227,17 +131,20 @@ std::vector<double> matched_areas(const CurveView& P, const CurveView& Q,
     const Matching matching(P, Q, CommonBox(P, Q), range, poller);
     std::vector<double> areas;
     areas.reserve(matching.pieces);
-    Quad quad{{0.0, 0.0}, matching.p.walker().point(), matching.q.walker().point(), {0.0, 0.0}};
+    Quad quad{{0.0, 0.0},
+              matching.p.spots().at(0.0, 0).point,
+              matching.q.spots().at(0.0, 0).point,
+              {0.0, 0.0}};
     double area = 0.0;
-    const auto add = [&](double /*place*/, const Walker& p, const Walker& q) {
-        quad = {quad.b, p.point(), q.point(), quad.c};
+    const auto add = [&](double /*place*/, const Spot& p, const Spot& q) {
+        quad = {quad.b, p.point, q.point, quad.c};
         area += quad.signed_area();
     };
     const auto end_piece = [&]() {
         areas.push_back(area);
         area = 0.0;
     };
-    Walk(matching, poller, add, end_piece).along(matching.cells);
+    walk(matching.p, matching.q, matching.cells, places_per_piece, poller, add, end_piece);
     return areas;
 }
 
@@ -257,15 +164,15 @@ MatchedCurves match(const CurveView& P, const CurveView& Q, const curves::RangeS
         of_p.emplace(matching.p, matching.cells, 0, poller);
         of_q.emplace(matching.q, matching.cells, 1, poller);
     }
-    const auto add = [&](double place, const Walker& p, const Walker& q) {
-        result.A.push_back(p.point());
-        result.B.push_back(q.point());
+    const auto add = [&](double place, const Spot& p, const Spot& q) {
+        result.A.push_back(p.point);
+        result.B.push_back(q.point);
         if (!of_p) return;
         of_p->add(place, p);
         of_q->add(place, q);
     };
     const auto end_piece = [&]() { result.ends.push_back(result.A.size() - 1); };
-    Walk(matching, poller, add, end_piece).along(matching.cells);
+    walk(matching.p, matching.q, matching.cells, places_per_piece, poller, add, end_piece);
     if (on_curves != nullptr) {
         *on_curves = {{of_p->take(), as_polyline(box.scaled(P, poller), P.size())},
                       {of_q->take(), as_polyline(box.scaled(Q, poller), Q.size())},

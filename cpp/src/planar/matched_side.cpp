@@ -113,17 +113,20 @@ AlignedBuffer positions_of(const double* scaled, std::ptrdiff_t count, std::size
         return {scaled[2 * i] - scaled[2 * i - 2], scaled[2 * i + 1] - scaled[2 * i - 1]};
     };
     poller.in_runs(count - 1, 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-        // In a loop of its own, where vectors do it.
+        // In loops of their own, where vectors do it.
         for (std::ptrdiff_t i = first + 1; i <= end; ++i) {
             const Point step = edge(i);
             at[i] = step.x * step.x + step.y * step.y;
         }
-        double length = at[first];
+        // The bits of a number rise with it: a difference that is negative has the first one set.
+        std::uint64_t outside = 0;
         for (std::ptrdiff_t i = first + 1; i <= end; ++i) {
-            const double squares = at[i];
-            length += squares > 0x1p-900 && squares < 0x1p1000 ? std::sqrt(squares) : norm(edge(i));
-            at[i] = length;
+            outside |= (bits(at[i]) - bits(0x1p-900) - 1) | (bits(0x1p1000) - 1 - bits(at[i]));
+            at[i] = std::sqrt(at[i]);
         }
+        outside &= bits(-0.0);
+        for (std::ptrdiff_t i = first + 1; outside != 0 && i <= end; ++i) at[i] = norm(edge(i));
+        for (std::ptrdiff_t i = first + 1; i <= end; ++i) at[i] += at[i - 1];
     });
     const double length = at[count - 1];
     const auto last = static_cast<double>(samples);
@@ -200,12 +203,14 @@ Side::Side(const CurveView& curve, const curves::RangeScale& range, const Aligne
       positions(positions_of(scaled.data(), count, samples, poller)),
       sample_count(static_cast<std::ptrdiff_t>(samples) + 1),
       sampled(2 * sample_count) {
-    Walker walker(scaled.data(), positions.data(), count);
+    const SpotFinder spots(scaled.data(), positions.data(), count);
     double* to = sampled.data();
+    std::ptrdiff_t segment = 0;
     for (std::ptrdiff_t k = 0; k < sample_count; ++k) {
-        walker.move_to(static_cast<double>(k));
-        *to++ = on_grid(walker.point().x);
-        *to++ = on_grid(walker.point().y);
+        const Spot spot = spots.at(static_cast<double>(k), segment);
+        *to++ = on_grid(spot.point.x);
+        *to++ = on_grid(spot.point.y);
+        segment = spot.segment;
     }
 }
 

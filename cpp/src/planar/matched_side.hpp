@@ -3,9 +3,9 @@
 // that lie side by side are read where they are.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 
 #include "curves/box.hpp"
 #include "curves/polyline.hpp"
@@ -51,73 +51,45 @@ class Coordinates {
     const double* data_;
 };
 
-// One that goes forward along a curve of these points, given the positions of its vertices, and
-// looks at a vertex ahead. As curves::ArcPosition, except that it keeps what a segment needs, and
-// never goes beyond the last vertex.
-class Walker {
+// Somewhere along a curve.
+struct Spot {
+    double position;
+    std::ptrdiff_t segment;
+    double fraction;  // of the segment: 0 at its start, 1 at its end and where it has no length
+    Point point;
+};
+
+// Finds the Spots of a curve of these points, given the positions of its vertices. As
+// curves::ArcPosition, except that it never goes beyond the last vertex.
+class SpotFinder {
    public:
-    Walker(const double* points, const double* positions, std::ptrdiff_t count) noexcept
-        : first_(positions),
-          last_segment_(positions + count - 2),
-          segment_(positions),
-          start_(points),
-          vertex_(positions) {
-        begin_segment();
-        move_to(0.0);
-    }
+    SpotFinder(const double* points, const double* positions, std::ptrdiff_t count) noexcept
+        : points_(points), positions_(positions), last_segment_(count - 2) {}
 
-    void move_to(double position) noexcept {
-        if (segment_[1] <= position && segment_ != last_segment_) {
-            do {
-                ++segment_;
-                start_ += 2;
-            } while (segment_[1] <= position && segment_ != last_segment_);
-            begin_segment();
+    // The search starts from the segment `nearby`.
+    Spot at(double position, std::ptrdiff_t nearby) const noexcept {
+        std::ptrdiff_t segment = std::min(nearby, last_segment_);
+        while (positions_[segment] > position) --segment;
+        while (positions_[segment + 1] <= position && segment != last_segment_) ++segment;
+        double begin = positions_[segment], length = positions_[segment + 1] - begin;
+        if (!(length > 0.0)) {  // the last segment: its end is where this is
+            begin = positions_[segment + 1] - 1.0;
+            length = 1.0;
         }
-        position_ = position;
-        fraction_ = (position - begin_) / length_;
-        point_ = fraction_ < 1.0
-                     ? Point{start_[0] + fraction_ * edge_.x, start_[1] + fraction_ * edge_.y}
-                     : Point{start_[2], start_[3]};
-    }
-    double position() const noexcept { return position_; }
-    std::size_t segment() const noexcept { return static_cast<std::size_t>(segment_ - first_); }
-    double fraction() const noexcept { return fraction_; }
-    const Point& point() const noexcept { return point_; }
-
-    // To the first vertex behind a sample, which is not the last.
-    void look_behind(double sample) noexcept {
-        while (*vertex_ <= sample) ++vertex_;
-    }
-    void look_further() noexcept { ++vertex_; }
-    // The place of the vertex, where the path goes from `sample` at `begin` to the next sample, at
-    // `rate` a sample. Infinite for a vertex that is not in between.
-    double place(double sample, double begin, double rate) const noexcept {
-        return *vertex_ < sample + 1.0 ? begin + (*vertex_ - sample) * rate
-                                       : std::numeric_limits<double>::infinity();
+        const double fraction = (position - begin) / length;
+        const double* const start = points_ + 2 * segment;
+        if (!(fraction < 1.0)) return {position, segment, fraction, {start[2], start[3]}};
+        return {position,
+                segment,
+                fraction,
+                {start[0] + fraction * (start[2] - start[0]),
+                 start[1] + fraction * (start[3] - start[1])}};
     }
 
    private:
-    void begin_segment() noexcept {
-        edge_ = {start_[2] - start_[0], start_[3] - start_[1]};
-        begin_ = segment_[0];
-        length_ = segment_[1] - begin_;
-        if (length_ > 0.0) return;
-        begin_ = segment_[1] - 1.0;  // the last segment: its end is where the walker is
-        length_ = 1.0;
-    }
-
-    const double* first_;
-    const double* last_segment_;
-    const double* segment_;  // the position where it begins
-    const double* start_;    // the point there
-    double begin_;           // the position there, and
-    double length_;          // to the end; or such that the fraction is 1, where that is 0
-    Point edge_;
-    const double* vertex_;  // its position
-    double position_;
-    double fraction_;  // of the segment: 0 at its start, 1 at its end and where it has no length
-    Point point_;
+    const double* points_;
+    const double* positions_;
+    std::ptrdiff_t last_segment_;
 };
 
 // One of the two curves.
@@ -126,7 +98,7 @@ struct Side {
     Side(const CurveView& curve, const curves::RangeScale& range, const AlignedBuffer& scaled,
          std::size_t samples, Poller& poller);
     CurveView samples() const noexcept { return {sampled.data(), sample_count, 2}; }
-    Walker walker() const noexcept { return {points.data(), positions.data(), count}; }
+    SpotFinder spots() const noexcept { return {points.data(), positions.data(), count}; }
 
     std::ptrdiff_t count;
     Coordinates points;

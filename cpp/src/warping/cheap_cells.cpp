@@ -1,10 +1,12 @@
 #include "warping/cheap_cells.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "warping/box_tree.hpp"
 #include "warping/ground_distance.hpp"
+#include "warping/narrow_path.hpp"
 
 namespace curvewise::warping {
 namespace {
@@ -93,10 +95,14 @@ std::optional<Path> find_path_of_cheap_cells(const SweepProblem& problem, bool o
         problem.open_begin || !with_norm(problem.cost.metric, [](auto) { return true; })) {
         return std::nullopt;
     }
-    // Sums in the table's order: what rounds here rounds there, too.
+    // Summed in the table's order: what rounds here rounds there, too.
+    const double most = cost_of_some_path(problem);
+    if (!open_end && has_narrow_path(problem) && most < std::numeric_limits<double>::infinity()) {
+        return find_narrow_path(problem, most);
+    }
     const std::vector<double> nothing_to_come(static_cast<std::size_t>(std::max(n, m) + 1), 0.0);
     const double* const after = nothing_to_come.data() + 1;
-    const CostToGo cost_to_go{cost_of_some_path(problem), 1.0, after, after, false};
+    const CostToGo cost_to_go{most, 1.0, after, after, false};
     SweptColumns swept;
     SweepProblem narrowed = problem;
     narrowed.columns = LiveColumns(problem.columns, cost_to_go, swept);

@@ -71,6 +71,19 @@ void random_pairs() {
     }
 }
 
+// What is swept in registers, some rows at a time (narrow_path.hpp): |dx| + |dy| in the plane.
+void random_pairs_in_narrow_tables() {
+    Random random(2);
+    for (std::ptrdiff_t k = 0; k < pairs / 4; ++k) {
+        const std::ptrdiff_t n = 91 + random.index(200), m = 91 + random.index(200);
+        const Curve P = test::any_curve(n, 2, random);
+        const Curve Q = k % 8 == 0   ? test::with_plateaus(P, 40, random)
+                        : k % 3 == 0 ? test::any_curve(m, 2, random)
+                                     : test::alike(P, m, random);
+        compare(P, Q, Metric::cityblock, Recurrence::dtw_symmetric1, false);
+    }
+}
+
 void returns_nothing_where_the_full_sweep_is_as_fast() {
     const Level level = available_levels().front();
     const auto finds = [&](std::ptrdiff_t n, std::ptrdiff_t m, auto change) {
@@ -95,6 +108,7 @@ void returns_nothing_where_the_full_sweep_is_as_fast() {
 int main(int argc, char** argv) {
     if (argc > 1) pairs = std::atol(argv[1]);
     return check::run({{"random pairs", random_pairs},
+                       {"random pairs in narrow tables", random_pairs_in_narrow_tables},
                        {"returns nothing where the full sweep is as fast",
                         returns_nothing_where_the_full_sweep_is_as_fast}});
 }

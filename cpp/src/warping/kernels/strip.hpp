@@ -20,6 +20,7 @@
 #include "block.hpp"
 #include "boxes.hpp"
 #include "curvewise/ground_distance.hpp"
+#include "narrow.hpp"
 #include "runs.hpp"
 #include "soft.hpp"
 
@@ -112,6 +113,8 @@ struct KernelSet {
     ValueFunction (*values)(Metric metric, std::ptrdiff_t dim) noexcept;
     LeastFunction (*least)(Metric metric, std::ptrdiff_t dim) noexcept;
     RunFunction (*runs)(Metric metric, std::ptrdiff_t dim, bool of_largest) noexcept;
+    NarrowFunction narrow;
+    std::ptrdiff_t lanes;  // of a SIMD vector: the rows that it takes
     ArcFunction arcs;
     SoftForward soft_forward;
     SoftForward soft_forward_with_shares;
