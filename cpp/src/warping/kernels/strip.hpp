@@ -20,6 +20,7 @@
 #include "block.hpp"
 #include "boxes.hpp"
 #include "curvewise/ground_distance.hpp"
+#include "line.hpp"
 #include "runs.hpp"
 #include "soft.hpp"
 
@@ -112,6 +113,10 @@ struct KernelSet {
     ValueFunction (*values)(Metric metric, std::ptrdiff_t dim) noexcept;
     LeastFunction (*least)(Metric metric, std::ptrdiff_t dim) noexcept;
     RunFunction (*runs)(Metric metric, std::ptrdiff_t dim, bool of_largest) noexcept;
+    ExtremesFunction extremes;
+    SumFunction sum;
+    // In one dimension, of squares or else of differences.
+    LineFunction (*line)(Metric metric) noexcept;
     ArcFunction arcs;
     SoftForward soft_forward;
     SoftForward soft_forward_with_shares;
