@@ -35,7 +35,7 @@ import numpy as np
 import curvewise
 from curvewise.datasets import kinematic_hardening
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "python" / "nearest"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "python" / "many"))
 
 Curve = np.ndarray[Any, np.dtype[np.float64]]
 Curves = list[Curve]
@@ -154,10 +154,11 @@ def compare_index(
 
 def run_datasets() -> None:
     for name, (known, y, new, z) in packaged().items():
+        window = len(known[0]) // 10
         nearest = compare_index("datasets", name, known, new, "dtw", metric="sqeuclidean")
-        compare_index(
-            "datasets", name, known, new, "dtw", metric="sqeuclidean", window=len(known[0]) // 10
-        )
+        compare_index("datasets", name, known, new, "dtw", metric="sqeuclidean", window=window)
+        compare_index("datasets", name, known, new, "dtw")
+        compare_index("datasets", name, known, new, "dtw", window=window)
         report(
             "datasets",
             name,

@@ -29,12 +29,47 @@ class CostSums {
         }
     }
 
-    // For paths that cost `most` at most. The table adds up the n + m - 1 cells of a path at most,
-    // and the sums above n or m terms, each with a relative error of 2^-53.
+    // All of that for n rows and m columns, whose least costs stand elsewhere: from the last one
+    // on, those of the rows `row_step` apart, those of the columns one behind the other. Two sums
+    // that do not wait for each other.
+    void add_up(const double* row, std::ptrdiff_t row_step, std::ptrdiff_t n, const double* column,
+                std::ptrdiff_t m, bool they_add) {
+        after_row_.resize(static_cast<std::size_t>(n + 1));
+        after_column_.resize(static_cast<std::size_t>(m + 1));
+        they_add_ = they_add;
+        double* after_row = after_row_.data() + n;
+        double* after_column = after_column_.data() + m;
+        double rows = *after_row = 0.0, columns = *after_column = 0.0;
+        const auto add_row = [&] {
+            rows += *row;
+            row += row_step;
+            *--after_row = rows;
+        };
+        const auto add_column = [&] {
+            columns += *column++;
+            *--after_column = columns;
+        };
+        const std::ptrdiff_t both = std::min(n, m);
+        for (std::ptrdiff_t k = 0; k < both; ++k) {
+            add_row();
+            add_column();
+        }
+        for (std::ptrdiff_t k = both; k < n; ++k) add_row();
+        for (std::ptrdiff_t k = both; k < m; ++k) add_column();
+    }
+
+    // Of what is summed up for n rows and m columns. The table adds up the n + m - 1 cells of a
+    // path at most, and the sums n or m terms, or both, each with a relative error of 2^-53; and of
+    // three such in a term itself, and in a cell.
+    static double slack(std::ptrdiff_t n, std::ptrdiff_t m) noexcept {
+        return 1.0 - static_cast<double>(n + m + 6) * 0x1p-52;
+    }
+
+    // For paths that cost `most` at most.
     CostToGo cost_to_go(double most) const noexcept {
-        const auto terms = static_cast<double>(after_row_.size() + after_column_.size());
-        return {most, 1.0 - terms * 0x1p-52, after_row_.data() + 1, after_column_.data() + 1,
-                they_add_};
+        const auto n = static_cast<std::ptrdiff_t>(after_row_.size()) - 1;
+        const auto m = static_cast<std::ptrdiff_t>(after_column_.size()) - 1;
+        return {most, slack(n, m), after_row_.data() + 1, after_column_.data() + 1, they_add_};
     }
 
     // Of a whole path, whose first cell is paid for once.

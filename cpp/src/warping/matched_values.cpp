@@ -1,31 +1,10 @@
 #include "warping/matched_values.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "warping/kernels/strip.hpp"
 
 namespace curvewise::warping {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// The least and the greatest value from that at `begin` up to each, by `step`, before `end`.
-template <std::ptrdiff_t step>
-void run(const double* values, std::ptrdiff_t begin, std::ptrdiff_t end, double* low,
-         double* high) noexcept {
-    double least = infinity, greatest = -infinity;
-    for (std::ptrdiff_t j = begin; j != end; j += step) {
-        const double value = values[j];
-        least = value < least ? value : least;
-        greatest = value > greatest ? value : greatest;
-        low[j] = least;
-        high[j] = greatest;
-    }
-}
-
-}  // namespace
-
 std::ptrdiff_t merge_intervals(const double* intervals, std::ptrdiff_t count, double most_gap,
                                double* merged) {
     std::ptrdiff_t left = 0;
@@ -46,7 +25,7 @@ std::ptrdiff_t merge_intervals(const double* intervals, std::ptrdiff_t count, do
     return left;
 }
 
-bool BandedValues::assign(std::ptrdiff_t count, PointOrder order, std::ptrdiff_t size,
+bool BandedValues::assign(std::ptrdiff_t count, std::ptrdiff_t size,
                           std::optional<std::ptrdiff_t> window) {
     if (count == count_ && size == size_) return is_limited_;
     count_ = count;
@@ -55,59 +34,49 @@ bool BandedValues::assign(std::ptrdiff_t count, PointOrder order, std::ptrdiff_t
     is_limited_ = band.is_limited();
     if (!is_limited_) return false;
     is_new_ = true;
-    block_ = 1;
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-        const ColumnRange range = band.columns(i);
-        block_ = std::max(block_, range.last - range.first + 1);
+    length_ = 1;
+    begins_.resize(static_cast<std::size_t>(count));
+    for (std::ptrdiff_t k = 0; k < count; ++k) {
+        const ColumnRange range = band.columns(count - 1 - k);
+        length_ = std::max(length_, range.last - range.first + 1);
+        begins_[static_cast<std::size_t>(k)] = size - 1 - range.last;
     }
-    parts_.resize(static_cast<std::size_t>(count));
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-        const ColumnRange range = band.columns(i);
-        if (order == PointOrder::forward) {
-            parts_[static_cast<std::size_t>(i)] =
-                parts_of(size - 1 - range.last, size - 1 - range.first);
-        } else {
-            parts_[static_cast<std::size_t>(count - 1 - i)] = parts_of(range.first, range.last);
-        }
+    // What the curve's end cuts off the band is found beyond it.
+    for (std::ptrdiff_t k = 0; k < count && begins_[static_cast<std::size_t>(k)] == 0; ++k) {
+        const std::ptrdiff_t end = size - band.columns(count - 1 - k).first;
+        begins_[static_cast<std::size_t>(k)] = end - length_;
+    }
+    first_ = begins_.front();
+    is_every_run_ = true;
+    for (std::ptrdiff_t k = 0; k < count; ++k) {
+        std::ptrdiff_t& begin = begins_[static_cast<std::size_t>(k)];
+        begin -= first_;
+        is_every_run_ = is_every_run_ && begin == k;
     }
     return true;
 }
 
-// By the place of the points where they are stored.
-BandedValues::Parts BandedValues::parts_of(std::ptrdiff_t first,
-                                           std::ptrdiff_t last) const noexcept {
-    if (first / block_ == last / block_) {
-        if (first % block_ == 0) return {size_, last};
-        if (last == size_ - 1) return {first, size_};
-    }
-    return {first, last};
-}
-
-void BandedValues::enclose(const PackedCurve& curve) {
-    const std::ptrdiff_t room = size_ + 1;
-    running_.reserve(4 * room);
-    double* const from_begin_low = running_.data();
-    double* const from_begin_high = from_begin_low + room;
-    double* const to_end_low = from_begin_high + room;
-    double* const to_end_high = to_end_low + room;
-    from_begin_low[size_] = to_end_low[size_] = infinity;
-    from_begin_high[size_] = to_end_high[size_] = -infinity;
-    for (std::ptrdiff_t begin = 0; begin < size_; begin += block_) {
-        const std::ptrdiff_t end = std::min(begin + block_, size_);
-        run<1>(curve.data(), begin, end, from_begin_low, from_begin_high);
-        run<-1>(curve.data(), end - 1, begin - 1, to_end_low, to_end_high);
-    }
+void BandedValues::enclose(const double* curve, kernels::ExtremesFunction extremes) {
+    const std::ptrdiff_t runs = begins_.back() + 1, values = runs + length_ - 1;
+    const std::ptrdiff_t room = values + kernels::padding;
+    continued_.reserve(room);
+    all_low_.reserve(room);
+    all_high_.reserve(room);
+    double* const continued = continued_.data();
+    double* const from = continued - first_;
+    std::fill(continued, from, curve[0]);
+    std::copy_n(curve, size_, from);
+    std::fill(from + size_, continued + values, curve[size_ - 1]);
+    extremes({continued, runs, length_, all_low_.data(), all_high_.data()});
+    is_new_ = false;
+    if (is_every_run_) return;
     low_.reserve(count_ + kernels::padding);
     high_.reserve(count_ + kernels::padding);
-    double* const low = low_.data();
-    double* const high = high_.data();
-    const Parts* const parts = parts_.data();
     for (std::ptrdiff_t k = 0; k < count_; ++k) {
-        const auto [begins, ends] = parts[k];
-        low[k] = std::min(to_end_low[begins], from_begin_low[ends]);
-        high[k] = std::max(to_end_high[begins], from_begin_high[ends]);
+        const std::ptrdiff_t begin = begins_[static_cast<std::size_t>(k)];
+        low_.data()[k] = all_low_.data()[begin];
+        high_.data()[k] = all_high_.data()[begin];
     }
-    is_new_ = false;
 }
 
 }  // namespace curvewise::warping

@@ -38,15 +38,8 @@ double distance(const double* a, const double* b, std::ptrdiff_t dim) noexcept {
     return Norm::finish(sum);
 }
 
-// Four sums side by side: the order does not matter here.
 double sum_of(const double* terms, std::ptrdiff_t count) noexcept {
-    double sums[4] = {};
-    std::ptrdiff_t k = 0;
-    for (; k + 4 <= count; k += 4) {
-        for (std::ptrdiff_t lane = 0; lane < 4; ++lane) sums[lane] += terms[k + lane];
-    }
-    for (; k < count; ++k) sums[0] += terms[k];
-    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    return active_level().kernels->sum(terms, count);
 }
 
 // Of runs of `points` points of a curve of `size`, a term for every point, except for the first.
@@ -119,9 +112,15 @@ PairBounds::PairBounds(const WarpingOptions& options, const KeptBounds& kept, co
       metric_(canonical_metric(options.ground, packed.dim())),
       box_metric_(metric_of_boxes(metric_)),
       kernel_(active_level().kernels->least(box_metric_, packed.dim())),
+      extremes_(active_level().kernels->extremes),
       largest_(P.largest),
-      tree_(packed, PointOrder::forward) {
+      tree_(packed, PointOrder::forward),
+      they_add_(is_symmetric2()) {
     append_summary(tree_, summary_);
+    if (!is_banded_line()) return;
+    reversed_.reserve(packed.size() + kernels::padding);
+    std::reverse_copy(packed.data(), packed.data() + packed.size(), reversed_.data());
+    std::fill_n(reversed_.data() + packed.size(), kernels::padding, 0.0);
 }
 
 bool PairBounds::is_bounded(std::ptrdiff_t j) const noexcept {
@@ -197,12 +196,20 @@ kernels::PointsAndBoxes BandedBoxes::of(const BoxLevel& boxes) const noexcept {
     return banded;
 }
 
+// By the row terms that were computed last.
 double PairBounds::combined(double rows, double columns, double first_row,
                             double first_column) const {
-    // symmetric2 pays for rows and columns, except for the first cell: once.
-    return options_.recurrence == kernels::Recurrence::dtw_symmetric2
-               ? rows + columns + std::max(first_row, first_column)
-               : std::max(rows + first_row, columns + first_column);
+    if (!they_add_) return std::max(rows + first_row, columns + first_column);
+    // symmetric2 pays for the first cell once.
+    return rows + columns +
+           (is_symmetric2() ? std::max(first_row, first_column) : first_row + first_column);
+}
+
+// Whether differences add up to that between the ends, or to less, and so that rounding changes
+// each by a few units in its last place: none of their squares is too small a number for that.
+bool PairBounds::has_ways_through(const PackedCurve& q) const noexcept {
+    return options_.recurrence == kernels::Recurrence::dtw_symmetric1 &&
+           (metric_ != Metric::sqeuclidean || PackedPair{P_, q}.squares_are_in_domain());
 }
 
 template <class Norm>
@@ -250,9 +257,10 @@ double PairBounds::point_bound(std::ptrdiff_t j, const PackedCurve& q) {
     if (is_frechet()) {
         return std::max(*std::max_element(rows, rows + n), *std::max_element(columns, columns + m));
     }
-    const double rest_of_rows = sum_of(rows + 1, n - 1);
+    const double rest_of_rows = sum_of(rows_are_reversed_ ? rows : rows + 1, n - 1);
     if (is_open()) return combined(rest_of_rows, 0.0, rows[0], 0.0);
-    return combined(rest_of_rows, sum_of(columns, m - 1), rows[0], columns[m - 1]);
+    const double first_row = rows[rows_are_reversed_ ? n - 1 : 0];
+    return combined(rest_of_rows, sum_of(columns, m - 1), first_row, columns[m - 1]);
 }
 
 double PairBounds::column_bound(std::ptrdiff_t j, const PackedCurve& q) {
@@ -276,8 +284,7 @@ double PairBounds::refined(std::ptrdiff_t j, const PackedCurve& q, int level) {
     if (!is_bounded(j) || is_short) return 0.0;
     const double bound = undivided(j, q, level);
     if (is_frechet()) return bound;
-    // The table adds up as many terms in another order.
-    return bound * (1.0 - static_cast<double>(n + m + 2) * 0x1p-52) / options_.divisor(n, m);
+    return bound * CostSums::slack(n, m) / options_.divisor(n, m);
 }
 
 void PairBounds::compute_terms(const PackedCurve& points, kernels::PointsAndBoxes boxes,
@@ -295,10 +302,12 @@ void PairBounds::compute_terms(const PackedCurve& points, kernels::PointsAndBoxe
 void PairBounds::compute_row_terms(std::ptrdiff_t j, const PackedCurve& q) {
     if (row_terms_of_ == j) return;
     row_terms_of_ = j;
+    they_add_ = is_symmetric2();
+    rows_are_reversed_ = false;
     const auto window = options_.window.between(P_.size(), q.size());
-    if (is_line() && values_of_rows_.assign(P_.size(), PointOrder::forward, q.size(), window)) {
-        values_of_rows_.enclose(q);
-        return compute_terms(P_, values_of_rows_.each(), row_terms_);
+    if (is_line() && values_of_rows_.assign(P_.size(), q.size(), window)) {
+        they_add_ = they_add_ || has_ways_through(q);
+        return compute_banded_row_terms(j, q);
     }
     const BoxLevel boxes = kept_.boxes(j, point_level, boxes_);
     if (is_line()) {
@@ -309,13 +318,33 @@ void PairBounds::compute_row_terms(std::ptrdiff_t j, const PackedCurve& q) {
     compute_terms(P_, boxes_of_rows_.of(boxes), row_terms_);
 }
 
+void PairBounds::compute_banded_row_terms(std::ptrdiff_t j, const PackedCurve& q) {
+    if (has_ways_through(q)) {
+        compute_column_terms(j, q);
+        values_of_rows_.enclose(nearest_values_.data(), extremes_);
+    } else {
+        values_of_rows_.enclose(q.data(), extremes_);
+    }
+    kernels::PointsAndBoxes own = values_of_rows_.each();
+    own.points = reversed_.data();
+    own.count = P_.size();
+    own.dim = 1;
+    row_terms_.reserve(AlignedBuffer::rounded(own.count + kernels::padding));
+    own.least = row_terms_.data();
+    kernel_(own);
+    rows_are_reversed_ = true;
+}
+
 void PairBounds::compute_column_terms(std::ptrdiff_t j, const PackedCurve& q) {
     if (is_open() || column_terms_of_ == j) return;
     column_terms_of_ = j;
     const auto window = options_.window.between(q.size(), P_.size());
-    if (is_line() && values_of_columns_.assign(q.size(), PointOrder::reversed, P_.size(), window)) {
-        if (values_of_columns_.is_new()) values_of_columns_.enclose(P_);
-        return compute_terms(q, values_of_columns_.each(), column_terms_);
+    if (is_line() && values_of_columns_.assign(q.size(), P_.size(), window)) {
+        if (values_of_columns_.is_new()) values_of_columns_.enclose(reversed_.data(), extremes_);
+        kernels::PointsAndBoxes own = values_of_columns_.each();
+        nearest_values_.reserve(q.size() + kernels::padding);
+        own.nearest = nearest_values_.data();
+        return compute_terms(q, own, column_terms_);
     }
     const BoxLevel boxes = point_level_boxes();
     if (is_line()) {
@@ -338,17 +367,32 @@ std::optional<CostToGo> PairBounds::cost_to_go(std::ptrdiff_t j, const PackedCur
         options_.open_begin) {
         return std::nullopt;
     }
-    sums_.assign(n, m, options_.recurrence == kernels::Recurrence::dtw_symmetric2);
     if (!is_frechet()) {
         compute_row_terms(j, q);
         compute_column_terms(j, q);
-        std::copy_n(row_terms_.data(), n, sums_.rows());
-        if (!is_open()) {
-            std::reverse_copy(column_terms_.data(), column_terms_.data() + m, sums_.columns());
-        }
+    }
+    if (is_frechet() || is_open()) {
+        sums_.assign(n, m, they_add_);
+        if (!is_frechet()) std::copy_n(row_terms_.data(), n, sums_.rows());
         sums_.add_up();
+    } else {
+        const double* const rows = row_terms_.data();
+        if (rows_are_reversed_) {
+            sums_.add_up(rows, 1, n, column_terms_.data(), m, they_add_);
+        } else {
+            sums_.add_up(rows + n - 1, -1, n, column_terms_.data(), m, they_add_);
+        }
     }
     return sums_.cost_to_go(most);
+}
+
+bool PairBounds::is_of_lines() const noexcept {
+    return is_line() && !is_open() && options_.recurrence == kernels::Recurrence::dtw_symmetric1;
+}
+
+double PairBounds::line_value(const PackedCurve& q, const CostToGo& cost_to_go) {
+    const auto window = options_.window.between(P_.size(), q.size());
+    return line_table_.value({P_, q}, metric_, window, cost_to_go);
 }
 
 }  // namespace curvewise::warping

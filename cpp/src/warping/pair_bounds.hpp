@@ -14,9 +14,12 @@
 // P's in O(n + m), and no other is of use.
 //
 // A window leaves a point, or a run, only the boxes that its band reaches: the bound of Keogh &
-// Ratanamahatana (2005) with several boxes in the place of their one. The terms of the last level
-// say, besides, what the rest of a path costs at least: a sweep with a cutoff leaves out what is
-// too dear (live_columns.hpp).
+// Ratanamahatana (2005) with several boxes in the place of their one. In one dimension a path that
+// pays for the dearer of its rows and its columns then pays for both after all, where the rows are
+// compared with the values nearest to Q's points that P holds in their bands, not with Q's points:
+// the bound of Lemire (2009). What a cell costs is at least the way from q to that value, and from
+// there to p. The terms of the last level say, besides, what the rest of a path costs at least: a
+// sweep with a cutoff leaves out what is too dear (live_columns.hpp).
 //
 // No bound is above the value as it is computed. Distances to boxes are computed by the monotone
 // operations of the ground distance (kernels/boxes.inl.hpp), and the ends' in the table's own
@@ -33,6 +36,7 @@
 #include "warping/box_tree.hpp"
 #include "warping/cost_sums.hpp"
 #include "warping/kept_boxes.hpp"
+#include "warping/line_table.hpp"
 #include "warping/matched_values.hpp"
 #include "warping/packed_curve.hpp"
 #include "warping/warping_problem.hpp"
@@ -113,6 +117,9 @@ class PairBounds {
     // the unit of the table. Nothing where the measure's own pruning does better, or where there
     // are no bounds. Valid until the next call.
     std::optional<CostToGo> cost_to_go(std::ptrdiff_t j, const PackedCurve& q, double most);
+    // Whether the table's value, or one above `most`, follows from that without a general sweep.
+    bool is_of_lines() const noexcept;
+    double line_value(const PackedCurve& q, const CostToGo& cost_to_go);
     // Whether every path costs more than the last of these says.
     bool is_hopeless(const CostToGo& cost_to_go) const noexcept {
         return sums_.all() * cost_to_go.slack > cost_to_go.most;
@@ -135,7 +142,12 @@ class PairBounds {
         return is_line() && (options_.window.radius || options_.window.fraction);
     }
     BoxLevel point_level_boxes() const noexcept;
+    bool is_symmetric2() const noexcept {
+        return options_.recurrence == kernels::Recurrence::dtw_symmetric2;
+    }
+    bool has_ways_through(const PackedCurve& q) const noexcept;
     void compute_row_terms(std::ptrdiff_t j, const PackedCurve& q);
+    void compute_banded_row_terms(std::ptrdiff_t j, const PackedCurve& q);
     void compute_column_terms(std::ptrdiff_t j, const PackedCurve& q);
     // The distances of `points` to the nearest of these boxes, of which alone it says something.
     void compute_terms(const PackedCurve& points, kernels::PointsAndBoxes boxes,
@@ -151,25 +163,31 @@ class PairBounds {
     Metric metric_;
     Metric box_metric_;
     kernels::LeastFunction kernel_;  // null where there are no bounds
+    kernels::ExtremesFunction extremes_;
     double largest_;
     BoxTree tree_;
     std::vector<double> summary_;
-    // The terms of the last level that were computed last: of P's points in order, of Q's as they
-    // are stored.
+    // The terms of the last level that were computed last: of P's points in order, or in reverse,
+    // of Q's as they are stored.
     AlignedBuffer row_terms_;
     AlignedBuffer column_terms_;
     std::ptrdiff_t row_terms_of_ = -1;
     std::ptrdiff_t column_terms_of_ = -1;
+    bool they_add_;  // the row terms, to the column terms
+    bool rows_are_reversed_ = false;
     BandedBoxes boxes_of_rows_;
     BandedBoxes boxes_of_columns_;
     BandedValues values_of_rows_;
     BandedValues values_of_columns_;
+    AlignedBuffer reversed_;        // P, where its points have values of their own
+    AlignedBuffer nearest_values_;  // to Q's points, of those of their bands in P
     AlignedBuffer merged_;          // boxes of P, in one dimension
     AlignedBuffer merged_of_kept_;  // of Q
     std::ptrdiff_t merged_count_ = 0;
     std::vector<double> run_terms_;
     BoxRoom boxes_;  // of Q
     CostSums sums_;
+    LineTable line_table_;
 };
 
 }  // namespace curvewise::warping

@@ -121,8 +121,10 @@ class WarpingMeasure::Bounds {
                 const std::optional<CostToGo> cost_to_go =
                     bounds_.cost_to_go(j, Q.packed, problem.most_in_table(cutoff));
                 if (!cost_to_go) return problem.distance(cutoff, !bounds_.has_looked_at_ends(j));
-                return bounds_.is_hopeless(*cost_to_go) ? infinity
-                                                        : problem.narrowed_distance(*cost_to_go);
+                if (bounds_.is_hopeless(*cost_to_go)) return infinity;
+                if (!bounds_.is_of_lines()) return problem.narrowed_distance(*cost_to_go);
+                call.poller.count_steps(P_.packed.size() * Q.packed.size());
+                return bounds_.line_value(Q.packed, *cost_to_go);
             });
         }
         bool is_within(std::ptrdiff_t j, const PreparedQ& Q, const pairwise::Call<Memory>& call) {

@@ -44,14 +44,9 @@ Curve on_globe(const Curve& curve) {
 }
 
 template <class Options>
-void bounds_hold(const Options& options, std::ptrdiff_t dim, Random& random) {
+void bounds_hold(const Options& options, const std::vector<Curve>& curves) {
     const auto measure = pairwise::batch_measure(options);
     const bool on_sphere = measure->requirements().on_sphere;
-    std::vector<Curve> curves;
-    for (int i = 0; i < 7; ++i) {
-        const Curve curve = some_curve(random, dim);
-        curves.push_back(on_sphere ? on_globe(curve) : curve);
-    }
     const auto targets = measure->make_targets();
     Poller poller(nullptr);
     for (const Curve& Q : curves) {
@@ -79,6 +74,51 @@ void bounds_hold(const Options& options, std::ptrdiff_t dim, Random& random) {
                     CHECK_EQUAL(found, value);
                 } else {
                     CHECK(found > cutoff);
+                }
+            }
+        }
+    }
+}
+
+template <class Options>
+void bounds_hold(const Options& options, std::ptrdiff_t dim, Random& random) {
+    const bool on_sphere = pairwise::batch_measure(options)->requirements().on_sphere;
+    std::vector<Curve> curves;
+    for (int i = 0; i < 7; ++i) {
+        const Curve curve = some_curve(random, dim);
+        curves.push_back(on_sphere ? on_globe(curve) : curve);
+    }
+    bounds_hold(options, curves);
+}
+
+// As many points each, moved a little: paths are alike, and the band is as wide in all rows.
+void bounds_of_lines_hold() {
+    Random random(13);
+    for (const std::ptrdiff_t n : {9, 16, 47, 120}) {
+        // Squares of the last scale lose digits, beside an end that leaves the scale as it is.
+        for (const int scale : {0, -530}) {
+            const Curve zeros(std::vector<double>(static_cast<std::size_t>(n)), 1);
+            std::vector<Curve> curves(4, zeros);
+            for (std::ptrdiff_t i = 1; i < n; ++i) {
+                const double step = random.uniform(-1, 1);
+                for (Curve& curve : curves) {
+                    curve(i, 0) = curve(i - 1, 0) + step + random.uniform(-0.2, 0.2);
+                }
+            }
+            for (Curve& curve : curves) {
+                curve = curve.times_power_of_two(scale);
+                curve(n - 1, 0) = 1.0;
+            }
+            for (const std::ptrdiff_t window : {0, 1, 2, 5, 12, 40, 119, 200}) {
+                for (const Metric metric : {Metric::euclidean, Metric::sqeuclidean}) {
+                    for (const auto pattern : {StepPattern::symmetric1, StepPattern::symmetric2}) {
+                        const check::Note note("window " + std::to_string(window));
+                        DtwOptions options;
+                        options.ground.metric = metric;
+                        options.step_pattern = pattern;
+                        options.window = window;
+                        bounds_hold(options, curves);
+                    }
                 }
             }
         }
@@ -135,5 +175,6 @@ void bounds_of_every_metric_hold() {
 
 int main() {
     return check::run({{"bounds of leashes hold", bounds_of_leashes_hold},
+                       {"bounds of lines hold", bounds_of_lines_hold},
                        {"bounds of every metric hold", bounds_of_every_metric_hold}});
 }

@@ -25,8 +25,26 @@ struct PointsAndBoxes {
     const double* high;
     // The distance of every point to the nearest of its boxes; padded.
     double* least;
+    // Where each has an interval of its own, and not null: the number in it that is nearest;
+    // padded.
+    double* nearest;
 };
 
 using LeastFunction = void (*)(const PointsAndBoxes& sides) noexcept;
+
+// The least and the greatest of every `length` values that follow each other.
+struct Runs {
+    const double* values;  // `count` + `length` - 1 of them, padded
+    std::ptrdiff_t count;
+    std::ptrdiff_t length;
+    // As many as there are values, of which the first `count` are the answer; padded.
+    double* low;
+    double* high;
+};
+
+// Added up in some order.
+using SumFunction = double (*)(const double* terms, std::ptrdiff_t count) noexcept;
+
+using ExtremesFunction = void (*)(const Runs& runs) noexcept;
 
 }  // namespace curvewise::kernels

@@ -5,22 +5,42 @@
 // anonymous namespace.
 
 // Each point's own interval.
-template <class Norm>
+template <class Norm, bool keeps_nearest>
 void least_of_own(const PointsAndBoxes& sides) noexcept {
     const double* const points = sides.points;
     const double* const low = sides.low;
     const double* const high = sides.high;
     double* const least = sides.least;
+    double* const nearest = sides.nearest;
     for (std::ptrdiff_t k = 0, count = sides.count; k < count; k += width) {
         const Pack x = load(points + k);
         const Pack inside = simd::pmax(simd::pmin(x, load(high + k)), load(low + k));
         store(least + k, Norm::finish(Norm::add(simd::pset1<Pack>(0.0), simd::psub(x, inside))));
+        if (keeps_nearest) store(nearest + k, inside);
     }
+}
+
+double sum(const double* terms, std::ptrdiff_t count) noexcept {
+    Pack even = simd::pset1<Pack>(0.0), odd = even;
+    std::ptrdiff_t k = 0;
+    for (; k + 2 * width <= count; k += 2 * width) {
+        even = simd::padd(even, load(terms + k));
+        odd = simd::padd(odd, load(terms + k + width));
+    }
+    double lanes[width];
+    store(lanes, simd::padd(even, odd));
+    double sum = 0.0;
+    for (const double lane : lanes) sum += lane;
+    for (; k < count; ++k) sum += terms[k];
+    return sum;
 }
 
 template <class Norm, int fixed_dim>
 void least(const PointsAndBoxes& sides) noexcept {
-    if (fixed_dim == 1 && sides.low != nullptr) return least_of_own<Norm>(sides);
+    if (fixed_dim == 1 && sides.low != nullptr) {
+        return sides.nearest != nullptr ? least_of_own<Norm, true>(sides)
+                                        : least_of_own<Norm, false>(sides);
+    }
     const std::ptrdiff_t dim = fixed_dim > 0 ? fixed_dim : sides.dim;
     for (std::ptrdiff_t k = 0; k < sides.count; k += width) {
         std::ptrdiff_t begin = 0, end = sides.box_count;
@@ -65,6 +85,35 @@ LeastFunction select_least(Metric metric, std::ptrdiff_t dim) noexcept {
             return nullptr;
         }
     });
+}
+
+// The extremes of runs of `to` values from those of `from`, of four such runs at most, in place: a
+// run begins where it is written, and nothing before it is read again.
+void lengthen(const double* low, const double* high, const Runs& runs, std::ptrdiff_t from,
+              std::ptrdiff_t to) noexcept {
+    const std::ptrdiff_t last = to - from;
+    const std::ptrdiff_t second = from < last ? from : last;
+    const std::ptrdiff_t third = 2 * from < last ? 2 * from : last;
+    double* const least = runs.low;
+    double* const greatest = runs.high;
+    for (std::ptrdiff_t k = 0, count = runs.count + runs.length - to; k < count; k += width) {
+        const double* const a = low + k;
+        const double* const b = high + k;
+        store(least + k, simd::pmin(simd::pmin(load(a), load(a + second)),
+                                    simd::pmin(load(a + third), load(a + last))));
+        store(greatest + k, simd::pmax(simd::pmax(load(b), load(b + second)),
+                                       simd::pmax(load(b + third), load(b + last))));
+    }
+}
+
+void extremes(const Runs& runs) noexcept {
+    std::ptrdiff_t length = runs.length < 4 ? runs.length : 4;
+    lengthen(runs.values, runs.values, runs, 1, length);
+    while (length < runs.length) {
+        const std::ptrdiff_t longer = runs.length < 4 * length ? runs.length : 4 * length;
+        lengthen(runs.low, runs.high, runs, length, longer);
+        length = longer;
+    }
 }
 
 // What makes bounds of distances under an arc.

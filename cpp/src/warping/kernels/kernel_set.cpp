@@ -13,14 +13,26 @@ namespace curvewise::kernels {
 namespace {
 #include "block.inl.hpp"
 #include "boxes.inl.hpp"
+#include "line.inl.hpp"
 #include "narrow.inl.hpp"
 #include "runs.inl.hpp"
 #include "soft.inl.hpp"
 }  // namespace
 
-const KernelSet CURVEWISE_LEVEL = {
-    select_advance,     select_fill,  select_reach, select_values, select_least,
-    select_runs,        narrow,       width,        arcs,          soft_forward<false>,
-    soft_forward<true>, soft_backward};
+const KernelSet CURVEWISE_LEVEL = {select_advance,
+                                   select_fill,
+                                   select_reach,
+                                   select_values,
+                                   select_least,
+                                   select_runs,
+                                   extremes,
+                                   sum,
+                                   select_line,
+                                   narrow,
+                                   width,
+                                   arcs,
+                                   soft_forward<false>,
+                                   soft_forward<true>,
+                                   soft_backward};
 
 }  // namespace curvewise::kernels

@@ -20,6 +20,7 @@
 #include "block.hpp"
 #include "boxes.hpp"
 #include "curvewise/ground_distance.hpp"
+#include "line.hpp"
 #include "narrow.hpp"
 #include "runs.hpp"
 #include "soft.hpp"
@@ -113,6 +114,10 @@ struct KernelSet {
     ValueFunction (*values)(Metric metric, std::ptrdiff_t dim) noexcept;
     LeastFunction (*least)(Metric metric, std::ptrdiff_t dim) noexcept;
     RunFunction (*runs)(Metric metric, std::ptrdiff_t dim, bool of_largest) noexcept;
+    ExtremesFunction extremes;
+    SumFunction sum;
+    // In one dimension, of squares or else of differences.
+    LineFunction (*line)(Metric metric) noexcept;
     NarrowFunction narrow;
     std::ptrdiff_t lanes;  // of a SIMD vector: the rows that it takes
     ArcFunction arcs;

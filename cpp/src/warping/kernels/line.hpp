@@ -1,0 +1,35 @@
+// What a search asks of an instruction-set level: the value of DTW (symmetric1) of two curves in
+// one dimension, without the cells that are dead. As for strips, pointers and sizes only.
+#pragma once
+
+#include <cstddef>
+
+namespace curvewise::kernels {
+
+// Rows that are swept side by side, each a column behind the one above it.
+inline constexpr std::ptrdiff_t line_height = 8;
+
+struct Line {
+    // Row i is p[i], column j is q[columns - 1 - j]; padded as for a strip, and q before it, too.
+    const double* p;
+    const double* q;
+    std::ptrdiff_t rows;
+    std::ptrdiff_t columns;
+    // Row i may hold columns first_step[i] - k to last_step[i] - k, which never fall from row to
+    // row, where k is i % line_height. Padded.
+    const double* first_step;
+    const double* last_step;
+    // Which cells are dead, see CostToGo.
+    double most;
+    double slack;
+    const double* after_row;
+    const double* after_column;
+    bool they_add;
+    // Room for a row, with the padding before it and behind it.
+    double* row;
+};
+
+// The last value, or infinity where the last cell is dead.
+using LineFunction = double (*)(const Line& line) noexcept;
+
+}  // namespace curvewise::kernels
