@@ -367,21 +367,21 @@ std::optional<CostToGo> PairBounds::cost_to_go(std::ptrdiff_t j, const PackedCur
         options_.open_begin) {
         return std::nullopt;
     }
-    if (!is_frechet()) {
-        compute_row_terms(j, q);
-        compute_column_terms(j, q);
-    }
-    if (is_frechet() || is_open()) {
+    if (is_frechet()) {
         sums_.assign(n, m, they_add_);
-        if (!is_frechet()) std::copy_n(row_terms_.data(), n, sums_.rows());
+        return sums_.cost_to_go(most);
+    }
+    compute_row_terms(j, q);
+    compute_column_terms(j, q);
+    const double* const rows = row_terms_.data();
+    if (is_open()) {
+        sums_.assign(n, m, they_add_);
+        std::copy_n(rows, n, sums_.rows());
         sums_.add_up();
+    } else if (rows_are_reversed_) {
+        sums_.add_up(rows, 1, n, column_terms_.data(), m, they_add_);
     } else {
-        const double* const rows = row_terms_.data();
-        if (rows_are_reversed_) {
-            sums_.add_up(rows, 1, n, column_terms_.data(), m, they_add_);
-        } else {
-            sums_.add_up(rows + n - 1, -1, n, column_terms_.data(), m, they_add_);
-        }
+        sums_.add_up(rows + n - 1, -1, n, column_terms_.data(), m, they_add_);
     }
     return sums_.cost_to_go(most);
 }
