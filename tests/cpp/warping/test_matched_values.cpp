@@ -5,36 +5,29 @@
 
 #include "check.hpp"
 #include "oracle.hpp"
+#include "warping/dispatch.hpp"
+#include "warping/kernels/strip.hpp"
 #include "warping/matched_values.hpp"
 
 namespace {
 
 using namespace curvewise;
-using curves::RangeScale;
-using runtime::Poller;
 using test::Curve;
 using test::Random;
 using warping::Band;
 using warping::BandedValues;
-using warping::PackedCurve;
-using warping::PointOrder;
 
-PackedCurve packed(const Curve& curve, PointOrder order) {
-    Poller poller(nullptr);
-    return PackedCurve(curve, RangeScale(1.0), order, poller);
-}
-
-// `order` is that of the points that have intervals.
-void has_intervals_of_band(const Curve& P, const Curve& Q, std::ptrdiff_t window,
-                           PointOrder order) {
-    const bool is_forward = order == PointOrder::forward;
-    const std::ptrdiff_t n = P.size(), m = Q.size();
+// Of points that are stored in reverse, as is the other curve.
+void has_intervals_of_band(std::ptrdiff_t n, const Curve& Q, std::ptrdiff_t window,
+                           const warping::Level& level) {
+    const std::ptrdiff_t m = Q.size();
     const Band band(n, m, window);
     BandedValues values;
-    CHECK_EQUAL(values.assign(n, order, m, window), band.is_limited());
+    CHECK_EQUAL(values.assign(n, m, window), band.is_limited());
     if (!band.is_limited()) return;
     CHECK(values.is_new());
-    values.enclose(packed(Q, is_forward ? PointOrder::reversed : PointOrder::forward));
+    const std::vector<double> reversed(Q.values().rbegin(), Q.values().rend());
+    values.enclose(reversed.data(), level.kernels->extremes);
     CHECK(!values.is_new());
     const kernels::PointsAndBoxes intervals = values.each();
     for (std::ptrdiff_t i = 0; i < n; ++i) {
@@ -44,7 +37,7 @@ void has_intervals_of_band(const Curve& P, const Curve& Q, std::ptrdiff_t window
             low = std::min(low, Q(j, 0));
             high = std::max(high, Q(j, 0));
         }
-        const std::ptrdiff_t place = is_forward ? i : n - 1 - i;
+        const std::ptrdiff_t place = n - 1 - i;
         // Where the curves have as many points each, no wider ones, either.
         CHECK(n == m ? intervals.low[place] == low : intervals.low[place] <= low);
         CHECK(n == m ? intervals.high[place] == high : intervals.high[place] >= high);
@@ -56,9 +49,10 @@ void intervals_hold_the_points_of_the_band() {
     for (int round = 0; round < 400; ++round) {
         const std::ptrdiff_t n = 2 + random.index(60);
         const std::ptrdiff_t m = round % 2 == 0 ? n : 2 + random.index(60);
-        const Curve P = random.curve(n, 1), Q = random.curve(m, 1);
-        for (const PointOrder order : {PointOrder::forward, PointOrder::reversed}) {
-            has_intervals_of_band(P, Q, 1 + random.index(std::max(n, m)), order);
+        const Curve Q = random.curve(m, 1);
+        const std::ptrdiff_t window = 1 + random.index(std::max(n, m));
+        for (const warping::Level& level : warping::available_levels()) {
+            has_intervals_of_band(n, Q, window, level);
         }
     }
 }
