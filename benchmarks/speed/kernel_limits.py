@@ -38,7 +38,7 @@ def variants(dim: int) -> dict[str, tuple[list[Loop], str, dict[str, Any]]]:
     compiled = [*patterns, "adtw", "", "erp", "edr", "lcss", "msm", "twe"]  # in their order
 
     def swept(shape: str, fill: str = root) -> list[Loop]:
-        steps = f"advance<CompiledSteps<{compiled.index(shape)}>"
+        steps = f"CompiledSteps<{compiled.index(shape)}>"  # theirs, or the advance it is inlined in
         return [(fill, "vsubpd"), (steps, "vaddpd")]
 
     made: dict[str, tuple[list[Loop], str, dict[str, Any]]] = {
