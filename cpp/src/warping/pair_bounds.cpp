@@ -342,8 +342,10 @@ void PairBounds::compute_column_terms(std::ptrdiff_t j, const PackedCurve& q) {
     if (is_line() && values_of_columns_.assign(q.size(), P_.size(), window)) {
         if (values_of_columns_.is_new()) values_of_columns_.enclose(reversed_.data(), extremes_);
         kernels::PointsAndBoxes own = values_of_columns_.each();
-        nearest_values_.reserve(q.size() + kernels::padding);
-        own.nearest = nearest_values_.data();
+        if (has_ways_through(q)) {
+            nearest_values_.reserve(q.size() + kernels::padding);
+            own.nearest = nearest_values_.data();
+        }
         return compute_terms(q, own, column_terms_);
     }
     const BoxLevel boxes = point_level_boxes();

@@ -147,6 +147,7 @@ class PairBounds {
     }
     bool has_ways_through(const PackedCurve& q) const noexcept;
     void compute_row_terms(std::ptrdiff_t j, const PackedCurve& q);
+    // In one dimension, within a band, which has no open ends.
     void compute_banded_row_terms(std::ptrdiff_t j, const PackedCurve& q);
     void compute_column_terms(std::ptrdiff_t j, const PackedCurve& q);
     // The distances of `points` to the nearest of these boxes, of which alone it says something.

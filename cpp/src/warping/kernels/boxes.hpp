@@ -1,5 +1,6 @@
 // What lower bounds ask of an instruction-set level: how far the points of one curve are from the
-// boxes around the runs of another. As for strips, pointers and sizes only.
+// boxes around the runs of another, and what intervals and sums of these distances take. As for
+// strips, pointers and sizes only.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +34,7 @@ struct PointsAndBoxes {
 using LeastFunction = void (*)(const PointsAndBoxes& sides) noexcept;
 
 // The least and the greatest of every `length` values that follow each other.
-struct Runs {
+struct SlidingWindow {
     const double* values;  // `count` + `length` - 1 of them, padded
     std::ptrdiff_t count;
     std::ptrdiff_t length;
@@ -42,9 +43,9 @@ struct Runs {
     double* high;
 };
 
+using ExtremesFunction = void (*)(const SlidingWindow& window) noexcept;
+
 // Added up in some order.
 using SumFunction = double (*)(const double* terms, std::ptrdiff_t count) noexcept;
-
-using ExtremesFunction = void (*)(const Runs& runs) noexcept;
 
 }  // namespace curvewise::kernels

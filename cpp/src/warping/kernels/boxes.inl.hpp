@@ -87,16 +87,16 @@ LeastFunction select_least(Metric metric, std::ptrdiff_t dim) noexcept {
     });
 }
 
-// The extremes of runs of `to` values from those of `from`, of four such runs at most, in place: a
-// run begins where it is written, and nothing before it is read again.
-void lengthen(const double* low, const double* high, const Runs& runs, std::ptrdiff_t from,
-              std::ptrdiff_t to) noexcept {
+// The extremes of windows of `to` values from those of `from`, of four such windows at most, in
+// place: one begins where it is written, and nothing before it is read again.
+void lengthen(const double* low, const double* high, const SlidingWindow& window,
+              std::ptrdiff_t from, std::ptrdiff_t to) noexcept {
     const std::ptrdiff_t last = to - from;
     const std::ptrdiff_t second = from < last ? from : last;
     const std::ptrdiff_t third = 2 * from < last ? 2 * from : last;
-    double* const least = runs.low;
-    double* const greatest = runs.high;
-    for (std::ptrdiff_t k = 0, count = runs.count + runs.length - to; k < count; k += width) {
+    double* const least = window.low;
+    double* const greatest = window.high;
+    for (std::ptrdiff_t k = 0, count = window.count + window.length - to; k < count; k += width) {
         const double* const a = low + k;
         const double* const b = high + k;
         store(least + k, simd::pmin(simd::pmin(load(a), load(a + second)),
@@ -106,12 +106,12 @@ void lengthen(const double* low, const double* high, const Runs& runs, std::ptrd
     }
 }
 
-void extremes(const Runs& runs) noexcept {
-    std::ptrdiff_t length = runs.length < 4 ? runs.length : 4;
-    lengthen(runs.values, runs.values, runs, 1, length);
-    while (length < runs.length) {
-        const std::ptrdiff_t longer = runs.length < 4 * length ? runs.length : 4 * length;
-        lengthen(runs.low, runs.high, runs, length, longer);
+void extremes(const SlidingWindow& window) noexcept {
+    std::ptrdiff_t length = window.length < 4 ? window.length : 4;
+    lengthen(window.values, window.values, window, 1, length);
+    while (length < window.length) {
+        const std::ptrdiff_t longer = window.length < 4 * length ? window.length : 4 * length;
+        lengthen(window.low, window.high, window, length, longer);
         length = longer;
     }
 }
