@@ -155,9 +155,12 @@ inline int call_c(const DtwOptions& options, const curvewise_curve& P, const cur
 
 inline int call_c(const FrechetOptions& options, const curvewise_curve& P, const curvewise_curve& Q,
                   double* value) {
-    const curvewise_frechet_options given = {static_cast<int>(options.ground.metric),
-                                             options.ground.p, options.workers,
-                                             options.prune ? 1 : 0, options.cutoff};
+    curvewise_frechet_options given = CURVEWISE_FRECHET_DEFAULTS;
+    given.metric = static_cast<int>(options.ground.metric);
+    given.p = options.ground.p;
+    given.workers = options.workers;
+    given.prune = options.prune ? 1 : 0;
+    given.cutoff = options.cutoff;
     return curvewise_frechet(&P, &Q, &given, value, nullptr);
 }
 

@@ -27,6 +27,16 @@ kernels::Output output_of(const Destination& destination, const LiveColumns& col
     return kernels::Output::boundary_only;
 }
 
+kernels::AdvanceFunction resident_advance(const SweepProblem& problem, const Region& region,
+                                          kernels::Output output) noexcept {
+    if (output != kernels::Output::boundary_only || problem.columns.is_limited() ||
+        problem.columns.cost_to_go() != nullptr ||
+        std::min(region.rows, region.columns) < problem.resident_from) {
+        return nullptr;
+    }
+    return problem.kernels.resident(problem.recurrence, problem.cost, problem.curves.dim());
+}
+
 std::ptrdiff_t strip_height(const SweepProblem& problem, const Region& region,
                             std::ptrdiff_t workers, kernels::Output output) noexcept {
     const std::ptrdiff_t rows = region.rows;
@@ -63,7 +73,9 @@ StripPlan::StripPlan(const SweepProblem& problem, const Region& region, std::ptr
       region_(region),
       destination_(destination),
       output_(output_of(destination, problem.columns)),
-      height_(strip_height(problem, region, workers, output_)),
+      resident_(resident_advance(problem, region, output_)),
+      height_(resident_ != nullptr ? kernels::resident_rows
+                                   : strip_height(problem, region, workers, output_)),
       workers_(std::min(workers, (region.rows + height_ - 1) / height_)) {}
 
 ColumnRange StripPlan::columns(std::ptrdiff_t row) const noexcept {
@@ -78,8 +90,10 @@ StripWalk::StripWalk(const StripPlan& plan, bool starts_here, double* boundary, 
       memory_(&memory),
       starts_here_(starts_here),
       lane_stride_(AlignedBuffer::rounded(plan.height_ + 2 + kernels::padding)),
-      advance_(plan.problem_->kernels.advance(plan.problem_->recurrence, plan.problem_->cost,
-                                              plan.problem_->curves.dim(), plan.output_)),
+      advance_(plan.resident_ != nullptr
+                   ? plan.resident_
+                   : plan.problem_->kernels.advance(plan.problem_->recurrence, plan.problem_->cost,
+                                                    plan.problem_->curves.dim(), plan.output_)),
       fill_(plan.problem_->kernels.fill(plan.problem_->cost)) {
     const std::ptrdiff_t gap = plan.workers_ > 1 ? gap_between_threads : 0;
     const bool has_origins = plan.output_ == kernels::Output::origins;

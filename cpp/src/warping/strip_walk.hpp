@@ -33,6 +33,7 @@ class StripPlan {
     Region region_;
     Destination destination_;
     kernels::Output output_;
+    kernels::AdvanceFunction resident_;  // null where strips are not swept in registers
     std::ptrdiff_t height_;
     std::ptrdiff_t workers_;
 };

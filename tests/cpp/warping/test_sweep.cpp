@@ -1,5 +1,6 @@
 // The strip sweep against the textbook's table, filled row by row: last row, whole table and paths,
-// to the bit, at every instruction-set level of this machine, in one thread and in several, with
+// to the bit, at every instruction-set level of this machine, in one thread and in several, in
+// registers where that can be, however short the curves, and with diagonals in memory, with
 // paths found in one table and by divide and conquer, and with the columns narrowed to what a path
 // of the given cost may visit. The sizes are those around a SIMD vector of 2, 4 or 8 doubles and
 // around the strips' heights (32 rows with a table, 256 without); half of the data is small
@@ -69,6 +70,8 @@ class Comparison {
             problem.open_begin = setup_.open_begin;
             problem.workers = setup_.workers;
             problem.cells_per_worker = cells_per_worker;
+            check_bottom(last_row(problem));
+            problem.resident_from = 1;
             check_bottom(last_row(problem));
             check_table(problem);
             if (setup_.is_exact()) check_narrowed(problem);

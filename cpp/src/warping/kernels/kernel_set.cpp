@@ -15,24 +15,15 @@ namespace {
 #include "boxes.inl.hpp"
 #include "line.inl.hpp"
 #include "narrow.inl.hpp"
+#include "resident.inl.hpp"
 #include "runs.inl.hpp"
 #include "soft.inl.hpp"
 }  // namespace
 
-const KernelSet CURVEWISE_LEVEL = {select_advance,
-                                   select_fill,
-                                   select_reach,
-                                   select_values,
-                                   select_least,
-                                   select_runs,
-                                   extremes,
-                                   sum,
-                                   select_line,
-                                   narrow,
-                                   width,
-                                   arcs,
-                                   soft_forward<false>,
-                                   soft_forward<true>,
-                                   soft_backward};
+const KernelSet CURVEWISE_LEVEL = {
+    select_advance,     select_resident, select_fill, select_reach, select_values,
+    select_least,       select_runs,     extremes,    sum,          select_line,
+    line_height,        narrow,          width,       arcs,         soft_forward<false>,
+    soft_forward<true>, soft_backward};
 
 }  // namespace curvewise::kernels

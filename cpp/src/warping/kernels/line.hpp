@@ -6,17 +6,17 @@
 
 namespace curvewise::kernels {
 
-// Rows that are swept side by side, each a column behind the one above it.
-inline constexpr std::ptrdiff_t line_height = 8;
+// The most rows that are swept side by side, each a column behind the one above it.
+inline constexpr std::ptrdiff_t max_line_height = 16;
 
 struct Line {
-    // Row i is p[i], column j is q[columns - 1 - j]; padded as for a strip, and q before it, too.
+    // Row i is p[i], column j is q[columns - 1 - j]; q has so much room before it and behind it.
     const double* p;
     const double* q;
     std::ptrdiff_t rows;
     std::ptrdiff_t columns;
     // Row i may hold columns first_step[i] - k to last_step[i] - k, which never fall from row to
-    // row, where k is i % line_height. Padded.
+    // row, where k is i % the level's line_height; with so much room behind them.
     const double* first_step;
     const double* last_step;
     // Which cells are dead, see CostToGo.
@@ -25,7 +25,7 @@ struct Line {
     const double* after_row;
     const double* after_column;
     bool they_add;
-    // Room for a row, with the padding before it and behind it.
+    // Room for a row, with so much before it and behind it.
     double* row;
 };
 

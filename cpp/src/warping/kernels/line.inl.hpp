@@ -1,9 +1,13 @@
 // The table of two curves in one dimension where few cells of a row are live (see line.hpp), too
-// few to fill the diagonals of a strip: eight rows at a time, each a column behind the one above
+// few to fill the diagonals of a strip: some rows at a time, each a column behind the one above
 // it. Their values stay in registers, a row a lane, and only the last row's are written. Where
-// eight rows begin, and behind what the row above leaves, dead cells end them, as in EAPrunedDTW
+// these rows begin, and behind what the row above leaves, dead cells end them, as in EAPrunedDTW
 // (Herrmann & Webb 2021), here by what the rest of a path costs at least. Included by the kernel of
 // each level, inside its anonymous namespace.
+
+// A step waits for the one before it, so that more rows take little longer, as long as there are
+// registers for them.
+constexpr std::ptrdiff_t line_height = width > 2 ? max_line_height : max_line_height / 2;
 
 template <bool is_squared, bool they_add>
 class LineSweep {
@@ -22,7 +26,7 @@ class LineSweep {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr std::ptrdiff_t height = line_height;
     static constexpr std::ptrdiff_t packs = height / width;
-    static_assert(height % width == 0 && height <= padding);
+    static_assert(height % width == 0);
 
     // The cells of one step: of row k, at the step's column less k.
     struct Cells {
@@ -79,7 +83,7 @@ class LineSweep {
         const std::ptrdiff_t begin = first_ < first_of_top ? first_of_top : first_;
         if (begin > last_ + 1) return false;
         double* const above = line_.row;
-        Cells cells = cells_of(row, begin > first_ ? above[begin - 1] : corner_);
+        Cells cells = cells_of(row, rows, begin > first_ ? above[begin - 1] : corner_);
         corner_ = infinity;
         above[last_ + 1] = infinity;
 
@@ -140,11 +144,17 @@ class LineSweep {
         return static_cast<std::ptrdiff_t>(line_.last_step[row]);
     }
 
-    Cells cells_of(std::ptrdiff_t row, double corner) const noexcept {
+    Cells cells_of(std::ptrdiff_t row, std::ptrdiff_t rows, double corner) const noexcept {
+        double last_points[height] = {};  // nothing stands behind them
+        const double* points = line_.p + row;
+        if (rows < height) {
+            std::memcpy(last_points, points, sizeof(double) * static_cast<std::size_t>(rows));
+            points = last_points;
+        }
         Cells cells;
         cells.column_points = line_.q + line_.columns - 1;
         for (std::ptrdiff_t r = 0; r < packs; ++r) {
-            cells.points[r] = load(line_.p + row + r * width);
+            cells.points[r] = load(points + r * width);
             cells.values[r] = cells.diagonals[r] = simd::pset1<Pack>(infinity);
         }
         cells.diagonals[0] = with_first_of(simd::pset1<Pack>(corner), cells.diagonals[0]);

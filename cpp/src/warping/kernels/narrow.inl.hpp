@@ -3,33 +3,6 @@
 // loads. Per diagonal: a ground distance, the recurrence, two bits a cell. Included by the kernel
 // of each level, inside its anonymous namespace.
 
-// The lanes of a vector, each moved to the next, behind `first`.
-#if defined(__AVX512F__)
-inline Pack moved_up(const Pack& pack, double first) noexcept {
-    const __m512i before = _mm512_castpd_si512(_mm512_set1_pd(first));
-    return _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(pack), before, 7));
-}
-#elif defined(__AVX__)
-// By an insertion and a shuffle within halves, which take less than half as long as a permutation
-// of all lanes does.
-inline Pack moved_up(const Pack& pack, double first) noexcept {
-    const __m256d halves =
-        _mm256_insertf128_pd(_mm256_set1_pd(first), _mm256_castpd256_pd128(pack), 1);
-    return _mm256_shuffle_pd(halves, pack, 0b0101);
-}
-#elif defined(__SSE2__)
-inline Pack moved_up(const Pack& pack, double first) noexcept {
-    return _mm_unpacklo_pd(_mm_set1_pd(first), pack);
-}
-#else
-inline Pack moved_up(const Pack& pack, double first) noexcept {
-    double lanes[width + 1];
-    lanes[0] = first;
-    store(lanes + 1, pack);
-    return load(lanes);
-}
-#endif
-
 std::ptrdiff_t narrow(NarrowRows& rows) noexcept {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const Pack x = load(rows.p), y = load(rows.p + rows.p_stride);

@@ -45,3 +45,32 @@ inline Pack with_first_of(const Pack& other, const Pack& lanes) noexcept {
     return load(to);
 }
 #endif
+
+// The lanes of a vector, each moved to the next, behind a lane of `first`, in which all are equal.
+#if defined(__AVX512F__)
+inline Pack moved_up(const Pack& pack, const Pack& first) noexcept {
+    return _mm512_castsi512_pd(
+        _mm512_alignr_epi64(_mm512_castpd_si512(pack), _mm512_castpd_si512(first), 7));
+}
+#elif defined(__AVX__)
+// By an insertion and a shuffle within halves, which take less than half as long as a permutation
+// of all lanes does.
+inline Pack moved_up(const Pack& pack, const Pack& first) noexcept {
+    const __m256d halves = _mm256_insertf128_pd(first, _mm256_castpd256_pd128(pack), 1);
+    return _mm256_shuffle_pd(halves, pack, 0b0101);
+}
+#elif defined(__SSE2__)
+inline Pack moved_up(const Pack& pack, const Pack& first) noexcept {
+    return _mm_unpacklo_pd(first, pack);
+}
+#else
+inline Pack moved_up(const Pack& pack, const Pack& first) noexcept {
+    double lanes[width + 1];
+    lanes[0] = simd::pfirst(first);
+    store(lanes + 1, pack);
+    return load(lanes);
+}
+#endif
+inline Pack moved_up(const Pack& pack, double first) noexcept {
+    return moved_up(pack, simd::pset1<Pack>(first));
+}

@@ -31,6 +31,9 @@ namespace curvewise::kernels {
 // sweep touches is this much longer than its content, and P and Q are finite there.
 inline constexpr std::ptrdiff_t padding = 8;
 
+// The rows of a strip whose values stay in registers.
+inline constexpr std::ptrdiff_t resident_rows = 32;
+
 enum class Recurrence { dtw_symmetric1, dtw_symmetric2, frechet };
 
 // The predecessor of a cell, as stored per cell when a path is asked for.
@@ -108,6 +111,9 @@ struct Cost {
 struct KernelSet {
     AdvanceFunction (*advance)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
                                Output output) noexcept;
+    // The same for strips of at most resident_rows rows, which hold all of their columns, where the
+    // bottom row is all that is wanted. Null where it is no faster.
+    AdvanceFunction (*resident)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim) noexcept;
     CostFunction (*fill)(Cost cost) noexcept;
     // Null for a ground distance without bounds.
     ReachFunction (*reach)(Metric metric, std::ptrdiff_t dim) noexcept;
@@ -118,6 +124,7 @@ struct KernelSet {
     SumFunction sum;
     // In one dimension, of squares or else of differences.
     LineFunction (*line)(Metric metric) noexcept;
+    std::ptrdiff_t line_height;
     NarrowFunction narrow;
     std::ptrdiff_t lanes;  // of a SIMD vector: the rows that it takes
     ArcFunction arcs;

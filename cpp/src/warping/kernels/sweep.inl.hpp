@@ -9,7 +9,10 @@
 struct DtwSymmetric1 {
     // min(min(up, left) + d, diagonal + d) is the same: rounding is monotone.
     static Pack cell(const Pack& up, const Pack& left, const Pack& diag, const Pack& d) noexcept {
-        return simd::padd(simd::pmin(simd::pmin(up, left), diag), d);
+        return from_least(simd::pmin(simd::pmin(up, left), diag), d);
+    }
+    static Pack from_least(const Pack& least, const Pack& d) noexcept {
+        return simd::padd(least, d);
     }
     static Pack through_diagonal(const Pack& diag, const Pack& d) noexcept {
         return simd::padd(diag, d);
@@ -33,7 +36,10 @@ struct DtwSymmetric2 {
 
 struct DiscreteFrechet {
     static Pack cell(const Pack& up, const Pack& left, const Pack& diag, const Pack& d) noexcept {
-        return simd::pmax(simd::pmin(simd::pmin(up, left), diag), d);
+        return from_least(simd::pmin(simd::pmin(up, left), diag), d);
+    }
+    static Pack from_least(const Pack& least, const Pack& d) noexcept {
+        return simd::pmax(least, d);
     }
     // Predecessors are compared as they are: where d is larger than all, each would do.
     static Pack through_diagonal(const Pack& diag, const Pack&) noexcept { return diag; }
