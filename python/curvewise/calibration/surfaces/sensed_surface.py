@@ -7,7 +7,7 @@ of J^T J in parts of its trace, where J are the slopes of the curves at the best
 plain surface first, and then those of the surface that comes of it. A ridge keeps directions in
 which nothing moves. And curves enter as the inverse hyperbolic sine of how far they are from the
 curve at the centre, in fifths of the tests' boxes, so that what is far from all tests does not bend
-the surface where it is near them. The median error of predicted Fréchet distances is 0.16 to 0.44
+the surface where it is near them. The median error of predicted Fréchet distances is 0.17 to 0.44
 times that of a plain surface (benchmarks/validation/README.md).
 
 Cost: three surfaces and forty times their slopes, some 10 ms for 160 runs of 300 points.
