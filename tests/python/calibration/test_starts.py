@@ -161,6 +161,21 @@ class Valleys:
         return ended(self.values.pop(0), float(start[0]))
 
 
+class NoSingleRuns:
+    """In the place of single runs: makes none, and leaves the best run where it is."""
+
+    def __init__(self, *known: Any) -> None:
+        """Take what a search knows."""
+
+    def from_best(self, bottom: float) -> Part[bool]:
+        yield from ()
+        return False
+
+    def from_own(self, own: Any, value: float, left_behind: float) -> Part[tuple[Any, float]]:
+        yield from ()
+        return own, value
+
+
 @pytest.mark.parametrize(
     ("measure", "values", "count", "alike"),
     [
@@ -169,8 +184,11 @@ class Valleys:
         ("area", [float(5 + i) for i in range(40)], 10, 1),  # the most
         ("area", [5.0] * 30, 30, 30),  # flat ground: short starts, and more of them
         ("frechet", [float(5 + i) for i in range(40)], 30, 1),  # and of those by frechet
+        # They hop on one surface, so that more of them have to agree.
+        ("frechet", [5.0 + i / 1000.0 for i in range(40)], 15, 15),
+        ("frechet, slopes", [float(5 + i) for i in range(40)], 30, 1),
         # Those in valleys that the surface shows do not tell, the others do: here every third.
-        ("frechet", [5.0 + i / 1000.0 for i in range(40)], 9, 9),
+        ("frechet, slopes", [5.0 + i / 1000.0 for i in range(40)], 9, 9),
         ("dtw", [float(5 + i) for i in range(40)], 30, 1),  # and by dtw
         ("dtw", [5.0 + i / 1000.0 for i in range(40)], 9, 9),  # those near the best run do not tell
     ],
@@ -181,6 +199,8 @@ def test_starts_that_disagree_are_followed_by_others(
     caplog.set_level(logging.INFO, "curvewise.calibration")
     room = "curvewise.calibration.methods.trust_region"
     monkeypatch.setattr(f"{room}.CurveDescent", Valleys)
+    monkeypatch.setattr(f"{room}.SingleRuns", NoSingleRuns)
+    has_slopes, measure = "slopes" in measure, measure.partition(",")[0]
     reaches: list[float] = []
 
     def promising_place(*known: Any) -> Any:
@@ -196,12 +216,13 @@ def test_starts_that_disagree_are_followed_by_others(
     Valleys.values, Valleys.rules = list(values), []
     ledger: Any = SimpleNamespace(
         dimensions=2,
-        has_slopes=False,
+        has_slopes=has_slopes,
         negligible=0.0,
         earlier_runs=(),
         runs_with_curves=(),
         objective=Objective(np.array([[0.0, 0.0], [1.0, 2.0]]), measure),
         done=[None] * 30,
+        best=SimpleNamespace(value=min(values)),
         best_unit=np.full(2, 0.4),
         expect=lambda units: None,
     )
@@ -213,10 +234,14 @@ def test_starts_that_disagree_are_followed_by_others(
     assert len(said) == (alike != count)
     assert all("more follow, of some 10 runs each" in text for text in said)
     behind = {rules.left_behind for rules in Valleys.rules}
-    assert behind == {0.0 if measure == "area" else 0.2}
+    first = {0.0 if measure == "area" else 0.2}
+    assert behind == (first | {0.0} if measure == "frechet" and not has_slopes else first)
     # Where the runs promise most regions are smaller.
     radii = [rules.first_radius for rules in Valleys.rules[3:6]]
-    if measure == "frechet":  # where the surface shows no lower valley at another place
+    if measure == "frechet" and not has_slopes:  # single runs take the place of others
+        assert radii == [0.5, 0.5, 0.5]
+        assert reaches == []
+    elif measure == "frechet":  # where the surface shows no lower valley at another place
         assert radii == [0.25, 0.25, 0.5]
         assert reaches == [0.0] * (count - 3)
     else:

@@ -8,9 +8,11 @@ from functools import cached_property
 import numpy as np
 
 from ...curves.inputs import Array
+from ...curves.scaling import box
 from ..problem.ledger import Finish, Ledger
 from ..records.evaluation import Evaluation
 from ..surfaces.leash_minimum import is_leash, minimum_on_surfaces
+from ..surfaces.sensed_surface import SensedSurface
 from ..surfaces.surface_minimum import SurfaceMinimum
 from ..surfaces.surfaces import Responses, Surface, Surfaces
 from .descent import AFTER_FAILURE, FAR, Descent, Rules
@@ -30,6 +32,8 @@ _ATTEMPTS, _ELSEWHERE = 3, 0.5
 # And its surfaces go through so many of the nearest runs, in the place of some thirty: in what they
 # are off by is another valley. Beside its linear programs that costs little.
 _RUNS_OF_LEASH = 100
+# Where there are so many runs, surfaces by frechet go by what the curves feel, through the best.
+_FEWEST_SENSED, _MOST_SENSED = 30, 160
 # Of the runs, and of the places from which it goes down, in the search for another start.
 _MOST_RUNS, _PLACES = 500, 10
 
@@ -39,7 +43,8 @@ class CurveRuns(SharedRuns):
 
     def __init__(self, ledger: Ledger) -> None:
         self._responses: Responses | None = None
-        self._most = _RUNS_OF_LEASH if is_leash(ledger.objective) else NEAREST
+        self._is_leash = is_leash(ledger.objective)
+        self._most = _RUNS_OF_LEASH if self._is_leash else NEAREST
         super().__init__(ledger)
 
     @property
@@ -66,8 +71,26 @@ class CurveRuns(SharedRuns):
         """Return the surface through the runs nearest to one, or the plane of its slopes."""
         centre, slopes = self.points[number], self.slopes(number)
         if slopes is None:
+            if self._is_leash and len(self.values) >= _FEWEST_SENSED:
+                return self.sensed(number)
             return self.through_nearest(centre, within, reduced=False, most=self._most)
         return Surfaces(centre, self._vectors[number], slopes)
+
+    def sensed(self, number: int) -> SensedSurface:
+        """Return the surface through the best runs, and through one of them exactly."""
+        chosen = np.argsort(self.values, kind="stable")[:_MOST_SENSED]
+        if number not in chosen:
+            chosen[-1] = number
+        vectors = np.array([self._vectors[i] for i in chosen])
+        centre = int(np.flatnonzero(chosen == number)[0])
+        return SensedSurface(self.points[chosen], vectors, centre, self._sides)
+
+    @cached_property
+    def _sides(self) -> Array:
+        """The sides of the tests' boxes, for every coordinate of a vector."""
+        tests, shapes = self._ledger.objective.experiments, self.responses.shapes
+        sides = [np.tile(box(test)[1], n) for test, (n, _) in zip(tests, shapes, strict=True)]
+        return np.concatenate(sides)
 
 
 def promising_place(
@@ -110,6 +133,11 @@ class CurveDescent(Descent):
             self._ledger.show_activity,
             self._rules.gain,
         )
+
+    def from_best(self) -> Part[Finish]:
+        """Go down from the best run of all starts; return how that ended."""
+        self._best = int(np.argmin(self._runs.values))
+        return self._descended()
 
     def _region(self, radius: float) -> tuple[Array, Array]:
         return np.clip(self.centre - radius, 0.0, 1.0), np.clip(self.centre + radius, 0.0, 1.0)

@@ -7,7 +7,8 @@ starts end more than 1 % apart others follow, and every second of these begins w
 promise most, or beside the best of them, in a smaller region, with a surface of the runs that are
 there, which costs one run in the place of k + 1: a hop out of a valley into the next. By dtw,
 whose valleys have long floors, these are near the best run; by frechet, which has many valleys
-beside each other, `valleys` says where they are.
+beside each other, `valleys` says where they are if the model knows its slopes, and otherwise
+`single_runs` goes on.
 
 M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
 input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245;

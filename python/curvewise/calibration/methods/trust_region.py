@@ -14,7 +14,8 @@ own: 20 to 60 runs each for 8 parameters. A plane that learns from each run (Bro
 is measured afresh where it misleads, took twice as many to the same value, and ended above it more
 often (benchmarks/validation/README.md). Each start is local, and every second one ends in another
 valley than the best: `starts` has how many are made, and when the search may say that it has
-converged.
+converged. By frechet, whose valleys are many, single runs take the place of most of a start's
+(`single_runs`), unless the model knows its slopes.
 
 A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000); S. M. Wild, R. G.
 Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in
@@ -36,6 +37,7 @@ from .curve_descent import CurveDescent, CurveRuns, promising_place
 from .descent import Rules
 from .method import Method, with_other_defaults
 from .side_by_side import Part, side_by_side
+from .single_runs import SingleRuns
 from .starts import HOP, End, are_alike, check_regions, finish_of, hop, is_flat, places
 from .valleys import lowest_valley
 
@@ -47,6 +49,11 @@ _SURE, _NOT_SO = 2, 3
 # Times as many starts, where they are short: where the measure is flat, and by the measures whose
 # later starts begin with the surfaces of those before.
 _OF_SHORT_ONES = 3
+# Of those that hop on the same surface, which agree more easily.
+_SURE_OF_HOPS = 12
+# By frechet, of the first starts and of the later ones; and half the size of the first region in
+# which the best run of all is gone down from.
+_FIRST_STEPS, _LATER_STEPS, _NEAR = 10, 6, 0.1
 # By dtw and frechet a start ends where its surface promises less than this part of what it is above
 # the best.
 _LEFT_BEHIND = 0.2
@@ -78,9 +85,12 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
         Others follow until two more than `starts` have ended alike; where some have ended more than
         1 % above the best, until three more have come to it, or so many have been made in all.
         Every second of them begins where a surface through all runs so far promises most, by "dtw"
-        near the best run; by "frechet" all of them begin in other valleys, as long as the surface
-        promises lower ones. Those do not count as alike. Where the measure is flat, and by these
-        two, there are three times as many.
+        near the best run; by "frechet", of models that know their slopes, all of them begin in
+        other valleys, as long as the surface promises lower ones. Those do not count as alike.
+        Where the model does not know them, they are short and follow one by one by "frechet", each
+        and the best run go on by single runs where the surface promises most, and twelve more
+        have to end alike. Where the measure is flat, and by these two, there are three times as
+        many.
     initial_range : float, optional
         Half the size of the first region of trust, as a fraction of the bounds' range; the first
         differences are over half of that. By default 0.5, and 0.1 where :func:`identify_each`
@@ -184,6 +194,10 @@ class _Starts:
         self._runs = CurveRuns(ledger)
         self._is_leash = is_leash(ledger.objective)
         self._is_path = all(measure == "dtw" for measure in ledger.objective.measures)
+        # Where the model knows its slopes, a start takes few runs, and these tell more.
+        self._is_single = self._is_leash and not ledger.has_slopes
+        self._singles = SingleRuns(ledger, self._random, self._runs)
+        self._went_on, self._lowest = False, np.inf
         self.begun, self._running = 0, 0
         self.ends: list[End] = []
         self._valleys: list[Array] = []  # in which starts have begun
@@ -199,16 +213,20 @@ class _Starts:
         options, ends = self._options, self.ends
         if self._given is not None or len(ends) < 2:
             return []
+        if self._is_single and (self._running or not self._went_on):
+            return [] if self._running else [self._from_best()]
         telling = [end for end in ends if not end.stayed_near]
         alike = are_alike(ends, self._ledger.negligible, telling)
         flat = is_flat(ends, self._ledger.negligible)
-        if not flat and alike >= options.starts + (_SURE if alike == len(telling) else _NOT_SO):
+        sure = _SURE_OF_HOPS if self._is_single else _SURE if alike == len(telling) else _NOT_SO
+        if not flat and alike >= options.starts + sure:
             return []
         # On flat ground a start is short, and the way down is found by chance; and so it is where
         # later starts have the surfaces of those before.
         is_short = flat or self._is_path or self._is_leash
         most = _OF_SHORT_ONES * options.most_starts if is_short else options.most_starts
-        count = min(options.starts - self._running, most - self.begun)
+        at_once = 1 if self._is_single else options.starts - self._running
+        count = min(at_once, most - self.begun)
         if count > 0 and self.begun == options.starts and alike < len(telling):
             _log.info(
                 "starts end more than 1 %% apart; up to %d more follow, of some %d runs each",
@@ -223,10 +241,12 @@ class _Starts:
         And beside the best run where they promise nothing but where starts have ended. The valleys
         of dtw have long floors, along which a search comes down slowly: every second start goes on
         near the best run. Of the many valleys of frechet those are begun in that the surface
-        promises to be lower, as long as there are any. By both a start that is far above the best
-        is left behind.
+        promises to be lower, as long as there are any, where the model knows its slopes; where it
+        does not, starts are short. By both a start that is far above the best is left behind.
         """
         rules = self._options.rules
+        if self._is_single:
+            return self._short()
         if self._is_path or self._is_leash:
             rules = replace(rules, left_behind=_LEFT_BEHIND)
         smaller = replace(rules, first_radius=min(HOP, rules.first_radius))
@@ -244,6 +264,49 @@ class _Starts:
                 place = hop(self._ledger.best_unit, self._random)
             return self._descent(place, smaller, stays_near=is_near)
         return self._descent(next(self._places), rules)
+
+    def _short(self) -> Part[None]:
+        """Begin a start of a few steps; a later one goes on by single runs."""
+        rules = self._options.rules
+        if self.begun < self._options.starts:
+            rules = replace(rules, left_behind=_LEFT_BEHIND)
+            if self._options.starts > 1:  # a single start is not followed by single runs
+                rules = replace(rules, maxiter=min(rules.maxiter, _FIRST_STEPS))
+            return self._descent(next(self._places), rules)
+        self._went_on = False
+        rules = replace(rules, maxiter=min(rules.maxiter, _LATER_STEPS))
+        return self._hopping(self._descent(next(self._places), rules))
+
+    def _hopping(self, start: Part[None]) -> Part[None]:
+        """Go on from where a start has ended, by single runs."""
+        before = len(self.ends)
+        yield from start
+        if len(self.ends) > before:
+            end = self.ends[-1]
+            place, value = yield from self._singles.from_own(end.place, end.value, _LEFT_BEHIND)
+            self.ends[-1] = end._replace(place=place, value=value)
+
+    def _from_best(self) -> Part[None]:
+        """Go on from the best run, by single runs, and to the bottom of its valley.
+
+        As the start whose best run it is.
+        """
+        self._went_on = True
+        bottom = (1.0 - self._options.gain) * self._lowest
+        is_at_bottom = yield from self._singles.from_best(bottom)
+        number = min(range(len(self.ends)), key=lambda i: self.ends[i].value)
+        end = self.ends[number]
+        if is_at_bottom and self._ledger.best.value < bottom:
+            rules = replace(
+                self._options.rules, first_radius=min(_NEAR, self._options.first_radius)
+            )
+            random = np.random.default_rng((self._seed, self.begun, 1))
+            descent = CurveDescent(self._ledger, random, rules, self._runs)
+            end = end._replace(finish=(yield from descent.from_best()))
+            self._lowest = self._ledger.best.value
+        self.ends[number] = end._replace(
+            value=self._ledger.best.value, place=self._ledger.best_unit
+        )
 
     def _valley(self) -> Array | None:
         """Return where another valley promises to be lower than all runs, if one does."""

@@ -1,4 +1,4 @@
-"""Where a search by frechet begins its later starts: in other valleys of the surface of all runs.
+"""Where later starts by frechet begin if slopes are known: in other valleys of all runs' surface.
 
 The Fréchet distance has many valleys beside each other, one for each way to couple the few points
 that decide, and a start ends in the next one. The curves themselves bend little, so that a surface

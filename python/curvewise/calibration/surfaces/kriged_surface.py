@@ -28,7 +28,6 @@ __all__ = ["KrigedSurface"]
 
 _ROOT = math.sqrt(5.0)
 _LENGTH = 4.0  # of the kernel, in distances of the farthest run from the centre
-_SLOPE = -5.0 / (3.0 * _LENGTH**2)  # of the kernel, divided by the distance
 _NUGGET = 1e-8  # of the kernel: what a solver that prints few digits may be off
 _LEVEL = 1e-8  # the inverse of the variance of the trend's coefficients: none are unlikely
 
@@ -46,17 +45,27 @@ class KrigedSurface:
     reduced : bool
         Whether to return residuals as coordinates that keep lengths and angles alone, in the place
         of the residuals themselves.
+    length : float, optional
+        Of the kernel, in distances of the farthest run from the centre.
     """
 
-    def __init__(self, points: Array, residuals: Array, centre: Array, *, reduced: bool) -> None:
+    def __init__(
+        self,
+        points: Array,
+        residuals: Array,
+        centre: Array,
+        *,
+        reduced: bool,
+        length: float = _LENGTH,
+    ) -> None:
         count, k = points.shape
         if reduced and count < residuals.shape[1]:
             residuals = np.asarray(np.linalg.qr(residuals.T, mode="r")).T
         away = points - centre
-        self._centre = centre
+        self._centre, self._length = centre, length
         self._extent = float(_lengths(away).max()) or 1.0
         self._places = away / self._extent
-        kernel, _ = _kernel(_lengths(self._places[:, np.newaxis] - self._places))
+        kernel, _ = _kernel(_lengths(self._places[:, np.newaxis] - self._places), length)
         # The surface passes through the run at the centre exactly: gains are counted from it.
         kernel.ravel()[:: count + 1] += np.where(self._places.any(axis=1), _NUGGET, 0.0)
         system = np.zeros((count + k + 1, count + k + 1))
@@ -77,14 +86,14 @@ class KrigedSurface:
     def at(self, point: Array) -> Array:
         """Return the residuals at a point, shape (m,), or at several, shape (points, m)."""
         place = (point - self._centre) / self._extent
-        kernel, _ = _kernel(_lengths(place[..., np.newaxis, :] - self._places))
+        kernel, _ = _kernel(_lengths(place[..., np.newaxis, :] - self._places), self._length)
         return self._residuals(place, kernel)
 
     def with_slopes(self, point: Array) -> tuple[Array, Array]:
         """Return the residuals at a point, and their slopes, shape (m, k)."""
         place = (point - self._centre) / self._extent
         away = place - self._places
-        kernel, by_distance = _kernel(_lengths(away))
+        kernel, by_distance = _kernel(_lengths(away), self._length)
         slopes = self._slopes + (by_distance[:, np.newaxis] * away).T @ self._weights
         return self._residuals(place, kernel), slopes.T / self._extent
 
@@ -92,7 +101,7 @@ class KrigedSurface:
         """Return the residuals at a point, and what turns a gradient by them into one by it."""
         place = (point - self._centre) / self._extent
         away = place - self._places
-        kernel, by_distance = _kernel(_lengths(away))
+        kernel, by_distance = _kernel(_lengths(away), self._length)
 
         def chain_rule(gradient: Array) -> Array:
             bent: Array = (by_distance * (self._weights @ gradient)) @ away
@@ -121,9 +130,9 @@ def _lengths(vectors: Array) -> Array:
     return lengths
 
 
-def _kernel(distance: Array) -> tuple[Array, Array]:
+def _kernel(distance: Array, length: float) -> tuple[Array, Array]:
     """Return the kernel at distances, and its derivative divided by the distance."""
-    scaled = _ROOT / _LENGTH * distance
+    scaled = _ROOT / length * distance
     decay = np.exp(-scaled)
     linear = 1.0 + scaled
-    return (linear + scaled * scaled / 3.0) * decay, _SLOPE * linear * decay
+    return (linear + scaled * scaled / 3.0) * decay, -5.0 / (3.0 * length**2) * linear * decay

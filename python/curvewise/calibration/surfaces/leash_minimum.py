@@ -31,6 +31,7 @@ from ...measures.results import Alignment
 from ..objective.objective import Objective
 from .evolution import evolved
 from .kriged_surface import KrigedSurface
+from .sensed_surface import SensedSurface
 from .surface_minimum import SurfaceMinimum, _Predicted
 from .surfaces import Responses, Surface, Surfaces
 
@@ -90,7 +91,7 @@ class LeashMinimum(SurfaceMinimum):
         for predicted in filter(None, (self._exact, self._thinned)):
             predicted.has_gradient = True  # something leads down
 
-    def valley(self, surface: KrigedSurface, place: Array) -> Array:
+    def valley(self, surface: KrigedSurface | SensedSurface, place: Array) -> Array:
         """Return a minimum over the whole cube beside a place, in whichever valley it is.
 
         Cost: some 600 evaluations of the surface and of the measure, and twelve steps.
@@ -214,7 +215,7 @@ class _Leashes:
     def _slopes_at(self, place: Array) -> tuple[Array, list[Array]]:
         """Return the curves as one vector, and for each its slopes, shape (n, d, k)."""
         point = self._low + place * self._width
-        if isinstance(self._seen, KrigedSurface):
+        if isinstance(self._seen, (KrigedSurface, SensedSurface)):
             vector, slopes = self._seen.with_slopes(point)
         else:
             assert isinstance(self._seen, Surfaces), "those are all that searches make"
