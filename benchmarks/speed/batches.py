@@ -248,7 +248,7 @@ def _serve(name: str, count: int, package: str, threads: int) -> None:
         elif question == "memory":
             before = _reset_peak()
             call(1)
-            print(timing._peak_bytes() - before, flush=True)
+            print(timing.peak_bytes() - before, flush=True)
         else:
             print(call(int(question)), flush=True)
 
@@ -257,7 +257,7 @@ def _reset_peak() -> int:
     """Set this process's peak memory to what it holds now, and return it. Linux only."""
     with open("/proc/self/clear_refs", "w", encoding="ascii") as file:
         file.write("5")
-    return timing._peak_bytes()
+    return timing.peak_bytes()
 
 
 if __name__ == "__main__":
