@@ -306,7 +306,7 @@ def _correlated(columns: Array, rho: float) -> Array:
 def _carried_on(columns: Array, rho: float) -> Array:
     """Return y with y[i] = columns[i] + rho y[i - 1], as scipy.signal's lfilter does.
 
-    To the bit, without the second that the import of scipy.signal takes.
+    To rounding, without the second that the import of scipy.signal takes.
     """
     bands = np.array([[1.0], [-rho]]).repeat(len(columns), axis=1)
     found: Array = required("scipy.linalg").solve_banded((1, 0), bands, columns, check_finite=False)
