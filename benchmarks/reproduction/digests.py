@@ -26,6 +26,7 @@ from pathlib import Path
 
 import numpy
 import scipy
+from arithmetic import is_held
 
 import curvewise
 from curvewise.installation import build_info
@@ -140,6 +141,8 @@ def made_with() -> str:
     """Return what else the last bits depend on: libraries and processor."""
     libc = " ".join(platform.libc_ver()) or platform.platform()
     libraries = f"numpy {numpy.__version__}, scipy {scipy.__version__}, {libc}"
+    if is_held():
+        return f"{libraries}, numpy and BLAS held to AVX2"
     return f"{libraries}, {build_info()['active']} on {_processor()}"
 
 

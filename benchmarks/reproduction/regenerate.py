@@ -13,6 +13,7 @@ import subprocess
 import sys
 import time
 
+from arithmetic import environment
 from report import HERE
 
 SCRIPTS = (
@@ -52,10 +53,11 @@ def main() -> None:
         for file in [*HERE.glob("optima/*.json"), *HERE.glob("*.png")]:
             file.unlink()
     began = time.perf_counter()
+    held = environment()
     failed: list[str] = []
     for script in SCRIPTS:
         workers = [] if script in WITHOUT_SEARCHES else [f"--workers={options.workers}"]
-        done = subprocess.run([sys.executable, str(HERE / f"{script}.py"), *workers])
+        done = subprocess.run([sys.executable, str(HERE / f"{script}.py"), *workers], env=held)
         failed += [script] if done.returncode else []
         outcome = "failed" if done.returncode else "done"
         seconds = time.perf_counter() - began

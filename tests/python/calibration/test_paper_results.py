@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import importlib
 import logging
+import os
+import subprocess
 import sys
 import threading
 from collections.abc import Iterator
+from contextlib import nullcontext
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -159,6 +162,47 @@ def test_a_difference_is_seen(
     assert check.difference_from(task, elsewhere) == ""
     elsewhere["stages"][0]["value"] = value * 1.02
     assert check.difference_from(task, elsewhere).startswith("de differs in value")
+
+
+@pytest.mark.parametrize(
+    ("differing", "made_elsewhere", "fails"),
+    [(0, 0, False), (1, 0, True), (1, 3, False), (2, 3, True)],
+)
+def test_every_bit_counts_here_and_two_in_three_values_elsewhere(
+    stores: ModuleType,
+    monkeypatch: pytest.MonkeyPatch,
+    differing: int,
+    made_elsewhere: int,
+    fails: bool,
+) -> None:
+    check = importlib.import_module("check")
+    differences = ["value 2, stored 1"] * differing + [""] * 3
+    elsewhere = [True] * made_elsewhere + [False] * 3
+    monkeypatch.setattr(check, "begin_again_held", lambda: None)
+    monkeypatch.setattr(check, "difference_from", lambda *_: differences.pop(0))
+    monkeypatch.setattr(check, "was_made_here", lambda _: not elsewhere.pop(0))
+    monkeypatch.setattr(sys, "argv", ["check.py", "--seed", "1"])
+    with pytest.raises(SystemExit, match="not what is stored") if fails else nullcontext():
+        check.main()
+
+
+@pytest.mark.usefixtures("_scripts")
+def test_a_process_begins_again_with_the_arithmetic_of_avx2(tmp_path: Path) -> None:
+    arithmetic = importlib.import_module("arithmetic")
+    script = tmp_path / "script.py"
+    script.write_text(
+        f"import sys; sys.path.insert(0, {str(SCRIPTS)!r})\n"
+        "from arithmetic import begin_again_held, is_held\n"
+        "print('began', flush=True)\n"
+        "begin_again_held()\n"
+        "print(is_held(), sys.argv[1:])\n"
+    )
+    environment = {k: v for k, v in os.environ.items() if k not in arithmetic._HELD}
+    command = [sys.executable, str(script), "an option"]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    has_avx2 = arithmetic._has_avx2()
+    expected = ["began"] * (2 if has_avx2 else 1) + [f"{has_avx2} ['an option']"]
+    assert done.stdout.splitlines() == expected
 
 
 def test_every_stored_result_is_of_a_task(stores: ModuleType) -> None:
