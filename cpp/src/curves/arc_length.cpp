@@ -6,14 +6,23 @@
 namespace curvewise::curves {
 
 std::vector<double> arc_lengths(const Polyline& curve, Poller& poller) {
-    return summed_lengths(static_cast<std::ptrdiff_t>(curve.size()), poller,
-                          [&](std::ptrdiff_t i) { return curve[static_cast<std::size_t>(i)]; });
+    const auto size = static_cast<std::ptrdiff_t>(curve.size());
+    return summed_edges(size, poller, [&](std::ptrdiff_t first, EdgeBlock& edges) {
+        const Point* const from = curve.data() + first;
+        for (std::size_t k = 0; k < edges.count; ++k) {
+            edges.x[k] = from[k + 1].x - from[k].x;
+            edges.y[k] = from[k + 1].y - from[k].y;
+        }
+    });
 }
 
 std::vector<double> box_scaled_arc_lengths(const CurveView& curve, const Box& box, Poller& poller) {
-    return summed_edges(curve.size(), poller, [&](std::ptrdiff_t i) -> Point {
-        return {box.x.scaled_difference(curve(i - 1, 0), curve(i, 0)),
-                box.y.scaled_difference(curve(i - 1, 1), curve(i, 1))};
+    return summed_edges(curve.size(), poller, [&](std::ptrdiff_t first, EdgeBlock& edges) {
+        for (std::size_t k = 0; k < edges.count; ++k) {
+            const std::ptrdiff_t i = first + static_cast<std::ptrdiff_t>(k);
+            edges.x[k] = box.x.scaled_difference(curve(i, 0), curve(i + 1, 0));
+            edges.y[k] = box.y.scaled_difference(curve(i, 1), curve(i + 1, 1));
+        }
     });
 }
 

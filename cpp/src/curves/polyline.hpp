@@ -23,10 +23,14 @@ inline Point operator-(const Point& a, const Point& b) noexcept { return {a.x - 
 
 inline double cross(const Point& a, const Point& b) noexcept { return a.x * b.y - a.y * b.x; }
 
-// Also where the squares overflow or vanish.
+// Whether the squares have neither overflowed nor vanished.
+inline bool is_in_range_of_squares(double squares) noexcept {
+    return squares > 0x1p-900 && squares < 0x1p1000;
+}
+
 inline double norm(const Point& a) noexcept {
     const double squares = a.x * a.x + a.y * a.y;
-    return squares > 0x1p-900 && squares < 0x1p1000 ? std::sqrt(squares) : std::hypot(a.x, a.y);
+    return is_in_range_of_squares(squares) ? std::sqrt(squares) : std::hypot(a.x, a.y);
 }
 
 // a + h (b - a), and b itself for h = 1.

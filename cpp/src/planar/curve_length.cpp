@@ -24,15 +24,20 @@ namespace {
 using curves::RangeScale;
 using runtime::Poller;
 
-using Largest = std::array<double, 2>;  // |x| and |y|
+using Pair = std::array<double, 2>;  // what belongs to x and to y
 
-Largest largest_of_all(const CurveView& curve, Poller& poller) {
-    Largest largest{};
-    poller.in_runs(curve.size(), 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-        double x = largest[0], y = largest[1];  // in registers, in the loop
-        for (std::ptrdiff_t i = first; i < end; ++i) {
-            x = std::max(x, std::abs(curve(i, 0)));
-            y = std::max(y, std::abs(curve(i, 1)));
+// Not std::max, which takes references: gcc then keeps what grows in memory.
+double larger(double a, double b) noexcept { return a < b ? b : a; }
+
+// The largest |x| and |y|.
+Pair largest_of_all(const CurveView& curve, Poller& poller) {
+    Pair largest{std::abs(curve(0, 0)), std::abs(curve(0, 1))};
+    const std::ptrdiff_t odd = curve.size() % 2;  // then the rest is pairs of points
+    poller.in_runs(curve.size() / 2, 2, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        auto [x, y] = largest;  // two at a time, of which only one waits for those before
+        for (std::ptrdiff_t i = odd + 2 * first; i < odd + 2 * end; i += 2) {
+            x = larger(x, larger(std::abs(curve(i, 0)), std::abs(curve(i + 1, 0))));
+            y = larger(y, larger(std::abs(curve(i, 1)), std::abs(curve(i + 1, 1))));
         }
         largest = {x, y};
     });
@@ -40,14 +45,23 @@ Largest largest_of_all(const CurveView& curve, Poller& poller) {
 }
 
 // The arc lengths after dividing each coordinate by the curve's own largest magnitude.
-std::vector<double> relative_arc_lengths(const CurveView& curve, Largest largest, Poller& poller) {
+std::vector<double> relative_arc_lengths(const CurveView& curve, Pair largest, Poller& poller) {
     for (double& value : largest) {
         if (value == 0.0) value = 1e-15;
     }
-    const auto scaled = [&](std::ptrdiff_t i) -> curves::Point {
-        return {curve(i, 0) / largest[0], curve(i, 1) / largest[1]};
-    };
-    return curves::summed_lengths(curve.size(), poller, scaled);
+    using curves::EdgeBlock;
+    return curves::summed_edges(curve.size(), poller, [&](std::ptrdiff_t first, EdgeBlock& edges) {
+        std::array<double, EdgeBlock::size + 1> x, y;
+        for (std::size_t k = 0; k <= edges.count; ++k) {
+            const std::ptrdiff_t i = first + static_cast<std::ptrdiff_t>(k);
+            x[k] = curve(i, 0);
+            y[k] = curve(i, 1);
+        }
+        for (std::size_t k = 0; k <= edges.count; ++k) x[k] /= largest[0];
+        for (std::size_t k = 0; k <= edges.count; ++k) y[k] /= largest[1];
+        for (std::size_t k = 0; k < edges.count; ++k) edges.x[k] = x[k + 1] - x[k];
+        for (std::size_t k = 0; k < edges.count; ++k) edges.y[k] = y[k + 1] - y[k];
+    });
 }
 
 // For each point of P, at arc length s, calls visit(i, segment, fraction) for the place on Q at the
@@ -87,14 +101,10 @@ class Coordinate {
     double largest() const noexcept { return largest_; }
     const RangeScale& range() const noexcept { return range_; }
 
-    // Of P's point i and the place on segment k of Q.
-    double residual(std::ptrdiff_t i, std::ptrdiff_t k, double fraction,
-                    double divisor) const noexcept {
+    // From P's point i to the place on segment k of Q.
+    double difference(std::ptrdiff_t i, std::ptrdiff_t k, double fraction) const noexcept {
         const double a = q(k), b = q(k + 1);
-        const double at = fraction == 1.0 ? b : a + fraction * (b - a);
-        const double relative = std::abs((at - p(i)) / divisor);
-        return std::log1p(std::isnan(relative) ? std::numeric_limits<double>::infinity()
-                                               : relative);
+        return (fraction == 1.0 ? b : a + fraction * (b - a)) - p(i);
     }
 
    private:
@@ -105,47 +115,70 @@ class Coordinate {
     double largest_;
 };
 
-// The sum of value(p) over P's points.
-template <class Value>
-double sum_over(const Coordinate& x, Poller& poller, Value value) {
-    double sum = 0.0;
-    poller.in_runs(x.size(), 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-        double so_far = sum;  // in a register, in the loop
-        for (std::ptrdiff_t i = first; i < end; ++i) so_far += value(x.p(i));
-        sum = so_far;
-    });
-    return sum;
-}
-
-// What differences in one coordinate are divided by.
-double coordinate_scale(const Coordinate& x, LengthScale scale, const std::string& what,
-                        Poller& poller) {
-    const auto n = static_cast<double>(x.size());
-    const double largest = x.largest();
-    const std::string name = x.name();
+// Throws where differences in one coordinate cannot be divided by its scale.
+void refuse_nothing_to_divide_by(const Coordinate& x, LengthScale scale, double value,
+                                 const std::string& what) {
+    const char* const name = x.name();
     if (scale == LengthScale::mean) {
-        const double mean = sum_over(x, poller, [](double value) { return value; }) / n;
-        if (std::abs(mean) > n * std::numeric_limits<double>::epsilon() * largest) return mean;
+        const double rounding =
+            static_cast<double>(x.size()) * std::numeric_limits<double>::epsilon();
+        if (std::abs(value) > rounding * x.largest()) return;
         throw std::invalid_argument("the mean of " + what + "'s " + name +
                                     " is 0 to rounding; use scale='mean_abs' or scale='range'");
     }
-    if (largest == 0.0) {
+    if (x.largest() == 0.0) {
         throw std::invalid_argument(
             what + "'s " + name + " is 0 throughout, which leaves nothing to divide by; " +
             "add the same constant to " + name + " of both curves and use scale='mean_abs'");
     }
-    if (scale == LengthScale::mean_abs) {
-        return sum_over(x, poller, [](double value) { return std::abs(value); }) / n;
-    }
+    if (scale == LengthScale::mean_abs || value > 0.0) return;
+    throw std::invalid_argument("the range of " + what + "'s " + name +
+                                " is 0; use scale='mean' or scale='mean_abs'");
+}
+
+// The sums of value(p) over P's points.
+template <class Value>
+Pair sums_over(const Coordinate& x, const Coordinate& y, Poller& poller, Value value) {
+    Pair sums{};
+    poller.in_runs(x.size(), 1, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+        auto [of_x, of_y] = sums;  // in registers, in the loop
+        for (std::ptrdiff_t i = first; i < end; ++i) {
+            of_x += value(x.p(i));
+            of_y += value(y.p(i));
+        }
+        sums = {of_x, of_y};
+    });
+    return sums;
+}
+
+// The largest p less the least.
+double range_of(const Coordinate& x, Poller& poller) {
     double low = x.p(0), high = low;
     for (std::ptrdiff_t i = 0; i < x.size(); ++i) {
         poller.poll_in_loop(static_cast<std::size_t>(i));
         low = std::min(low, x.p(i));
         high = std::max(high, x.p(i));
     }
-    if (high > low) return high - low;
-    throw std::invalid_argument("the range of " + what + "'s " + name +
-                                " is 0; use scale='mean' or scale='mean_abs'");
+    return high - low;
+}
+
+// What differences in x and in y are divided by; `what` names P.
+Pair scales(const Coordinate& x, const Coordinate& y, LengthScale scale, const std::string& what,
+            Poller& poller) {
+    const auto n = static_cast<double>(x.size());
+    Pair values{};
+    if (scale == LengthScale::range) {
+        values = {range_of(x, poller), range_of(y, poller)};
+    } else {
+        const auto [of_x, of_y] =
+            scale == LengthScale::mean
+                ? sums_over(x, y, poller, [](double p) { return p; })
+                : sums_over(x, y, poller, [](double p) { return std::abs(p); });
+        values = {of_x / n, of_y / n};
+    }
+    refuse_nothing_to_divide_by(x, scale, values[0], what);
+    refuse_nothing_to_divide_by(y, scale, values[1], what);
+    return values;
 }
 
 // The first of the points whose coordinate has the largest magnitude.
@@ -191,6 +224,23 @@ void add_scale_gradient(const Coordinate& x, LengthScale scale, double by_scale,
     gradient[2 * low] -= x.range().shrink(by_scale);
 }
 
+// Differences that are divided side by side: two quotients take little longer than one.
+struct DifferenceBlock {
+    static constexpr std::size_t size = 16;
+
+    std::array<double, size> x, y;
+    std::size_t count = 0;
+
+    void add(double in_x, double in_y) noexcept {
+        x[count] = in_x;
+        y[count++] = in_y;
+    }
+    void divide_by(const Pair& scales) noexcept {
+        for (std::size_t k = 0; k < count; ++k) x[k] /= scales[0];
+        for (std::size_t k = 0; k < count; ++k) y[k] /= scales[1];
+    }
+};
+
 class CurveLengthMeasure : public pairwise::LinearMeasure {
    public:
     struct Side {
@@ -201,7 +251,7 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
             curves::check_length(curve.curve, curve.name, CurveLengthOptions::measure, poller);
         }
         curves::CheckedCurve checked;
-        Largest largest;
+        Pair largest;                     // |x| and |y|
         std::vector<double> arc_lengths;  // after dividing by its largest |x| and |y|
     };
     using PreparedP = Side;
@@ -213,11 +263,7 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
     }
 
     // Throws where there is nothing to divide by.
-    void check_p(const PreparedP& P, Poller& poller) const {
-        for (std::ptrdiff_t c = 0; c < 2; ++c) {
-            coordinate_scale(coordinate(P, P, c), options_.scale, P.checked.name, poller);
-        }
-    }
+    void check_p(const PreparedP& P, Poller& poller) const { scales_of(P, P, poller); }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
                       const pairwise::Call<Memory>& call) const {
@@ -254,9 +300,10 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
         std::optional<curves::ArcGradient> by_arc, by_own_arc;
         if (out.by_q != nullptr) by_arc.emplace(Q.arc_lengths);
         if (out.by_p != nullptr) by_own_arc.emplace(P.arc_lengths);
+        const Pair by = scales_of(P, Q, call.poller);
         for (std::ptrdiff_t c = 0; c < 2; ++c) {
             const Coordinate x = coordinate(P, Q, c);
-            const double scale = coordinate_scale(x, options_.scale, P.checked.name, call.poller);
+            const double scale = by[static_cast<std::size_t>(c)];
             double by_scale = 0.0;
             const auto add = [&](std::ptrdiff_t i, std::ptrdiff_t k, double fraction) {
                 const double edge = x.q(k + 1) - x.q(k);
@@ -297,18 +344,38 @@ class CurveLengthMeasure : public pairwise::LinearMeasure {
         return {P.checked.curve, Q.checked.curve, c, P.largest[at], Q.largest[at]};
     }
 
+    Pair scales_of(const Side& P, const Side& Q, Poller& poller) const {
+        return scales(coordinate(P, Q, 0), coordinate(P, Q, 1), options_.scale, P.checked.name,
+                      poller);
+    }
+
     // Calls visit(x, y) for one point of P after the other.
     template <class Visit>
     void for_each_residual(const PreparedP& P, const PreparedQ& Q, Poller& poller,
                            Visit visit) const {
         const Coordinate x = coordinate(P, Q, 0), y = coordinate(P, Q, 1);
-        const double by_x = coordinate_scale(x, options_.scale, P.checked.name, poller);
-        const double by_y = coordinate_scale(y, options_.scale, P.checked.name, poller);
+        const Pair by = scales_of(P, Q, poller);
+        DifferenceBlock differences;
+        const auto visit_all = [&] {
+            differences.divide_by(by);
+            for (std::size_t k = 0; k < differences.count; ++k) {
+                visit(residual(differences.x[k]), residual(differences.y[k]));
+            }
+            differences.count = 0;
+        };
         for_each_place(P.arc_lengths, Q.arc_lengths, poller,
                        [&](std::ptrdiff_t i, std::ptrdiff_t k, double fraction) {
-                           visit(x.residual(i, k, fraction, by_x),
-                                 y.residual(i, k, fraction, by_y));
+                           differences.add(x.difference(i, k, fraction),
+                                           y.difference(i, k, fraction));
+                           if (differences.count == DifferenceBlock::size) visit_all();
                        });
+        visit_all();
+    }
+
+    // inf - inf is infinitely far, too.
+    static double residual(double relative) noexcept {
+        return std::log1p(std::isnan(relative) ? std::numeric_limits<double>::infinity()
+                                               : std::abs(relative));
     }
 
     CurveLengthOptions options_;
