@@ -29,9 +29,10 @@ kernels::Output output_of(const Destination& destination, const LiveColumns& col
 
 kernels::AdvanceFunction resident_advance(const SweepProblem& problem, const Region& region,
                                           kernels::Output output) noexcept {
+    const bool has_roots = problem.cost.metric == Metric::euclidean;
+    const std::ptrdiff_t least = has_roots ? 7 * problem.resident_from / 4 : problem.resident_from;
     if (output != kernels::Output::boundary_only || problem.columns.is_limited() ||
-        problem.columns.cost_to_go() != nullptr ||
-        std::min(region.rows, region.columns) < problem.resident_from) {
+        problem.columns.cost_to_go() != nullptr || std::min(region.rows, region.columns) < least) {
         return nullptr;
     }
     return problem.kernels.resident(problem.recurrence, problem.cost, problem.curves.dim());

@@ -74,8 +74,9 @@ struct SweepProblem {
     double give_up_above = std::numeric_limits<double>::infinity();
     // Regions of which no side is shorter are swept in registers where that can be. The ramps at
     // both ends of such a strip are as long as it is tall, and all lanes are computed there: with
-    // fewer rows or columns that takes more than it saves.
-    std::ptrdiff_t resident_from = 192;
+    // fewer rows or columns that takes more than it saves. Beside roots loads weigh less: seven
+    // quarters of it there.
+    std::ptrdiff_t resident_from = 128;
     // Where the cost is the caller's own, in one thread.
     const BlockDistances* own = nullptr;
 };

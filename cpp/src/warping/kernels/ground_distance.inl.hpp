@@ -62,8 +62,9 @@ struct EuclideanCost : SquaredCost<dim> {
 };
 
 // By both kinds of root (see each_mixed_root) in the plane: in space loads are the limit, and more
-// is lost than gained. Fewer rows do not last long enough for more than a few per cent.
-constexpr std::ptrdiff_t min_rows_of_mixed_roots = 112;
+// is lost than gained. Fewer rows do not last long enough for more than a few per cent; where the
+// fast root is as good as the divider, there is nothing to wait for before the first gain.
+constexpr std::ptrdiff_t min_rows_of_mixed_roots = multiplies_roots ? 32 : 112;
 
 struct MixedEuclideanCost : SquaredCost<2> {
     using SquaredCost<2>::SquaredCost;

@@ -56,7 +56,7 @@ class FastRoot {
     Pack x_, y_;
 };
 using UniformRoot = FastRoot;
-constexpr bool mixes_roots = false;
+constexpr bool mixes_roots = true;
 constexpr bool multiplies_roots = true;  // faster than by the divider alone
 
 #elif defined(__AVX2__) && defined(__FMA__)
@@ -109,13 +109,25 @@ constexpr bool multiplies_roots = false;
 
 #endif
 
-// Calls use(k, root) of the vectors of lanes low to high, given squares(k) of each: one of four
-// takes the fast root, three the divider, so that both are busy. The next fast root is begun
-// before this one is finished: a processor does not hold as many instructions as it would take to
-// find that by itself, and would wait for each chain of multiplications.
+// Calls use(k, root) of the vectors of lanes low to high, given squares(k) of each: every second
+// one takes the fast root, so that the divider is busy too.
 template <class Squares, class Use>
-void each_mixed_root(std::ptrdiff_t low, std::ptrdiff_t high, const Squares& squares,
-                     const Use& use) noexcept {
+void each_second_root_fast(std::ptrdiff_t low, std::ptrdiff_t high, const Squares& squares,
+                           const Use& use) noexcept {
+    std::ptrdiff_t k = low;
+    for (; k + width <= high; k += 2 * width) {
+        use(k, DividerRoot::of(squares(k)));
+        use(k + width, FastRoot::of(squares(k + width)));
+    }
+    if (k <= high) use(k, FastRoot::of(squares(k)));
+}
+
+// The same where the fast root alone is no faster than the divider: one of four takes it. The next
+// fast root is begun before this one is finished: a processor does not hold as many instructions as
+// it would take to find that by itself, and would wait for each chain of multiplications.
+template <class Squares, class Use>
+void each_fourth_root_fast(std::ptrdiff_t low, std::ptrdiff_t high, const Squares& squares,
+                           const Use& use) noexcept {
     constexpr std::ptrdiff_t together = 4 * width;
     std::ptrdiff_t k = low;
     if (high - low < 4 * together) {  // too few to come between the steps of a fast root
@@ -136,4 +148,14 @@ void each_mixed_root(std::ptrdiff_t low, std::ptrdiff_t high, const Squares& squ
         begun = next;
     }
     finish(high + 1);
+}
+
+template <class Squares, class Use>
+void each_mixed_root(std::ptrdiff_t low, std::ptrdiff_t high, const Squares& squares,
+                     const Use& use) noexcept {
+    if constexpr (multiplies_roots) {
+        each_second_root_fast(low, high, squares, use);
+    } else {
+        each_fourth_root_fast(low, high, squares, use);
+    }
 }
