@@ -29,13 +29,15 @@ kernels::Output output_of(const Destination& destination, const LiveColumns& col
 
 kernels::AdvanceFunction resident_advance(const SweepProblem& problem, const Region& region,
                                           kernels::Output output) noexcept {
-    const bool has_roots = problem.cost.metric == Metric::euclidean;
-    const std::ptrdiff_t least = has_roots ? 7 * problem.resident_from / 4 : problem.resident_from;
+    const std::ptrdiff_t shorter_side = problem.is_always_resident
+                                            ? std::numeric_limits<std::ptrdiff_t>::max()
+                                            : std::min(region.rows, region.columns);
     if (output != kernels::Output::boundary_only || problem.columns.is_limited() ||
-        problem.columns.cost_to_go() != nullptr || std::min(region.rows, region.columns) < least) {
+        problem.columns.cost_to_go() != nullptr || shorter_side < kernels::resident_rows) {
         return nullptr;
     }
-    return problem.kernels.resident(problem.recurrence, problem.cost, problem.curves.dim());
+    return problem.kernels.resident(problem.recurrence, problem.cost, problem.curves.dim(),
+                                    shorter_side);
 }
 
 std::ptrdiff_t strip_height(const SweepProblem& problem, const Region& region,

@@ -72,11 +72,8 @@ struct SweepProblem {
     std::ptrdiff_t cells_per_worker = std::ptrdiff_t{1} << 22;
     // In one thread, a sweep of the whole table ends where all values of a row are above this.
     double give_up_above = std::numeric_limits<double>::infinity();
-    // Regions of which no side is shorter are swept in registers where that can be. The ramps at
-    // both ends of such a strip are as long as it is tall, and all lanes are computed there: with
-    // fewer rows or columns that takes more than it saves. Beside roots loads weigh less: seven
-    // quarters of it there.
-    std::ptrdiff_t resident_from = 128;
+    // In registers where that can be, as regions that are large enough are: for tests.
+    bool is_always_resident = false;
     // Where the cost is the caller's own, in one thread.
     const BlockDistances* own = nullptr;
 };

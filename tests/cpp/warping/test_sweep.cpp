@@ -71,7 +71,7 @@ class Comparison {
             problem.workers = setup_.workers;
             problem.cells_per_worker = cells_per_worker;
             check_bottom(last_row(problem));
-            problem.resident_from = 1;
+            problem.is_always_resident = true;
             check_bottom(last_row(problem));
             check_table(problem);
             if (setup_.is_exact()) check_narrowed(problem);

@@ -193,11 +193,22 @@ void advance_resident(Strip& strip, std::ptrdiff_t end, CostFunction) noexcept {
     strip.next_diagonal = end;
 }
 
+// The ramps at both ends of a strip are as long as it is tall, and all lanes are computed there,
+// as are the rows that the last strip lacks: that takes more than it saves where the shorter side
+// has fewer points, by measurement. Beside roots in the plane loads weigh less.
+constexpr std::ptrdiff_t least_side = width > 4 ? 128 : 192;
+constexpr std::ptrdiff_t least_side_of_roots(std::ptrdiff_t dim) noexcept {
+    return dim == 2 ? 224 : 192;
+}
+
 // Null where it is no faster: with vectors of two lanes, whose registers are too few for the values
 // of 32 rows; of roots, without multiplications in the place of the divider, which is the limit.
 template <class Rule>
-AdvanceFunction select_resident_of(Cost cost, std::ptrdiff_t dim) noexcept {
-    if (cost.is_own) return nullptr;
+AdvanceFunction select_resident_of(Cost cost, std::ptrdiff_t dim,
+                                   std::ptrdiff_t shorter_side) noexcept {
+    const bool has_roots = cost.metric == Metric::euclidean;
+    const std::ptrdiff_t least = has_roots ? least_side_of_roots(dim) : least_side;
+    if (cost.is_own || shorter_side < least) return nullptr;
     if constexpr (width > 2) {
         if (cost.metric == Metric::cityblock && dim == 1) {
             return advance_resident<Rule, ResidentAbsolutes, 1>;
@@ -217,14 +228,15 @@ AdvanceFunction select_resident_of(Cost cost, std::ptrdiff_t dim) noexcept {
     return nullptr;
 }
 
-AdvanceFunction select_resident(Recurrence recurrence, Cost cost, std::ptrdiff_t dim) noexcept {
+AdvanceFunction select_resident(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
+                                std::ptrdiff_t shorter_side) noexcept {
     switch (recurrence) {
         case Recurrence::dtw_symmetric1:
-            return select_resident_of<DtwSymmetric1>(cost, dim);
+            return select_resident_of<DtwSymmetric1>(cost, dim, shorter_side);
         case Recurrence::dtw_symmetric2:
-            return select_resident_of<DtwSymmetric2>(cost, dim);
+            return select_resident_of<DtwSymmetric2>(cost, dim, shorter_side);
         case Recurrence::frechet:
             break;
     }
-    return select_resident_of<DiscreteFrechet>(cost, dim);
+    return select_resident_of<DiscreteFrechet>(cost, dim, shorter_side);
 }

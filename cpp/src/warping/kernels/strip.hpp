@@ -112,8 +112,10 @@ struct KernelSet {
     AdvanceFunction (*advance)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
                                Output output) noexcept;
     // The same for strips of at most resident_rows rows, which hold all of their columns, where the
-    // bottom row is all that is wanted. Null where it is no faster.
-    AdvanceFunction (*resident)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim) noexcept;
+    // bottom row is all that is wanted. Null where it is no faster, of a region whose shorter side
+    // this is.
+    AdvanceFunction (*resident)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
+                                std::ptrdiff_t shorter_side) noexcept;
     CostFunction (*fill)(Cost cost) noexcept;
     // Null for a ground distance without bounds.
     ReachFunction (*reach)(Metric metric, std::ptrdiff_t dim) noexcept;
