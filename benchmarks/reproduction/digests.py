@@ -39,6 +39,7 @@ CALIBRATION = PACKAGE / "calibration"
 SEARCH = (
     HERE / "studies.py",
     CALIBRATION / "identify.py",
+    CALIBRATION / "methods" / "endings.py",
     CALIBRATION / "methods" / "method.py",
     CALIBRATION / "methods" / "search.py",
     CALIBRATION / "problem" / "evaluations.py",

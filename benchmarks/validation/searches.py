@@ -55,10 +55,21 @@ CHOSEN_ON, SHOWN = ("eddq-5", "eddq-3", "random"), ("dp780", "tr1180", "structur
 MEASURES = ("area", "dtw", "frechet", "pcm", "curve_length", "sum_of_squares")
 
 
+def whole_test(name: str) -> np.ndarray:
+    """Return all rows of a test."""
+    file, columns, factors, *_ = TESTS[name]
+    return read_curve(DATA / file, columns=columns) * factors
+
+
+def driven_model(name: str, test: np.ndarray) -> Any:
+    """Return the model of a test's metal, driven by the strains of a curve."""
+    return ChabocheVoce(backstresses=TESTS[name][4]).driven_by(test)
+
+
 def problem(name: str) -> tuple[Any, np.ndarray, dict[str, Any]]:
     """Return model, test and bounds."""
-    file, columns, factors, modulus, backstresses = TESTS[name]
-    whole = read_curve(DATA / file, columns=columns) * factors
+    *_, modulus, backstresses = TESTS[name]
+    whole = whole_test(name)
     test = whole[:: max(1, len(whole) // POINTS)]
     S = float(np.abs(test[:, 1]).max())
     bounds = {
@@ -72,7 +83,7 @@ def problem(name: str) -> tuple[Any, np.ndarray, dict[str, Any]]:
         "gamma2": Log(1.0, 100.0),
         **({"C3": (0.0, 5.0 * S), "gamma3": 0.0} if backstresses == 3 else {}),
     }
-    return ChabocheVoce(backstresses=backstresses).driven_by(test), test, bounds
+    return driven_model(name, test), test, bounds
 
 
 Search = Callable[[Any, np.ndarray, dict[str, Any], str, int], dict[str, Any]]
@@ -147,10 +158,15 @@ REFERENCES: dict[str, Search] = {
 }
 
 
-def searched(task: tuple[str, str, str, int]) -> dict[str, Any]:
-    """Search once; return what came of it, its values as the steps of the best."""
+def say_nothing() -> None:
+    """Leave out what a search logs, and warns of."""
     logging.getLogger("curvewise.calibration").setLevel(logging.ERROR)
     warnings.simplefilter("ignore")
+
+
+def searched(task: tuple[str, str, str, int]) -> dict[str, Any]:
+    """Search once; return what came of it, its values as the steps of the best."""
+    say_nothing()
     name, measure, label, seed = task
     done = (METHODS | REFERENCES)[label](*problem(name), measure, seed)
     values = np.minimum.accumulate(done.pop("values"))

@@ -19,6 +19,7 @@ from ...curves.inputs import Array
 from ..models.pool import Outcome
 from ..problem.ledger import Course, Finish, Ledger, SearchEndedError
 from ..records.evaluation import Evaluation, Point, as_records
+from .endings import judged_end
 
 __all__ = ["Answer", "OpenSearch"]
 
@@ -191,7 +192,10 @@ class OpenSearch:
                     self._units = self._course.send(self._ledger.known(self._units))
                 self._batch = self._ledger.missing(self._units)
         except StopIteration as end:
-            self._finish = end.value
+            self._end(end.value)
         except SearchEndedError as end:
-            self._finish = Finish(False, str(end))
+            self._end(Finish(False, str(end)))
             self._course.close()
+
+    def _end(self, finish: Finish) -> None:
+        self._finish = judged_end(finish, self._ledger, self._ledger.best_simulations())

@@ -9,10 +9,11 @@ from typing import Any, NamedTuple
 from ..._extras import required
 from ..problem.details import details_of
 from ..problem.evaluations import Evaluations, Progress
-from ..problem.ledger import Finish, Ledger, SearchEndedError
+from ..problem.ledger import Finish, SearchEndedError
 from ..problem.problem import Problem
 from ..records.recorder import Recorder
 from ..surfaces.nearby_runs import Run
+from .endings import judged_end
 from .method import Method
 
 __all__ = ["EndedSearch", "Plan", "run_search"]
@@ -76,29 +77,10 @@ def run_search(problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()) -
                 finish = evaluations.driven(plan.method.staged(evaluations, start, plan.seed))
             except SearchEndedError as end:
                 finish = Finish(False, str(end))
-            finish = _within_bounds(finish, evaluations, problem)
             evaluations.show()
         simulations = evaluations.best_simulations()
+    finish = judged_end(finish, evaluations, simulations)
     return EndedSearch(evaluations, finish, simulations, simulator.runs, recorder)
-
-
-def _within_bounds(finish: Finish, ledger: Ledger, problem: Problem) -> Finish:
-    """Take back "converged" where bounds stopped the search: the minimum is beyond them.
-
-    A limit is meant: nothing lies beyond.
-    """
-    if not finish.converged:
-        return finish
-    parameters = problem.space.dictionary(ledger.best.point)
-    limits = problem.space.at_limits(parameters)
-    stopped = [
-        f"{name} is at its {side} bound"
-        for name, side in problem.space.at_bounds(parameters).items()
-        if name not in limits
-    ]
-    if not stopped:
-        return finish
-    return Finish(False, f"{', '.join(stopped)}: widen it if it is not meant ({finish.message})")
 
 
 def _settings(problem: Problem, plan: Plan) -> dict[str, Any]:

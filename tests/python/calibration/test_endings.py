@@ -1,0 +1,91 @@
+"""What is said of a search's end besides what its method says."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from test_methods import quiet_identify
+
+from curvewise import frechet
+from curvewise.calibration import Criterion, Problem, TrustRegion
+
+X = np.linspace(0.0, 1.0, 21)
+OFFSET = {"offset": (-5.0, 5.0)}
+
+
+def arch(p: dict[str, float], x: np.ndarray[Any, Any] = X) -> np.ndarray[Any, Any]:
+    """Return a line that is bent, which no offset takes back: at best half of 0.16 is left."""
+    return np.column_stack((x, x + 0.64 * x * (1.0 - x) + p["offset"]))
+
+
+def line(count: int) -> np.ndarray[Any, Any]:
+    x = np.linspace(0.0, 1.0, count)
+    return np.column_stack((x, x))
+
+
+def test_steps_that_are_longer_than_the_distance_are_counted():
+    test = np.delete(line(9), 4, axis=0)  # steps of 0.18, one of them 0.35
+    found = quiet_identify(arch, test, OFFSET, measure="frechet", max_runs=40)
+    assert 0.05 < found.value < 0.17
+    assert found.value == pytest.approx(frechet(test, arch(found.parameters)))
+    steps = np.linalg.norm(np.diff(test, axis=0), axis=1)
+    count = int(np.sum(steps > found.value))
+    assert count == 7
+    said = f"; {count} steps of the test are one to four times as long as the distance, so that "
+    assert said in found.message
+    assert found.message.endswith(
+        "resample it evenly (curvewise.curves.resample), so finely that none is"
+    )
+
+
+def test_steps_of_several_tests_are_counted_together():
+    def arches(p):
+        return [arch(p), arch(p)]
+
+    found = quiet_identify(arches, [line(9), line(81)], OFFSET, measure="frechet", max_runs=40)
+    assert "; 8 steps of the tests are one to four times as long as the distance" in found.message
+    assert "resample them evenly" in found.message
+
+
+@pytest.mark.parametrize(
+    ("test", "options"),
+    [
+        pytest.param(line(81), {"measure": "frechet"}, id="short steps"),
+        pytest.param(line(9), {"measure": "area"}, id="a measure that does not couple points"),
+        pytest.param(line(9), {"measure": Criterion("frechet", metric="cityblock")}, id="options"),
+        pytest.param(arch({"offset": 0.5}), {"measure": "frechet"}, id="a perfect fit"),
+    ],
+)
+def test_nothing_is_said_of_steps(test, options):
+    found = quiet_identify(arch, test, OFFSET, max_runs=40, **options)
+    assert "steps of the test" not in found.message
+
+
+def test_one_step_of_raw_curves():
+    """Raw curves have steps in their own units."""
+    test = np.array([(0.0, 0.0), (0.0, 10.0), (0.0, 11.0)])
+
+    def points(p):
+        return test + np.array((p["right"], 0.0))
+
+    bounds = {"right": (4.0, 9.0)}
+    criterion = Criterion("frechet", preset="raw")
+    found = quiet_identify(points, test, bounds, measure=criterion, max_runs=20)
+    assert found.value == pytest.approx(4.0)
+    assert "; 1 step of the test is one to four times as long as the distance" in found.message
+
+
+def test_whoever_asks_and_tells_hears_the_same():
+    bounds = {"offset": (0.7, 5.0)}
+    problem = Problem.of(arch({"offset": 0.5}), bounds)
+    search = TrustRegion().begin(problem)
+    while not search.ended:
+        for parameters in search.ask():
+            search.tell(parameters, arch(parameters))
+    answer = search.answer()
+    assert not answer.converged
+    assert answer.message.startswith("offset is at its lower bound: widen it if it is not meant (")
+    found = quiet_identify(arch, arch({"offset": 0.5}), bounds)
+    assert (found.converged, found.message) == (answer.converged, answer.message)
