@@ -61,7 +61,7 @@ def searched(task: tuple[int, str, str]) -> Found:
         progress=False,
     )
     whole = searches.whole_test(name)
-    (curve,) = np.reshape(searches.driven_model(name, whole)(found.parameters), (1, *whole.shape))
+    curve = np.reshape(searches.driven_model(name, whole)(found.parameters), whole.shape)
     box = np.ptp(whole, axis=0)
     values = np.minimum.accumulate(found.history.value)
     return Found(

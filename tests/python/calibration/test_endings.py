@@ -13,11 +13,12 @@ from curvewise.calibration import Criterion, Problem, TrustRegion
 
 X = np.linspace(0.0, 1.0, 21)
 OFFSET = {"offset": (-5.0, 5.0)}
+WAVE = np.outer(np.sin(2.0 * np.pi * X), (0.0, 1e-3))
 
 
-def arch(p: dict[str, float], x: np.ndarray[Any, Any] = X) -> np.ndarray[Any, Any]:
-    """Return a line that is bent, which no offset takes back: at best half of 0.16 is left."""
-    return np.column_stack((x, x + 0.64 * x * (1.0 - x) + p["offset"]))
+def arch(p: dict[str, float]) -> np.ndarray[Any, Any]:
+    """Return a line that is bent by up to 0.16, which no offset takes back."""
+    return np.column_stack((X, X + 0.64 * X * (1.0 - X) + p["offset"]))
 
 
 def line(count: int) -> np.ndarray[Any, Any]:
@@ -53,14 +54,23 @@ def test_steps_of_several_tests_are_counted_together():
     ("test", "options"),
     [
         pytest.param(line(81), {"measure": "frechet"}, id="short steps"),
-        pytest.param(line(9), {"measure": "area"}, id="a measure that does not couple points"),
+        pytest.param(line(9), {"measure": "frechet_continuous"}, id="no coupling of points"),
         pytest.param(line(9), {"measure": Criterion("frechet", metric="cityblock")}, id="options"),
         pytest.param(arch({"offset": 0.5}), {"measure": "frechet"}, id="a perfect fit"),
+        pytest.param(arch({"offset": 0.5}) + WAVE, {"measure": "frechet"}, id="a good fit"),
     ],
 )
 def test_nothing_is_said_of_steps(test, options):
     found = quiet_identify(arch, test, OFFSET, max_runs=40, **options)
     assert "steps of the test" not in found.message
+
+
+def test_steps_of_scaled_curves_are_in_sides_of_the_box():
+    units = np.array((1e-3, 500.0))
+    found = quiet_identify(
+        lambda p: arch(p) * units, line(9) * units, OFFSET, measure="frechet", max_runs=40
+    )
+    assert "; 8 steps of the test are one to four times as long as the distance" in found.message
 
 
 def test_one_step_of_raw_curves():

@@ -62,7 +62,7 @@ class Identification(Result):
     failures : tuple of (int, str)
         Number of every evaluation that failed, and why.
     converged : bool
-        Whether the method met its tolerances.
+        Whether the method met its tolerances, and no bound that was not meant stopped it.
     message : str
         How the search ended.
     method, seed, bounds, measure, preset, part

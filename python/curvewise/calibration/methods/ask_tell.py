@@ -37,7 +37,7 @@ class Answer:
     simulations : object
         What was told of them.
     converged : bool
-        Whether the method met its tolerances.
+        Whether the method met its tolerances, and no bound that was not meant stopped it.
     message : str
         How the search ended.
     history : numpy.recarray

@@ -1,8 +1,8 @@
 """What is said of a search's end besides what its method says: of its bounds, and of its tests.
 
 A method knows its starts and its surfaces. That a bound has stopped it, or that the points of a
-test decide by the discrete Fréchet distance, is the same for all methods. Cost: one evaluation of
-the objective.
+test decide by the discrete Fréchet distance, is the same for all methods. Cost: by that distance
+one evaluation of the objective, otherwise nothing.
 
 T. Eiter, H. Mannila, "Computing discrete Fréchet distance", CD-TR 94/64, TU Wien (1994): the
 discrete distance is up to the longest step of the curves longer than the continuous one.
