@@ -24,9 +24,6 @@ import searches
 
 import curvewise
 from curvewise.calibration import identify
-from curvewise.curves import resample
-
-POINTS = 600  # the most of which a search leaves none out on its surfaces
 
 
 class Found(NamedTuple):
@@ -38,21 +35,13 @@ class Found(NamedTuple):
     to_all_rows: float
 
 
-def sampled(name: str, sampling: str) -> np.ndarray:
-    """Return the test that a search is given."""
-    if sampling == "rows":
-        return searches.problem(name)[1]
-    return resample(searches.whole_test(name), POINTS)
-
-
-def searched(task: tuple[int, str, str]) -> Found:
+def searched(task: tuple[int, str]) -> Found:
     """Search once."""
     searches.say_nothing()
-    seed, name, sampling = task
-    test, bounds = sampled(name, sampling), searches.problem(name)[2]
-    model = searches.Timed(searches.driven_model(name, test), has_slopes=False)
+    seed, name = task
+    model, test, bounds = searches.problem(name)
     found = identify(
-        model,
+        searches.Timed(model, has_slopes=False),
         test,
         bounds,
         measure="frechet",
@@ -81,25 +70,24 @@ def main() -> None:
     """Search and print."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--seeds", type=int, default=2)
-    parser.add_argument("--tests", nargs="+", default=list(searches.TESTS))
+    parser.add_argument("--tests", nargs="+", default=searches.SAMPLED)
     parser.add_argument("--workers", type=int, default=2)
     options = parser.parse_args()
-    samplings = ("rows", "even")
-    tasks = list(itertools.product(range(options.seeds), options.tests, samplings))
+    tasks = list(itertools.product(range(options.seeds), options.tests))
     with ProcessPoolExecutor(options.workers) as pool:
         ends = {}
         for task, found in zip(tasks, pool.map(searched, tasks), strict=True):
             print(*task, found, flush=True)
             ends[task] = found
-    print("| test | sampling | longest step | distances | to all rows, continuous | runs |")
-    print("|---|---|---:|---|---|---|")
-    for name, sampling in itertools.product(options.tests, samplings):
-        of_test = [ends[seed, name, sampling] for seed in range(options.seeds)]
+    print("| test | longest step | distances | to all rows, continuous | runs |")
+    print("|---|---:|---|---|---|")
+    for name in options.tests:
+        of_test = [ends[seed, name] for seed in range(options.seeds)]
         distances = ", ".join(f"{one.distance:.4f}" for one in of_test)
         to_all = ", ".join(f"{one.to_all_rows:.4f}" for one in of_test)
         runs = ", ".join(str(one.within) for one in of_test)
-        step = longest_step(sampled(name, sampling))
-        print(f"| {name} | {sampling} | {step:.3f} | {distances} | {to_all} | {runs} |")
+        step = longest_step(searches.problem(name)[1])
+        print(f"| {name} | {step:.3f} | {distances} | {to_all} | {runs} |")
 
 
 if __name__ == "__main__":

@@ -3,8 +3,10 @@
 A material point (`curvewise.materials.ChabocheVoce`, two back stresses, eight parameters; for the
 cyclic tests of structural steel a third, linear one, nine) is fitted to measured loops of tension
 and compression, each a search of its own, by every measure, from five seeds. Tests are thinned to
-300 points, every so many-th row; the model is driven by their strains. Bounds follow from one
-number, S, the largest stress of the test, and the elastic modulus of the metal:
+300 points, every so many-th row, or, of the same names with "even" behind them, resampled to 600 at
+equal steps along the curve, as a search by frechet asks for where rows are too far apart; the model
+is driven by their strains. Bounds follow from one number, S, the largest stress of the 300 points,
+and the elastic modulus of the metal:
 
     E 0.6 to 1.4 of the modulus, yield 0.05 to 1 S, Q -0.04 to 1 S, b 0.1 to 100 (logarithmic),
     C1 20 to 2000 S, gamma1 20 to 2000, C2 1 to 100 S, gamma2 1 to 100 (all logarithmic),
@@ -16,6 +18,7 @@ that take a thousand runs and more (REFERENCES), which are made once.
 
     python benchmarks/validation/searches.py --seeds 5 --workers 2
     python benchmarks/validation/searches.py --tests eddq-5 --measures area --methods trust-region
+    python benchmarks/validation/searches.py --tests "dp780 even" --measures frechet
 
 Adds what searches.json does not have to it, and writes searches.md.
 """
@@ -36,6 +39,7 @@ from places import DATA, RESULTS
 
 from curvewise import read_curve
 from curvewise.calibration import DifferentialEvolution, Log, TrustRegion, identify
+from curvewise.curves import resample
 from curvewise.materials import ChabocheVoce
 
 POINTS = 300
@@ -51,24 +55,26 @@ TESTS: dict[str, tuple[str, tuple[Any, Any], tuple[float, float], float, int]] =
     "tr1180": ("loops/tr1180_tct_3pct.csv", (1, 2), (1.0, 1.0), STEEL, 2),
     "structural": ("loops/resslab_cyclic_2pct.csv", (1, 2), (1.0, 1.0), STEEL, 3),
 }
+EVEN, EVEN_POINTS = " even", 600  # the most of which a search leaves none out on its surfaces
+SAMPLED = [name + sampling for name in TESTS for sampling in ("", EVEN)]
 CHOSEN_ON, SHOWN = ("eddq-5", "eddq-3", "random"), ("dp780", "tr1180", "structural")
 MEASURES = ("area", "dtw", "frechet", "pcm", "curve_length", "sum_of_squares")
 
 
 def whole_test(name: str) -> np.ndarray:
     """Return all rows of a test."""
-    file, columns, factors, *_ = TESTS[name]
+    file, columns, factors, *_ = TESTS[name.removesuffix(EVEN)]
     return read_curve(DATA / file, columns=columns) * factors
 
 
 def driven_model(name: str, test: np.ndarray) -> Any:
     """Return the model of a test's metal, driven by the strains of a curve."""
-    return ChabocheVoce(backstresses=TESTS[name][4]).driven_by(test)
+    return ChabocheVoce(backstresses=TESTS[name.removesuffix(EVEN)][4]).driven_by(test)
 
 
 def problem(name: str) -> tuple[Any, np.ndarray, dict[str, Any]]:
     """Return model, test and bounds."""
-    *_, modulus, backstresses = TESTS[name]
+    *_, modulus, backstresses = TESTS[name.removesuffix(EVEN)]
     whole = whole_test(name)
     test = whole[:: max(1, len(whole) // POINTS)]
     S = float(np.abs(test[:, 1]).max())
@@ -83,6 +89,8 @@ def problem(name: str) -> tuple[Any, np.ndarray, dict[str, Any]]:
         "gamma2": Log(1.0, 100.0),
         **({"C3": (0.0, 5.0 * S), "gamma3": 0.0} if backstresses == 3 else {}),
     }
+    if name.endswith(EVEN):
+        test = resample(whole, EVEN_POINTS)
     return driven_model(name, test), test, bounds
 
 
@@ -235,7 +243,7 @@ def main() -> None:
     """Search, print, write."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--seeds", type=int, default=5)
-    parser.add_argument("--tests", nargs="+", default=list(SHOWN), choices=list(TESTS))
+    parser.add_argument("--tests", nargs="+", default=list(SHOWN), choices=SAMPLED)
     parser.add_argument("--measures", nargs="+", default=list(MEASURES))
     parser.add_argument("--methods", nargs="+", help="of METHODS and REFERENCES; all if not given")
     parser.add_argument("--workers", type=int, default=2)
