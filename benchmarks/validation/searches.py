@@ -200,7 +200,7 @@ def tasks(options: argparse.Namespace) -> list[tuple[str, str, str, int]]:
 def table(results: dict[str, dict[str, Any]]) -> str:
     """Return how many searches came within 1 % of the best value, after how many runs."""
     by_case: dict[tuple[str, str], dict[str, list[dict[str, Any]]]] = {}
-    for key, result in results.items():
+    for key, result in sorted(results.items()):
         name, measure, label, _ = key.split(" | ")
         by_case.setdefault((name, measure), {}).setdefault(label, []).append(result)
     lines = [
