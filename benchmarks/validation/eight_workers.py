@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
-from searches import LIMIT, SAMPLED, problem
+from searches import LIMIT, TESTS, problem
 
 from curvewise.calibration import Identification, identify
 
@@ -38,7 +38,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--workers", type=int, default=8)
     parser.add_argument("--seconds", type=float, default=1.0, help="of a run")
-    parser.add_argument("--test", default="eddq-5", choices=SAMPLED)
+    parser.add_argument("--test", default="eddq-5", choices=list(TESTS))
     parser.add_argument("--runs", type=int, default=LIMIT)
     options = parser.parse_args()
     model, test, bounds = problem(options.test)

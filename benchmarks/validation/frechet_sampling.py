@@ -70,7 +70,7 @@ def main() -> None:
     """Search and print."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--seeds", type=int, default=2)
-    parser.add_argument("--tests", nargs="+", default=searches.SAMPLED)
+    parser.add_argument("--tests", nargs="+", default=list(searches.TESTS))
     parser.add_argument("--workers", type=int, default=2)
     options = parser.parse_args()
     tasks = list(itertools.product(range(options.seeds), options.tests))

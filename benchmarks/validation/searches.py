@@ -47,7 +47,7 @@ LIMIT = 300  # runs of a search
 STEEL, ALUMINIUM = 205e3, 70e3
 # Of each test: its file, the columns of strain and stress, what strain and stress are multiplied
 # by, the modulus of the metal, and the number of back stresses.
-TESTS: dict[str, tuple[str, tuple[Any, Any], tuple[float, float], float, int]] = {
+_FILES: dict[str, tuple[str, tuple[Any, Any], tuple[float, float], float, int]] = {
     "eddq-5": ("loops/eddq_tct_5pct.csv", (1, 2), (1.0, 1.0), STEEL, 2),
     "eddq-3": ("loops/eddq_tct_3pct.csv", (1, 2), (1.0, 1.0), STEEL, 2),
     "random": ("loops/resslab_random_protocol.csv", (1, 2), (1.0, 1.0), STEEL, 3),
@@ -56,25 +56,25 @@ TESTS: dict[str, tuple[str, tuple[Any, Any], tuple[float, float], float, int]] =
     "structural": ("loops/resslab_cyclic_2pct.csv", (1, 2), (1.0, 1.0), STEEL, 3),
 }
 EVEN, EVEN_POINTS = " even", 600  # the most of which a search leaves none out on its surfaces
-SAMPLED = [name + sampling for name in TESTS for sampling in ("", EVEN)]
+TESTS = {name + sampling: test for name, test in _FILES.items() for sampling in ("", EVEN)}
 CHOSEN_ON, SHOWN = ("eddq-5", "eddq-3", "random"), ("dp780", "tr1180", "structural")
 MEASURES = ("area", "dtw", "frechet", "pcm", "curve_length", "sum_of_squares")
 
 
 def whole_test(name: str) -> np.ndarray:
     """Return all rows of a test."""
-    file, columns, factors, *_ = TESTS[name.removesuffix(EVEN)]
+    file, columns, factors, *_ = TESTS[name]
     return read_curve(DATA / file, columns=columns) * factors
 
 
 def driven_model(name: str, test: np.ndarray) -> Any:
     """Return the model of a test's metal, driven by the strains of a curve."""
-    return ChabocheVoce(backstresses=TESTS[name.removesuffix(EVEN)][4]).driven_by(test)
+    return ChabocheVoce(backstresses=TESTS[name][4]).driven_by(test)
 
 
 def problem(name: str) -> tuple[Any, np.ndarray, dict[str, Any]]:
     """Return model, test and bounds."""
-    *_, modulus, backstresses = TESTS[name.removesuffix(EVEN)]
+    *_, modulus, backstresses = TESTS[name]
     whole = whole_test(name)
     test = whole[:: max(1, len(whole) // POINTS)]
     S = float(np.abs(test[:, 1]).max())
@@ -243,7 +243,7 @@ def main() -> None:
     """Search, print, write."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--seeds", type=int, default=5)
-    parser.add_argument("--tests", nargs="+", default=list(SHOWN), choices=SAMPLED)
+    parser.add_argument("--tests", nargs="+", default=list(SHOWN), choices=list(TESTS))
     parser.add_argument("--measures", nargs="+", default=list(MEASURES))
     parser.add_argument("--methods", nargs="+", help="of METHODS and REFERENCES; all if not given")
     parser.add_argument("--workers", type=int, default=2)
