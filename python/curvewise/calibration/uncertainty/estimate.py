@@ -5,10 +5,10 @@ there and the weight that the measure gives to the point say. For a sum of squar
 linear theory of least squares. A measure that adds up distances rather than their squares has the
 weights of its gradient, and takes, as a median does, pi / 2 of the variance of white noise, and
 pi / 2 log 2 of that of noise that goes on alike (the sums over all lags of an autoregression's
-correlations, and of their arcsines); of white noise the area takes less (`area_noise`). Where the
-residuals' squares add up to more than the likely correlation expects, their sum says how large the
-error is, with Satterthwaite's degrees of freedom, if that makes an interval wider. Cost: two
-evaluations of the residuals a parameter, or one gradient; and that of `correlation_of`.
+correlations, and of their arcsines). Where the residuals' squares add up to more than the likely
+correlation expects, their sum says how large the error is, with Satterthwaite's degrees of freedom,
+if that makes an interval wider. Cost: two evaluations of the residuals a parameter, or one
+gradient; and that of `correlation_of`.
 
 P. J. Huber, "The behavior of maximum likelihood estimates under nonstandard conditions", Proc. 5th
 Berkeley Symp. Math. Stat. Prob. 1 (1967) 221-233; F. E. Satterthwaite, "An approximate distribution
@@ -25,7 +25,6 @@ import numpy as np
 
 from ..._extras import required
 from ...curves.inputs import Array
-from .area_noise import area_scatter
 from .correlation import Correlation, correlation_of, white
 from .noise import Noise
 from .repeats import branches_of_tests
@@ -64,8 +63,8 @@ class Estimate(NamedTuple):
         is given.
     freedom_of_squares : float
         Those of the sum of squares of the residuals, where these go on alike.
-    covariance : ndarray, shape (k, k)
-        Of the place in the unit cube.
+    is_median : bool
+        Whether it is that of distances, and not of their squares.
     """
 
     moves: Array
@@ -75,7 +74,13 @@ class Estimate(NamedTuple):
     correlation: Correlation
     freedom: float
     freedom_of_squares: float
-    covariance: Array
+    is_median: bool
+
+    @property
+    def covariance(self) -> Array:
+        """Of the place in the unit cube, shape (k, k)."""
+        white, alike = (_WHITE, _ALIKE) if self.is_median else (1.0, 1.0)
+        return self.correlation.scatter(self.moves, white, alike)
 
     def quantile(self, level: float) -> float:
         """Return how many standard errors half an interval has.
@@ -124,15 +129,9 @@ def estimate_of(optimum: Optimum, noise: Noise) -> Estimate:
     noticed = np.maximum(values, float(np.sqrt(np.mean(weights**2))))
     moves = weights[:, np.newaxis] * (left / noticed) @ right
     inverse, factors = (right.T / noticed**2) @ right, weights / deviations
-    if objective.is_least_squares:
-        covariance = correlation.scatter(moves)
-    elif correlation.is_white and set(objective.measures) == {"area"}:
-        weighted = weights[:, np.newaxis] * slopes
-        covariance = correlation.variance * area_scatter(moves, weighted, inverse, branches)
-    else:
-        covariance = correlation.scatter(moves, _WHITE, _ALIKE)
+    is_median = not objective.is_least_squares
     return Estimate(
-        moves, slopes, factors, inverse, correlation, freedom, freedom_of_squares, covariance
+        moves, slopes, factors, inverse, correlation, freedom, freedom_of_squares, is_median
     )
 
 
