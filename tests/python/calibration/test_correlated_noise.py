@@ -283,7 +283,7 @@ def test_an_interval_is_as_wide_as_the_likelihood_or_the_squares_say():
     def quantile(excess, freedom=3.0, of_squares=8.0):
         noise = white(branches)._replace(excess=excess)
         given = (nothing, nothing, X, np.eye(3), noise, freedom, of_squares)
-        return Estimate(*given, is_median=False).quantile(0.95)
+        return Estimate(*given, covariance=np.eye(3)).quantile(0.95)
 
     assert quantile(1.0, 37.0, 20.0) == special.stdtrit(37.0, 0.975)
     assert quantile(1.5) == special.stdtrit(3.0, 0.975)

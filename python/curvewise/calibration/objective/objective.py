@@ -85,6 +85,8 @@ class Objective:
         to be a residual of "sum_of_squares".
     is_least_squares : bool
         Whether the value is a weighted sum of squares of `residuals`.
+    is_area_of_pieces : bool
+        Whether it adds up absolute areas of pieces: "area" with ``spacing="matched"``.
     has_function : bool
         Whether a measure is a function of the user's, which cannot be written down.
     has_gradient : bool
@@ -166,6 +168,7 @@ class Objective:
         heights = np.array([term.height for term in terms])
         self.residual_factors: Array = np.sqrt(self.weights) / heights
         self.is_least_squares = all(term.is_least_squares for term in terms)
+        self.is_area_of_pieces = all(term.is_area_of_pieces for term in terms)
         self.has_function = any(callable(term.criterion.measure) for term in terms)
         self.has_gradient = all(term.has_gradient for term in terms)
         self.can_be_thinned = all(term.can_be_thinned for term in terms)

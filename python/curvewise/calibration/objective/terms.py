@@ -135,6 +135,13 @@ class Term(ABC):
         return self.criterion.measure == "sum_of_squares"
 
     @property
+    def is_area_of_pieces(self) -> bool:
+        """Whether the value adds up absolute areas of pieces: area with spacing "matched"."""
+        options = self.criterion.condition.options
+        is_of_pieces = options.get("spacing") == "matched" and not options.get("squared")
+        return self.criterion.measure == "area" and is_of_pieces
+
+    @property
     def settings(self) -> dict[str, Any]:
         """What a record writes down beside the experiment."""
         return {

@@ -87,6 +87,16 @@ class Correlation(NamedTuple):
     branches: Branches
     excess: float = 1.0
 
+    @property
+    def is_white(self) -> bool:
+        """Whether white noise alone is believed."""
+        return all(model.share == 1.0 for model in self.models)
+
+    @property
+    def variance(self) -> float:
+        """In the mean of the models."""
+        return sum(model.probability * model.variance for model in self.models)
+
     def scatter(self, columns: Array, white: float = 1.0, alike: float = 1.0) -> Array:
         """Return columns' V columns for the covariance V of the noise, in the mean of the models.
 

@@ -5,10 +5,11 @@ there and the weight that the measure gives to the point say. For a sum of squar
 linear theory of least squares. A measure that adds up distances rather than their squares has the
 weights of its gradient, and takes, as a median does, pi / 2 of the variance of white noise, and
 pi / 2 log 2 of that of noise that goes on alike (the sums over all lags of an autoregression's
-correlations, and of their arcsines). Where the residuals' squares add up to more than the likely
-correlation expects, their sum says how large the error is, with Satterthwaite's degrees of freedom,
-if that makes an interval wider. Cost: two evaluations of the residuals a parameter, or one
-gradient; and that of `correlation_of`.
+correlations, and of their arcsines); the area of pieces is a median of these, where the noise is
+white (`area_pieces`). Where the residuals' squares add up to more than the likely correlation
+expects, their sum says how large the error is, with Satterthwaite's degrees of freedom, if that
+makes an interval wider. Cost: two evaluations of the residuals a parameter, or one gradient; and
+that of `correlation_of`.
 
 P. J. Huber, "The behavior of maximum likelihood estimates under nonstandard conditions", Proc. 5th
 Berkeley Symp. Math. Stat. Prob. 1 (1967) 221-233; F. E. Satterthwaite, "An approximate distribution
@@ -18,14 +19,16 @@ of estimates of variance components", Biometrics Bull. 2 (1946) 110-114.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from ..._extras import required
 from ...curves.inputs import Array
+from .area_pieces import NoisyCurve, area_scatter
 from .correlation import Correlation, correlation_of, white
+from .moves import moves_of
 from .noise import Noise
 from .repeats import branches_of_tests
 from .sensitivity import Optimum
@@ -63,8 +66,8 @@ class Estimate(NamedTuple):
         is given.
     freedom_of_squares : float
         Those of the sum of squares of the residuals, where these go on alike.
-    is_median : bool
-        Whether it is that of distances, and not of their squares.
+    covariance : ndarray, shape (k, k)
+        Of the place in the unit cube.
     """
 
     moves: Array
@@ -74,13 +77,7 @@ class Estimate(NamedTuple):
     correlation: Correlation
     freedom: float
     freedom_of_squares: float
-    is_median: bool
-
-    @property
-    def covariance(self) -> Array:
-        """Of the place in the unit cube, shape (k, k)."""
-        white, alike = (_WHITE, _ALIKE) if self.is_median else (1.0, 1.0)
-        return self.correlation.scatter(self.moves, white, alike)
+    covariance: Array
 
     def quantile(self, level: float) -> float:
         """Return how many standard errors half an interval has.
@@ -124,15 +121,38 @@ def estimate_of(optimum: Optimum, noise: Noise) -> Estimate:
         freedom = min(float(noise.freedom), max(over, _LEAST_FREEDOM))
         squares = _OF_SQUARES * correlation.independent_squares
         freedom_of_squares = min(float(noise.freedom), max(squares, _LEAST_FREEDOM))
-    left, values, right = np.linalg.svd(weights[:, np.newaxis] * slopes, full_matrices=False)
-    # What no point notices is as uncertain as the bounds are wide, and no more.
-    noticed = np.maximum(values, float(np.sqrt(np.mean(weights**2))))
-    moves = weights[:, np.newaxis] * (left / noticed) @ right
-    inverse, factors = (right.T / noticed**2) @ right, weights / deviations
-    is_median = not objective.is_least_squares
+    moves, inverse = moves_of(weights, slopes)
+    covariance = None
+    if objective.is_least_squares:
+        covariance = correlation.scatter(moves)
+    elif objective.is_area_of_pieces and correlation.is_white:
+        of_pieces = area_scatter(_noisy_curves(optimum, slopes, weights**2, counts))
+        covariance = None if of_pieces is None else correlation.variance * of_pieces
+    if covariance is None:
+        covariance = correlation.scatter(moves, _WHITE, _ALIKE)
+    factors = weights / deviations
     return Estimate(
-        moves, slopes, factors, inverse, correlation, freedom, freedom_of_squares, is_median
+        moves, slopes, factors, inverse, correlation, freedom, freedom_of_squares, covariance
     )
+
+
+def _noisy_curves(
+    optimum: Optimum, slopes: Array, costs: Array, counts: Sequence[int]
+) -> Iterator[NoisyCurve]:
+    """Yield each test with what is fitted to it, at as many points as were measured."""
+    objective = optimum.problem.objective
+    ends = np.cumsum(counts)[:-1]
+    parts = zip(
+        objective.experiments,
+        optimum.curves(optimum.unit),
+        objective.y_columns,
+        np.split(slopes, ends),
+        np.split(costs, ends),
+        strict=True,
+    )
+    for test, curve, y, by_place, cost in parts:
+        fitted = np.column_stack([_at_points(column, len(cost)) for column in curve.T])
+        yield NoisyCurve(test, fitted, y, by_place, float(cost.sum()))
 
 
 def _residual_slopes(optimum: Optimum) -> Array:

@@ -1,0 +1,205 @@
+"""Noise and the area: sums of pieces against kernel and reference, scatter against draws."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy import optimize
+
+import curvewise
+from curvewise.calibration import Criterion, identify
+from curvewise.calibration.objective.objective import Objective
+from curvewise.calibration.uncertainty.area_pieces import (
+    NoisyCurve,
+    area_scatter,
+    sums_of_pieces,
+)
+from curvewise.calibration.uncertainty.estimate import estimate_of
+from curvewise.calibration.uncertainty.moves import moves_of
+from curvewise.calibration.uncertainty.noise import noise_of
+from curvewise.reference.matched_curves import matched_curves
+
+
+def line(count):
+    """Return a straight line that travels two sides of its box: 20 pieces."""
+    x = np.linspace(0.0, 1.0, count)
+    return np.column_stack((x, x))
+
+
+def loop(count):
+    """Return a curve that turns twice, at no point of its own that ends a piece."""
+    x = np.abs(np.mod(np.linspace(0.2, 2.7, count), 2.0) - 1.0)
+    return np.column_stack((x, np.sin(np.linspace(0.0, 7.0, count)) + x))
+
+
+def noisy(curve, slopes, cost=1.0, test=None):
+    return NoisyCurve(curve if test is None else test, curve, 1, slopes, cost)
+
+
+CURVES = {"line": line(47), "loop": loop(160), "few": loop(9), "two": line(2)}
+CURVES["repeated"] = np.repeat(CURVES["loop"], 2, axis=0)
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_pieces_are_those_of_the_measure(name):
+    curve = CURVES[name]
+    sums = sums_of_pieces(curve, curve, 1)
+    assert sums.shape == (len(matched_curves(curve, curve)[2]), len(curve))
+    # Of so little noise the warping path knows nothing.
+    noise = 1e-7 * np.random.default_rng(0).normal(size=len(curve))
+    moved = curve + np.column_stack((np.zeros(len(curve)), noise))
+    expected = curvewise.area(curve, moved, spacing="matched")
+    assert np.abs(sums @ noise).sum() == pytest.approx(expected, rel=1e-4)
+
+
+def test_noise_may_be_in_either_column():
+    curve = CURVES["loop"]
+    turned = sums_of_pieces(curve[:, ::-1], curve[:, ::-1], 0)
+    assert turned.toarray() == pytest.approx(sums_of_pieces(curve, curve, 1).toarray(), abs=1e-15)
+
+
+def test_a_single_point_encloses_nothing():
+    still = np.zeros((5, 2))
+    assert sums_of_pieces(CURVES["loop"], still, 1).nnz == 0
+
+
+def test_of_many_points_a_piece_it_is_a_median_of_twenty_means():
+    curve = line(4001)
+    scatter = area_scatter([noisy(curve, np.ones((4001, 1)))])
+    assert scatter.item() * 4000 == pytest.approx(math.pi / 2.0, rel=0.01)
+
+
+def test_two_tests_tell_twice_as_much_and_one_that_costs_nothing_tells_nothing():
+    one = noisy(line(150), np.column_stack((np.ones(150), np.linspace(-1.0, 1.0, 150))))
+    alone = area_scatter([one])
+    assert area_scatter([one, one]) == pytest.approx(alone / 2.0, rel=1e-12)
+    assert area_scatter([one, one._replace(cost=0.0)]) == pytest.approx(alone, rel=1e-12)
+
+
+def test_units_and_the_cost_of_a_single_test_do_not_matter():
+    slopes = np.random.default_rng(1).normal(size=(160, 3))
+    expected = area_scatter([noisy(CURVES["loop"], slopes)])
+    other = area_scatter([noisy(CURVES["loop"] * (1e-3, 500.0), slopes, cost=7.0)])
+    assert other == pytest.approx(expected, rel=1e-6)  # arcsines near 1
+
+
+def test_fewer_pieces_than_parameters_say_nothing():
+    slopes = np.random.default_rng(2).normal(size=(47, 21))
+    assert area_scatter([noisy(CURVES["line"], slopes)]) is None
+
+
+def test_medians_of_pieces_scatter_so():
+    """A loop's height and two waves: linear programs of 400 draws."""
+    curve, random = CURVES["loop"], np.random.default_rng(3)
+    t = np.linspace(0.0, 1.0, len(curve))
+    slopes = np.column_stack((np.ones(len(t)), np.sin(5.0 * t), np.cos(9.0 * t)))
+    sums = sums_of_pieces(curve, curve, 1)
+    A, one = sums @ slopes, np.eye(sums.shape[0])
+    above = np.block([[A, -one], [-A, -one]])
+    cost, sides = np.r_[np.zeros(3), np.ones(len(A))], [(None, None)] * 3 + [(0.0, None)] * len(A)
+
+    def fitted(noise):
+        right = np.r_[sums @ noise, -(sums @ noise)]
+        return optimize.linprog(cost, A_ub=above, b_ub=right, bounds=sides).x[:3]
+
+    estimates = np.array([fitted(random.normal(size=len(t))) for _ in range(400)])
+    ratio = estimates.var(axis=0) / np.diag(area_scatter([noisy(curve, slopes)]))
+    assert ratio == pytest.approx(np.ones(3), abs=0.25)  # a variance of 400 is known to 7 %
+
+
+def test_estimates_by_the_measure_scatter_so():
+    """The height and the slope of a line, by the compiled area itself, of 300 tests."""
+    curve, random = line(100), np.random.default_rng(4)
+    x = curve[:, 0] - 0.5
+    slopes = np.column_stack((np.ones(100), x))
+    sigma = 0.005
+    scatter = area_scatter([noisy(curve, slopes / sigma)])
+    step = np.sqrt(np.diag(scatter))
+
+    def fitted():
+        test = curve + np.column_stack((np.zeros(100), random.normal(0.0, sigma, 100)))
+
+        def area(place):
+            moved = curve + np.column_stack((np.zeros(100), slopes @ (step * place)))
+            return curvewise.area(test, moved, spacing="matched")
+
+        simplex = [(0.0, 0.0), (2.0, 0.0), (0.0, 2.0)]
+        options = {"initial_simplex": simplex, "xatol": 1e-3, "fatol": 1e-9}
+        return optimize.minimize(area, (0.0, 0.0), method="Nelder-Mead", options=options).x
+
+    estimates = np.array([fitted() for _ in range(300)])
+    # It finds the nearest valley: those are of a tenth of a deviation.
+    assert estimates.var(axis=0) == pytest.approx(np.ones(2), abs=0.3)
+
+
+def test_moves_are_those_of_weighted_least_squares_and_end_at_the_bounds():
+    random = np.random.default_rng(5)
+    weights, slopes = random.uniform(0.5, 2.0, 30), random.normal(size=(30, 3))
+    squared = weights[:, np.newaxis] ** 2 * slopes
+    moves, inverse = moves_of(weights, slopes)
+    assert inverse == pytest.approx(np.linalg.inv(slopes.T @ squared), rel=1e-9)
+    assert moves == pytest.approx(squared @ inverse, rel=1e-9)
+    moves, _ = moves_of(weights, slopes * (1.0, 1.0, 1e-12))
+    assert np.abs(moves).max() < 2.0
+
+
+def straight(parameters):
+    curve = line(60)
+    curve[:, 1] = parameters["height"] + parameters["slope"] * curve[:, 0]
+    return curve
+
+
+BOUNDS = {"height": (-1.0, 1.0), "slope": (0.1, 3.0)}
+
+
+def found_by(measure, test, **options):
+    return identify(straight, [test], BOUNDS, measure=measure, progress=False, **options)
+
+
+def white_test():
+    test = straight({"height": 0.1, "slope": 1.0})
+    test[:, 1] += np.random.default_rng(6).normal(0.0, 0.01, 60)
+    return test
+
+
+def estimate(found):
+    optimum = found.uncertainty().optimum
+    return estimate_of(optimum, noise_of(optimum, None))
+
+
+def test_white_noise_of_an_area_of_pieces_alone_has_their_scatter():
+    found = found_by("area", white_test())
+    theirs = estimate(found)
+    assert theirs.correlation.is_white
+    slopes = theirs.slopes
+    scatter = area_scatter([noisy(straight(found.parameters), slopes, test=white_test())])
+    assert theirs.covariance == pytest.approx(theirs.correlation.variance * scatter, rel=1e-9)
+    points = math.pi / 2.0 * theirs.correlation.variance * theirs.moves.T @ theirs.moves
+    assert np.diag(theirs.covariance) != pytest.approx(np.diag(points), rel=0.01)
+    # Algorithm 1 has no pieces, and what goes on alike is no white noise.
+    plain = estimate(found_by(Criterion("area", spacing="x", crossing="split"), white_test()))
+    points = math.pi / 2.0 * plain.correlation.variance * plain.moves.T @ plain.moves
+    assert plain.covariance == pytest.approx(points, rel=1e-9)
+    wave = straight({"height": 0.1, "slope": 1.0})
+    wave[:, 1] += 0.01 * np.sin(np.linspace(0.0, 40.0, 60))
+    alike = estimate(found_by("area", wave))
+    assert not alike.correlation.is_white
+    expected = alike.correlation.scatter(alike.moves, math.pi / 2.0, math.pi / 2.0 * math.log(2.0))
+    assert alike.covariance == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("measure", "expected"),
+    [
+        ("area", True),
+        (Criterion("area", squared=True), False),
+        (Criterion("area", spacing="arc_length"), False),
+        (Criterion("area", preset="paper"), False),
+        ("dtw", False),
+        ("sum_of_squares", False),
+    ],
+)
+def test_an_objective_says_whether_it_adds_up_pieces(measure, expected):
+    assert Objective([line(20)], measure).is_area_of_pieces is expected
