@@ -90,6 +90,20 @@ def test_fewer_pieces_than_parameters_say_nothing():
     assert area_scatter([noisy(CURVES["line"], slopes)]) is None
 
 
+def test_the_scatter_is_the_sandwich_of_dense_matrices():
+    """Of signs: 2 phi(0) times the slopes inside, and covariances of (2 / pi) arcsin outside."""
+    curve = CURVES["loop"]
+    slopes = np.random.default_rng(7).normal(size=(len(curve), 3))
+    sums = sums_of_pieces(curve, curve, 1).toarray()
+    together = sums @ sums.T
+    deviations = np.sqrt(np.diag(together))
+    by_place = sums @ slopes
+    bent = (by_place.T * (math.sqrt(2.0 / math.pi) / deviations)) @ by_place
+    signs = 2.0 / math.pi * np.arcsin(np.clip(together / np.outer(deviations, deviations), -1, 1))
+    expected = np.linalg.inv(bent) @ by_place.T @ signs @ by_place @ np.linalg.inv(bent)
+    assert area_scatter([noisy(curve, slopes)]) == pytest.approx(expected, rel=1e-6)
+
+
 def test_medians_of_pieces_scatter_so():
     """A loop's height and two waves: linear programs of 400 draws."""
     curve, random = CURVES["loop"], np.random.default_rng(3)
