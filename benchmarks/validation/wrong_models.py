@@ -33,7 +33,6 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import cma
 import numpy as np
 from places import BUILD, DATA, LOOPS
 from scipy.optimize import least_squares
@@ -154,6 +153,8 @@ def test_of(case: Case, seed: int) -> np.ndarray:
 
 def lowest_area(case: Case, test: np.ndarray, seed: int) -> dict[str, float]:
     """Return the parameters of the smallest area, near the truth."""
+    import cma  # other scripts import this module, and do without
+
     truth = truth_of(case.loop, case.points)
     names, centre = list(truth.parameters), np.array(list(truth.parameters.values()))
     low, high = np.array([BOUNDS[name] for name in names]).T
