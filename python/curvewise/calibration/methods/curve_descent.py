@@ -29,6 +29,9 @@ _AFTER_FAILURE_OF_LEASH = 0.8
 # Before it ends, a search looks for other minima of the surface, which costs no runs, and tries so
 # many of those that it finds, over this much of the bounds' range to each side.
 _ATTEMPTS, _ELSEWHERE = 3, 0.5
+# And so many small valleys beside the best run before, on a surface through so many runs, which
+# bends as the valleys' floor does.
+_SMALL_VALLEYS, _RUNS_OF_VALLEYS = 6, 100
 # And its surfaces go through so many of the nearest runs, in the place of some thirty: in what they
 # are off by is another valley. Beside its linear programs that costs little.
 _RUNS_OF_LEASH = 100
@@ -83,10 +86,10 @@ class CurveRuns(SharedRuns):
             chosen[-1] = number
         vectors = np.array([self._vectors[i] for i in chosen])
         centre = int(np.flatnonzero(chosen == number)[0])
-        return SensedSurface(self.points[chosen], vectors, centre, self._sides)
+        return SensedSurface(self.points[chosen], vectors, centre, self.sides)
 
     @cached_property
-    def _sides(self) -> Array:
+    def sides(self) -> Array:
         """The sides of the tests' boxes, for every coordinate of a vector."""
         tests, shapes = self._ledger.objective.experiments, self.responses.shapes
         sides = [np.tile(box(test)[1], n) for test, (n, _) in zip(tests, shapes, strict=True)]
@@ -155,6 +158,10 @@ class CurveDescent(Descent):
         not the best so far is left where it is: another start costs less.
         """
         assert self._best is not None
+        objective = self._ledger.objective
+        has_small_valleys = objective.has_gradient and not objective.is_least_squares
+        if has_small_valleys and (yield from self._leaves_small_valley(least)):
+            return True
         for _ in range(_ATTEMPTS):
             if self.value > min(self._runs.values):
                 return False
@@ -166,6 +173,26 @@ class CurveDescent(Descent):
             before = self.value
             yield from self._run(candidate[np.newaxis])
             if self.value < before:
+                return True
+        return False
+
+    def _leaves_small_valley(self, least: float) -> Part[bool]:
+        """Try those beside the best run, on a surface that bends; return whether one is better."""
+        for _ in range(_SMALL_VALLEYS):
+            if self.value > min(self._runs.values):
+                return False
+            surface = self._runs.through_nearest(
+                self.centre, np.inf, reduced=False, most=_RUNS_OF_VALLEYS
+            )
+            _, slopes = surface.with_slopes(self.centre)
+            scaled = slopes / self._runs.sides[:, np.newaxis]
+            candidate = self._minimum.beside(surface, self.centre, scaled)
+            promised = self.value - self._minimum.value(surface, candidate)
+            if promised <= least or tuple(candidate) in self._tried:
+                return False
+            before = self.value
+            yield from self._run(candidate[np.newaxis])
+            if before - self.value > least:
                 return True
         return False
 

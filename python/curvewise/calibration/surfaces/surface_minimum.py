@@ -27,6 +27,7 @@ from ...curves.thinning import Rows
 from ..objective.objective import Objective
 from .nelder_mead import nelder_mead
 from .nonsmooth_descent import nonsmooth_descent
+from .small_valleys import lowest_beside
 from .surfaces import Responses, Surface
 
 __all__ = ["SurfaceMinimum"]
@@ -150,6 +151,23 @@ class SurfaceMinimum:
         if self._thinned is not None:
             best = self._polished(surfaces, region, best)
         return low + best * (high - low)
+
+    def beside(self, surface: Surface, centre: Array, slopes: Array) -> Array:
+        """Return the lowest of the small valleys beside a place, over the whole cube.
+
+        Of tests that are thinned, those of the thinned ones, which noise may put elsewhere.
+
+        Parameters
+        ----------
+        surface, centre
+            What is minimised, and where to begin.
+        slopes : ndarray, shape (m, k)
+            Of the surface there, in units in which all coordinates count alike.
+        """
+        cube = np.zeros(centre.size), np.ones(centre.size)
+        function = (self._thinned or self._exact).on(surface, cube)
+        best = lowest_beside(function, centre, slopes, self._random)
+        return best if self._thinned is None else self._polished(surface, cube, best)
 
     def _over_the_box(self, function: Callable[[Array], float], k: int) -> Array:
         """Minimise a function that is flat or stepped in places, over the whole unit cube."""
