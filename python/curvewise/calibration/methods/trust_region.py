@@ -6,8 +6,10 @@ later runs ask for. The parameters at which the curves that it predicts are near
 the exact measure, within a region of trust around the best run, are run next. The region grows and
 shrinks with what a step gains of what was promised. Where the surface promises nothing more, the
 directions in which it knows least are run, all at once; where it knows them all, other minima that
-the measure has on it are tried, and then the start has ended. Where the model knows its slopes
-(`jacobian`), the plane of these takes the place of the surface, and no run is made for it.
+the measure has are tried, and then the start has ended: the small valleys beside the best run, on a
+surface through a hundred runs (`surfaces.small_valleys`), and minima that are further away. Where
+the model knows its slopes (`jacobian`), the plane of these takes the place of the surface, and no
+run is made for it.
 
 All starts share their runs, so that a start that comes to where another has been takes few of its
 own: 20 to 60 runs each for 8 parameters. A plane that learns from each run (Broyden's update), and
