@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from curvewise.calibration import Objective
+from curvewise.calibration import Objective, TrustRegion, identify
+from curvewise.calibration.methods import curve_descent
 from curvewise.calibration.surfaces.small_valleys import lowest_beside
 from curvewise.calibration.surfaces.surface_minimum import SurfaceMinimum
 from curvewise.calibration.surfaces.surfaces import Responses, Surfaces
@@ -34,6 +35,13 @@ def test_where_nothing_moves_the_curves_a_place_of_the_cube_comes_back():
     assert found.shape == (6,)
     assert (found >= 0.0).all()
     assert (found <= 1.0).all()
+
+
+def test_curves_may_have_fewer_coordinates_than_there_are_parameters():
+    slopes = np.eye(6)[:2]
+    random = np.random.default_rng(0)
+    found = lowest_beside(lambda place: 1.0 + abs(place[0] - 0.6), CENTRE, slopes, random)
+    assert 0.5 < found[0] <= 0.6
 
 
 def noisy(seed: int, points: int) -> tuple[np.ndarray, Surfaces]:
@@ -73,3 +81,28 @@ def test_thinned_curves_lead_to_a_place_of_the_cube():
     assert (beside <= 1.0).all()
     # Noise moves it by some per cent of the value, in either direction.
     assert minimum.value(surface, beside) < 1.15 * minimum.value(surface, CENTRE)
+
+
+def test_a_search_leaves_small_valleys_before_it_ends(monkeypatch):
+    names = [f"p{i}" for i in range(6)]
+
+    def end(seed):
+        test, surface = noisy(seed, 120)
+
+        def model(parameters):
+            return surface.at(np.array([parameters[name] for name in names])).reshape(test.shape)
+
+        return identify(
+            model,
+            test,
+            dict.fromkeys(names, (0.0, 1.0)),
+            method=TrustRegion(starts=1, initial_range=0.1),
+            start=dict.fromkeys(names, 0.5),
+            progress=False,
+        ).value
+
+    left = [end(seed) for seed in range(4)]
+    monkeypatch.setattr(curve_descent, "_SMALL_VALLEYS", 0)
+    stayed = [end(seed) for seed in range(4)]
+    # The model is linear, and gradients come to within a thousandth.
+    assert sum(left) < 0.9998 * sum(stayed)

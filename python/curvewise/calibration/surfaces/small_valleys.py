@@ -58,6 +58,8 @@ def _axes(
     function: Callable[[Array], float], centre: Array, slopes: Array, random: np.random.Generator
 ) -> Array:
     """Return directions, as columns, in which curves move alike and the value rises as wanted."""
+    missing = max(0, centre.size - len(slopes))  # curves of fewer coordinates than parameters
+    slopes = np.pad(slopes, ((0, missing), (0, 0)))
     _, lengths, right = np.linalg.svd(slopes, full_matrices=False)
     if lengths[0] == 0.0:  # nothing moves the curves
         return _LONGEST * np.eye(centre.size)
