@@ -108,6 +108,7 @@ NOT_COUNTED = (
     "calibration/methods/__init__.py",
     "calibration/models/",
     "calibration/objective/noisy_tests.py",
+    "calibration/objective/sampling.py",
     "calibration/problem/details.py",
     "calibration/records/",
     "curves/foreign_curves.py",

@@ -10,8 +10,10 @@ from test_methods import quiet_identify
 
 from curvewise import frechet
 from curvewise.calibration import Criterion, Problem, TrustRegion
+from curvewise.curves import resample
 
 X = np.linspace(0.0, 1.0, 21)
+LIMIT = "a third of the distance, so that points decide"
 OFFSET = {"offset": (-5.0, 5.0)}
 WAVE = np.outer(np.sin(2.0 * np.pi * X), (0.0, 1e-3))
 
@@ -32,13 +34,22 @@ def test_steps_that_are_longer_than_the_distance_are_counted():
     assert 0.05 < found.value < 0.17
     assert found.value == pytest.approx(frechet(test, arch(found.parameters)))
     steps = np.linalg.norm(np.diff(test, axis=0), axis=1)
-    count = int(np.sum(steps > found.value))
-    assert count == 7
-    said = f"; {count} steps of the test are one to four times as long as the distance, so that "
-    assert said in found.message
+    assert np.sum(steps > found.value / 3.0) == 7
     assert found.message.endswith(
-        "resample it evenly (curvewise.curves.resample), so finely that none is"
+        "; 7 steps of the test are longer than a third of the distance, so that points decide "
+        "which valley is lowest: resample it evenly to 100 points (curvewise.curves.resample)"
     )
+    even = resample(test, 100)
+    assert np.linalg.norm(np.diff(even, axis=0), axis=1).max() < found.value / 3.0
+
+
+def test_steps_up_to_a_third_of_the_distance_do_not_decide():
+    found = quiet_identify(arch, line(25), OFFSET, measure="frechet", max_runs=40)
+    step = np.sqrt(2.0) / 24
+    assert found.value / 3.0 < step < found.value
+    assert f"; 24 steps of the test are longer than {LIMIT}" in found.message
+    found = quiet_identify(arch, line(81), OFFSET, measure="frechet", max_runs=40)
+    assert "steps of the test" not in found.message
 
 
 def test_steps_of_several_tests_are_counted_together():
@@ -46,8 +57,8 @@ def test_steps_of_several_tests_are_counted_together():
         return [arch(p), arch(p)]
 
     found = quiet_identify(arches, [line(9), line(81)], OFFSET, measure="frechet", max_runs=40)
-    assert "; 8 steps of the tests are one to four times as long as the distance" in found.message
-    assert "resample them evenly" in found.message
+    assert f"; 8 steps of the tests are longer than {LIMIT}" in found.message
+    assert "resample them evenly to 100 and 81 points" in found.message
 
 
 @pytest.mark.parametrize(
@@ -70,7 +81,7 @@ def test_steps_of_scaled_curves_are_in_sides_of_the_box():
     found = quiet_identify(
         lambda p: arch(p) * units, line(9) * units, OFFSET, measure="frechet", max_runs=40
     )
-    assert "; 8 steps of the test are one to four times as long as the distance" in found.message
+    assert f"; 8 steps of the test are longer than {LIMIT}" in found.message
 
 
 def test_one_step_of_raw_curves():
@@ -84,7 +95,7 @@ def test_one_step_of_raw_curves():
     criterion = Criterion("frechet", preset="raw")
     found = quiet_identify(points, test, bounds, measure=criterion, max_runs=20)
     assert found.value == pytest.approx(4.0)
-    assert "; 1 step of the test is one to four times as long as the distance" in found.message
+    assert f"; 1 step of the test is longer than {LIMIT}" in found.message
 
 
 def test_whoever_asks_and_tells_hears_the_same():

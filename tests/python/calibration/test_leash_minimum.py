@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from curvewise.calibration import Criterion, Objective
+from curvewise.calibration.surfaces import leash_minimum
 from curvewise.calibration.surfaces.kriged_surface import KrigedSurface
-from curvewise.calibration.surfaces.leash_minimum import minimum_on_surfaces
+from curvewise.calibration.surfaces.leash_minimum import _Leashes, minimum_on_surfaces
 from curvewise.calibration.surfaces.surface_minimum import SurfaceMinimum
 from curvewise.calibration.surfaces.surfaces import Responses, Surfaces
 
@@ -96,6 +97,62 @@ def test_a_surface_through_runs_serves_as_well():
     surface = KrigedSurface(runs, base + runs @ slopes.T, runs[0], reduced=False)
     found = leash.lowest(surface, runs[0], CUBE)
     assert leash.value(surface, found) == pytest.approx(0.5, rel=1e-3)
+
+
+def spaced(test: np.ndarray, step: float) -> np.ndarray:
+    return np.column_stack((step * np.arange(len(test)), test[:, 1]))
+
+
+def through_runs(test: np.ndarray) -> KrigedSurface:
+    base, slopes = lines([test])
+    runs = np.random.default_rng(1).random((7, 2))
+    return KrigedSurface(runs, base + runs @ slopes.T, runs[0], reduced=False)
+
+
+@pytest.mark.parametrize("points", [21, 2001])  # the second is thinned
+def test_where_curves_decide_a_hop_leads_down_without_a_population(points, monkeypatch):
+    monkeypatch.setattr(leash_minimum, "evolved", None)
+    test = parabola(points)
+    leash, surface = minimum([test], Criterion("frechet", preset="raw")), through_runs(test)
+    place = np.array([0.9, 0.1])
+    found = leash.valley(surface, place, place)
+    assert leash.value(surface, found) == pytest.approx(0.5, rel=1e-3)
+
+
+@pytest.mark.parametrize("step", [0.25, 1.9])  # longer than a third of 0.5, up to four times
+def test_where_points_decide_at_the_best_run_a_population_hops(step, monkeypatch):
+    begun = []
+
+    def settled(values, start, width, random, *, members, generations):
+        begun.append(start)
+        return start
+
+    monkeypatch.setattr(leash_minimum, "evolved", settled)
+    test = spaced(parabola(21), step)
+    leash, surface = minimum([test], Criterion("frechet", preset="raw")), through_runs(test)
+    place, best = np.array([0.9, 0.1]), np.array([0.5, 0.3])
+    leash.valley(surface, place, best)
+    np.testing.assert_array_equal(begun, [place])
+
+
+def test_a_hop_moves_curves_by_half_to_three_times_their_distance():
+    """In the mean of squares by 2.44, of half to three on a scale of logarithms."""
+    test = parabola(21, height=0.01) + np.array((0.0, 0.5))
+    leash, surface = minimum([test], Criterion("frechet", preset="raw")), through_runs(test)
+    leashes = _Leashes(leash._exact, surface, CUBE)
+    place, random = np.array([0.5, 0.3]), np.random.default_rng(0)
+    curve, value = surface.at(place), leashes.value(place)
+    moved = [surface.at(leashes.moved(place, random)) - curve for _ in range(4000)]
+    squares = np.square(moved).sum(axis=1) / len(test)
+    assert squares.mean() / value**2 == pytest.approx(2.44, rel=0.1)
+
+
+def test_where_nothing_moves_the_curves_a_hop_goes_anywhere():
+    test = parabola(21)
+    leash = minimum([test], Criterion("frechet", preset="raw"))
+    surface = Surfaces(np.zeros(2), test.ravel() + 1.0, np.zeros((test.size, 2)))
+    moved = _Leashes(leash._exact, surface, CUBE).moved(np.full(2, 0.5), np.random.default_rng(0))
+    assert (np.abs(moved - 0.5) > 0.01).all()
 
 
 def test_elsewhere_it_finds_the_same():

@@ -9,9 +9,10 @@ import numpy as np
 
 from ...curves.inputs import Array
 from ...curves.scaling import box
+from ..objective.sampling import is_leash
 from ..problem.ledger import Finish, Ledger
 from ..records.evaluation import Evaluation
-from ..surfaces.leash_minimum import is_leash, minimum_on_surfaces
+from ..surfaces.leash_minimum import minimum_on_surfaces
 from ..surfaces.sensed_surface import SensedSurface
 from ..surfaces.surface_minimum import SurfaceMinimum
 from ..surfaces.surfaces import Responses, Surface, Surfaces

@@ -106,7 +106,7 @@ class SingleRuns:
         )
         least, lowest = np.inf, centre
         for origin in origins:
-            place = minimum.valley(surface, origin)
+            place = minimum.valley(surface, origin, self._ledger.best_unit)
             is_new = np.abs(self._runs.points - place).max(axis=1).min() > _SAME
             promised = minimum.value(surface, place)
             if is_new and promised < least:

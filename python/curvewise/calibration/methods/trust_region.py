@@ -33,8 +33,8 @@ from typing import Literal, get_args
 import numpy as np
 
 from ...curves.inputs import Array
+from ..objective.sampling import is_leash
 from ..problem.ledger import Course, Ledger
-from ..surfaces.leash_minimum import is_leash
 from .curve_descent import CurveDescent, CurveRuns, promising_place
 from .descent import Rules
 from .method import Method, with_other_defaults

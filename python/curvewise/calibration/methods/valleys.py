@@ -64,7 +64,7 @@ def lowest_valley(
     for hop in range(1, _HOPS + 1):
         is_elsewhere = others and hop % _FROM_ANOTHER == 0
         origin = others[random.integers(len(others))] if is_elsewhere else lowest
-        place = minimum.valley(surface, origin)
+        place = minimum.valley(surface, origin, best)
         value = minimum.value(surface, place)
         found.append((value, place))
         if value < least:

@@ -10,6 +10,11 @@ better one can only help. The one that attains the distance says little of pairs
 the warping path of squared distances keeps all of them short and comes first, and where it promises
 nothing the other has its turn.
 
+A hop into another valley goes by what makes the valleys. Where points of the tests decide
+(`objective.sampling`), a population settles in one. Where curves do, it would halt at kinks, and
+steps lead down from where the curves have moved by about their distance from the tests, as far in
+each of the directions in which they move independently (benchmarks/validation/README.md).
+
 Cost: a path and a linear program of some hundred rows, 2 to 4 ms, for each of 10 to 15 steps.
 
 K. Madsen, "An algorithm for minimax solution of overdetermined systems of non-linear equations",
@@ -29,13 +34,14 @@ from ...curves.scaling import box
 from ...measures import dtw_path, frechet, frechet_path
 from ...measures.results import Alignment
 from ..objective.objective import Objective
+from ..objective.sampling import is_leash, sampling_of_tests
 from .evolution import evolved
 from .kriged_surface import KrigedSurface
 from .sensed_surface import SensedSurface
 from .surface_minimum import SurfaceMinimum, _Predicted
 from .surfaces import Responses, Surface, Surfaces
 
-__all__ = ["LeashMinimum", "is_leash", "minimum_on_surfaces"]
+__all__ = ["LeashMinimum", "minimum_on_surfaces"]
 
 _GAIN = 1e-3  # the smallest that counts, of the value
 _STEPS, _POLISHING = 25, 6
@@ -47,15 +53,12 @@ _SIMPLEX = 20  # evaluations for each parameter
 # Of a hop into another valley: the first standard deviation, as a fraction of the bounds' range,
 # the population, and the steps from where it has settled.
 _WIDTH, _MEMBERS, _GENERATIONS, _IN_VALLEY = 0.05, 10, 60, 12
+# Of one where curves decide: how far curves move in the mean, in distances, from and to; and the
+# largest standard deviation along a direction, as a fraction of the bounds' range.
+_MOVED, _FARTHEST = (0.5, 3.0), 0.5
 
 Coupling = Callable[[Array, Array], Alignment]
 _COUPLINGS: tuple[Coupling, ...] = (partial(dtw_path, metric="sqeuclidean"), frechet_path)
-
-
-def is_leash(objective: Objective) -> bool:
-    """Return whether an objective is a Fréchet distance, or a mean of several."""
-    condition = objective.condition
-    return condition is not None and objective.measure == "frechet" and not condition.options
 
 
 def minimum_on_surfaces(
@@ -91,22 +94,35 @@ class LeashMinimum(SurfaceMinimum):
         for predicted in filter(None, (self._exact, self._thinned)):
             predicted.has_gradient = True  # something leads down
 
-    def valley(self, surface: KrigedSurface | SensedSurface, place: Array) -> Array:
+    def valley(self, surface: KrigedSurface | SensedSurface, place: Array, best: Array) -> Array:
         """Return a minimum over the whole cube beside a place, in whichever valley it is.
 
-        Cost: some 600 evaluations of the surface and of the measure, and twelve steps.
+        Where points decide at the best place that is known, valleys are narrow, and a population
+        goes over them; where curves do, it halts at kinks, and steps lead down from a place to
+        which the curves have moved.
+
+        Cost: some 600 evaluations of the surface and of the measure, and twelve steps; or 40 steps.
         """
         cube = np.zeros(place.size), np.ones(place.size)
         leashes = _Leashes(self._thinned or self._exact, surface, cube)
-        settled = evolved(
-            leashes.values,
-            place,
-            _WIDTH,
-            self._random,
-            members=_MEMBERS,
-            generations=_GENERATIONS,
-        )
-        return leashes.descended(settled, _IN_VALLEY)
+        if self._points_decide(surface.at(best)):
+            settled = evolved(
+                leashes.values,
+                place,
+                _WIDTH,
+                self._random,
+                members=_MEMBERS,
+                generations=_GENERATIONS,
+            )
+            return leashes.descended(settled, _IN_VALLEY)
+        found = leashes.descended(leashes.moved(place, self._random), _STEPS)
+        return _Leashes(self._exact, surface, cube).descended(found, _IN_VALLEY)
+
+    def _points_decide(self, vector: Array) -> bool:
+        """Return whether points of the tests decide, and not their curves."""
+        objective = self._exact._objective
+        distances = objective.predicted(self._exact._responses.curves(vector)).terms
+        return any(test.deciding > 0 for test in sampling_of_tests(objective, distances))
 
     def _minimised(
         self,
@@ -150,6 +166,28 @@ class _Leashes:
         """Return the distances at several places, shape (places,)."""
         vectors = self._seen.at(self._low + places * self._width)
         return np.array([self._predicted.value(vector) for vector in vectors])
+
+    def moved(self, place: Array, random: np.random.Generator) -> Array:
+        """Return a place at which the curves have moved by about what they are from the tests.
+
+        As far in each of the directions in which they move independently of each other.
+        """
+        _, slopes = self._slopes_at(place)
+        by_place = np.concatenate(
+            [
+                (of_test / extent[:, np.newaxis]).reshape(-1, place.size)
+                for of_test, (_, _, extent) in zip(slopes, self._tests, strict=True)
+            ]
+        )
+        points = sum(len(of_test) for of_test in slopes)
+        squares, axes = np.linalg.eigh(by_place.T @ by_place)
+        shortest, longest = _MOVED
+        size = shortest * (longest / shortest) ** random.random() * self.value(place)
+        lengths = size * np.sqrt(points / place.size / np.maximum(squares, 1e-20))
+        lengths = np.minimum(lengths, _FARTHEST)
+        step = axes @ (lengths * random.standard_normal(place.size))
+        moved: Array = np.clip(place + step, 0.0, 1.0)
+        return moved
 
     def descended(self, place: Array, most: int) -> Array:
         """Return where up to so many steps lead from a place, to a distance that is not above."""
