@@ -3,10 +3,10 @@
 A material point (`curvewise.materials.ChabocheVoce`, two back stresses, eight parameters; for the
 cyclic tests of structural steel a third, linear one, nine) is fitted to measured loops of tension
 and compression, each a search of its own, by every measure, from five seeds. Tests are thinned to
-300 points, every so many-th row, or, of the same names with "even" behind them, resampled to 600 at
-equal steps along the curve, as a search by frechet asks for where rows are too far apart; the model
-is driven by their strains. Bounds follow from one number, S, the largest stress of the 300 points,
-and the elastic modulus of the metal:
+300 points, every so many-th row, or, of the same names with "even" or "fine" behind them, resampled
+to 600 or 3,000 at equal steps along the curve, as a search by frechet asks for where points are too
+far apart; the model is driven by their strains. Bounds follow from one number, S, the largest
+stress of the 300 points, and the elastic modulus of the metal:
 
     E 0.6 to 1.4 of the modulus, yield 0.05 to 1 S, Q -0.04 to 1 S, b 0.1 to 100 (logarithmic),
     C1 20 to 2000 S, gamma1 20 to 2000, C2 1 to 100 S, gamma2 1 to 100 (all logarithmic),
@@ -18,7 +18,7 @@ that take a thousand runs and more (REFERENCES), which are made once.
 
     python benchmarks/validation/searches.py --seeds 5 --workers 2
     python benchmarks/validation/searches.py --tests eddq-5 --measures area --methods trust-region
-    python benchmarks/validation/searches.py --tests "dp780 even" --measures frechet
+    python benchmarks/validation/searches.py --tests "dp780 fine" --measures frechet
 
 Adds what searches.json does not have to it, and writes searches.md.
 """
@@ -55,8 +55,10 @@ _FILES: dict[str, tuple[str, tuple[Any, Any], tuple[float, float], float, int]] 
     "tr1180": ("loops/tr1180_tct_3pct.csv", (1, 2), (1.0, 1.0), STEEL, 2),
     "structural": ("loops/resslab_cyclic_2pct.csv", (1, 2), (1.0, 1.0), STEEL, 3),
 }
-EVEN, EVEN_POINTS = " even", 600  # the most of which a search leaves none out on its surfaces
-TESTS = {name + sampling: test for name, test in _FILES.items() for sampling in ("", EVEN)}
+# Points at equal steps: the most of which a search leaves none out on its surfaces; and so many
+# that a step is a third at most of the distances that searches by frechet end at.
+EVENLY = {" even": 600, " fine": 3000}
+TESTS = {name + sampling: test for name, test in _FILES.items() for sampling in ("", *EVENLY)}
 CHOSEN_ON, SHOWN = ("eddq-5", "eddq-3", "random"), ("dp780", "tr1180", "structural")
 MEASURES = ("area", "dtw", "frechet", "pcm", "curve_length", "sum_of_squares")
 
@@ -89,8 +91,9 @@ def problem(name: str) -> tuple[Any, np.ndarray, dict[str, Any]]:
         "gamma2": Log(1.0, 100.0),
         **({"C3": (0.0, 5.0 * S), "gamma3": 0.0} if backstresses == 3 else {}),
     }
-    if name.endswith(EVEN):
-        test = resample(whole, EVEN_POINTS)
+    for sampling, points in EVENLY.items():
+        if name.endswith(sampling):
+            test = resample(whole, points)
     return driven_model(name, test), test, bounds
 
 
