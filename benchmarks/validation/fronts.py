@@ -6,7 +6,7 @@ searches by both measures, and `front` looks at its runs.
     pip install ".[calibration,plot]"
     python benchmarks/validation/fronts.py
 
-Prints the fronts and draws fronts_<loop>.png. Two minutes.
+Prints the fronts and draws front_<loop>.png. Ten seconds.
 """
 
 from __future__ import annotations
