@@ -18,9 +18,17 @@ OFFSET = {"offset": (-5.0, 5.0)}
 WAVE = np.outer(np.sin(2.0 * np.pi * X), (0.0, 1e-3))
 
 
-def arch(p: dict[str, float]) -> np.ndarray[Any, Any]:
+def arch(p: dict[str, float], x: np.ndarray[Any, Any] = X) -> np.ndarray[Any, Any]:
     """Return a line that is bent by up to 0.16, which no offset takes back."""
-    return np.column_stack((X, X + 0.64 * X * (1.0 - X) + p["offset"]))
+    return np.column_stack((x, x + 0.64 * x * (1.0 - x) + p["offset"]))
+
+
+def coarse_arch(p: dict[str, float]) -> np.ndarray[Any, Any]:
+    return arch(p, np.linspace(0.0, 1.0, 5))
+
+
+def fine_arch(p: dict[str, float]) -> np.ndarray[Any, Any]:
+    return arch(p, np.linspace(0.0, 1.0, 51))
 
 
 def line(count: int) -> np.ndarray[Any, Any]:
@@ -110,3 +118,46 @@ def test_whoever_asks_and_tells_hears_the_same():
     assert answer.message.startswith("offset is at its lower bound: widen it if it is not meant (")
     found = quiet_identify(arch, arch({"offset": 0.5}), bounds)
     assert (found.converged, found.message) == (answer.converged, answer.message)
+
+
+def test_steps_of_the_simulation_are_counted():
+    test = line(81)
+    found = quiet_identify(coarse_arch, test, OFFSET, measure="frechet", max_runs=40)
+    simulation = coarse_arch(found.parameters)
+    steps = np.linalg.norm(np.diff(simulation, axis=0), axis=1)
+    assert np.sum(steps > 2.0 / 3.0 * found.value) == 4
+    assert found.message.endswith(
+        "; 4 steps of the simulation are longer than two thirds of the distance, so that points "
+        "decide: let the model return 100 points at even steps"
+    )
+    assert found.value > 1.2 * frechet(test, resample(simulation, 100))
+
+
+def test_steps_of_a_simulation_up_to_two_thirds_do_not_decide():
+    found = quiet_identify(fine_arch, line(81), OFFSET, measure="frechet", max_runs=40)
+    steps = np.linalg.norm(np.diff(fine_arch(found.parameters), axis=0), axis=1)
+    assert found.value / 3.0 < steps.max() < 2.0 / 3.0 * found.value
+    assert "steps of" not in found.message
+
+
+def test_steps_of_test_and_simulation():
+    found = quiet_identify(coarse_arch, line(9), OFFSET, measure="frechet", max_runs=40)
+    assert f"; 8 steps of the test are longer than {LIMIT}" in found.message
+    assert found.message.endswith("(curvewise.curves.resample), and let the model return as many")
+
+
+def test_steps_of_several_simulations_are_counted_together():
+    def arches(p):
+        return [coarse_arch(p), fine_arch(p)]
+
+    found = quiet_identify(arches, [line(81), line(81)], OFFSET, measure="frechet", max_runs=40)
+    assert "; 4 steps of the simulations are longer than two thirds" in found.message
+    assert "let the model return 100 and 51 points at even steps" in found.message
+
+
+def test_steps_of_scaled_simulations_are_in_sides_of_the_tests_box():
+    units = np.array((1e-3, 500.0))
+    found = quiet_identify(
+        lambda p: coarse_arch(p) * units, line(81) * units, OFFSET, measure="frechet", max_runs=40
+    )
+    assert "; 4 steps of the simulation are longer" in found.message
