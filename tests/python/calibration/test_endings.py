@@ -9,7 +9,8 @@ import pytest
 from test_methods import quiet_identify
 
 from curvewise import frechet
-from curvewise.calibration import Criterion, Problem, TrustRegion
+from curvewise.calibration import Criterion, Objective, Problem, TrustRegion
+from curvewise.calibration.objective.sampling import sampling_of_simulations, sampling_of_tests
 from curvewise.curves import resample
 
 X = np.linspace(0.0, 1.0, 21)
@@ -138,6 +139,24 @@ def test_steps_of_a_simulation_up_to_two_thirds_do_not_decide():
     steps = np.linalg.norm(np.diff(fine_arch(found.parameters), axis=0), axis=1)
     assert found.value / 3.0 < steps.max() < 2.0 / 3.0 * found.value
     assert "steps of" not in found.message
+
+
+@pytest.mark.parametrize(
+    ("distance", "of_tests", "of_simulations"),
+    [
+        pytest.param(0.05, (0, 101), (0, 201), id="less than a third"),
+        pytest.param(0.025, (100, 200), (0, 201), id="between a third and two thirds"),
+        pytest.param(0.02, (100, 300), (200, 500), id="more than two thirds"),
+        pytest.param(0.0036, (100, 1200), (200, 2400), id="less than four"),
+        pytest.param(0.0035, (0, 101), (0, 201), id="more than four"),
+    ],
+)
+def test_which_steps_decide_and_how_many_points_would_be_enough(distance, of_tests, of_simulations):
+    """Of steps of 0.01414 of the test's box; enough makes them a third, in hundreds."""
+    objective = Objective([line(101)], "frechet")
+    distances = np.array([distance])
+    assert sampling_of_tests(objective, distances) == [of_tests]
+    assert sampling_of_simulations(objective, 2.0 * line(201), distances) == [of_simulations]
 
 
 def test_steps_of_test_and_simulation():
