@@ -10,7 +10,7 @@ from test_methods import quiet_identify
 
 from curvewise import frechet
 from curvewise.calibration import Criterion, Objective, Problem, TrustRegion
-from curvewise.calibration.objective.sampling import sampling_of_simulations, sampling_of_tests
+from curvewise.calibration.objective.sampling import finer_simulations, sampling_of_tests
 from curvewise.curves import resample
 
 X = np.linspace(0.0, 1.0, 21)
@@ -46,7 +46,8 @@ def test_steps_that_are_longer_than_the_distance_are_counted():
     assert np.sum(steps > found.value / 3.0) == 7
     assert found.message.endswith(
         "; 7 steps of the test are longer than a third of the distance, so that points decide "
-        "which valley is lowest: resample it evenly to 100 points (curvewise.curves.resample)"
+        "which valley is lowest: resample it evenly to 100 points (curvewise.curves.resample), and "
+        "let the model return as many"
     )
     even = resample(test, 100)
     assert np.linalg.norm(np.diff(even, axis=0), axis=1).max() < found.value / 3.0
@@ -121,62 +122,78 @@ def test_whoever_asks_and_tells_hears_the_same():
     assert (found.converged, found.message) == (answer.converged, answer.message)
 
 
-def test_steps_of_the_simulation_are_counted():
-    test = line(81)
-    found = quiet_identify(coarse_arch, test, OFFSET, measure="frechet", max_runs=40)
-    simulation = coarse_arch(found.parameters)
-    steps = np.linalg.norm(np.diff(simulation, axis=0), axis=1)
-    assert np.sum(steps > 2.0 / 3.0 * found.value) == 4
-    assert found.message.endswith(
-        "; 4 steps of the simulation are longer than two thirds of the distance, so that points "
-        "decide: let the model return 100 points at even steps"
-    )
-    assert found.value > 1.2 * frechet(test, resample(simulation, 100))
-
-
-def test_steps_of_a_simulation_up_to_two_thirds_do_not_decide():
-    found = quiet_identify(fine_arch, line(81), OFFSET, measure="frechet", max_runs=40)
-    steps = np.linalg.norm(np.diff(fine_arch(found.parameters), axis=0), axis=1)
-    assert found.value / 3.0 < steps.max() < 2.0 / 3.0 * found.value
-    assert "steps of" not in found.message
-
-
 @pytest.mark.parametrize(
-    ("distance", "of_tests", "of_simulations"),
+    ("distance", "expected"),
     [
-        pytest.param(0.05, (0, 101), (0, 201), id="less than a third"),
-        pytest.param(0.025, (100, 200), (0, 201), id="between a third and two thirds"),
-        pytest.param(0.02, (100, 300), (200, 500), id="more than two thirds"),
-        pytest.param(0.0036, (100, 1200), (200, 2400), id="less than four"),
-        pytest.param(0.0035, (0, 101), (0, 201), id="more than four"),
+        pytest.param(0.05, (0, 101), id="less than a third"),
+        pytest.param(0.02, (100, 300), id="more than a third"),
+        pytest.param(0.0036, (100, 1200), id="less than four"),
+        pytest.param(0.0035, (0, 101), id="more than four"),
     ],
 )
-def test_which_steps_decide_and_how_many_points_would_be_enough(distance, of_tests, of_simulations):
-    """Of steps of 0.01414 of the test's box; enough makes them a third, in hundreds."""
+def test_which_steps_decide_and_how_many_points_would_be_enough(distance, expected):
+    """Of steps of 0.01414; enough makes them a third, in hundreds."""
     objective = Objective([line(101)], "frechet")
-    distances = np.array([distance])
-    assert sampling_of_tests(objective, distances) == [of_tests]
-    assert sampling_of_simulations(objective, 2.0 * line(201), distances) == [of_simulations]
+    assert sampling_of_tests(objective, np.array([distance])) == [expected]
 
 
-def test_steps_of_test_and_simulation():
-    found = quiet_identify(coarse_arch, line(9), OFFSET, measure="frechet", max_runs=40)
-    assert f"; 8 steps of the test are longer than {LIMIT}" in found.message
-    assert found.message.endswith("(curvewise.curves.resample), and let the model return as many")
-
-
-def test_steps_of_several_simulations_are_counted_together():
-    def arches(p):
-        return [coarse_arch(p), fine_arch(p)]
-
-    found = quiet_identify(arches, [line(81), line(81)], OFFSET, measure="frechet", max_runs=40)
-    assert "; 4 steps of the simulations are longer than two thirds" in found.message
-    assert "let the model return 100 and 51 points at even steps" in found.message
-
-
-def test_steps_of_scaled_simulations_are_in_sides_of_the_tests_box():
-    units = np.array((1e-3, 500.0))
-    found = quiet_identify(
-        lambda p: coarse_arch(p) * units, line(81) * units, OFFSET, measure="frechet", max_runs=40
+def test_a_simulation_of_few_points():
+    test = line(81)
+    found = quiet_identify(coarse_arch, test, OFFSET, measure="frechet", max_runs=40)
+    finer = np.interp(X, *coarse_arch(found.parameters).T)
+    gain = 100.0 * (1.0 - frechet(test, np.column_stack((X, finer))) / found.value)
+    assert gain > 50.0
+    assert (
+        f"; with points between those of the simulation the value is {gain:.0f} %" in found.message
     )
-    assert "; 4 steps of the simulation are longer" in found.message
+    assert found.message.endswith("decide: let the model return 100 points at even steps")
+
+
+def test_nothing_is_said_of_simulations_that_more_points_do_not_bring_nearer():
+    found = quiet_identify(fine_arch, line(81), OFFSET, measure="frechet", max_runs=40)
+    steps = np.linalg.norm(np.diff(fine_arch(found.parameters), axis=0), axis=1)
+    assert steps.max() > found.value / 3.0
+    assert "points" not in found.message
+
+
+def test_points_between_those_of_several_simulations():
+    """Of scaled ones; steps of more than four distances stay as they are."""
+    units = np.array((1e-3, 500.0))
+    tests = [line(81) * units, line(81) * units]
+    simulations = [
+        coarse_arch({"offset": 0.0}) * units,
+        arch({"offset": 0.1}, np.linspace(0.0, 1.0, 81)) * units,
+    ]
+    objective = Objective(tests, "frechet")
+    distances = objective.terms(simulations)
+    finer = finer_simulations(objective, simulations, distances)
+    places = np.linspace(0.0, 1.0, 401)
+    between = np.interp(places, *coarse_arch({"offset": 0.0}).T)
+    nearer = frechet(line(81), np.column_stack((places, between)))
+    expected = 1.0 - (nearer + distances[1]) / distances.sum()
+    assert finer.gain == pytest.approx(expected, rel=0.05)
+    assert finer.enough == [100, 81]
+    same = finer_simulations(objective, simulations, np.array([0.05, 0.05]))
+    assert same.gain == pytest.approx(1.0 - distances.sum() / 0.1)
+
+
+def test_more_points_of_a_perfect_fit_gain_nothing():
+    objective = Objective([line(81)], "frechet")
+    assert finer_simulations(objective, line(81), np.zeros(1)) == (0.0, [81])
+
+
+def test_a_simulation_of_one_point_has_none_between():
+    objective = Objective([line(81)], "frechet")
+    point = line(81)[40:41]
+    distances = objective.terms(point)
+    assert finer_simulations(objective, point, distances) == (0.0, [1])
+
+
+def test_how_many_points_of_a_simulation_are_enough():
+    """Beside a line by 0.01 up, which is nearest by 0.01 over the root of 2."""
+    test, simulation = line(801), line(101) + np.array((0.0, 0.01))
+    objective = Objective([test], "frechet")
+    finer = finer_simulations(objective, simulation, objective.terms(simulation))
+    points = 3.0 * np.sqrt(2.0) / frechet(test, resample(simulation, 801)) + 1.0
+    assert finer.enough == [100 * np.ceil(points / 100)]
+    assert points > 200.0

@@ -2,7 +2,7 @@
 
 A method knows its starts and its surfaces. That a bound has stopped it, or that points decide by
 the discrete Fréchet distance (`objective.sampling`), is the same for all methods.
-Cost: by that distance one evaluation of the objective, otherwise nothing.
+Cost: by that distance two evaluations of the objective, otherwise nothing.
 """
 
 from __future__ import annotations
@@ -10,14 +10,17 @@ from __future__ import annotations
 from typing import Any
 
 from ..objective.sampling import (
+    FinerSimulations,
     Sampling,
+    finer_simulations,
     is_leash,
-    sampling_of_simulations,
     sampling_of_tests,
 )
 from ..problem.ledger import Finish, Ledger
 
 __all__ = ["judged_end"]
+
+_GAIN = 0.01  # of the value, from which on more points are worth a word
 
 
 def judged_end(finish: Finish, ledger: Ledger, simulations: Any) -> Finish:
@@ -36,42 +39,35 @@ def judged_end(finish: Finish, ledger: Ledger, simulations: Any) -> Finish:
     if simulations is None or not is_leash(ledger.objective):
         return finish
     distances = ledger.objective.predicted(simulations).terms
-    advice = _of_sampling(
-        sampling_of_tests(ledger.objective, distances),
-        sampling_of_simulations(ledger.objective, simulations, distances),
-    )
+    tests = sampling_of_tests(ledger.objective, distances)
+    if any(test.deciding > 0 for test in tests):
+        advice = _of_tests(tests)
+    else:
+        advice = _of_simulations(finer_simulations(ledger.objective, simulations, distances))
     return finish._replace(message="; ".join(filter(None, (finish.message, advice))))
 
 
-def _of_sampling(tests: list[Sampling], simulations: list[Sampling]) -> str:
-    """Return what to do about points that decide; nothing where none does."""
-    steps, points = _counted(tests, "test")
-    simulated_steps, simulated_points = _counted(simulations, "simulation")
-    if steps:
-        it = "it" if len(tests) == 1 else "them"
-        also = ", and let the model return as many" if simulated_steps else ""
-        return (
-            f"{steps} longer than a third of the distance, so that points decide which valley is "
-            f"lowest: resample {it} evenly to {points} points (curvewise.curves.resample){also}"
-        )
-    if simulated_steps:
-        return (
-            f"{simulated_steps} longer than two thirds of the distance, so that points decide: "
-            f"let the model return {simulated_points} points at even steps"
-        )
-    return ""
+def _of_tests(tests: list[Sampling]) -> str:
+    count = sum(test.deciding for test in tests)
+    steps, verb = ("1 step", "is") if count == 1 else (f"{count} steps", "are")
+    name, them = ("test", "it") if len(tests) == 1 else ("tests", "them")
+    points = " and ".join(str(test.enough) for test in tests)
+    return (
+        f"{steps} of the {name} {verb} longer than a third of the distance, so that points decide "
+        f"which valley is lowest: resample {them} evenly to {points} points "
+        "(curvewise.curves.resample), and let the model return as many"
+    )
 
 
-def _counted(curves: list[Sampling], name: str) -> tuple[str, str]:
-    """Return how many steps of curves decide, and of how many points none would."""
-    count = sum(curve.deciding for curve in curves)
-    if count == 0:
-        return "", ""
-    steps = "1 step" if count == 1 else f"{count} steps"
-    plural = "" if len(curves) == 1 else "s"
-    verb = "is" if count == 1 else "are"
-    points = " and ".join(str(curve.enough) for curve in curves)
-    return f"{steps} of the {name}{plural} {verb}", points
+def _of_simulations(finer: FinerSimulations) -> str:
+    """Return what to do about simulations of few points; nothing where more would not help."""
+    if finer.gain <= _GAIN:
+        return ""
+    points = " and ".join(map(str, finer.enough))
+    return (
+        f"with points between those of the simulation the value is {100.0 * finer.gain:.0f} % "
+        f"lower, so that points decide: let the model return {points} points at even steps"
+    )
 
 
 def _within_bounds(finish: Finish, ledger: Ledger) -> Finish:
