@@ -2,7 +2,8 @@
 
 A method knows its starts and its surfaces. That a bound has stopped it, or that points decide by
 the discrete Fréchet distance (`objective.sampling`), is the same for all methods.
-Cost: by that distance two evaluations of the objective, otherwise nothing.
+Cost: by that distance an evaluation of the objective, and where no step of the tests decides one of
+finer simulations; otherwise nothing.
 """
 
 from __future__ import annotations
