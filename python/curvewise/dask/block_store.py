@@ -1,18 +1,21 @@
 """Distances on disk, block by block: a zarr array that says what it is of.
 
-zarr writes a chunk under another name and then renames it (``LocalStore`` from 3.1.3 on), so that a
-chunk's file is there if and only if it is whole: what is there after SIGKILL is the record of what
-was done, and no other is kept. The chunks are not compressed, since digits of distances are hardly
-ever alike. Only a crash of the whole machine may leave a chunk without its content: nothing waits
-for the disk.
+zarr writes a chunk under another name and then renames it (``LocalStore`` from 3.1.3 on), so that
+SIGKILL leaves a chunk's file whole or not at all. Nothing waits for the disk: a crash of the whole
+machine may leave a chunk without its content. Each chunk therefore ends in a checksum, which zarr's
+codec crc32c writes and checks. The codec does not know a chunk's place. So a file in ``checksums``
+ties the checksum to the block's place and to the store's contents; it is written after the chunk,
+and a chunk without it is not yet done. The chunks are not compressed, since digits of distances are
+hardly ever alike.
 """
 
 from __future__ import annotations
 
+import hashlib
 import math
 import os
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
@@ -20,15 +23,24 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from .._extras import extra
+from ..curves.foreign_curves import warn
 from ..curves.inputs import Array
-from .pieces import Delayed, HighLevelGraph, dask_array, tokenize
+from .pieces import Delayed, HighLevelGraph, dask_array, lazy_array, tokenize
 
 __all__ = ["BlockStore", "Place", "begin_store"]
 
 Place = tuple[int, ...]
 
 _KEY = "curvewise"  # of what a store is of, among the attributes of its array
+_CHECKSUM = 4  # bytes of crc32c, at the end of a chunk
+_NAMED = 3  # damaged blocks that a warning names
+
+
+class DamageError(ValueError):
+    """What is wrong with a block."""
 
 
 @dataclass(frozen=True)
@@ -39,48 +51,108 @@ class BlockStore:
     ----------
     folder : str
         Where it is; a cluster's workers must see the same folder.
-    shape : tuple of int
-        That of the array.
-    block : tuple of int
-        That of its blocks, except for the last ones.
+    array : zarr.Array
+        The array, by the description that was checked: damage of the file comes too late to matter.
+    contents : mapping of str to str
+        What the store is of.
     """
 
     folder: str
-    shape: tuple[int, ...]
-    block: tuple[int, ...]
-
-    def places(self) -> Iterator[Place]:
-        """Return the places of all blocks."""
-        counts = (math.ceil(k / size) for k, size in zip(self.shape, self.block, strict=True))
-        return product(*map(range, counts))
-
-    def holds(self, place: Place) -> bool:
-        """Say whether a block is there, and so whole."""
-        return Path(self.folder, "c", *map(str, place)).is_file()
+    array: Any
+    contents: Mapping[str, str]
 
     def write(self, place: Place, values: Array) -> None:
-        """Write a block."""
-        begins = [i * size for i, size in zip(place, self.block, strict=True)]
-        where = tuple(slice(i, i + k) for i, k in zip(begins, values.shape, strict=True))
-        # zarr leaves out chunks of nothing but its fill value, if it is not told otherwise.
-        array = _zarr().open_array(self.folder, mode="r+", config={"write_empty_chunks": True})
-        array[where] = values
+        """Write a block, and then what ties it to its place."""
+        self.array[self._slices(place)] = values
+        record = self._record(place)
+        record.parent.mkdir(parents=True, exist_ok=True)
+        record.write_bytes(self._seal(place))
+
+    def read(self, place: Place) -> Array:
+        """Read a block.
+
+        Raises
+        ------
+        ValueError
+            If the block is damaged.
+        """
+        try:
+            return self._checked(place)
+        except DamageError as error:
+            raise ValueError(
+                f"{self.folder}: block {place} is damaged: {error}; call cdist or pdist with this "
+                "store again to compute it"
+            ) from error
+
+    def damage(self, place: Place) -> str | None:
+        """Say what is wrong with a block that was written, if anything."""
+        try:
+            self._checked(place)
+        except DamageError as error:
+            return str(error)
+        return None
 
     def filled(self, lazy: dask_array.Array) -> dask_array.Array:
-        """Compute the blocks that are not there; return the array, read where it is used."""
-        name = f"write-{tokenize(lazy.name, self)}"
-        graph: dict[Any, Any] = {
-            (name, *place): (partial(self.write, place), (lazy.name, *place))
-            for place in self.places()
-            if not self.holds(place)
-        }
-        graph[name] = (len, list(graph))
+        """Compute the blocks that are not there or damaged; return the array, read where used."""
+        if not lazy.size:
+            return lazy
+        places = list(product(*map(range, lazy.numblocks)))
+        written = [place for place in places if self._record(place).is_file()]
+        checks = [(partial(self.damage, place),) for place in written]
+        found = dict(zip(written, self._computed("check", checks), strict=True))
+        damaged = {place: what for place, what in found.items() if what}
+        if damaged:
+            warn(f"{self.folder}: damaged blocks are computed again: {_listed(damaged)}")
+        wanted = [place for place in places if place not in found or place in damaged]
+        writes = [(partial(self.write, place), (lazy.name, *place)) for place in wanted]
+        self._computed("write", writes, lazy)
+        name = f"read-{tokenize(self.folder, self.contents)}"
+        reads = {(name, *place): (partial(self.read, place),) for place in places}
+        return lazy_array(reads, name, lazy.chunks, np.float64)
+
+    def _computed(self, what: str, tasks: list[Any], *of: dask_array.Array) -> list[Any]:
+        """Run tasks on the scheduler in use; return their results in order."""
+        name = f"{what}-{tokenize(self.folder, self.contents, *(lazy.name for lazy in of))}"
+        graph: dict[Any, Any] = {(name, k): task for k, task in enumerate(tasks)}
+        graph[name] = (list, list(graph))
         # dask's own types do not fit together here, or are not there.
-        collections: Any = [lazy]
+        collections: Any = of
         delayed: Callable[..., Any] = Delayed
-        delayed(name, HighLevelGraph.from_collections(name, graph, collections)).compute()
-        read: Callable[[str], dask_array.Array] = dask_array.from_zarr
-        return read(self.folder)
+        results = delayed(name, HighLevelGraph.from_collections(name, graph, collections)).compute()
+        return list(results)
+
+    def _checked(self, place: Place) -> Array:
+        """Read a block; raise DamageError if it is not the one that was written."""
+        chunk = self._chunk(place)
+        if not chunk.is_file():
+            raise DamageError("it is missing")
+        found, size = chunk.stat().st_size, 8 * math.prod(self.array.chunks) + _CHECKSUM
+        if found != size:
+            raise DamageError(f"it has {found} bytes instead of {size}")
+        try:
+            values: Array = self.array[self._slices(place)]
+        except ValueError as error:
+            raise DamageError("its content has changed") from error
+        if self._record(place).read_bytes() != self._seal(place):
+            raise DamageError("it is not the block that was written here")
+        return values
+
+    def _slices(self, place: Place) -> tuple[slice, ...]:
+        pairs = zip(place, self.array.chunks, strict=True)
+        return tuple(slice(i * size, (i + 1) * size) for i, size in pairs)
+
+    def _chunk(self, place: Place) -> Path:
+        return Path(self.folder, "c", *map(str, place))
+
+    def _record(self, place: Place) -> Path:
+        return Path(self.folder, "checksums", *map(str, place))
+
+    def _seal(self, place: Place) -> bytes:
+        """Return what ties the checksum in a chunk to a place in a matrix of these contents."""
+        with self._chunk(place).open("rb") as file:
+            file.seek(-_CHECKSUM, os.SEEK_END)
+            tied = repr((sorted(self.contents.items()), place, file.read()))
+        return hashlib.sha256(tied.encode()).hexdigest().encode()
 
 
 def begin_store(
@@ -94,49 +166,63 @@ def begin_store(
     Raises
     ------
     ValueError
-        It was begun for others, or holds something else.
+        It was begun for others, holds something else, or its description is damaged.
     ImportError
         There is no zarr.
     """
     zarr = _zarr()
-    begun = BlockStore(os.path.abspath(store), shape, block)
-    contents = contents | {"block": repr(block)}
-    found = _contents_of(begun.folder, store)
-    if found is None:
-        zarr.create_array(
-            begun.folder,
-            shape=shape,
-            chunks=block,
-            dtype="float64",
-            compressors=None,
-            fill_value=math.nan,
-            attributes={_KEY: contents},
-            zarr_format=3,
-            chunk_key_encoding={"name": "default", "separator": "/"},
-        )
-        return begun
+    folder, contents = os.path.abspath(store), contents | {"block": repr(block)}
+    create = partial(
+        zarr.create_array,
+        shape=shape,
+        chunks=block,
+        dtype="float64",
+        compressors=zarr.codecs.Crc32cCodec(),
+        fill_value=math.nan,
+        attributes={_KEY: contents},
+        zarr_format=3,
+        chunk_key_encoding={"name": "default", "separator": "/"},
+        # zarr leaves out chunks of nothing but its fill value, if it is not told otherwise.
+        config={"write_empty_chunks": True},
+    )
+    if not os.path.lexists(folder) or (os.path.isdir(folder) and _is_bare(folder)):
+        return BlockStore(folder, create(folder), contents)
+    array, found = _begun(folder, store)
     others = [name for name, content in contents.items() if found.get(name) != content]
     if others:
         raise ValueError(
             f"{store} was begun with {_another(others, contents, found)}; give what it was begun "
             "with, or another store"
         )
-    for unfinished in Path(begun.folder).rglob("*.partial"):  # SIGKILL met it
+    if array.metadata.to_dict() != create({}).metadata.to_dict():
+        raise ValueError(_foreign(store))
+    for unfinished in Path(folder).rglob("*.partial"):  # SIGKILL met it
         unfinished.unlink(missing_ok=True)
-    return begun
+    return BlockStore(folder, array, contents)
 
 
-def _contents_of(folder: str, store: str | os.PathLike[str]) -> dict[str, str] | None:
-    """Return what a store was begun for; None where there is none yet."""
-    if not os.path.lexists(folder) or (os.path.isdir(folder) and _is_bare(folder)):
-        return None
+def _begun(folder: str, store: str | os.PathLike[str]) -> tuple[Any, dict[str, Any]]:
+    """Return a store's array, and what it was begun for."""
     try:
-        attributes = _zarr().open_array(folder, mode="r").attrs
-        return dict(attributes[_KEY])
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise ValueError(
-            f"{store} is there and holds no distances that curvewise.dask began; give another store"
-        ) from error
+        array = _zarr().open_array(folder, mode="r+", config={"write_empty_chunks": True})
+        return array, dict(array.attrs[_KEY])
+    except Exception as error:  # whatever zarr meets in a damaged description
+        raise ValueError(_foreign(store)) from error
+
+
+def _foreign(store: str | os.PathLike[str]) -> str:
+    return (
+        f"{store} is there and holds no distances that curvewise.dask began, or its zarr.json is "
+        "damaged; give another store"
+    )
+
+
+def _listed(damaged: dict[Place, str]) -> str:
+    """Name the first damaged blocks, and count the others."""
+    named = [f"block {place}: {what}" for place, what in list(damaged.items())[:_NAMED]]
+    if len(damaged) > _NAMED:
+        named.append(f"and {len(damaged) - _NAMED} more")
+    return "; ".join(named)
 
 
 def _is_bare(folder: str) -> bool:

@@ -59,8 +59,9 @@ def cdist(
     store : path, optional
         A folder for the matrix, which is then computed at once, on the scheduler in use, and
         written block by block as a zarr array of float64. A call that was ended by whatever means,
-        SIGKILL too, is repeated to go on: only the blocks that are not there are computed. Workers
-        of a cluster must see the same folder.
+        SIGKILL too, is repeated to go on: only the blocks that are not there are computed. Stored
+        blocks are checked first. A warning names the damaged ones, which are computed again.
+        Workers of a cluster must see the same folder.
 
     Returns
     -------
@@ -73,8 +74,9 @@ def cdist(
     ValueError, TypeError
         As for :func:`curvewise.cdist`, at once and not when the blocks are computed (except for a
         `window` that admits no path); a `block` below 1; one of `out`, `progress` and `workers`. A
-        `store` that was begun for other curves or options, or by another version of curvewise; with
-        one, a callable, of which nobody knows whether it is still the same.
+        `store` that was begun for other curves or options, or by another version of curvewise, or
+        whose description is damaged; with one, a callable, of which nobody knows whether it is
+        still the same. If a stored block is damaged later, ``.compute()`` raises ValueError.
     ImportError
         dask is not installed: ``pip install "curvewise[dask]"``. For a store: zarr is not,
         ``pip install "curvewise[zarr]"``.
@@ -89,8 +91,9 @@ def cdist(
     are sent once. The bar of ``dask.diagnostics.ProgressBar`` or the cluster's dashboard shows the
     progress. Ctrl-C ends the blocks that have begun within 0.2 s, cancelling a task within 1 s.
 
-    A store takes 8 k l bytes of disk, and each thread the memory of two blocks. One program at a
-    time may fill it. ``zarr.open_array(store)`` reads it without dask.
+    A store takes 8 k l bytes of disk, and each thread the memory of up to three blocks. One program
+    at a time may fill it. ``zarr.open_array(store)`` reads it without dask. It notices a block
+    whose content has changed, but not blocks that have changed places.
 
     Examples
     --------
