@@ -1,4 +1,6 @@
-"""Other points on the same curve, and a part of it. Linear interpolation between the points.
+"""Other points on the same curve, and a part of it.
+
+Interpolation between the points is linear, or along great circles with ``metric="haversine"``.
 
 Places along a curve are arc lengths, or the values of a column or of a time. O(n + count) time and
 memory; numpy alone.
@@ -6,20 +8,23 @@ memory; numpy alone.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
-from .._options import real_number
+from .._options import check_choice, real_number
 from .arc_length import points_at
 from .checks import Turns, branch_slices, check_column, checked_curve
+from .great_circles import checked_track, points_on_arcs, warn_of_longitudes
+from .ground_distance import check_metric, ground_distances
 from .inputs import Array, CurveLike
 from .isotonic import ascending
 from .named_curve import renamed
 
-__all__ = ["Along", "resample", "trim"]
+__all__ = ["Along", "StepMetric", "resample", "trim"]
 
 # A column that turns back by no more than this share of its way along a branch is noisy; as much is
 # what turning_points passes over, unless it is told otherwise.
@@ -28,12 +33,17 @@ _NOISE = 0.1
 Along = Literal["arc_length"] | int | npt.NDArray[np.float64] | Sequence[float]
 """What measures places along a curve: "arc_length", a column's index, or n values (a time)."""
 
+StepMetric = Literal["euclidean", "haversine"]
+"""How far neighbouring points are from each other, in the plane (or space), or on the sphere."""
+
 
 def resample(
     curve: CurveLike,
-    count: int | Sequence[int],
+    count: int | Sequence[int] | None = None,
     *,
+    spacing: float | None = None,
     by: Along = "arc_length",
+    metric: StepMetric | None = None,
     turns: Turns = (),
 ) -> Array:
     """Put evenly spaced points on a curve, branch by branch.
@@ -45,13 +55,23 @@ def resample(
     ----------
     curve : array_like, shape (n, d) or (n,)
         The curve.
-    count : int or sequence of int
+    count : int or sequence of int, optional
         Points in each branch, both of its ends included; at least 2. A sequence has a number for
-        every branch. Without `turns` the curve is one branch.
+        every branch. Without `turns` the curve is one branch. Give either `count` or `spacing`.
+    spacing : float, optional
+        The largest step, above 0, in the unit of what `by` measures. Each branch has equal steps.
+        By "arc_length" it is in the unit of the coordinates, which must then be the same for all;
+        in metres with ``metric="haversine"``.
     by : "arc_length", int or array_like of shape (n,), default "arc_length"
-        Along what the points are evenly spaced: the arc length, each coordinate divided by its
-        range; a column's values, by its index from 0 (negative: from the end); or values given for
-        the points, such as their times. A column or a time must not turn back within a branch.
+        Along what the points are evenly spaced: the arc length, see `metric`; a column's values,
+        by its index from 0 (negative: from the end); or values given for the points, such as their
+        times. A column or a time must not turn back within a branch.
+    metric : {"euclidean", "haversine"}, optional
+        What arc length is. By default each coordinate is divided by its range, as suits curves
+        whose coordinates have different units. "euclidean": the coordinates are unchanged; this is
+        also the default with `spacing`. "haversine": the columns are longitude and latitude in
+        degrees, arc lengths are metres on the sphere, points lie on great circles, and longitudes
+        of the result are from -180 to 180.
     turns : sequence of int, optional
         Indices of the turning points, at which branches meet: what `turning_points` returns. They
         and the ends stay as they are, to the bit; without them turns are cut off.
@@ -67,7 +87,15 @@ def resample(
     TypeError, ValueError
         No curve of at least two finite points; `count` below 2, or not one per branch; `turns`
         that do not ascend; no such column; values to space by that turn back by more than a tenth
-        of a branch, or that do not change at all within it.
+        of a branch, or that do not change at all within it; not one of `count` and `spacing`. With
+        ``metric="haversine"``: a column as `by`, values that turn back at all, points that are not
+        on the sphere, neighbours that are opposite on it.
+
+    Warns
+    -----
+    UserWarning
+        If the coordinates look like longitude and latitude, the longitude jumps by more than 180
+        between neighbours, and `metric` is not given.
 
     Notes
     -----
@@ -82,14 +110,26 @@ def resample(
     >>> P, Q = (resample(loop, [40, 80, 80], turns=turning_points(loop)) for loop in loops)
     >>> P.shape, Q.shape
     ((198, 2), (198, 2))
+    >>> resample([(0, 0), (1000, 0), (1000, 100)], spacing=500)  # metres
+    array([[   0.        ,    0.        ],
+           [ 366.66666667,    0.        ],
+           [ 733.33333333,    0.        ],
+           [1000.        ,  100.        ]])
+    >>> resample([(179, 0), (-179, 0)], 3, metric="haversine")[1]
+    array([180.,   0.])
     """
-    points = checked_curve(curve, 2)
+    points = _checked(curve, by, metric)
+    if spacing is not None:
+        metric = metric or "euclidean"
     branches = branch_slices(turns, len(points))
+    placed = [
+        _places(points, by, metric, branch, f"branch {k}") for k, branch in enumerate(branches)
+    ]
+    counts = _counts(count, spacing, [float(places[-1] - places[0]) for places, _ in placed])
     pieces = []
-    for k, (branch, number) in enumerate(zip(branches, _counts(count, len(branches)), strict=True)):
-        places, there = _places(points, by, branch, f"branch {k}")
-        at = np.linspace(places[0], places[-1], number)
-        piece = points_at(there, at, places)
+    for k, (branch, (places, there)) in enumerate(zip(branches, placed, strict=True)):
+        at = np.linspace(places[0], places[-1], counts[k])
+        piece = _points_at(there, at, places, metric)
         piece[0], piece[-1] = points[branch][[0, -1]]
         pieces.append(piece if k == 0 else piece[1:])
     return renamed(curve, np.concatenate(pieces))
@@ -101,6 +141,7 @@ def trim(
     stop: float | None = None,
     *,
     by: int | npt.NDArray[np.float64] | Sequence[float] = 0,
+    metric: StepMetric | None = None,
 ) -> Array:
     """Cut off what comes before and after two values of a column, or of a time.
 
@@ -115,6 +156,10 @@ def trim(
     by : int or array_like of shape (n,), default 0
         The column, by its index from 0, or values given for the points, such as their times. They
         may turn back: of a loop, ``trim(loop, 0.0, 0.02)`` is the first loading.
+    metric : {"euclidean", "haversine"}, optional
+        Between which points the two ends are interpolated: on a straight line, the default, or with
+        "haversine" on a great circle, of longitudes and latitudes in degrees. `by` is then a value
+        for each point, and longitudes of the result are from -180 to 180.
 
     Returns
     -------
@@ -125,7 +170,13 @@ def trim(
     Raises
     ------
     TypeError, ValueError
-        No curve of at least two finite points; no such column; a value that is never reached.
+        No curve of at least two finite points; no such column; a value that is never reached. With
+        ``metric="haversine"`` as for :func:`resample`.
+
+    Warns
+    -----
+    UserWarning
+        As for :func:`resample`.
 
     Notes
     -----
@@ -139,16 +190,54 @@ def trim(
            [ 1. , 10. ],
            [ 2. , 20. ]])
     """
-    points = checked_curve(curve, 2)
+    points = _checked(curve, by, metric)
     x = _values(points, by)
     first = 0.0 if start is None else _first_place(x, start, 0.0, "start")
     last = len(x) - 1.0 if stop is None else _first_place(x, stop, first, "stop")
     between = np.arange(int(np.floor(first)) + 1, int(np.ceil(last)))
     places = np.concatenate(([first], between, [last])) if last > first else np.array([first])
-    return renamed(curve, points_at(points, places))
+    return renamed(curve, _points_at(points, places, np.arange(float(len(points))), metric))
 
 
-def _counts(count: int | Sequence[int], branches: int) -> list[int]:
+def _checked(curve: CurveLike, by: Along, metric: StepMetric | None) -> Array:
+    """Return the points of a curve, of a track on the sphere with its longitudes in range."""
+    points = checked_curve(curve, 2)
+    if metric is None:
+        warn_of_longitudes(
+            points, "pass metric='haversine' to go round the sphere, or 'euclidean' if it does jump"
+        )
+        return points
+    check_choice("metric", metric, get_args(StepMetric))
+    if metric == "euclidean":
+        return points
+    if isinstance(by, int | np.integer):
+        raise ValueError(
+            "metric='haversine' interpolates between points on great circles, and not in a column; "
+            f"by is {by}: give a value for each point, such as its time"
+        )
+    return checked_track(points)
+
+
+def _points_at(points: Array, at: Array, places: Array, metric: StepMetric | None) -> Array:
+    """Return the points at places along a curve, by the places of its points."""
+    if metric == "haversine":
+        return points_on_arcs(points, at, places)
+    return points_at(points, at, places)
+
+
+def _counts(
+    count: int | Sequence[int] | None, spacing: float | None, lengths: Sequence[float]
+) -> list[int]:
+    """Return how many points each branch has, whose lengths are given."""
+    if (count is None) == (spacing is None):
+        raise ValueError(
+            f"count is {count!r}, spacing is {spacing!r}; give either count or spacing"
+        )
+    if spacing is not None:
+        step = real_number("spacing", spacing, math.ulp(0.0), "give a number > 0")
+        # A quotient that is whole but for rounding needs no further step.
+        return [max(1, math.ceil(length / step * (1 - 1e-12))) + 1 for length in lengths]
+    branches = len(lengths)
     counts = np.asarray(count)
     if counts.dtype.kind not in "iu":
         raise TypeError(f"count is {count!r}; give a whole number, or one for every branch")
@@ -173,21 +262,23 @@ def _values(points: Array, by: int | npt.NDArray[np.float64] | Sequence[float]) 
     return values
 
 
-def _places(points: Array, by: Along, branch: slice, name: str) -> tuple[Array, Array]:
+def _places(
+    points: Array, by: Along, metric: StepMetric | None, branch: slice, name: str
+) -> tuple[Array, Array]:
     """Return ascending values along a branch, and the points that have them."""
     there = points[branch]
     if isinstance(by, str):
         if by != "arc_length":
             raise ValueError(f"unknown by {by!r}; choose 'arc_length', a column or values")
-        extent = np.ptp(points, axis=0)
-        steps = np.diff(there / np.where(extent > 0.0, extent, 1.0), axis=0)
-        places = np.concatenate(([0.0], np.cumsum(np.sqrt((steps**2).sum(axis=1)))))
+        places = np.concatenate(([0.0], np.cumsum(_lengths(there, points, metric))))
     else:
         places = _values(points, by)[branch]
         if places[-1] < places[0]:
             places = -places
         back = np.maximum.accumulate(places) - places
-        if back.max() > _NOISE * (places[-1] - places[0]):
+        # The mean of points that noise turns back is one of coordinates, not of the sphere.
+        allowed = 0.0 if metric == "haversine" else _NOISE
+        if back.max() > allowed * (places[-1] - places[0]):
             raise ValueError(
                 f"what to space by turns back in {name}, by {back.max():.3g} before point "
                 f"{branch.start + int(back.argmax())}; give all turns, or use by='arc_length'"
@@ -197,6 +288,17 @@ def _places(points: Array, by: Along, branch: slice, name: str) -> tuple[Array, 
     if not places[-1] > places[0]:
         raise ValueError(f"what to space by is constant in {name}")
     return places, there
+
+
+def _lengths(there: Array, points: Array, metric: StepMetric | None) -> Array:
+    """Return how far apart neighbours in a branch are."""
+    if metric == "haversine":
+        return ground_distances(there[:-1], there[1:], *check_metric(metric, None))
+    if metric == "euclidean":
+        return np.asarray(np.hypot.reduce(np.diff(there, axis=0), axis=1))
+    extent = np.ptp(points, axis=0)
+    steps = np.diff(there / np.where(extent > 0.0, extent, 1.0), axis=0)
+    return np.asarray(np.sqrt((steps**2).sum(axis=1)))
 
 
 def _first_place(x: Array, value: float, begin: float, name: str) -> float:

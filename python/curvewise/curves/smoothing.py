@@ -14,6 +14,7 @@ import numpy as np
 
 from .._extras import extra
 from .checks import Turns, branch_slices, check_column, checked_curve
+from .great_circles import warn_of_longitudes
 from .inputs import Array, CurveLike
 from .named_curve import renamed
 
@@ -63,6 +64,12 @@ def smooth(
         No curve of finite numbers; `turns` that do not ascend; no such column; a window that is
         even, not above `order`, or longer than a branch.
 
+    Warns
+    -----
+    UserWarning
+        If the coordinates look like longitude and latitude, and the longitude jumps by more than
+        180 between neighbours.
+
     Notes
     -----
     O(n window) time, O(n) memory. Area and DTW need no filter: their noise averages out.
@@ -79,6 +86,7 @@ def smooth(
     with extra("curves", "curvewise.curves.smooth needs scipy"):
         savgol_filter = import_module("scipy.signal").savgol_filter
     points = checked_curve(curve, 1)
+    warn_of_longitudes(points, "unwrap it first, by numpy.unwrap(longitude, period=360)")
     if isinstance(order, bool) or int(order) != order or order < 0:
         raise ValueError(f"order is {order}; it must be a whole number from 0 on")
     smoothed = [

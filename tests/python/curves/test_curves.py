@@ -188,6 +188,14 @@ def test_smoothing_takes_noise_off_and_keeps_turns() -> None:
     assert (curves.smooth(noisy, 15, columns=[1], turns=turns)[:, 0] == strain).all()
 
 
+def test_smoothing_asks_about_longitudes_that_jump() -> None:
+    track = np.array([(179.0, 0.0), (-179.0, 0.0), (-178.0, 0.0)])
+    with pytest.warns(UserWarning, match="jumps by 358 between points 0 and 1; unwrap it first"):
+        curves.smooth(track, 3, order=1)
+    track[:, 0] = np.unwrap(track[:, 0], period=360)
+    np.testing.assert_allclose(curves.smooth(track, 3, order=1), track, atol=0.5)
+
+
 def test_a_polynomial_passes_the_filter() -> None:
     x = np.linspace(0, 1, 40)
     parabola = np.column_stack((x, 3 * x**2 - x))
