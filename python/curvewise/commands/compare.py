@@ -6,6 +6,7 @@ import argparse
 import contextlib
 import json
 import math
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, get_args
@@ -38,7 +39,8 @@ def add_compare(commands: Any) -> None:
         "--measures",
         nargs="+",
         choices=MEASURES,
-        help="by default the five of the paper; frechet and dtw if there are not two columns",
+        help="by default the five of the paper; frechet and dtw if there are not two columns; the "
+        "exit status is 1 if one that is named here has no value",
     )
     command.add_argument(
         "--spacing", choices=get_args(Spacing), help="of area; in place of the preset's"
@@ -123,7 +125,7 @@ def _compare(arguments: argparse.Namespace) -> int:
     except ValueError as error:
         raise ValueError(f"{error} (P is {files[0]}, Q is {files[1]})") from error
     if arguments.output:
-        numbers = _residuals(comparison) if arguments.residuals else comparison.values.values()
+        numbers = _residuals(comparison) if arguments.residuals else _all_values(comparison, files)
         # With all digits: an optimiser takes differences of them.
         lines = "".join(f"{number:.17g}\n" for number in numbers)
         Path(arguments.output).write_text(lines, encoding="ascii")
@@ -136,7 +138,23 @@ def _compare(arguments: argparse.Namespace) -> int:
         write_picture(comparison, arguments.plot)
         if not arguments.json:
             print(f"\npicture: {arguments.plot}")
-    return 0
+    missing = _refusals(comparison, files) if arguments.measures else []
+    for words in missing:
+        print(f"curvewise: {words}", file=sys.stderr)
+    return 1 if missing else 0
+
+
+def _refusals(comparison: Comparison, files: list[str]) -> list[str]:
+    """Say which measures have no value, and why."""
+    of = f"(P is {files[0]}, Q is {files[1]})"
+    return [f"{name} has no value: {words} {of}" for name, words in comparison.refusals.items()]
+
+
+def _all_values(comparison: Comparison, files: list[str]) -> list[float]:
+    """Return the values; raise ValueError if a measure has none."""
+    if missing := _refusals(comparison, files):
+        raise ValueError(missing[0])
+    return list(comparison.values.values())
 
 
 def _columns_in_words(names: list[str], factors: list[float] | None) -> str:
@@ -152,12 +170,13 @@ def _in_json(comparison: Comparison) -> dict[str, Any]:
         "preset": comparison.preset,
         "n": [len(comparison.P), len(comparison.Q)],
         "values": _json_numbers(comparison.values),
+        "refusals": comparison.refusals,
         "deviations": {name: _json_numbers(found._asdict()) for name, found in deviations},
     }
 
 
 def _json_numbers(values: Mapping[str, float]) -> dict[str, float | None]:
-    """JSON has no infinity: a value beyond the range of a double is null."""
+    """JSON has no infinity and no nan: a value beyond the range of a double, or none, is null."""
     return {name: value if math.isfinite(value) else None for name, value in values.items()}
 
 

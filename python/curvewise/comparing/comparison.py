@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._core import is_symmetric
 from .._docstrings import filled
 from .._options import Preset, check_choice
 from ..curves.column_roles import is_time
@@ -30,7 +32,8 @@ __all__ = ["PRESETS", "Comparison", "Preset", "compare"]
 class Comparison(Result):
     """The values of several measures for one pair of curves.
 
-    ``comparison["dtw"]`` is one value, ``str(comparison)`` a table.
+    ``comparison["dtw"]`` is one value, ``str(comparison)`` a table. For a measure without a value
+    ``comparison["dtw"]`` raises ValueError.
 
     Attributes
     ----------
@@ -39,9 +42,12 @@ class Comparison(Result):
     preset : {"scaled", "paper", "raw"}
         The conditions under which the values were computed.
     values : dict of str to float
-        In the order in which :func:`compare` lists the measures, or as asked for.
+        In the order in which :func:`compare` lists the measures, or as asked for; nan for a measure
+        that refuses these curves.
     conditions : dict of str to Condition
         How each value was computed: on curves scaled or not, and with which options.
+    refusals : dict of str to str
+        Why a measure has no value, for each measure that refuses these curves.
     """
 
     P: Array = field(repr=False)
@@ -49,14 +55,22 @@ class Comparison(Result):
     preset: Preset
     values: dict[str, float]
     conditions: dict[str, Condition] = field(repr=False)
+    refusals: dict[str, str] = field(default_factory=dict)
 
     def __getitem__(self, measure: str) -> float:
+        if measure in self.refusals:
+            raise ValueError(self.refusals[measure])
         return self.values[measure]
 
     def __str__(self) -> str:
         width = max(map(len, self.values))
-        lines = [f"{name:<{width}}  {value:.6g}" for name, value in self.values.items()]
+        lines = [f"{name:<{width}}  {self._text(name)}" for name in self.values]
         return "\n".join([*lines, *self.notes])
+
+    def _text(self, name: str) -> str:
+        """Return a measure's value as text, or why there is none."""
+        refusal = self.refusals.get(name)
+        return f"no value: {refusal}" if refusal else f"{self.values[name]:.6g}"
 
     @property
     def notes(self) -> list[str]:
@@ -77,11 +91,12 @@ class Comparison(Result):
         found = {
             name: deviation(name, condition, self.P, self.Q)
             for name, condition in self.conditions.items()
+            if name not in self.refusals
         }
         return Deviations({name: value for name, value in found.items() if value is not None})
 
     def to_dict(self) -> dict[str, float]:
-        """Return the values by name, as a new dict of Python floats."""
+        """Return the values by name, as a new dict of Python floats; nan where there is none."""
         return dict(self.values)
 
     def plot(self, *, names: Sequence[str] | None = None) -> Picture:
@@ -113,8 +128,10 @@ class Comparison(Result):
         """Return the values with the deviations, which `str` leaves out, and the preset."""
         deviations = self.deviations
         rows = [
-            [name, f"{value:.6g}", *cells(deviations.get(name))]
-            for name, value in self.values.items()
+            [name, "", self._text(name), ""]
+            if name in self.refusals
+            else [name, self._text(name), *cells(deviations.get(name))]
+            for name in self.values
         ]
         header = ["measure", "value", "mean deviation, in units of y", "largest"]
         return [Table(rows, header), f"preset {self.preset}", *self.notes]
@@ -159,13 +176,14 @@ def compare(
     -------
     Comparison
         The values by name; prints as a table, plots itself. Its `notes` say where the curves are
-        probably in different units.
+        probably in different units. If a measure refuses these curves, the others have their
+        values, and `refusals` has the reason.
 
     Raises
     ------
     ValueError
-        An unknown preset or measure, options of a measure that is not computed, and whatever a
-        measure refuses.
+        An unknown preset or measure, options of a measure that is not computed, options that a
+        measure refuses; curves that every measure refuses.
     TypeError
         A curve does not hold real numbers; an option that the measure does not have.
 
@@ -204,8 +222,11 @@ def compare(
     for name in names:
         scaled, of_preset = PRESETS[preset][name]
         conditions[name] = Condition(scaled, {**of_preset, **given.get(name, {})})
-    values = {name: _value(MEASURES[name], conditions[name], P, Q) for name in names}
-    return Comparison(P, Q, preset, values, conditions)
+    values, errors = _values(conditions, P, Q)
+    if len(errors) == len(values):
+        raise next(iter(errors.values()))
+    refusals = {name: str(error) for name, error in errors.items()}
+    return Comparison(P, Q, preset, values, conditions, refusals)
 
 
 def _warn_of_time(P: Array, Q: Array, names: Sequence[Any], measures: Sequence[str]) -> None:
@@ -223,6 +244,30 @@ def _warn_of_time(P: Array, Q: Array, names: Sequence[Any], measures: Sequence[s
             f"column {column} counts as a coordinate, and looks like time; leave it out of P and Q,"
             f" or say measures={list(measures)} if it shall count"
         )
+
+
+def _values(
+    conditions: Mapping[str, Condition], P: Array, Q: Array
+) -> tuple[dict[str, float], dict[str, ValueError]]:
+    """Return the values, and for each measure that refuses the curves nan and its error."""
+    values, errors = {}, {}
+    for name, condition in conditions.items():
+        try:
+            values[name] = _value(MEASURES[name], condition, P, Q)
+        except ValueError as error:
+            if not _are_valid(name, condition.options):
+                raise
+            values[name], errors[name] = math.nan, error
+    return values, errors
+
+
+def _are_valid(measure: str, options: Mapping[str, Any]) -> bool:
+    """Say whether a measure takes options, whatever the curves are."""
+    try:
+        is_symmetric(measure, dict(options))  # it checks the options too
+    except (TypeError, ValueError):
+        return False
+    return True
 
 
 def _value(info: MeasureInfo, condition: Condition, P: Array, Q: Array) -> float:

@@ -14,12 +14,16 @@ from ..curves.inputs import Array
 
 __all__ = ["other_units"]
 
-# Extents that differ by more than this are probably in different units.
+# Extents that differ by more than the first are probably in different units. If they differ by more
+# than the second, one of them is flat to rounding, and no unit is that small.
 _FACTOR = 20.0
+_FLAT = 1e12
 
 
 def other_units(P: Array, Q: Array, axes: Sequence[str], p_name: str, q_name: str) -> list[str]:
     """Return a question for each coordinate in which the extents differ by more than 20 times.
+
+    There is none for a curve that is flat in the coordinate: a constant has no unit.
 
     Parameters
     ----------
@@ -33,6 +37,7 @@ def other_units(P: Array, Q: Array, axes: Sequence[str], p_name: str, q_name: st
     with np.errstate(over="ignore"):
         extents = np.ptp(P, axis=0).tolist(), np.ptp(Q, axis=0).tolist()
     for axis, p, q in zip(axes, *extents, strict=True):
-        if q > 0 and not 1 / _FACTOR < p / q < _FACTOR:
+        largest, least = max(p, q), min(p, q)
+        if least * _FACTOR <= largest < least * _FLAT:
             questions.append(f"{axis} of {p_name} is {p / q:.3g} times that of {q_name}")
     return [f"{question}; different units?" for question in questions]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping, Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol
@@ -35,6 +36,8 @@ class Compared(Protocol):
     def values(self) -> Mapping[str, float]: ...
     @property
     def conditions(self) -> Mapping[str, Condition]: ...
+    @property
+    def refusals(self) -> Mapping[str, str]: ...
 
 
 def plot_comparison(comparison: Compared, *, names: Sequence[str] | None = None) -> Picture:
@@ -82,12 +85,26 @@ def plot_comparison(comparison: Compared, *, names: Sequence[str] | None = None)
     main, others = panels(figure, len(labels.axes), len(comparison.values))
     handles = list(draw_curves(main, *drawn, labels))
     for ax, (name, value) in zip(others, comparison.values.items(), strict=True):
-        ax.set_title(f"{MEASURES[name].title}: {value:.4g}")
-        accent = _draw_measure(comparison, name, ax, labels.axes)
+        refusal = comparison.refusals.get(name)
+        ax.set_title(f"{MEASURES[name].title}: {'no value' if refusal else f'{value:.4g}'}")
+        if refusal:
+            _write_words(ax, refusal)
+            continue
+        try:
+            accent = _draw_measure(comparison, name, ax, labels.axes)
+        except ValueError as error:  # it has a value, but no path: the others have their pictures
+            _write_words(ax, f"no picture: {error}")
+            continue
         if accent is not None:
             handles.append(accent)
     figure.legend(handles=handles, loc="outside upper left", ncols=len(handles), frameon=False)
     return figure
+
+
+def _write_words(ax: Axes, words: str) -> None:
+    """Write words into a small panel, in which nothing is drawn."""
+    ax.set_axis_off()
+    ax.text(0.5, 0.5, textwrap.fill(words, 32), ha="center", va="center", transform=ax.transAxes)
 
 
 def _draw_measure(comparison: Compared, name: str, ax: Axes, axes: Sequence[str]) -> Line2D | None:

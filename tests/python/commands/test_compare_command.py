@@ -42,6 +42,7 @@ def test_compare_json_is_one_object(compared, files, preset):
         "preset": preset,
         "n": [40, 30],
         "values": expected.to_dict(),
+        "refusals": {},
         "deviations": {name: found._asdict() for name, found in expected.deviations.items()},
     }
 
@@ -181,12 +182,13 @@ def test_bad_data_is_one_line_with_its_place(run, files):
 def test_curves_that_cannot_be_compared_are_named_by_their_files(run, files):
     Path("B.csv").write_text("1,1\n1,1\n")
     assert_failed(
-        run("compare", "B.csv", "A.csv"),
+        run("compare", "B.csv", "A.csv", "--measures", "pcm", "curve_length"),
         "P has zero length (all its points are equal); ",
         "(P is B.csv, Q is A.csv)",
     )
     Path("B.csv").write_text("1,1\n")
-    assert_failed(run("compare", *files), "Q has shape (1, 2); ", "(P is A.csv, Q is B.csv)")
+    area = ("--measures", "area")
+    assert_failed(run("compare", *files, *area), "Q has shape (1, 2); ", "(P is A.csv, Q is B.csv)")
 
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/mem"), reason="a file that cannot be read")
@@ -251,3 +253,26 @@ def test_compare_writes_no_output_where_it_fails(run, files):
     status, _, error = run("compare", *files, "--residuals")
     assert status == USAGE
     assert "--residuals needs --output FILE" in error
+
+
+def test_a_measure_without_a_value_does_not_hide_the_others(run, output, compared, files):
+    np.savetxt("A.csv", [(0, 0), (2, 0), (4, 0)], delimiter=",")
+    P, Q = map(read_curve, files)
+    words = curvewise.compare(P, Q).refusals["curve_length"]
+    assert f"\ncurve_length  no value: {words}\n" in output("compare", *files)
+    loaded = compared(*files)
+    assert loaded["refusals"] == {"curve_length": words}
+    assert loaded["values"]["curve_length"] is None
+    assert loaded["values"]["frechet"] == curvewise.compare(P, Q)["frechet"]
+    output("compare", *files, "--plot", "out.png")
+    assert Path("out.png").read_bytes().startswith(PNG)
+
+
+def test_a_measure_that_was_asked_for_and_has_no_value_is_a_failure(run, files):
+    np.savetxt("A.csv", [(0, 0), (2, 0), (4, 0)], delimiter=",")
+    result = run("compare", *files, "--measures", "frechet", "curve_length")
+    assert_failed(result, "curve_length has no value: P's y is 0")
+    assert list(numbers(result[1])) == ["frechet"]
+    # An optimiser needs every number.
+    assert_failed(run("compare", *files, "--output", "f.txt"), "curve_length has no value: P's y")
+    assert not Path("f.txt").exists()
