@@ -44,13 +44,15 @@ CURVEWISE_EXPORT double value_and_gradients(const AreaOptions& options, const Cu
                                             const CurveView& Q, const Gradients& out,
                                             Control* control = nullptr);
 
-/// Of one point of each curve alone: those of the pair that decides. Does not look at
-/// options.cutoff.
+/// Of one point of each curve alone: those of the pair that decides. At ties of several pairs: of
+/// the pair that decides after both curves have been moved by at most 2^-30 of the distance, for
+/// twice the time. Does not look at options.cutoff.
 CURVEWISE_EXPORT double value_and_gradients(const FrechetOptions& options, const CurveView& P,
                                             const CurveView& Q, const Gradients& out,
                                             Control* control = nullptr);
 
-/// Of the two points, or three, whose leash decides. Three times the time of the value.
+/// Of the critical event that decides: two vertices, a vertex and an edge, or two vertices and an
+/// edge. Three times the time of the value; at ties five times, as for frechet.
 CURVEWISE_EXPORT double value_and_gradients(const FrechetContinuousOptions& options,
                                             const CurveView& P, const CurveView& Q,
                                             const Gradients& out, Control* control = nullptr);

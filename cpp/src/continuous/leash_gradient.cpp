@@ -1,29 +1,40 @@
-// The derivatives of the continuous Fréchet distance. The distance is the leash at one place of the
-// free-space diagram, where it decides whether a path exists (Alt & Godau 1995):
+// The derivatives of the continuous Fréchet distance. A critical event decides the distance: below
+// its leash, no path passes it in the free-space diagram (Alt & Godau 1995). It is one of
 //
-//   - between two vertices, or between a vertex and the point of an edge that is nearest to it: the
-//     leash moves with both of its ends, and the nearest point may be held;
-//   - between one point of an edge and two vertices that are equally far from it, one of them
-//   passed
-//     before the other: when a vertex moves, so does that point. The derivative is the mean of
-//     those of both leashes with the weights under which moving the point changes nothing.
+//   - two vertices: the ends of the curves, or vertices from which the leash grows both ways along
+//     one curve;
+//   - a vertex and the point of an edge that is nearest to it, which may be held;
+//   - two vertices and one point of an edge that is equally far from both, where the leash to the
+//     first falls along the edge and the leash to the second grows. If a vertex moves, so does that
+//     point. The derivative is the mean of both leashes' derivatives with the weights under which
+//     moving the point changes nothing.
 //
-// The place is read off a matching: O(n + m) beyond the value and the path.
+// Every path within the distance passes the deciding event, so it is sought in one matching. Other
+// rows may use the whole leash without need: they are no event, or an event of a shorter leash. If
+// several events have the same leash, one is taken that decides after both curves have been moved
+// by at most 2^-30 of the distance. O(n + m) beyond the value and the path, and both again at ties.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
+#include <random>
 #include <vector>
 
+#include "curves/moved_curve.hpp"
 #include "curvewise/gradient.hpp"
 
 namespace curvewise {
 namespace {
 
-// Leashes that are equal but for rounding, and cosines that are 0.
-constexpr double same_leash = 1e-9;
-constexpr double right_angle = 1e-5;
+// Relative to the longest leash: rows that are looked at, and events that tie.
+constexpr double nearly_whole = 1e-8;
+constexpr double tied = 1e-11;
+// A cosine that is 0 but for rounding.
+constexpr double level = 1e-9;
+
+using Row = std::array<double, 2>;  // of a matching
 
 // A place on a curve, between a vertex and the next.
 struct Place {
@@ -39,11 +50,11 @@ struct Place {
     }
 };
 
-// The leash between two places.
+// The leash between two places, of which one is a vertex.
 class Leash {
    public:
-    Leash(const CurveView& P, const CurveView& Q, const std::array<double, 2>& parameters)
-        : P_(P), Q_(Q), p_(parameters[0]), q_(parameters[1]), direction_(differences()) {
+    Leash(const CurveView& P, const CurveView& Q, const Row& row)
+        : P_(P), Q_(Q), p_(row[0]), q_(row[1]), direction_(differences()) {
         double largest = 0.0;
         for (const double d : direction_) largest = std::max(largest, std::abs(d));
         if (largest == 0.0) return;
@@ -54,19 +65,41 @@ class Leash {
     }
 
     double length() const noexcept { return length_; }
-    // How fast it grows as its end moves along the edge on which that is, by the cosine of the
-    // angle; none where both ends are vertices.
-    std::optional<double> cosine() const noexcept {
-        if (p_.fraction > 0.0) return -cosine_to(P_, p_.vertex);
-        if (q_.fraction > 0.0) return cosine_to(Q_, q_.vertex);
-        return std::nullopt;
+    bool is_between_vertices() const noexcept { return p_.fraction + q_.fraction == 0.0; }
+    // Of a leash between two vertices: whether no shorter one passes there.
+    bool blocks() const noexcept {
+        const bool before_p = grows(P_, p_, -1, -1.0), behind_p = grows(P_, p_, 1, -1.0);
+        const bool before_q = grows(Q_, q_, -1, 1.0), behind_q = grows(Q_, q_, 1, 1.0);
+        return (before_p || behind_q) && (before_q || behind_p);
     }
-    // Whether both have an end on the same edge.
-    bool shares_edge(const Leash& other) const noexcept {
-        const auto same = [](const Place& a, const Place& b) {
+    // How fast it grows as its end moves along the edge, by the cosine of the angle.
+    double cosine() const noexcept {
+        return p_.fraction > 0.0 ? -cosine_to(P_, p_.vertex, p_.vertex + 1)
+                                 : cosine_to(Q_, q_.vertex, q_.vertex + 1);
+    }
+    // The distance along the edge from its end to the end of another leash; none where that is on
+    // another edge.
+    std::optional<double> distance_along_edge(const Leash& other) const noexcept {
+        const auto on_one = [](const Place& a, const Place& b) {
             return a.fraction > 0.0 && b.fraction > 0.0 && a.vertex == b.vertex;
         };
-        return same(p_, other.p_) || same(q_, other.q_);
+        if (on_one(p_, other.p_)) {
+            return (other.p_.fraction - p_.fraction) * edge_length(P_, p_.vertex);
+        }
+        if (on_one(q_, other.q_)) {
+            return (other.q_.fraction - q_.fraction) * edge_length(Q_, q_.vertex);
+        }
+        return std::nullopt;
+    }
+    // The row of the point of the edge that is nearest to the vertex of the other curve.
+    Row nearest() const noexcept {
+        const bool is_on_p = p_.fraction > 0.0;
+        const Place& place = is_on_p ? p_ : q_;
+        const double forward = -cosine() * length_ / edge_length(is_on_p ? P_ : Q_, place.vertex);
+        const double least = static_cast<double>(place.vertex);
+        const double moved = least + std::clamp(place.fraction + forward, 0.0, 1.0);
+        return is_on_p ? Row{moved, static_cast<double>(q_.vertex)}
+                       : Row{static_cast<double>(p_.vertex), moved};
     }
     void add(double weight, const Gradients& out) const noexcept {
         add_to(out.by_p, p_, -weight);
@@ -81,17 +114,34 @@ class Leash {
         }
         return result;
     }
-    double cosine_to(const CurveView& curve, std::ptrdiff_t vertex) const noexcept {
+    // Whether it does not fall towards the next vertex of a curve, or there is none.
+    bool grows(const CurveView& curve, const Place& place, std::ptrdiff_t step,
+               double sign) const noexcept {
+        const std::ptrdiff_t next = place.vertex + step;
+        if (next < 0 || next >= curve.size()) return true;
+        return sign * cosine_to(curve, place.vertex, next) >= -level;
+    }
+    // Of the direction and an edge; 0 for an edge without length.
+    double cosine_to(const CurveView& curve, std::ptrdiff_t from,
+                     std::ptrdiff_t to) const noexcept {
         double largest = 0.0, dot = 0.0, squares = 0.0;
         for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
-            largest = std::max(largest, std::abs(curve(vertex + 1, c) - curve(vertex, c)));
+            largest = std::max(largest, std::abs(curve(to, c) - curve(from, c)));
         }
+        if (largest == 0.0) return 0.0;
         for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
-            const double step = (curve(vertex + 1, c) - curve(vertex, c)) / largest;
+            const double step = (curve(to, c) - curve(from, c)) / largest;
             dot += step * direction_[static_cast<std::size_t>(c)];
             squares += step * step;
         }
         return dot / std::sqrt(squares);
+    }
+    static double edge_length(const CurveView& curve, std::ptrdiff_t vertex) noexcept {
+        double length = 0.0;
+        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) {
+            length = std::hypot(length, curve(vertex + 1, c) - curve(vertex, c));
+        }
+        return length;
     }
     void add_to(double* out, const Place& place, double weight) const noexcept {
         if (out == nullptr) return;
@@ -110,17 +160,97 @@ class Leash {
     double length_ = 0.0;
 };
 
-// The other leash of a pair that decides together with the longest; none where that does alone.
-std::optional<Leash> partner_of(const Leash& longest, const Matching& matching, const CurveView& P,
-                                const CurveView& Q) {
-    const std::optional<double> cosine = longest.cosine();
-    if (!cosine || std::abs(*cosine) <= right_angle) return std::nullopt;
-    for (const auto& row : matching.parameters) {
-        const Leash other(P, Q, row);
-        if (other.length() < (1.0 - same_leash) * longest.length()) continue;
-        if (other.shares_edge(longest) && *other.cosine() * *cosine < 0.0) return other;
+// The rows of an event with the weights of their leashes, the second of which may be 0.
+struct Event {
+    Row first{}, second{};
+    double first_weight = 1.0, second_weight = 0.0;
+};
+
+// The event of a matching with the longest leash.
+class EventSearch {
+   public:
+    EventSearch(const CurveView& P, const CurveView& Q, const std::vector<Row>& rows) {
+        std::vector<double> lengths;
+        for (const Row& row : rows) {
+            lengths.push_back(Leash(P, Q, row).length());
+            if (lengths.back() <= longest_) continue;
+            longest_ = lengths.back();
+            found_ = {row, row};
+        }
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            if (lengths[k] < (1.0 - nearly_whole) * longest_) continue;
+            const Leash leash(P, Q, rows[k]);
+            if (leash.is_between_vertices()) {
+                offer_vertices(leash, rows[k]);
+                continue;
+            }
+            offer_nearest(leash, P, Q);
+            if (leash.cosine() > 0.0) offer_pair(leash, rows[k]);
+            if (leash.cosine() < 0.0) {
+                falling_.emplace(leash);
+                falling_row_ = rows[k];
+            }
+        }
     }
-    return std::nullopt;
+
+    const Event& found() const noexcept { return found_; }
+    // Exactly one event is as long as the longest leash.
+    bool is_decided() const noexcept { return ties_ == 1; }
+
+   private:
+    bool is_whole(double leash) const noexcept { return leash >= (1.0 - tied) * longest_; }
+
+    void offer(const Event& event, double leash) {
+        if (is_whole(leash)) ++ties_;
+        if (leash <= leash_) return;
+        leash_ = leash;
+        found_ = event;
+    }
+
+    void offer_vertices(const Leash& leash, const Row& row) {
+        if (leash.blocks()) {
+            offer({row, row}, leash.length());
+        } else if (is_whole(leash.length())) {
+            ++ties_;  // the place of an event of two leashes, at a vertex by a tie or by rounding
+        }
+    }
+
+    // The event of a vertex and the nearest point of an edge, which may be a vertex of the edge.
+    void offer_nearest(const Leash& leash, const CurveView& P, const CurveView& Q) {
+        const Row row = leash.nearest();
+        const Leash nearest(P, Q, row);
+        if (nearest.is_between_vertices()) return offer_vertices(nearest, row);
+        offer({row, row}, nearest.length());
+    }
+
+    // The event of a leash that grows and the last one that falls.
+    void offer_pair(const Leash& leash, const Row& row) {
+        if (!falling_) return;
+        const std::optional<double> gap = falling_->distance_along_edge(leash);
+        if (!gap) return;
+        // Both leashes are equally long where they cross, by their slopes.
+        const double down = -falling_->cosine(), up = leash.cosine();
+        const double crossing =
+            (up * falling_->length() + down * leash.length() - up * down * *gap) / (up + down);
+        offer({falling_row_, row, up / (up + down), down / (up + down)}, crossing);
+    }
+
+    double longest_ = -1.0;
+    double leash_ = 0.0;  // of the event that is found
+    Event found_;
+    int ties_ = 0;
+    std::optional<Leash> falling_;  // the last on an edge that is nearly whole and falls along it
+    Row falling_row_{};
+};
+
+Event deciding_event(const CurveView& P, const CurveView& Q,
+                     const FrechetContinuousOptions& options, double value, Control* control) {
+    const EventSearch search(P, Q, frechet_continuous_path(P, Q, options, control).parameters);
+    if (search.is_decided()) return search.found();
+    std::minstd_rand random;
+    const curves::MovedCurve p(P, value, random), q(Q, value, random);
+    const Matching moved = frechet_continuous_path(p.view(), q.view(), options, control);
+    return EventSearch(p.view(), q.view(), moved.parameters).found();
 }
 
 }  // namespace
@@ -131,23 +261,9 @@ double value_and_gradients(const FrechetContinuousOptions& options, const CurveV
     if (out.by_p != nullptr) std::fill_n(out.by_p, P.size() * P.dim(), 0.0);
     if (out.by_q != nullptr) std::fill_n(out.by_q, Q.size() * Q.dim(), 0.0);
     if (value == 0.0) return value;
-    const Matching matching = frechet_continuous_path(P, Q, options, control);
-    const std::array<double, 2>* place = nullptr;
-    double length = -1.0;
-    for (const auto& row : matching.parameters) {
-        const double its_length = Leash(P, Q, row).length();
-        if (its_length <= length) continue;
-        length = its_length;
-        place = &row;
-    }
-    const Leash longest(P, Q, *place);
-    if (const std::optional<Leash> partner = partner_of(longest, matching, P, Q)) {
-        const double own = *longest.cosine(), other = *partner->cosine();
-        longest.add(other / (other - own), out);
-        partner->add(own / (own - other), out);
-    } else {
-        longest.add(1.0, out);
-    }
+    const Event event = deciding_event(P, Q, options, value, control);
+    Leash(P, Q, event.first).add(event.first_weight, out);
+    if (event.second_weight > 0.0) Leash(P, Q, event.second).add(event.second_weight, out);
     return value;
 }
 

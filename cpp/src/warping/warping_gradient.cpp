@@ -1,10 +1,14 @@
 // The gradients of dtw and frechet: the path is held, and the ground distances along it are
 // differentiated. O(path length) beyond the path.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
+#include "curves/moved_curve.hpp"
 #include "curves/sphere.hpp"
 #include "curvewise/gradient.hpp"
 #include "warping/dtw_recurrence.hpp"
@@ -137,26 +141,60 @@ double value_and_gradients(const DtwOptions& options, const CurveView& P, const 
     return alignment.distance / divisor;
 }
 
+namespace {
+
+// Relative to the distance: pairs that tie.
+constexpr double tied = 1e-13;
+
+// Of the pairs of a path, the one that is furthest apart, and whether no other one is.
+struct Decisive {
+    std::array<std::int64_t, 2> pair;
+    bool is_alone;
+};
+
+template <class Row>
+Decisive decisive_of(const std::vector<std::array<std::int64_t, 2>>& path, const CurveView& P,
+                     const CurveView& Q, PointPair& at) {
+    Decisive found{path.front(), true};
+    double largest = -1.0;
+    for (const auto& pair : path) {
+        at.move_to(P, pair[0], Q, pair[1]);
+        const double size = magnitude<Row>(at);
+        if (size > largest) {
+            found = {pair, size * (1.0 - tied) > largest};
+            largest = size;
+        } else if (size >= largest * (1.0 - tied)) {
+            found.is_alone = false;
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+// Every path of the least distance visits the deciding pair. If several pairs of a path are as far
+// apart, one is taken that decides after both curves have been moved by at most 2^-30 of the
+// distance.
 double value_and_gradients(const FrechetOptions& options, const CurveView& P, const CurveView& Q,
                            const Gradients& out, Control* control) {
     warping::refuse_own_distances(options.ground);
     const Alignment alignment = frechet_path(P, Q, options, control);
     Sums sums(out, P, Q);
+    if (alignment.distance == 0.0) return 0.0;
     PointPair at(options.ground.parameter(), Q.dim());
     warping::with_row(warping::named_metric(options.ground), [&](auto row) {
         using Row = decltype(row);
-        auto decisive = alignment.path.front();
-        double largest = -1.0;
-        for (const auto& pair : alignment.path) {
-            at.move_to(P, pair[0], Q, pair[1]);
-            const double found = magnitude<Row>(at);
-            if (found > largest) {
-                largest = found;
-                decisive = pair;
-            }
+        Decisive decisive = decisive_of<Row>(alignment.path, P, Q, at);
+        at.move_to(P, decisive.pair[0], Q, decisive.pair[1]);
+        if (!decisive.is_alone) {
+            std::minstd_rand random;
+            const curves::MovedCurve p(P, at.largest(), random);
+            const curves::MovedCurve q(Q, at.largest(), random);
+            const Alignment moved = frechet_path(p.view(), q.view(), options, control);
+            decisive = decisive_of<Row>(moved.path, p.view(), q.view(), at);
+            at.move_to(P, decisive.pair[0], Q, decisive.pair[1]);
         }
-        at.move_to(P, decisive[0], Q, decisive[1]);
-        sums.add<Row>(at, decisive[0], decisive[1], 1.0);
+        sums.add<Row>(at, decisive.pair[0], decisive.pair[1], 1.0);
     });
     return alignment.distance;
 }

@@ -67,19 +67,25 @@ def value_and_gradient(
 
     Notes
     -----
-    O(n + m) time and memory beyond the value; beyond the path for dtw and frechet; of soft_dtw up
-    to three times the time of its value, and O(n sqrt(m)) memory. soft_dtw has a derivative
+    O(n + m) time and memory beyond the value; beyond the path for dtw, frechet and
+    frechet_continuous; at ties of the last two twice the value and the path; of soft_dtw up to three
+    times the time of its value, and O(n sqrt(m)) memory. soft_dtw has a derivative
     everywhere; those of the others are exact where the path, the cuts of the refinement and the
     order of corners do not change at once: dtw and frechet are optima over paths, whose derivative
-    is that with the path held (the envelope theorem). There is no derivative
+    is that with the path held (the envelope theorem). The derivative of frechet and of
+    frechet_continuous is that of the pair of points, or the critical event, that decides the value.
+    There is no derivative
 
-    - at ties: two paths that cost the same (dtw), two pairs of points that are furthest apart
-      (frechet), two segments that are longest (area), two paths, or equal points of Q (area with
-      ``spacing="matched"``), two points of Q with the largest abs(x) or abs(y), or a place that
-      lies on a vertex of Q (curve_length); two places that could each decide (frechet_continuous);
+    - at ties: two paths that cost the same (dtw), two pairs of points or two critical events that
+      could each decide (frechet, frechet_continuous), two segments that are longest (area), two
+      paths, or equal points of Q (area with ``spacing="matched"``), two points of Q with the
+      largest abs(x) or abs(y), a place that lies on a vertex of Q, or equal neighbours
+      (curve_length);
     - where matched points coincide or a difference is 0, except for squares: a kink, as of abs(x).
 
-    There the result is the derivative to one side, or 0 for a term that vanishes. The gradient of
+    There the result is the derivative to one side, or 0 for a term that vanishes. At a tie of
+    frechet or frechet_continuous it is the derivative of curves nearby, whose points are moved by
+    at most 2^-30 of the value: an element of Clarke's generalised gradient. The gradient of
     frechet is 0 except at one point of Q, and jumps when another pair decides. area jumps with
     ``crossing="rearrange"`` where quadrilaterals turn complex; "split" does not. `cutoff` is not
     looked at.

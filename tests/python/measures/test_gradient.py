@@ -101,6 +101,7 @@ def test_the_value_is_the_measures_own() -> None:
     [
         ("dtw", {}, 1),
         ("frechet", {}, 1),
+        ("frechet_continuous", {}, 1),
         ("area", {"crossing": "split"}, 2),
         ("area", {"spacing": "matched"}, 2),
         ("curve_length", {}, 0),
@@ -151,6 +152,8 @@ def test_where_there_is_no_derivative() -> None:
     # A tie of two pairs: one of the two counts.
     gradient = value_and_gradient([0.0, 1.0], [0.5, 1.5], "frechet")[1]
     assert sorted(gradient.tolist()) == [0.0, 1.0]
+    # The same tie of two vertices twice: the derivative is that of one of both pairs.
+    assert np.abs(value_and_gradient([0, 2], [1, 3], "frechet_continuous")[1]).sum() == 1.0
     # Chebyshev with two coordinates alike: the first.
     assert value_and_gradient([[0, 0]], [[2, -2]], metric="chebyshev")[1].tolist() == [[1, 0]]
 
