@@ -26,4 +26,12 @@ RangeScale RangeScale::beside(double constant, int degree) const noexcept {
     return range;
 }
 
+RangeScale RangeScale::with_coordinate(double coordinate) const noexcept {
+    RangeScale range = *this;
+    int exponent = 0;
+    std::frexp(coordinate, &exponent);
+    if (coordinate != 0.0) range.exponent_ = std::max(exponent_, exponent - 500);
+    return range;
+}
+
 }  // namespace curvewise::curves

@@ -16,6 +16,8 @@ class RangeScale {
     // 2^1000: curves that are so small beside a constant then keep fewer bits, and sums stay
     // finite.
     RangeScale beside(double constant, int degree) const noexcept;
+    // This scale, except that another coordinate comes to at most 2^500.
+    RangeScale with_coordinate(double coordinate) const noexcept;
     bool is_identity() const noexcept { return exponent_ == 0; }
     double shrink(double coordinate) const noexcept {
         return is_identity() ? coordinate : std::ldexp(coordinate, -exponent_);

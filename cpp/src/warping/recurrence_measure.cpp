@@ -7,7 +7,6 @@
 #include <iterator>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -58,14 +57,15 @@ std::vector<double> led(const CurveView& curve) {
     return points;
 }
 
-// A quarter of the larger standard deviation of all coordinates of either curve.
-double quarter_of_deviation(const CurveView& P, const CurveView& Q) {
-    const auto deviation = [](const CurveView& curve) {
+// A quarter of the larger standard deviation of all coordinates of either curve, in a range.
+double quarter_of_deviation(const CurveView& P, const CurveView& Q, const RangeScale& range) {
+    const auto deviation = [&](const CurveView& curve) {
         const double count = static_cast<double>(curve.size() * curve.dim());
         const auto mean = [&](auto term) {
             double sum = 0.0;
             for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
-                for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) sum += term(curve(i, c));
+                for (std::ptrdiff_t c = 0; c < curve.dim(); ++c)
+                    sum += term(range.shrink(curve(i, c)));
             }
             return sum / count;
         };
@@ -111,18 +111,12 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
     // Calls use(problem).
     template <class Use>
     auto with_curves(const PreparedP& P, const PreparedQ& Q, Poller& poller, Use use) const {
-        const RangeScale range =
-            warping::range_of(recurrence_.ground, std::max(P.checked.largest, Q.checked.largest))
-                .beside(largest_constant(recurrence_), warping::degree(recurrence_.ground.metric));
-        std::optional<Recurrence> own;
-        if (recurrence_.pair == PairCost::apart && recurrence_.threshold == infinity) {
-            own = recurrence_;
-            own->threshold = quarter_of_deviation(P.checked.curve, Q.checked.curve);
-        }
-        const Recurrence& recurrence = own ? *own : recurrence_;
-        const bool is_led = recurrence.border == Border::origin;
+        const RangeScale range = range_of(std::max(P.checked.largest, Q.checked.largest));
+        const double threshold = threshold_of(P.checked.curve, Q.checked.curve, range);
+        const bool is_led = recurrence_.border == Border::origin;
         if (range.is_identity() && !is_led) {
-            return use(RecurrenceProblem{recurrence, steps_, {P.packed, Q.packed}, range});
+            return use(
+                RecurrenceProblem{recurrence_, steps_, {P.packed, Q.packed}, range, threshold});
         }
         const auto pack = [&](const curves::CheckedCurve& checked, PointOrder order) {
             const CurveView& curve = checked.curve;
@@ -133,7 +127,8 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         };
         const PackedCurve p = pack(P.checked, PointOrder::forward);
         const PackedCurve q = pack(Q.checked, PointOrder::reversed);
-        return use(RecurrenceProblem{recurrence, StepTable(recurrence, range), {p, q}, range});
+        return use(RecurrenceProblem{
+            recurrence_, StepTable(recurrence_, range), {p, q}, range, threshold});
     }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
@@ -227,11 +222,30 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         for (std::ptrdiff_t c = 0; c < curves.dim(); ++c) use(c);
     }
 
-    // Counts have no unit.
+    // Of curves of this largest magnitude.
+    RangeScale range_of(double largest) const noexcept {
+        const RangeScale range = warping::range_of(recurrence_.ground, largest);
+        if (recurrence_.gaps == Gaps::to_point) return range.with_coordinate(recurrence_.gap);
+        if (warping::is_count(recurrence_)) return range;
+        return range.beside(largest_constant(recurrence_),
+                            warping::degree(recurrence_.ground.metric));
+    }
+
+    // In units of a range. One that is not 0 stays so: equal points are below it.
+    double threshold_of(const CurveView& P, const CurveView& Q, const RangeScale& range) const {
+        const int degree = warping::degree(recurrence_.ground.metric);
+        if (recurrence_.pair == PairCost::apart && recurrence_.threshold == infinity) {
+            return range.restore(quarter_of_deviation(P, Q, range), 1 - degree);
+        }
+        const double given = recurrence_.threshold;
+        return given > 0.0 ? std::max(range.restore(given, -degree),
+                                      std::numeric_limits<double>::denorm_min())
+                           : given;
+    }
+
     double restored(double value, const RangeScale& range) const noexcept {
-        const bool is_count =
-            recurrence_.pair == PairCost::apart || recurrence_.pair == PairCost::together;
-        return is_count ? value : range.restore(value, warping::degree(recurrence_.ground.metric));
+        if (warping::is_count(recurrence_)) return value;
+        return range.restore(value, warping::degree(recurrence_.ground.metric));
     }
 
     double divisor(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {

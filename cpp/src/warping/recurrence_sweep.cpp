@@ -70,8 +70,7 @@ RecurrenceSweep::RecurrenceSweep(const RecurrenceProblem& problem, std::ptrdiff_
     whole_.step_count = static_cast<std::ptrdiff_t>(table_.steps.size());
     whole_.terms = table_.terms.data();
     whole_.rule = static_cast<kernels::PairRule>(recurrence_.pair);
-    whole_.threshold =
-        problem.range.restore(recurrence_.threshold, -degree(recurrence_.ground.metric));
+    whole_.threshold = problem.threshold;
     whole_.reach = table_.reach;
     whole_.value_count = table_.value_diagonals;
     whole_.pair_count = table_.pair_diagonals;

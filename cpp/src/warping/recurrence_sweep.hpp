@@ -36,6 +36,7 @@ struct RecurrenceProblem {
     const StepTable& steps;
     PackedPair curves;
     const RangeScale& range;
+    double threshold;  // in units of the range
 };
 
 class RecurrenceSweep {

@@ -41,7 +41,7 @@ static_assert(static_cast<int>(PairCost::weighted) ==
 }  // namespace
 
 StepTable::StepTable(const Recurrence& recurrence, const RangeScale& range) {
-    const int degree = warping::degree(recurrence.ground.metric);
+    const int degree = is_count(recurrence) ? 0 : warping::degree(recurrence.ground.metric);
     std::size_t count = 0;
     for (const Step& step : recurrence.steps) count += step.terms.size();
     if (recurrence.steps.empty() || recurrence.steps.size() > kernels::max_steps ||

@@ -12,6 +12,11 @@ namespace curvewise::warping {
 
 using curves::RangeScale;
 
+// Whether a table holds counts, which have no unit.
+inline bool is_count(const Recurrence& recurrence) noexcept {
+    return recurrence.pair == PairCost::apart || recurrence.pair == PairCost::together;
+}
+
 struct StepTable {
     // Throws std::invalid_argument for steps that the kernels do not take.
     StepTable(const Recurrence& recurrence, const RangeScale& range);

@@ -20,7 +20,7 @@ from .own_distance import is_own_metric
 from .scaling import range_exponent, times_power_of_two
 from .sphere import arcs, in_space
 
-__all__ = ["before_root", "check_metric", "ground_distances", "in_range"]
+__all__ = ["before_root", "check_metric", "degree", "ground_distances", "in_range"]
 
 
 _SAME_AS_MINKOWSKI: dict[float, Metric] = {
@@ -65,21 +65,30 @@ def check_metric(metric: Metric, p: Any, radius: Any = None) -> tuple[Metric, fl
     return _SAME_AS_MINKOWSKI.get(order, metric), order
 
 
-def in_range(P: Array, Q: Array, metric: Metric, constant: float = 0.0) -> tuple[Array, Array, int]:
+def in_range(
+    P: Array, Q: Array, metric: Metric, constant: float = 0.0, coordinate: float = 0.0
+) -> tuple[Array, Array, int]:
     """Return both curves in the range of what can be squared, and the exponent of the distances.
 
     A distance between the curves is one between those that are returned, times 2**exponent. For a
     metric of degree 0, for which what is small beside the largest coordinate counts too, the curves
     stay as they are. A constant that is added to distances is not enlarged beyond 2**1000: curves
-    that are so small beside it keep fewer bits.
+    that are so small beside it keep fewer bits. Another coordinate comes to at most 2**500.
     """
-    degree = _ROWS[metric].degree
-    exponent = range_exponent(P, Q) if degree > 0 else 0
+    power = degree(metric)
+    exponent = range_exponent(P, Q) if power > 0 else 0
     if exponent < 0 < constant:
-        least = -((1000 - math.frexp(constant)[1]) // degree)
+        least = -((1000 - math.frexp(constant)[1]) // power)
         exponent = min(0, max(exponent, least))
+    if coordinate != 0.0 and power > 0:
+        exponent = max(exponent, math.frexp(coordinate)[1] - 500)
     P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
-    return P, Q, exponent * degree
+    return P, Q, exponent * power
+
+
+def degree(metric: Metric) -> int:
+    """Return by which power of a factor a distance grows when both curves do."""
+    return _ROWS[metric].degree
 
 
 Root: TypeAlias = Callable[[Array], Array]

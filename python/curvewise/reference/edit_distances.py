@@ -17,8 +17,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .._options import Default, Metric, Order, Radius, Window, real_number
-from ..curves.ground_distance import check_metric, ground_distances
+from ..curves.ground_distance import check_metric, degree, ground_distances, in_range
 from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
 from .checks import check_pair
 from .dtw import checked_radius, sakoe_chiba_band
@@ -78,6 +79,7 @@ class _Pair(NamedTuple):
     metric: Metric
     order: float
     inside: npt.NDArray[np.bool_]
+    exponent: int  # P and Q are in the range of squares, and distances in units of 2**exponent
 
     @classmethod
     def checked(
@@ -89,12 +91,17 @@ class _Pair(NamedTuple):
         radius: Radius,
         window: Any,
         measure: str,
+        *,
+        constant: float = 0.0,
+        coordinate: float = 0.0,
     ) -> _Pair:
+        """Check everything; for the last two see :func:`in_range`."""
         P, Q = as_curves(P, Q)
         metric, order = check_metric(metric, p, radius)
         P, Q = check_pair(P, Q, measure, on_sphere=metric == "haversine")
         reach = checked_radius(window, len(P), len(Q))
-        return cls(P, Q, metric, order, sakoe_chiba_band(len(P), len(Q), reach))
+        P, Q, exponent = in_range(P, Q, metric, constant, coordinate)
+        return cls(P, Q, metric, order, sakoe_chiba_band(len(P), len(Q), reach), exponent)
 
     def ground(self) -> Array:
         """Return d(P[i], Q[j])."""
@@ -104,10 +111,37 @@ class _Pair(NamedTuple):
         """Return the distances of points that are broadcast."""
         return ground_distances(A, B, self.metric, self.order)
 
-    def found(self, recurrence: Recurrence, divisor: float = 1.0) -> _Found:
-        """Fill the table."""
+    def in_units(self, distance: float) -> float:
+        """Return a distance in the units of those of the table."""
+        return float(times_power_of_two(np.array(distance), -self.exponent))
+
+    def limit(self, epsilon: float) -> float:
+        """Return the same of a limit: one that is not 0 stays so, since equal points are below."""
+        return max(self.in_units(epsilon), math.ulp(0.0)) if epsilon > 0 else epsilon
+
+    @property
+    def coordinate_exponent(self) -> int:
+        """P and Q are in units of 2**coordinate_exponent."""
+        return self.exponent // max(degree(self.metric), 1)
+
+    def coordinate(self, x: float) -> float:
+        """Return a coordinate in the units of P and Q."""
+        return float(times_power_of_two(np.array(x), -self.coordinate_exponent))
+
+    def deviation(self, curve: Array) -> float:
+        """Return the standard deviation of all coordinates of P or Q, as they were given."""
+        return float(times_power_of_two(np.array(np.std(curve)), self.coordinate_exponent))
+
+    def counted(self, recurrence: Recurrence, divisor: float = 1.0) -> _Found:
+        """Fill a table of numbers that have no unit."""
         table, taken = filled(recurrence, self.inside)
         return _Found(table, float(table[-1, -1]) / divisor, path_through(recurrence, taken))
+
+    def found(self, recurrence: Recurrence) -> _Found:
+        """Fill a table of distances."""
+        table, _, path = self.counted(recurrence)
+        table = times_power_of_two(table, self.exponent)
+        return _Found(table, float(table[-1, -1]), path)
 
 
 def _steps(match: CellCost, constant: float, *gaps: CellCost) -> list[Step]:
@@ -136,14 +170,14 @@ def erp(
     window: Window = Default.window,
 ) -> _Found:
     """Time and memory O(n m)."""
-    pair = _Pair.checked(P, Q, metric, p, radius, window, "erp")
     number = real_number("gap", gap, -math.inf, "give a number")
+    pair = _Pair.checked(P, Q, metric, p, radius, window, "erp", coordinate=number)
     if pair.metric == "haversine" and abs(number) > 90:
         raise ValueError(
             f"gap is {number:.10g}; metric='haversine' takes it for a longitude and a latitude: "
             "give a number from -90 to 90"
         )
-    point = np.full((1, pair.P.shape[1]), number)
+    point = np.full((1, pair.P.shape[1]), pair.coordinate(number))
     rows, columns = pair.between(pair.P, point), pair.between(pair.Q, point)
     steps = _steps(
         _cell(pair.ground()), 0.0, lambda i, j: float(rows[i]), lambda i, j: float(columns[j])
@@ -168,11 +202,11 @@ def edr(
         raise ValueError(
             "edr with metric='haversine' needs epsilon: degrees have no deviation in metres"
         )
-    quarter = max(float(np.std(curve)) for curve in (pair.P, pair.Q)) / 4
+    quarter = max(pair.deviation(curve) for curve in (pair.P, pair.Q)) / 4
     least = quarter if epsilon is None else epsilon
     least = real_number("epsilon", least, 0.0, "give a number >= 0, or None")
-    apart = _cell(np.where(pair.ground() < least, 0.0, 1.0))
-    return pair.found(Recurrence(_steps(apart, 1.0), None, 0.0, 0.0), max(pair.inside.shape))
+    apart = _cell(np.where(pair.ground() < pair.limit(least), 0.0, 1.0))
+    return pair.counted(Recurrence(_steps(apart, 1.0), None, 0.0, 0.0), max(pair.inside.shape))
 
 
 @_value
@@ -189,8 +223,8 @@ def lcss(
     """Time and memory O(n m)."""
     pair = _Pair.checked(P, Q, metric, p, radius, window, "lcss")
     most = real_number("epsilon", epsilon, 0.0, "give a number >= 0")
-    together = _cell(np.where(pair.ground() <= most, -1.0, 0.0))
-    found = pair.found(Recurrence(_steps(together, 0.0), None, 0.0, 0.0))
+    together = _cell(np.where(pair.ground() <= pair.limit(most), -1.0, 0.0))
+    found = pair.counted(Recurrence(_steps(together, 0.0), None, 0.0, 0.0))
     return found._replace(value=max(0.0, 1.0 + found.value / min(pair.inside.shape)))
 
 
@@ -199,8 +233,8 @@ def msm(
     P: CurveLike, Q: CurveLike, *, cost: SupportsFloat = 1.0, window: Window = Default.window
 ) -> _Found:
     """Time and memory O(n m)."""
-    pair = _Pair.checked(P, Q, "cityblock", None, None, window, "msm")
     constant = real_number("cost", cost, 0.0, "give a number >= 0")
+    pair = _Pair.checked(P, Q, "cityblock", None, None, window, "msm", constant=constant)
     found = [_msm_of_one(pair, c, constant) for c in range(pair.P.shape[1])]
     table = sum((one.table for one in found[1:]), found[0].table)
     return _Found(table, float(table[-1, -1]), found[0].path if len(found) == 1 else None)
@@ -216,7 +250,7 @@ def _msm_of_one(pair: _Pair, coordinate: int, cost: float) -> _Found:
 
     steps = _steps(
         lambda i, j: abs(x[i] - y[j]),
-        cost,
+        pair.in_units(cost),
         lambda i, j: outside(x[i], x[i - 1], y[j]),
         lambda i, j: outside(y[j], y[j - 1], x[i]),
     )
@@ -236,9 +270,10 @@ def twe(
     window: Window = Default.window,
 ) -> _Found:
     """Time and memory O(n m)."""
-    pair = _Pair.checked(P, Q, metric, p, radius, window, "twe")
     stiff = real_number("stiffness", stiffness, 0.0, "give a number >= 0")
     deletion = stiff + real_number("penalty", penalty, 0.0, "give a number >= 0")
+    constant = max(deletion, 2.0 * stiff)
+    pair = _Pair.checked(P, Q, metric, p, radius, window, "twe", constant=constant)
     led_P, led_Q = (
         np.concatenate([np.zeros((1, curve.shape[1])), curve]) for curve in (pair.P, pair.Q)
     )
@@ -246,13 +281,13 @@ def twe(
     rows, columns = pair.between(led_P[1:], led_P[:-1]), pair.between(led_Q[1:], led_Q[:-1])
     match, above, left = _steps(
         lambda i, j: float(ground[i + 1, j + 1]),
-        deletion,
+        pair.in_units(deletion),
         lambda i, j: float(rows[i]),
         lambda i, j: float(columns[j]),
     )
     more: list[tuple[float, CellCost]] = [
         (1.0, lambda i, j: float(ground[i, j])),
-        (2.0 * stiff, lambda i, j: abs(i - j)),
+        (pair.in_units(2.0 * stiff), lambda i, j: abs(i - j)),
     ]
     match = match._replace(costs=[*match.costs, *more])
     return pair.found(Recurrence([match, above, left]))
