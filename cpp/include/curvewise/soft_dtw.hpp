@@ -7,10 +7,10 @@
 ///
 /// All paths count, each by exp(-cost / gamma); below dtw by at most gamma times the logarithm of
 /// their number, and so below 0 for curves that are alike. As gamma falls it becomes dtw. No
-/// overflow, whatever gamma is. Time O(n m); memory O(n + m), and O(n sqrt(m)) where gradients are
-/// asked for (gradient.hpp). Throws std::invalid_argument for what dtw refuses, for a gamma that is
-/// not finite and above 0, or so small that |P_i - Q_j|^2 / gamma is beyond 2^900; std::bad_alloc;
-/// Stopped. Safe from any number of threads.
+/// overflow, whatever gamma is: below 2^-900 of the squared distances the value is the limit. Time
+/// O(n m); memory O(n + m), and O(n sqrt(m)) where gradients are asked for (gradient.hpp). Throws
+/// std::invalid_argument for what dtw refuses, and for a gamma that is not finite and above 0;
+/// std::bad_alloc; Stopped. Safe from any number of threads.
 ///
 ///     curvewise::SoftDtwOptions options;
 ///     options.gamma = 0.1;

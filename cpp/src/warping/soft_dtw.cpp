@@ -59,15 +59,14 @@ class SoftDtwMeasure : public pairwise::SweptMeasure {
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
                       const pairwise::Call<Memory>& call) const {
-        return -gamma_ * with_sweep(P.checked, Q.checked, call.poller,
-                                    [](SoftSweep& sweep, const RangeScale& /*range*/) {
-                                        return sweep.log_of_total();
-                                    });
+        return with_sweep(
+            P.checked, Q.checked, call.poller,
+            [](SoftSweep& sweep, const RangeScale& /*range*/) { return sweep.log_of_total(); });
     }
 
     double with_gradients(const CheckedCurve& P, const CheckedCurve& Q, const Gradients& out,
                           Poller& poller) const {
-        return -gamma_ * with_sweep(P, Q, poller, [&](SoftSweep& sweep, const RangeScale& range) {
+        return with_sweep(P, Q, poller, [&](SoftSweep& sweep, const RangeScale& range) {
             const std::ptrdiff_t dim = P.curve.dim();
             PackedGradient of_p(P.curve.size(), dim), of_q(Q.curve.size(), dim);
             const double result = sweep.log_of_total(of_p.data(), of_q.data());
@@ -103,28 +102,25 @@ class SoftDtwMeasure : public pairwise::SweptMeasure {
         std::vector<double> entries_;
     };
 
-    // Calls use(sweep, range).
+    // Calls use(sweep, range), and returns -gamma times its result. If gamma is smaller than 2^-900
+    // of the largest possible squared distance, only the cheapest path counts. Then a gamma of that
+    // size, whose powers do not overflow, gives the same value to rounding.
     template <class Use>
     double with_sweep(const CheckedCurve& P, const CheckedCurve& Q, Poller& poller, Use use) const {
         const std::ptrdiff_t n = P.curve.size(), m = Q.curve.size();
         const double largest = std::max(P.largest, Q.largest);
-        const RangeScale range = warping::range_of(options_.ground, largest);
+        const RangeScale range = gamma_ < 0x1p-1000 ? RangeScale::to_unity(largest)
+                                                    : warping::range_of(options_.ground, largest);
         // R / gamma does not depend on the unit of the coordinates.
-        const double per_square = range.restore(log2_of_e / gamma_, 2);
-        check_gamma(per_square, range.shrink(largest), P.curve.dim());
+        const double given = range.restore(gamma_, -2), side = 2.0 * range.shrink(largest);
+        const double least = 0x1p-900 * side * side * static_cast<double>(P.curve.dim());
+        const bool is_given = given >= least;
+        const double gamma = is_given ? gamma_ : range.restore(least, 2);
+        const double per_square = largest == 0.0 ? 1.0 : log2_of_e / (is_given ? given : least);
         const PackedCurve p(P.curve, range, PointOrder::forward, poller);
         const PackedCurve q(Q.curve, range, PointOrder::reversed, poller);
         SoftSweep sweep({p, q}, Band(n, m, options_.window.between(n, m)), per_square, poller);
-        return use(sweep, range);
-    }
-
-    void check_gamma(double per_square, double largest, std::ptrdiff_t dim) const {
-        const double most = 4.0 * largest * largest * static_cast<double>(dim) * per_square;
-        if (most < 0x1p900) return;
-        throw std::invalid_argument(
-            "gamma is too small for curves so far apart: their squared distances may be beyond "
-            "2^900 "
-            "times it; give a larger one, or use dtw, which is the limit");
+        return -gamma * use(sweep, range);
     }
 
     static constexpr double log2_of_e = 1.44269504088896340736;

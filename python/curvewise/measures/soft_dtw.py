@@ -39,9 +39,8 @@ def soft_dtw(
     Raises
     ------
     ValueError
-        A curve is not finite or empty; the curves differ in d; gamma is not finite and above 0, or
-        so small that a squared distance may be beyond 2**900 times it; no path fits the window
-        (window = 0 and n != m).
+        A curve is not finite or empty; the curves differ in d; gamma is not finite and above 0; no
+        path fits the window (window = 0 and n != m).
     TypeError
         A curve does not hold real numbers.
 
@@ -49,8 +48,9 @@ def soft_dtw(
     -----
     Cuturi & Blondel (2017): r[i, j] = d[i, j] + softmin(r[i-1, j], r[i, j-1], r[i-1, j-1]) with
     softmin(a) = -gamma log(sum(exp(-a / gamma))). Computed as exp(-r / gamma), a mantissa and an
-    exponent without bounds, so that no gamma overflows: one exponential a cell. Time O(n m), or
-    the cells of the band; memory O(n + m). With derivatives (``value_and_gradient(P, Q,
+    exponent without bounds, so that no gamma overflows: one exponential a cell. With
+    a gamma below 2^-900 of the squared distances the value is the limit, to rounding. Time O(n m),
+    or the cells of the band; memory O(n + m). With derivatives (``value_and_gradient(P, Q,
     "soft_dtw")``) memory is O(n sqrt(m)), never the table.
 
     Examples

@@ -37,7 +37,8 @@ def soft_dtw(
         least = np.minimum.reduce(before)
         reached = np.isfinite(least)
         beyond = np.where(reached, before - np.where(reached, least, 0.0), np.inf)
-        terms = np.where(reached, np.exp(-beyond / smoothness).sum(axis=0), 1.0)
+        with np.errstate(over="ignore"):  # a gamma so small that nothing but the least counts
+            terms = np.where(reached, np.exp(-beyond / smoothness).sum(axis=0), 1.0)
         return np.where(reached, d + least - smoothness * np.log(terms), np.inf)
 
     return float(filled_table(ground, cell)[-1, -1])

@@ -63,18 +63,57 @@ def distance(p: tuple[float, float], q: tuple[float, float], **options: Any) -> 
     return curvewise.dtw([p], [q], **SPHERE, **options)
 
 
+# What docs/measures/recurrences.md states: up to so many metres, errors of at most so many.
+ERRORS = ((5e6, 4e-9), (1.5e7, 16e-9), (1.99e7, 0.5e-6), (math.inf, 0.4))
+
+
+def stated_error(length: float) -> float:
+    return next(error for most, error in ERRORS if length <= most)
+
+
 @given(POINTS, POINTS, st.integers(0, 12))
-def test_distances_are_right_to_nanometres_except_for_opposite_points(
+def test_errors_are_within_those_that_are_stated(
     p: tuple[float, float], q: tuple[float, float], nearness: int
 ) -> None:
-    # From anywhere down to some ten micrometres.
+    # From anywhere down to some ten micrometres, and as near to the opposite point.
     near = (p[0], p[1] + (q[1] - p[1]) * 10.0**-nearness)
-    for other in (q, near):
+    opposite = (near[0] - math.copysign(180.0, near[0]), -near[1])
+    for other in (q, near, opposite):
         exact = arc(p, other)
         error = abs(mpmath.mpf(distance(p, other)) - exact)
-        to_opposite = math.pi * RADIUS - float(exact)
-        # The chord is flat there: its error of 1e-16 is one of sqrt(1e-16) of the arc at worst.
-        assert error < 8e-9 or error < min(0.3, 0.03 / max(to_opposite, 0.1)), (p, other)
+        assert error <= stated_error(float(exact)), (p, other)
+
+
+def test_stated_errors_at_every_distance(rounds: Callable[[int], int]) -> None:
+    """Points spread evenly over distances, which seldom are large by themselves."""
+    rng = np.random.default_rng(8)
+    worst = dict.fromkeys(ERRORS, 0.0)
+    for _ in range(rounds(1500)):
+        p = (rng.uniform(-180, 180), math.degrees(math.asin(rng.uniform(-1, 1))))
+        angle, along = math.acos(rng.uniform(-1, 1)), rng.uniform(0, 2 * math.pi)
+        if rng.integers(2):
+            angle = math.pi - 10.0 ** rng.uniform(-3, 0)
+        q = destination(p, angle, along)
+        exact = arc(p, q)
+        error = float(abs(mpmath.mpf(distance(p, q)) - exact))
+        limits = next(limits for limits in ERRORS if float(exact) <= limits[0])
+        worst[limits] = max(worst[limits], error)
+    for limits, error in worst.items():
+        # Not stated far too large, either; only very near to the opposite point is it so.
+        assert error <= limits[1] and (limits[0] == math.inf or error > limits[1] / 8), worst
+
+
+def destination(p: tuple[float, float], angle: float, along: float) -> tuple[float, float]:
+    """Return the point that lies so far from another, in a direction from north to east."""
+    up = math.radians(p[1])
+    latitude = math.asin(
+        math.sin(up) * math.cos(angle) + math.cos(up) * math.sin(angle) * math.cos(along)
+    )
+    turn = math.atan2(
+        math.sin(along) * math.sin(angle) * math.cos(up),
+        math.cos(angle) - math.sin(up) * math.sin(latitude),
+    )
+    return p[0] + math.degrees(turn), math.degrees(latitude)
 
 
 def test_named_distances() -> None:
