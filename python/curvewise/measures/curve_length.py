@@ -24,8 +24,9 @@ def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.sca
         The curves, each of at least 2 different points.
     scale : {"mean", "mean_abs", "range"}
         What differences in x and in y are divided by: the mean of P's x ("mean", the paper's),
-        the mean of abs(x), or the range. Loops centred on zero need one of the last two: on a
-        loop with 1 % error in stress "mean" gives 55 where "mean_abs" gives 0.1.
+        the mean of abs(x), or the range. Loops centred on zero need one of the last two: if the
+        means are 0.1 % of the ranges, 1 % error in y gives 22.5 with "mean" and 0.17 with
+        "mean_abs".
 
     Returns
     -------

@@ -68,11 +68,11 @@ def value_and_gradient(
     Notes
     -----
     O(n + m) time and memory beyond the value; beyond the path for dtw, frechet and
-    frechet_continuous; at ties of the last two twice the value and the path; of soft_dtw up to three
-    times the time of its value, and O(n sqrt(m)) memory. soft_dtw has a derivative
-    everywhere; those of the others are exact where the path, the cuts of the refinement and the
-    order of corners do not change at once: dtw and frechet are optima over paths, whose derivative
-    is that with the path held (the envelope theorem). The derivative of frechet and of
+    frechet_continuous, and twice the path at ties of the last two; of soft_dtw up to three times
+    the time of its value, and O(n sqrt(m)) memory. soft_dtw has a derivative everywhere; those of
+    the others are exact where the path, the cuts of the refinement and the order of corners do not
+    change at once: dtw and frechet are optima over paths, whose derivative is that with the path
+    held (the envelope theorem). The derivative of frechet and of
     frechet_continuous is that of the pair of points, or the critical event, that decides the value.
     There is no derivative
 
