@@ -17,7 +17,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <random>
 #include <vector>
@@ -253,6 +252,15 @@ Event deciding_event(const CurveView& P, const CurveView& Q,
     return EventSearch(p.view(), q.view(), moved.parameters).found();
 }
 
+// Beside a distance beyond the range, what is lost of small coordinates is nothing.
+std::vector<double> shrunk(const CurveView& curve) {
+    std::vector<double> points;
+    for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {
+        for (std::ptrdiff_t c = 0; c < curve.dim(); ++c) points.push_back(curve(i, c) * 0x1p-100);
+    }
+    return points;
+}
+
 }  // namespace
 
 double value_and_gradients(const FrechetContinuousOptions& options, const CurveView& P,
@@ -261,6 +269,12 @@ double value_and_gradients(const FrechetContinuousOptions& options, const CurveV
     if (out.by_p != nullptr) std::fill_n(out.by_p, P.size() * P.dim(), 0.0);
     if (out.by_q != nullptr) std::fill_n(out.by_q, Q.size() * Q.dim(), 0.0);
     if (value == 0.0) return value;
+    if (std::isinf(value)) {  // the derivative is that of smaller curves
+        const std::vector<double> p = shrunk(P), q = shrunk(Q);
+        value_and_gradients(options, CurveView(p.data(), P.size(), P.dim()),
+                            CurveView(q.data(), Q.size(), Q.dim()), out, control);
+        return value;
+    }
     const Event event = deciding_event(P, Q, options, value, control);
     Leash(P, Q, event.first).add(event.first_weight, out);
     if (event.second_weight > 0.0) Leash(P, Q, event.second).add(event.second_weight, out);

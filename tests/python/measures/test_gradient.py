@@ -124,6 +124,15 @@ def test_gradients_where_areas_overflow() -> None:
         np.testing.assert_allclose(scaled, gradient * 2.0**600, rtol=1e-9)
 
 
+def test_gradients_where_the_continuous_distance_overflows() -> None:
+    P = wiggle(9, 1)
+    size = 1.7e308 / np.abs(P).max()
+    expected = value_and_gradient(P, -P, "frechet_continuous")[1]
+    value, gradient = value_and_gradient(P * size, -P * size, "frechet_continuous")
+    assert value == np.inf
+    np.testing.assert_allclose(gradient, expected, rtol=1e-9)
+
+
 def test_along_a_loop_the_derivative_is_that_of_the_model() -> None:
     """The chain rule through a model of 61 points with one parameter, against differences."""
     strain = np.interp(np.arange(61) / 20, [0, 1, 2, 3], [0, 0.02, -0.02, 0.02])
