@@ -82,6 +82,29 @@ void slopes() {
     check_slope(soft(2.0, 3), P, Q, direction);
 }
 
+// What decides a distance, among many places that are as far apart along the matching.
+void slopes_of_distances_between_curves() {
+    Random random(23);
+    for (int k = 0; k < 200; ++k) {
+        const int dim = 1 + k % 4;
+        const Curve P = random.curve(2 + k % 17, dim), Q = random.curve(2 + k % 23, dim);
+        const Curve direction = random.curve(25, dim);
+        check_slope(curvewise::FrechetContinuousOptions{}, P, Q, direction);
+        check_slope(curvewise::FrechetOptions{}, P, Q, direction);
+    }
+}
+
+// Two pairs of points that are as far apart: one of both decides.
+void ties() {
+    const Curve P{{0.0}, {2.0}}, Q{{1.0}, {3.0}};
+    std::vector<double> gradient(2);
+    CHECK_EQUAL(value_and_gradient(curvewise::FrechetOptions{}, P, Q, gradient.data()), 1.0);
+    CHECK_EQUAL(gradient[0] + gradient[1], 1.0);
+    CHECK_EQUAL(value_and_gradient(curvewise::FrechetContinuousOptions{}, P, Q, gradient.data()),
+                1.0);
+    CHECK_EQUAL(gradient[0] + gradient[1], 1.0);
+}
+
 // More rows than a strip has, and a band that leaves cells of most strips out.
 void slopes_across_strips() {
     Random random(18);
@@ -148,6 +171,8 @@ void messages() {
 
 int main() {
     return check::run({{"slopes", slopes},
+                       {"slopes of distances between curves", slopes_of_distances_between_curves},
+                       {"ties", ties},
                        {"slopes across strips", slopes_across_strips},
                        {"batches", batches},
                        {"squares", squares},
