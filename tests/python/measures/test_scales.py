@@ -6,6 +6,7 @@ coordinates grow with the curves. Powers of two round nothing, so the digits mus
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -177,6 +178,22 @@ def test_tables_and_paths_grow_with_the_curves(module: Any, exponent: int) -> No
         np.testing.assert_array_equal(large, np.ldexp(plain, exponent))
         plain, large = (getattr(module, f"{name}_path")(*curves(k)) for k in (0, exponent))
         np.testing.assert_array_equal(large.path, plain.path)
+
+
+def test_the_reference_agrees_with_constants_of_any_size(rounds: Callable[[int], int]) -> None:
+    rng = np.random.default_rng(9)
+    sizes = [0, *EXPONENTS, -1000, 1000]
+    for _ in range(rounds(250)):
+        exponent = int(rng.choice(sizes))
+        d, *lengths = rng.integers(1, 7, 3).tolist()
+        P, Q = (np.ldexp(rng.normal(size=(n, d)).cumsum(axis=0), exponent) for n in lengths)
+        size = scaled(rng.uniform(0.1, 2), int(rng.choice([0, exponent, exponent, -600, 600])))
+        metric: Options = {"metric": str(rng.choice([options["metric"] for options, _ in METRICS]))}
+        for name in (*EDIT_DISTANCES, "dtw"):
+            more = dict.fromkeys(CONSTANTS.get(name, {}), size) | (metric if name != "msm" else {})
+            ours = getattr(curvewise, name)(P, Q, **more)
+            theirs = getattr(reference, name)(P, Q, **more)
+            assert ours == pytest.approx(theirs, rel=1e-12, abs=1e-320), (name, more, exponent)
 
 
 @every_exponent
