@@ -61,8 +61,9 @@ struct DtwOptions {
     std::ptrdiff_t workers = 1;
     /// Whether to leave out what cannot matter of the table. Never changes a result.
     bool prune = true;
-    /// A distance above it, at least 0, becomes infinity, and is found to be so early. Paths and
-    /// tables do not look at it; batches have one of their own besides.
+    /// A distance above it becomes infinity, and is found to be so early. At least 0, except with
+    /// own steps of negative weight. Paths and tables do not look at it; batches have one of their
+    /// own besides.
     double cutoff = std::numeric_limits<double>::infinity();
 
     CURVEWISE_EXPORT bool is_symmetric() const;
@@ -84,7 +85,8 @@ void visit_options(DtwOptions& options, Visit&& visit) {
     visit("normalize", options.normalize);
     visit("workers", options.workers, workers_range);
     visit("prune", options.prune);
-    visit("cutoff", options.cutoff, cutoff_range);
+    visit("cutoff", options.cutoff,
+          options.own_steps.has_negative_weight() ? any_cutoff_range : cutoff_range);
 }
 
 /// The distance, in units of the ground distance.

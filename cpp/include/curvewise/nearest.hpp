@@ -92,7 +92,8 @@ class Index {
                                      std::int64_t* indices, const SearchOptions& options = {},
                                      Control* control = nullptr) const;
 
-    /// All curves whose distance from X[i] is at most `radius`, a number >= 0.
+    /// All curves whose distance from X[i] is at most `radius`: a number >= 0, except where the
+    /// measure may be negative (dtw with own steps of negative weight).
     CURVEWISE_EXPORT std::vector<std::vector<Neighbor>> radius_neighbors(
         const std::vector<CurveView>& X, double radius, const SearchOptions& options = {},
         Control* control = nullptr) const;

@@ -17,6 +17,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace curvewise {
 
@@ -42,6 +43,9 @@ inline constexpr WholeNumberRange window_range{
 inline constexpr WholeNumberRange offsets_range{1, "give a whole number >= 1, or 'continuous'"};
 /// Of a distance from which on it does not matter.
 inline constexpr RealNumberRange cutoff_range{0.0, "give a number >= 0, or None"};
+/// Of such a distance where distances may be negative.
+inline constexpr RealNumberRange any_cutoff_range{-std::numeric_limits<double>::infinity(),
+                                                  "give a number, or None"};
 /// Of the smoothness of soft_dtw.
 inline constexpr RealNumberRange gamma_range{0.0, "give a finite number > 0"};  // 0 is refused, too
 

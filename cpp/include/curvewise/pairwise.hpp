@@ -34,7 +34,8 @@ CURVEWISE_EXPORT bool is_symmetric(const Measure& measure);
 struct BatchOptions {
     /// Threads for this call, -1 for one per core. (The `workers` of the measure are not used.)
     std::ptrdiff_t workers = 1;
-    /// A value above it, at least 0, becomes infinity; its pair may be abandoned before its end.
+    /// A value above it becomes infinity; its pair may be abandoned before its end. At least 0,
+    /// except where the measure may be negative (dtw with own steps of negative weight).
     double cutoff = std::numeric_limits<double>::infinity();
 };
 
@@ -46,7 +47,7 @@ CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& XA, const std::vector<
                             Control* control = nullptr);
 
 /// The same of one list with itself. Each pair of a symmetric measure is computed once, in the
-/// order (i, j) with i < j, and the diagonal is 0.
+/// order (i, j) with i < j, and the diagonal is written without work where it is known to be 0.
 CURVEWISE_EXPORT void cdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
                             const BatchOptions& options = {}, Control* control = nullptr);
 

@@ -168,6 +168,9 @@ constexpr ParsedSteps parsed(const StepSet& set) noexcept {
 struct StepRows {
     std::vector<StepRow> rows;
     Per per = Per::one;  ///< `one` where paths differ in their weight
+
+    /// Whether a cell has a negative weight; distances may then be below 0.
+    CURVEWISE_EXPORT bool has_negative_weight() const noexcept;
 };
 
 CURVEWISE_EXPORT StepRows step_rows(const StepSet& pattern);

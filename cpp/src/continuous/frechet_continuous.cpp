@@ -34,7 +34,7 @@ RangeScale plain_scale(double largest) noexcept {
     return is_plain ? RangeScale(1.0) : RangeScale::to_unity(largest);
 }
 
-class FrechetContinuousMeasure {
+class FrechetContinuousMeasure : public pairwise::Distance {
    public:
     using Memory = continuous::LeashMemory;
     static constexpr bool is_swept = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <stdexcept>
 
 #include "curves/sphere.hpp"
@@ -187,8 +188,11 @@ void check_whole_number(const char* option, std::ptrdiff_t value, const WholeNum
     refuse(std::string(option) + " is " + std::to_string(value), range.advice);
 }
 
-void check_cutoff(double cutoff) {
-    if (!(cutoff >= 0.0)) refuse("cutoff is " + std::to_string(cutoff), "give a number >= 0");
+void check_limit(const char* option, double limit, bool may_be_negative) {
+    const double least = may_be_negative ? -std::numeric_limits<double>::infinity() : 0.0;
+    if (limit >= least) return;
+    refuse(std::string(option) + " is " + std::to_string(limit),
+           may_be_negative ? "give a number" : "give a number >= 0");
 }
 
 }  // namespace curves

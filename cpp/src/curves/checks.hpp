@@ -73,7 +73,7 @@ void check_equal_shapes(const CurveView& P, const CurveView& Q, const char* meas
 
 // Throws "window is -1; give ..." for a number below the range's least.
 void check_whole_number(const char* option, std::ptrdiff_t value, const WholeNumberRange& range);
-// Throws for a cutoff that is not a number >= 0.
-void check_cutoff(double cutoff);
+// Throws for a largest distance that is nan, or negative where distances are not.
+void check_limit(const char* option, double limit, bool may_be_negative);
 
 }  // namespace curvewise::curves

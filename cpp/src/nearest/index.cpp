@@ -89,11 +89,6 @@ class QueryRun {
     SearchRecord record_;
 };
 
-void check_radius(double radius) {
-    if (radius >= 0.0) return;
-    throw std::invalid_argument("radius is " + std::to_string(radius) + "; give a number >= 0");
-}
-
 }  // namespace
 
 class Index::State {
@@ -160,7 +155,7 @@ class Index::State {
                                                         Control* control) const {
         Poller poller(control);
         const auto lock = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
-        check_radius(radius);
+        curves::check_limit("radius", radius, measure_->may_be_negative());
         std::vector<std::vector<Neighbor>> results(
             X == nullptr ? static_cast<std::size_t>(targets_->size()) : X->size());
         ask(X, options, poller,

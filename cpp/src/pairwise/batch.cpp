@@ -1,6 +1,7 @@
 #include "pairwise/batch.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "runtime/workers.hpp"
@@ -9,6 +10,8 @@ namespace curvewise::pairwise {
 namespace {
 
 using CheckedCurves = std::vector<CheckedCurve>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Lists of more numbers are cut into blocks: what is made of the curves, in doubles, packed, boxed,
 // takes at most some 100 MB at a time. A block's curves are prepared once for each block of the
@@ -179,6 +182,23 @@ void compute_all(const BatchMeasure& measure, const CheckedCurves& P, const Chec
     poller.finish();
 }
 
+// The diagonal of a matrix whose triangle is computed.
+void write_diagonal(const BatchMeasure& measure, const CheckedCurves& curves,
+                    const BatchOutput& output, Poller& poller) {
+    const bool was_counting = poller.set_counting(false);
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        double value = 0.0;
+        if (!measure.is_zero_to_itself(curves[i])) {
+            const LoadedBlock one(curves, {i, i + 1}, poller);
+            const auto row = measure.prepare_rows(one.curves(), poller);
+            value = measure.value(*row, one.curves().front(), poller);
+        }
+        const auto place = static_cast<std::ptrdiff_t>(i);
+        output.destination.write(place, place, value > output.options.cutoff ? infinity : value);
+    }
+    poller.set_counting(was_counting);
+}
+
 }  // namespace
 
 void check_batch(const BatchMeasure& measure, const CurveList& XA, const CurveList& XB,
@@ -218,6 +238,7 @@ void compute_batch(const BatchMeasure& measure, const CurveList& X, PairSet set,
     const Sizes sizes = sizes_of(X);
     poller.begin(PairTiles::total(sizes, sizes, set, measure.steps()));
     const CheckedCurves P = checked(measure, X, poller);
+    if (output.destination.is_mirrored()) write_diagonal(measure, P, output, poller);
     compute_all(measure, P, P, set, output, poller);
 }
 

@@ -44,6 +44,8 @@ class BatchMeasure {
 
     virtual curves::Requirements requirements() const noexcept = 0;
     virtual void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const = 0;
+    virtual bool may_be_negative() const noexcept = 0;
+    virtual bool is_zero_to_itself(const curves::CheckedCurve& checked) const = 0;
     virtual PairTiles::Steps steps() const noexcept = 0;
     virtual std::unique_ptr<const Rows> prepare_rows(const std::vector<CheckedCurve>& P,
                                                      Poller& poller) const = 0;
@@ -82,6 +84,7 @@ class PreparedCurve {
                   Control* control);
     double value(const CurveView& Q, Control* control) const;
     void values(const CurveList& Qs, const BatchOutput& output) const;
+    const BatchMeasure& measure() const noexcept { return *measure_; }
 
    private:
     PreparedCurve(std::unique_ptr<const BatchMeasure> measure, const CurveView& P, Poller&& poller);

@@ -31,6 +31,12 @@ class BatchOf final : public BatchMeasure {
         measure_.check_sizes(n, m);
     }
 
+    bool may_be_negative() const noexcept override { return measure_.may_be_negative(); }
+
+    bool is_zero_to_itself(const curves::CheckedCurve& checked) const override {
+        return measure_.is_zero_to_itself(checked);
+    }
+
     PairTiles::Steps steps() const noexcept override { return M::steps; }
 
     std::unique_ptr<const Rows> prepare_rows(const std::vector<CheckedCurve>& P,

@@ -12,6 +12,8 @@
 //                                        poller hears of the pair's steps while they do
 //   requirements()                       of every curve
 //   check_sizes(n, m)                    throws where no pair of n and m points has a value
+//   may_be_negative()                    whether some value is below 0
+//   is_zero_to_itself(checked)           whether the value of a curve and itself is known to be 0
 //   check_p(prepared_p, poller)          throws where P serves no Q, as the value would: for
 //                                        batches, which refuse before any work
 //   workers()                            the threads for a single pair
@@ -63,8 +65,17 @@ struct Call {
     Memory& memory;
 };
 
+// What measures have in common whose values are at least 0, and 0 of a curve and itself.
+class Distance {
+   public:
+    static constexpr bool may_be_negative() noexcept { return false; }
+    static constexpr bool is_zero_to_itself(const curves::CheckedCurve& /*checked*/) noexcept {
+        return true;
+    }
+};
+
 // What measures have in common whose time is linear in the points of their two plane curves.
-class LinearMeasure {
+class LinearMeasure : public Distance {
    public:
     static constexpr bool is_swept = false;
     struct Memory {};
@@ -80,7 +91,7 @@ class LinearMeasure {
 
 // What measures have in common that sweep a table of n m cells; those that take several threads for
 // a pair, or refuse some sizes, say so themselves.
-class SweptMeasure {
+class SweptMeasure : public Distance {
    public:
     static constexpr bool is_swept = true;
 

@@ -29,6 +29,7 @@ class PairDestination {
         result.column_ = static_cast<std::ptrdiff_t>(column);
         return result;
     }
+    bool is_mirrored() const noexcept { return shape_ == Shape::mirrored; }
     void write(std::ptrdiff_t i, std::ptrdiff_t j, double value) const noexcept {
         i += row_;
         j += column_;

@@ -17,9 +17,9 @@ std::unique_ptr<const pairwise::BatchMeasure> batch_of(const Measure& measure) {
                       measure);
 }
 
-void check_options(const BatchOptions& options) {
+void check_options(const BatchOptions& options, const pairwise::BatchMeasure& measure) {
     runtime::resolve_workers(options.workers);
-    curves::check_cutoff(options.cutoff);
+    curves::check_limit("cutoff", options.cutoff, measure.may_be_negative());
 }
 
 }  // namespace
@@ -50,21 +50,20 @@ void check_batch(const std::vector<CurveView>& X, const Measure& measure, Contro
 
 void cdist(const std::vector<CurveView>& XA, const std::vector<CurveView>& XB,
            const Measure& measure, double* out, const BatchOptions& options, Control* control) {
-    check_options(options);
+    const auto batch = batch_of(measure);
+    check_options(options, *batch);
     const PairDestination matrix(out, XB.size(), PairDestination::Shape::matrix);
-    compute_batch(*batch_of(measure), {XA, "XA"}, {XB, "XB"}, {matrix, options, control});
+    compute_batch(*batch, {XA, "XA"}, {XB, "XB"}, {matrix, options, control});
 }
 
 void cdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
            const BatchOptions& options, Control* control) {
-    check_options(options);
+    const auto batch = batch_of(measure);
+    check_options(options, *batch);
     const bool halves = is_symmetric(measure);
-    if (halves) {
-        for (std::size_t i = 0; i < X.size(); ++i) out[i * X.size() + i] = 0.0;
-    }
     const PairDestination destination(
         out, X.size(), halves ? PairDestination::Shape::mirrored : PairDestination::Shape::matrix);
-    compute_batch(*batch_of(measure), {X, "XA"},
+    compute_batch(*batch, {X, "XA"},
                   halves ? pairwise::PairSet::triangle : pairwise::PairSet::rectangle,
                   {destination, options, control});
 }
@@ -76,10 +75,10 @@ void pdist(const std::vector<CurveView>& X, const Measure& measure, double* out,
             "pdist needs a measure for which d(P, Q) = d(Q, P), which this one with these options "
             "is not; use cdist");
     }
-    check_options(options);
+    const auto batch = batch_of(measure);
+    check_options(options, *batch);
     const PairDestination condensed(out, X.size(), PairDestination::Shape::condensed);
-    compute_batch(*batch_of(measure), {X, "X"}, pairwise::PairSet::triangle,
-                  {condensed, options, control});
+    compute_batch(*batch, {X, "X"}, pairwise::PairSet::triangle, {condensed, options, control});
 }
 
 class Prepared::State : public pairwise::PreparedCurve {
@@ -96,7 +95,7 @@ double Prepared::operator()(const CurveView& Q, Control* control) const {
 
 void Prepared::operator()(const std::vector<CurveView>& Qs, double* out,
                           const BatchOptions& options, Control* control) const {
-    check_options(options);
+    check_options(options, state_->measure());
     const PairDestination row(out, Qs.size(), PairDestination::Shape::matrix);
     state_->values({Qs, "Q"}, {row, options, control});
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -14,7 +15,7 @@
 
 namespace curvewise::pairwise {
 
-// In the place of M::Bounds: 0 is below every value.
+// In the place of M::Bounds: no value is below it, that of a negative cost either.
 template <class M>
 class NoBounds {
    public:
@@ -27,10 +28,12 @@ class NoBounds {
        public:
         Query(const M& measure, const NoBounds& bounds, const typename M::PreparedP& P) noexcept
             : measure_(measure), size_(bounds.size_), P_(P) {}
-        void quick(double* bounds) const noexcept { std::fill_n(bounds, size_, 0.0); }
+        void quick(double* bounds) const noexcept {
+            std::fill_n(bounds, size_, -std::numeric_limits<double>::infinity());
+        }
         double refined(std::ptrdiff_t /*j*/, const typename M::PreparedQ& /*Q*/,
                        int /*level*/) const noexcept {
-            return 0.0;
+            return -std::numeric_limits<double>::infinity();
         }
         double value(std::ptrdiff_t /*j*/, const typename M::PreparedQ& Q,
                      const Call<typename M::Memory>& call) const {

@@ -37,7 +37,7 @@ class HausdorffMeasure : public pairwise::SweptMeasure {
     explicit HausdorffMeasure(const HausdorffOptions& options) : options_(options) {
         warping::check_ground_distance(options_.ground);
         warping::refuse_own_distances(options_.ground);
-        curves::check_cutoff(options_.cutoff);
+        curves::check_limit("cutoff", options_.cutoff, false);
     }
     curves::Requirements requirements() const noexcept {
         return warping::requirements(HausdorffOptions::measure, options_.ground);

@@ -87,6 +87,49 @@ double largest_constant(const Recurrence& recurrence) noexcept {
     return largest;
 }
 
+// Whether all that steps add is at least 0.
+bool costs_are_positive(const Recurrence& recurrence) noexcept {
+    if (recurrence.pair == PairCost::together) return false;
+    return std::none_of(recurrence.steps.begin(), recurrence.steps.end(), [](const Step& step) {
+        return step.constant < 0.0 ||
+               std::any_of(step.terms.begin(), step.terms.end(),
+                           [](const StepTerm& term) { return term.weight < 0.0; });
+    });
+}
+
+// Whether a step leads from (i, i) to (i + 1, i + 1) and adds only costs of such cells.
+bool has_step_of_diagonal(const Recurrence& recurrence) noexcept {
+    const auto is_on_diagonal = [](const StepTerm& term) {
+        return term.weight == 0.0 || (term.rows == term.columns && (term.from == CostFrom::pair ||
+                                                                    term.from == CostFrom::offset));
+    };
+    return std::any_of(recurrence.steps.begin(), recurrence.steps.end(), [&](const Step& step) {
+        return step.rows == 1 && step.columns == 1 && step.constant == 0.0 &&
+               std::all_of(step.terms.begin(), step.terms.end(), is_on_diagonal);
+    });
+}
+
+// The same steps, which cost nothing: of their table a cell is 0 where a path leads to it.
+Recurrence without_costs(Recurrence recurrence) {
+    for (Step& step : recurrence.steps) {
+        step.constant = 0.0;
+        for (StepTerm& term : step.terms) term.weight = 0.0;
+    }
+    // That of the first cell is finite, too, whatever the distance of its points.
+    recurrence.pair = PairCost::apart;
+    recurrence.threshold = infinity;
+    recurrence.gaps = Gaps::none;
+    return recurrence;
+}
+
+[[noreturn]] void refuse_path(const Recurrence& recurrence, std::ptrdiff_t n, std::ptrdiff_t m) {
+    const bool has_window = recurrence.window || recurrence.window_fraction;
+    throw std::invalid_argument(
+        std::string(has_window ? "step_pattern and window admit" : "step_pattern admits") +
+        " no path between " + std::to_string(n) + " and " + std::to_string(m) +
+        " points; use another step pattern" + (has_window ? " or a larger window" : ""));
+}
+
 class RecurrenceMeasure : public pairwise::SweptMeasure {
    public:
     using Memory = warping::RecurrenceMemory;
@@ -94,10 +137,12 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
     using PreparedQ = warping::PackedSide<PointOrder::reversed>;
 
     explicit RecurrenceMeasure(Recurrence recurrence)
-        : recurrence_(std::move(recurrence)), steps_(recurrence_, RangeScale(1.0)) {
+        : recurrence_(std::move(recurrence)),
+          steps_(recurrence_, RangeScale(1.0)),
+          costs_are_positive_(costs_are_positive(recurrence_)) {
         warping::check_ground_distance(recurrence_.ground);
         if (needs_points()) warping::refuse_own_distances(recurrence_.ground);
-        curves::check_cutoff(recurrence_.cutoff);
+        curves::check_limit("cutoff", recurrence_.cutoff, may_be_negative());
         window().check();
         check_number("gap", recurrence_.gap);
         if (recurrence_.ground.metric == Metric::haversine) check_on_sphere();
@@ -107,6 +152,14 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         return warping::requirements(recurrence_.measure, recurrence_.ground);
     }
     void check_sizes(std::ptrdiff_t n, std::ptrdiff_t m) const { window().check_sizes(n, m); }
+    bool may_be_negative() const noexcept {
+        return recurrence_.per != Per::matches && !costs_are_positive_;
+    }
+    bool is_zero_to_itself(const curves::CheckedCurve& checked) const {
+        if (may_be_negative() || !has_step_of_diagonal(recurrence_)) return false;
+        return recurrence_.pair != PairCost::apart ||
+               threshold_of(checked.curve, checked.curve, range_of(checked.largest)) > 0.0;
+    }
 
     // Calls use(problem).
     template <class Use>
@@ -136,7 +189,7 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         const std::ptrdiff_t n = P.packed.size(), m = Q.packed.size();
         const double cutoff = std::min(call.cutoff, recurrence_.cutoff);
         const double found = with_curves(P, Q, call.poller, [&](const RecurrenceProblem& problem) {
-            const bool may_give_up = problem.range.is_identity() && recurrence_.per != Per::matches;
+            const bool may_give_up = problem.range.is_identity() && costs_are_positive_;
             const double give_up = may_give_up ? cutoff * divisor(n, m) * (1.0 + 1e-15) : infinity;
             double sum = 0.0;
             for_each_table(problem.curves, [&](std::ptrdiff_t coordinate) {
@@ -156,10 +209,15 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
                 " has no path for curves of several coordinates, of which each has its own; take "
                 "them one by one");
         }
+        const std::ptrdiff_t n = P.packed.size(), m = Q.packed.size();
         Alignment found;
-        found.distance = (*this)(P, Q, call);
         with_curves(P, Q, call.poller, [&](const RecurrenceProblem& problem) {
-            found.path = RecurrenceSweep(problem, -1, call.poller, call.memory).path();
+            const double value =
+                RecurrenceSweep(problem, -1, call.poller, call.memory).value(infinity);
+            found.distance = finished(restored(value, problem.range), n, m);
+            found.path = value < infinity
+                             ? RecurrenceSweep(problem, -1, call.poller, call.memory).path()
+                             : path_of_any_cost(problem, n, m, call);
         });
         if (recurrence_.border == Border::origin) {  // without the point before the first
             found.path.erase(found.path.begin());
@@ -190,6 +248,22 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
     }
 
    private:
+    // One that the steps admit, where all are infinite.
+    static std::vector<std::array<std::int64_t, 2>> path_of_any_cost(
+        const RecurrenceProblem& problem, std::ptrdiff_t n, std::ptrdiff_t m,
+        const pairwise::Call<Memory>& call) {
+        const Recurrence recurrence = without_costs(problem.recurrence);
+        const StepTable steps(recurrence, problem.range);
+        const RecurrenceProblem reachable{recurrence, steps, problem.curves, problem.range,
+                                          infinity};
+        const bool was_counting = call.poller.set_counting(false);
+        if (RecurrenceSweep(reachable, -1, call.poller, call.memory).value(infinity) == infinity) {
+            refuse_path(recurrence, n, m);
+        }
+        call.poller.set_counting(was_counting);
+        return RecurrenceSweep(reachable, -1, call.poller, call.memory).path();
+    }
+
     warping::Window window() const noexcept {
         return {recurrence_.window, recurrence_.window_fraction};
     }
@@ -272,6 +346,7 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
 
     Recurrence recurrence_;
     StepTable steps_;
+    bool costs_are_positive_;
 };
 
 }  // namespace

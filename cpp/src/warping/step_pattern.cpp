@@ -30,6 +30,13 @@ StepRows step_rows(const StepSet& pattern) {
     return result;
 }
 
+bool StepRows::has_negative_weight() const noexcept {
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        if (rows[i].step == rows[i - 1].step && rows[i].weight < 0.0) return true;
+    }
+    return false;
+}
+
 StepRows rabiner_juang(int type, SlopeWeight weight, bool smoothed) {
     if (type < 1 || type > static_cast<int>(std::size(types_of_rabiner_juang))) {
         throw std::invalid_argument("type is " + std::to_string(type) +

@@ -36,7 +36,7 @@ WarpingOptions checked_options(const DtwOptions& options) {
             "this needs step_pattern='symmetric1' or 'symmetric2' and no penalty");
     }
     check_ground_distance(options.ground);
-    curves::check_cutoff(options.cutoff);
+    curves::check_limit("cutoff", options.cutoff, false);
     const Window window{options.window, options.window_fraction};
     window.check();
     const bool is_symmetric1 = options.step_pattern == StepPattern::symmetric1;
@@ -67,7 +67,7 @@ WarpingOptions checked_options(const DtwOptions& options) {
 
 WarpingOptions checked_options(const FrechetOptions& options) {
     check_ground_distance(options.ground);
-    curves::check_cutoff(options.cutoff);
+    curves::check_limit("cutoff", options.cutoff, false);
     return {FrechetOptions::measure,
             kernels::Recurrence::frechet,
             options.ground,

@@ -107,7 +107,7 @@ def cdist(
     """
     rows = as_curve_list(XA, "XA", keep_float32=True)
     columns = rows if XB is None else as_curve_list(XB, "XB", like=XA, keep_float32=True)
-    limit = pairwise._checked_cutoff(cutoff)
+    limit = pairwise.checked_limit("cutoff", cutoff, measure, options)
     refuse_local_only(options)
     mirrored = False
     if not callable(measure):
@@ -169,7 +169,7 @@ def pdist(
     [2.0, 5.0, 3.0]
     """
     curves = as_curve_list(X, "X", keep_float32=True)
-    limit = pairwise._checked_cutoff(cutoff)
+    limit = pairwise.checked_limit("cutoff", cutoff, measure, options)
     refuse_local_only(options)
     if not callable(measure):
         name = pairwise._check_names(measure, options)

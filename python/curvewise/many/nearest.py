@@ -20,12 +20,12 @@ import numpy.typing as npt
 from .._core import Index as CompiledIndex
 from .._docstrings import filled
 from .._extras import extra
-from .._options import Default, check_choice, real_number, whole_number
+from .._options import Default, check_choice, whole_number
 from .._progress import Report, reporting
 from ..curves.inputs import Array, as_curve_list
 from ..curves.labels import Labels, labelled_column, labelled_matrix, labels_at, unlabelled
 from ..measures.registry import MeasureName
-from .pairwise import Curves, LabelledCurves, _check_names
+from .pairwise import Curves, LabelledCurves, _check_names, checked_limit
 
 __all__ = ["Index", "checked_count"]
 
@@ -381,7 +381,7 @@ class Index:
         progress: bool | Report,
     ) -> tuple[Array, Places, Places, Labels]:
         queries, names = self._queries(X)
-        limit = real_number("radius", radius, 0.0, "give a number >= 0")
+        limit = checked_limit("radius", radius, self._measure, self._options)
         with self._reporting(progress) as report:
             found = self._index.radius_neighbors(
                 queries, limit, bool(sort_results), bool(with_distances), workers, report

@@ -25,6 +25,7 @@ from .._progress import Report, reporting
 from ..curves.inputs import Array, CurveLike, as_curve_list, copy_of
 from ..curves.labels import labelled_matrix, labelled_triangle, unlabelled
 from ..measures.registry import MEASURES, MeasureName
+from ..measures.step_pattern import may_be_negative
 
 __all__ = ["Curves", "LabelledCurves", "Measure", "available_measures", "cdist", "pdist"]
 
@@ -164,7 +165,7 @@ def cdist(
     shape = (len(rows), len(rows if columns is None else columns))
     out = _checked_out(out, shape, "cdist")
     rows, columns = _apart(rows, out), None if columns is None else _apart(columns, out)
-    limit = _checked_cutoff(cutoff)
+    limit = checked_limit("cutoff", cutoff, measure, options)
     if callable(measure) or callable(options.get("metric")):
         function = _called_by_pairs(measure, options, limit, rows, columns)
         others = rows if columns is None else columns
@@ -255,7 +256,7 @@ def pdist(
     curves = as_curve_list(X, "X", keep_float32=not callable(measure))
     out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
     curves = _apart(curves, out)
-    limit = _checked_cutoff(cutoff)
+    limit = checked_limit("cutoff", cutoff, measure, options)
     if callable(measure) or callable(options.get("metric")):
         function = _called_by_pairs(measure, options, limit, curves, None)
         if not callable(measure):
@@ -334,9 +335,15 @@ def _apart(curves: list[Array], out: Array) -> list[Array]:
     return [copy_of(curve) if np.may_share_memory(curve, out) else curve for curve in curves]
 
 
-def _checked_cutoff(cutoff: SupportsFloat | None) -> float:
-    limit = math.inf if cutoff is None else cutoff
-    return real_number("cutoff", limit, 0.0, "give a number >= 0, or None")
+def checked_limit(
+    option: str, given: SupportsFloat | None, measure: object, options: Mapping[str, Any]
+) -> float:
+    """Return a largest distance, for None infinity; refuse one below all that may be."""
+    is_open = callable(measure) or may_be_negative(options.get("step_pattern"))
+    least, advice = (-math.inf, "give a number") if is_open else (0.0, "give a number >= 0")
+    if option == "cutoff":
+        given, advice = math.inf if given is None else given, f"{advice}, or None"
+    return real_number(option, given, least, advice)
 
 
 def _fill(

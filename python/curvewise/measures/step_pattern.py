@@ -21,7 +21,7 @@ from ..showing.result import Result, Table
 if TYPE_CHECKING:
     from ..drawing.picture import Picture
 
-__all__ = ["StepPattern", "Steps"]
+__all__ = ["StepPattern", "Steps", "may_be_negative"]
 
 Row: TypeAlias = tuple[int, int, int, float]
 Normalization: TypeAlias = Literal["NA", "N", "M", "N+M"]
@@ -119,6 +119,13 @@ class StepPattern(Result):
 
 
 Steps: TypeAlias = StepPatternName | StepPattern
+
+
+def may_be_negative(step_pattern: object) -> bool:
+    """Return whether an option is a pattern with a negative weight: distances may be below 0."""
+    if not isinstance(step_pattern, StepPattern):
+        return False
+    return any(weight < 0 for step in step_pattern.steps() for *_, weight in step[1:])
 
 
 def _checked(rows: Iterable[Sequence[SupportsIndex | SupportsFloat]]) -> tuple[Row, ...]:

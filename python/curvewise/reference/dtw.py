@@ -12,6 +12,8 @@ O(n m).
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple, SupportsFloat
 
 import numpy as np
@@ -24,7 +26,7 @@ from ..measures.results import Alignment
 from ..measures.step_pattern import StepPattern, Steps
 from .checks import check_pair
 from .ground import Ground
-from .recurrence import Recurrence, filled, path_through, pattern_steps
+from .recurrence import Recurrence, filled, found_path, pattern_steps
 from .warping_table import filled_table, traced_path
 
 __all__ = ["checked_radius", "dtw", "dtw_path", "dtw_table", "sakoe_chiba_band"]
@@ -76,7 +78,7 @@ def dtw_path(
     table = _accumulate(P, Q, metric, p, radius, steps, window, open_begin, open_end)
     distance = float(table.restored(table.costs[-1, table.end]))
     if table.path is not None:
-        return Alignment(distance, table.path)
+        return Alignment(distance, table.path())
     c, d, w = table.costs, table.ground, steps.diagonal_weight
 
     def is_diagonal(i: int, j: int) -> bool:
@@ -111,7 +113,7 @@ class _Table(NamedTuple):
     ground: Array  # d(P[i], Q[j]), in the same units; inf outside the window
     end: int  # the column in which the path ends
     exponent: int
-    path: npt.NDArray[np.int64] | None = None  # where it was found with the table
+    path: Callable[[], npt.NDArray[np.int64]] | None = None  # where the steps have one of their own
 
     def restored(self, values: Any) -> Array:
         """Return values of the table in units of the curves."""
@@ -143,7 +145,8 @@ def _accumulate(
         cells = pattern_steps(steps.pattern.steps(), penalty, ground)
         recurrence = Recurrence(cells, first=float(ground[0, 0]))
         costs, taken = filled(recurrence, inside)
-        return _Table(costs, ground, len(Q) - 1, exponent, path_through(recurrence, taken))
+        path = partial(found_path, recurrence, inside, costs, taken, window is not None)
+        return _Table(costs, ground, len(Q) - 1, exponent, path)
     ground[~inside] = np.inf
     costs = filled_table(
         ground,

@@ -23,7 +23,7 @@ from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
 from .checks import check_pair
 from .dtw import checked_radius, sakoe_chiba_band
-from .recurrence import CellCost, Recurrence, Step, filled, path_through
+from .recurrence import CellCost, Recurrence, Step, filled, found_path
 
 __all__ = ["edit_path", "edit_table", "edr", "erp", "lcss", "msm", "twe", "wdtw"]
 
@@ -135,7 +135,8 @@ class _Pair(NamedTuple):
     def counted(self, recurrence: Recurrence, divisor: float = 1.0) -> _Found:
         """Fill a table of numbers that have no unit."""
         table, taken = filled(recurrence, self.inside)
-        return _Found(table, float(table[-1, -1]) / divisor, path_through(recurrence, taken))
+        path = found_path(recurrence, self.inside, table, taken, limited=True)
+        return _Found(table, float(table[-1, -1]) / divisor, path)
 
     def found(self, recurrence: Recurrence) -> _Found:
         """Fill a table of distances."""

@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 from ..curves.inputs import Array
 
-__all__ = ["Recurrence", "Step", "filled", "path_through", "pattern_steps"]
+__all__ = ["Recurrence", "Step", "filled", "found_path", "pattern_steps"]
 
 CellCost: TypeAlias = Callable[[int, int], float]
 
@@ -41,6 +41,11 @@ class Recurrence(NamedTuple):
     first: float | None = None  # c[0, 0] where paths start there; None where they start before it
     above: Array | float = np.inf  # c[-1, j]
     before: Array | float = np.inf  # c[i, -1]
+
+    def without_costs(self) -> Recurrence:
+        """Return the same steps, which cost nothing: c is 0 where a path leads."""
+        free = [step._replace(constant=0.0, costs=()) for step in self.steps]
+        return self._replace(steps=free, first=None if self.first is None else 0.0)
 
 
 def pattern_steps(
@@ -78,16 +83,43 @@ def filled(
             row, column = i + 1 - step.rows, j + 1 - step.columns
             if row < 0 or column < 0 or table[row, column] == np.inf:
                 continue
-            value = table[row, column]
+            value = float(table[row, column])
             value = value + step.constant if step.constant else value
             for weight, cost in step.costs:
-                value = value + weight * cost(i, j)
-            if value < table[i + 1, j + 1]:
+                added = cost(i, j)
+                value = value + (weight * added if added < np.inf else added)
+            if value < table[i + 1, j + 1]:  # which nan is not: a sum that overflows both ways
                 table[i + 1, j + 1], taken[i, j] = value, number
     return table[1:, 1:], taken
 
 
-def path_through(recurrence: Recurrence, taken: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+def found_path(
+    recurrence: Recurrence,
+    inside: npt.NDArray[np.bool_],
+    table: Array,
+    taken: npt.NDArray[np.int64],
+    limited: bool,
+) -> npt.NDArray[np.int64]:
+    """Return the path of a filled table; where the last cell is infinite, one that steps admit.
+
+    Raises
+    ------
+    ValueError
+        The steps admit no path; `limited` says whether a window may be why.
+    """
+    if table[-1, -1] == np.inf:
+        recurrence = recurrence.without_costs()
+        table, taken = filled(recurrence, inside)
+    if table[-1, -1] == np.inf:
+        n, m = table.shape
+        raise ValueError(
+            f"step_pattern{' and window admit' if limited else ' admits'} no path between {n} and "
+            f"{m} points; use another step pattern{' or a larger window' if limited else ''}"
+        )
+    return _path_through(recurrence, taken)
+
+
+def _path_through(recurrence: Recurrence, taken: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
     """Trace the path back from the last cell to the first, or to the border."""
     i, j = taken.shape[0] - 1, taken.shape[1] - 1
     path = []

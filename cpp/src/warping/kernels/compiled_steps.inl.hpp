@@ -133,6 +133,7 @@ bool is_shape(const Shape& shape, const LaneStep* steps, std::ptrdiff_t step_cou
 template <int which>
 struct CompiledSteps {
     static constexpr Shape shape = shapes.all[which];
+    static constexpr bool is_guarded = false;
 
     // What a diagonal reads, in a place of its own: a store of values could change any other.
     struct Sources {
@@ -225,8 +226,11 @@ struct CompiledSteps {
     }
 };
 
+template <bool guarded>
 struct AnySteps {
+    static constexpr bool is_guarded = guarded;
+
     static void cells(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
-        all_cells<false>(strip, t);
+        all_cells<false, guarded>(strip, t);
     }
 };

@@ -58,9 +58,12 @@ void look_up(const RecurrenceStrip& strip, std::ptrdiff_t t, Lanes& lanes) noexc
     }
 }
 
-template <int packs, bool with_codes>
+// Guarded are steps with something negative: an infinite cost, whatever its weight, and a sum that
+// overflows in both directions make them infinite. Sums of what is not negative are never nan.
+template <int packs, bool with_codes, bool is_guarded>
 inline void cells(const RecurrenceStrip& strip, const Lanes& lanes, std::ptrdiff_t k) noexcept {
     Pack best[packs], code[packs];
+    [[maybe_unused]] const Pack most = simd::pset1<Pack>(infinity);
     std::ptrdiff_t x = 0;
     for (std::ptrdiff_t s = 0; s < strip.step_count; ++s) {
         const LaneStep& step = strip.steps[s];
@@ -75,7 +78,17 @@ inline void cells(const RecurrenceStrip& strip, const Lanes& lanes, std::ptrdiff
             const double* const term = lanes.terms[x] + k;
             const Pack weight = simd::pset1<Pack>(strip.terms[x].weight);
             for (int u = 0; u < packs; ++u) {
-                sum[u] = simd::padd(sum[u], simd::pmul(weight, load(term + u * width)));
+                const Pack cost = load(term + u * width);
+                Pack added = simd::pmul(weight, cost);
+                if constexpr (is_guarded) {
+                    added = simd::pselect(simd::pcmp_lt(cost, most), added, most);
+                }
+                sum[u] = simd::padd(sum[u], added);
+            }
+        }
+        if constexpr (is_guarded) {
+            for (int u = 0; u < packs; ++u) {  // no comparison holds for nan
+                sum[u] = simd::pselect(simd::pcmp_lt(sum[u], most), sum[u], most);
             }
         }
         for (int u = 0; u < packs; ++u) {
@@ -93,16 +106,16 @@ inline void cells(const RecurrenceStrip& strip, const Lanes& lanes, std::ptrdiff
     }
 }
 
-template <bool with_codes>
+template <bool with_codes, bool is_guarded>
 void all_cells(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
     constexpr int together = 4;
     Lanes lanes;
     look_up(strip, t, lanes);
     std::ptrdiff_t k = strip.low_lane;
     for (; k + together * width <= strip.high_lane + 1; k += together * width) {
-        cells<together, with_codes>(strip, lanes, k);
+        cells<together, with_codes, is_guarded>(strip, lanes, k);
     }
-    for (; k <= strip.high_lane; k += width) cells<1, with_codes>(strip, lanes, k);
+    for (; k <= strip.high_lane; k += width) cells<1, with_codes, is_guarded>(strip, lanes, k);
 }
 
 #include "compiled_steps.inl.hpp"
@@ -236,7 +249,7 @@ void advance(RecurrenceStrip& strip, std::ptrdiff_t end, CostFunction fill) noex
         if (low <= high) {
             if (strip.row_moves != nullptr) fill_moves(strip, t);
             if (strip.codes != nullptr) {
-                all_cells<true>(strip, t);
+                all_cells<true, Steps::is_guarded>(strip, t);
             } else {
                 Steps::cells(strip, t);
             }
@@ -260,12 +273,18 @@ AdvanceRecurrence select_compiled(const LaneStep* steps, std::ptrdiff_t step_cou
         }
         return select_compiled<which + 1>(steps, step_count, terms);
     } else {
-        return advance<AnySteps>;
+        return advance<AnySteps<false>>;
     }
 }
 
 AdvanceRecurrence select_steps(const LaneStep* steps, std::ptrdiff_t step_count,
                                const LaneTerm* terms) noexcept {
+    for (int x = 0; x < steps[step_count - 1].end_term; ++x) {
+        if (terms[x].weight < 0.0) return advance<AnySteps<true>>;
+    }
+    for (std::ptrdiff_t s = 0; s < step_count; ++s) {
+        if (steps[s].constant < 0.0) return advance<AnySteps<true>>;
+    }
     return select_compiled<0>(steps, step_count, terms);
 }
 
