@@ -122,14 +122,6 @@ Recurrence without_costs(Recurrence recurrence) {
     return recurrence;
 }
 
-[[noreturn]] void refuse_path(const Recurrence& recurrence, std::ptrdiff_t n, std::ptrdiff_t m) {
-    const bool has_window = recurrence.window || recurrence.window_fraction;
-    throw std::invalid_argument(
-        std::string(has_window ? "step_pattern and window admit" : "step_pattern admits") +
-        " no path between " + std::to_string(n) + " and " + std::to_string(m) +
-        " points; use another step pattern" + (has_window ? " or a larger window" : ""));
-}
-
 class RecurrenceMeasure : public pairwise::SweptMeasure {
    public:
     using Memory = warping::RecurrenceMemory;
@@ -217,9 +209,10 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
             found.distance = finished(restored(value, problem.range), n, m);
             found.path = value < infinity
                              ? RecurrenceSweep(problem, -1, call.poller, call.memory).path()
-                             : path_of_any_cost(problem, n, m, call);
+                             : path_of_any_cost(problem, call);
         });
-        if (recurrence_.border == Border::origin) {  // without the point before the first
+        if (recurrence_.border == Border::origin &&
+            !found.path.empty()) {  // without the point before the first
             found.path.erase(found.path.begin());
             for (auto& [i, j] : found.path) --i, --j;
         }
@@ -248,19 +241,18 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
     }
 
    private:
-    // One that the steps admit, where all are infinite.
+    // Where every path is infinite, one of them; empty where the steps admit none.
     static std::vector<std::array<std::int64_t, 2>> path_of_any_cost(
-        const RecurrenceProblem& problem, std::ptrdiff_t n, std::ptrdiff_t m,
-        const pairwise::Call<Memory>& call) {
+        const RecurrenceProblem& problem, const pairwise::Call<Memory>& call) {
         const Recurrence recurrence = without_costs(problem.recurrence);
         const StepTable steps(recurrence, problem.range);
         const RecurrenceProblem reachable{recurrence, steps, problem.curves, problem.range,
                                           infinity};
         const bool was_counting = call.poller.set_counting(false);
-        if (RecurrenceSweep(reachable, -1, call.poller, call.memory).value(infinity) == infinity) {
-            refuse_path(recurrence, n, m);
-        }
+        const double value =
+            RecurrenceSweep(reachable, -1, call.poller, call.memory).value(infinity);
         call.poller.set_counting(was_counting);
+        if (value == infinity) return {};
         return RecurrenceSweep(reachable, -1, call.poller, call.memory).path();
     }
 

@@ -145,11 +145,8 @@ def _along_path(
     warping = MEASURES[measure].warping
     assert warping is not None
     of_path = {key: value for key, value in options.items() if key not in ("normalize", "cutoff")}
-    try:
-        i, j = warping.path(P, Q, **of_path).path.T
-    except ValueError:  # of curves between which the steps admit no path
-        if MEASURES[measure].function(P, Q, **of_path) < math.inf:
-            raise
+    i, j = warping.path(P, Q, **of_path).path.T
+    if len(i) == 0:  # the steps admit no path
         return math.inf, math.inf
     between = np.abs(P[i] - Q[j]).reshape(len(i), -1)
     distances = np.hypot.reduce(between, axis=1)  # whose squares do not overflow

@@ -57,7 +57,8 @@ def animate_alignment(
     Raises
     ------
     ValueError, TypeError
-        Where `dtw_path` or `frechet_path` does; for d > 2, and for frames or seconds out of range.
+        Where `dtw_path` or `frechet_path` does; for d > 2, for frames or seconds out of range, and
+        where the step pattern admits no path.
     ImportError
         Without matplotlib.
     OSError
@@ -85,6 +86,11 @@ def animate_alignment(
     refused = "animate_alignment draws 1 or 2 coordinates"
     measured, drawn, labels = measured_and_drawn(P, Q, normalized, names, refused)
     path = warping.path(*measured, **options).path
+    if len(path) == 0:
+        n, m = map(len, measured)
+        raise ValueError(
+            f"step_pattern admits no path between {n} and {m} points; use another step pattern"
+        )
     figure = new_figure(figsize=(9.0, 4.2), layout="constrained")
     with matplotlib_required():
         from matplotlib.animation import FuncAnimation, PillowWriter

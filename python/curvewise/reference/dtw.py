@@ -145,7 +145,7 @@ def _accumulate(
         cells = pattern_steps(steps.pattern.steps(), penalty, ground)
         recurrence = Recurrence(cells, first=float(ground[0, 0]))
         costs, taken = filled(recurrence, inside)
-        path = partial(found_path, recurrence, inside, costs, taken, window is not None)
+        path = partial(found_path, recurrence, inside, costs, taken)
         return _Table(costs, ground, len(Q) - 1, exponent, path)
     ground[~inside] = np.inf
     costs = filled_table(

@@ -135,7 +135,7 @@ class _Pair(NamedTuple):
     def counted(self, recurrence: Recurrence, divisor: float = 1.0) -> _Found:
         """Fill a table of numbers that have no unit."""
         table, taken = filled(recurrence, self.inside)
-        path = found_path(recurrence, self.inside, table, taken, limited=True)
+        path = found_path(recurrence, self.inside, table, taken)
         return _Found(table, float(table[-1, -1]) / divisor, path)
 
     def found(self, recurrence: Recurrence) -> _Found:

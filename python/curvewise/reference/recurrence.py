@@ -98,24 +98,13 @@ def found_path(
     inside: npt.NDArray[np.bool_],
     table: Array,
     taken: npt.NDArray[np.int64],
-    limited: bool,
 ) -> npt.NDArray[np.int64]:
-    """Return the path of a filled table; where the last cell is infinite, one that steps admit.
-
-    Raises
-    ------
-    ValueError
-        The steps admit no path; `limited` says whether a window may be why.
-    """
+    """Return the path of a filled table: one that steps admit where all are infinite, or none."""
     if table[-1, -1] == np.inf:
         recurrence = recurrence.without_costs()
         table, taken = filled(recurrence, inside)
     if table[-1, -1] == np.inf:
-        n, m = table.shape
-        raise ValueError(
-            f"step_pattern{' and window admit' if limited else ' admits'} no path between {n} and "
-            f"{m} points; use another step pattern{' or a larger window' if limited else ''}"
-        )
+        return np.empty((0, 2), dtype=np.int64)
     return _path_through(recurrence, taken)
 
 
