@@ -39,7 +39,8 @@ class CURVEWISE_EXPORT Stopped : public std::runtime_error {
 class Control {
    public:
     /// Called with (done, total) by the thread that made the call, about once an interval while the
-    /// work goes on and once when it is done. Returns whether to go on. Must not throw.
+    /// work goes on and once when it is done. Returns whether to go on. What it throws stops the
+    /// call, with all its threads, which then throws it.
     using Report = std::function<bool(std::int64_t done, std::int64_t total)>;
 
     Control() = default;

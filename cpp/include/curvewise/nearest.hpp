@@ -66,13 +66,16 @@ class Index {
     /// Owns a copy of the curves. Throws as cdist does, naming the curve (curves[3]).
     CURVEWISE_EXPORT Index(const std::vector<CurveView>& curves, const Measure& measure,
                            Control* control = nullptr);
+    /// The other one is then empty; of its functions all but size(), curves() and assignment throw
+    /// std::logic_error.
     CURVEWISE_EXPORT Index(Index&&) noexcept;
     CURVEWISE_EXPORT Index& operator=(Index&&) noexcept;
     Index(const Index&) = delete;
     Index& operator=(const Index&) = delete;
     CURVEWISE_EXPORT ~Index();
 
-    /// All of them, or, where it throws, none.
+    /// All of them, or, where it throws, none. Throws std::logic_error where a Report of a call of
+    /// this index calls it, since it waits for the end of that call.
     CURVEWISE_EXPORT void add(const std::vector<CurveView>& curves, Control* control = nullptr);
     CURVEWISE_EXPORT std::size_t size() const;
     /// Copies of the points: valid as long as the index.
@@ -102,7 +105,8 @@ class Index {
 
    private:
     class State;
-    std::unique_ptr<State> state_;
+    State& state() const;
+    std::unique_ptr<State> state_;  // null where moved from
 };
 
 }  // namespace curvewise

@@ -66,11 +66,14 @@ CURVEWISE_EXPORT void pdist(const std::vector<CurveView>& X, const Measure& meas
                             const BatchOptions& options = {}, Control* control = nullptr);
 
 /// A curve P, checked, packed and scaled once, to be compared with others. Owns a copy of P. Cheap
-/// to copy; may be called from any number of threads.
+/// to copy, and a move is a copy; may be called from any number of threads.
 class Prepared {
    public:
     CURVEWISE_EXPORT Prepared(const CurveView& P, const Measure& measure,
                               Control* control = nullptr);
+    Prepared(const Prepared&) = default;
+    Prepared& operator=(const Prepared&) = default;
+    ~Prepared() = default;
 
     /// The measure of P and Q. Throws as the measure does.
     CURVEWISE_EXPORT double operator()(const CurveView& Q, Control* control = nullptr) const;

@@ -10,6 +10,7 @@
 #include <shared_mutex>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "curves/owned_curve.hpp"
@@ -89,6 +90,46 @@ class QueryRun {
     SearchRecord record_;
 };
 
+// The threads that have a lock; a thread stands as often as it has taken it.
+class Holders {
+   public:
+    void add() {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        threads_.push_back(std::this_thread::get_id());
+    }
+    void remove() noexcept {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        threads_.erase(std::find(threads_.begin(), threads_.end(), std::this_thread::get_id()));
+    }
+    bool have_this_thread() const {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        const auto end = threads_.end();
+        return std::find(threads_.begin(), end, std::this_thread::get_id()) != end;
+    }
+
+   private:
+    mutable std::mutex mutex_;
+    std::vector<std::thread::id> threads_;
+};
+
+// A lock, whose thread is among the holders as long as this is there.
+template <class Lock>
+class Access {
+   public:
+    Access(Lock lock, Holders& holders) : lock_(std::move(lock)), holders_(holders) {
+        holders_.add();
+    }
+    Access(const Access&) = delete;
+    Access(Access&&) = delete;
+    Access& operator=(const Access&) = delete;
+    Access& operator=(Access&&) = delete;
+    ~Access() { holders_.remove(); }
+
+   private:
+    Lock lock_;
+    Holders& holders_;
+};
+
 }  // namespace
 
 class Index::State {
@@ -100,7 +141,12 @@ class Index::State {
 
     void add(const std::vector<CurveView>& curves, Control* control) {
         Poller poller(control);
-        const auto lock = locked<std::unique_lock<std::shared_timed_mutex>>(poller);
+        if (holders_.have_this_thread()) {
+            throw std::logic_error(
+                "add was called by the report of a call of the same index, for whose end it would "
+                "wait; add the curves after that call");
+        }
+        const auto access = locked<std::unique_lock<std::shared_timed_mutex>>(poller);
         check_like_first({curves, "curves"});
         const std::unique_ptr<Targets> added = measure_->make_targets();
         std::int64_t total = 0;
@@ -120,12 +166,14 @@ class Index::State {
     }
 
     std::size_t size() const {
-        const std::shared_lock<std::shared_timed_mutex> lock(mutex_);
+        Poller poller(nullptr);
+        const auto access = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
         return static_cast<std::size_t>(targets_->size());
     }
 
     std::vector<CurveView> curves() const {
-        const std::shared_lock<std::shared_timed_mutex> lock(mutex_);
+        Poller poller(nullptr);
+        const auto access = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
         std::vector<CurveView> views;
         for (std::ptrdiff_t j = 0; j < targets_->size(); ++j) {
             views.push_back(targets_->curve(j).curve);
@@ -137,7 +185,7 @@ class Index::State {
     void kneighbors(const std::vector<CurveView>* X, std::ptrdiff_t count, double* distances,
                     std::int64_t* indices, const SearchOptions& options, Control* control) const {
         Poller poller(control);
-        const auto lock = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
+        const auto access = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
         check_count(count, X == nullptr);
         ask(X, options, poller,
             [=](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
@@ -154,7 +202,7 @@ class Index::State {
                                                         double radius, const SearchOptions& options,
                                                         Control* control) const {
         Poller poller(control);
-        const auto lock = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
+        const auto access = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
         curves::check_limit("radius", radius, measure_->may_be_negative());
         std::vector<std::vector<Neighbor>> results(
             X == nullptr ? static_cast<std::size_t>(targets_->size()) : X->size());
@@ -173,14 +221,15 @@ class Index::State {
 
    private:
     // The mutex, once those who have it let go; throws Stopped where that is asked for meanwhile.
+    // A thread that has it, and calls from a report, need not have it twice.
     template <class Lock>
-    Lock locked(Poller& poller) const {
+    Access<Lock> locked(Poller& poller) const {
         constexpr std::chrono::milliseconds nap(20);
         Lock lock(mutex_, std::defer_lock);
-        while (!lock.try_lock_for(nap)) {
+        while (!holders_.have_this_thread() && !lock.try_lock_for(nap)) {
             if (poller.poll()) throw Stopped();
         }
-        return lock;
+        return {std::move(lock), holders_};
     }
 
     void ask(const std::vector<CurveView>* X, const SearchOptions& options, Poller& poller,
@@ -247,6 +296,7 @@ class Index::State {
 
     std::unique_ptr<const pairwise::BatchMeasure> measure_;
     mutable std::shared_timed_mutex mutex_;
+    mutable Holders holders_;  // of it
     std::set<std::ptrdiff_t> sizes_;
     std::unique_ptr<Targets> targets_;
 };
@@ -259,34 +309,41 @@ Index::Index(Index&&) noexcept = default;
 Index& Index::operator=(Index&&) noexcept = default;
 Index::~Index() = default;
 
-void Index::add(const std::vector<CurveView>& curves, Control* control) {
-    state_->add(curves, control);
+Index::State& Index::state() const {
+    if (state_) return *state_;
+    throw std::logic_error("the index has been moved from; make another, or assign one to it");
 }
-std::size_t Index::size() const { return state_->size(); }
-std::vector<CurveView> Index::curves() const { return state_->curves(); }
+
+void Index::add(const std::vector<CurveView>& curves, Control* control) {
+    state().add(curves, control);
+}
+std::size_t Index::size() const { return state_ ? state_->size() : 0; }
+std::vector<CurveView> Index::curves() const {
+    return state_ ? state_->curves() : std::vector<CurveView>();
+}
 
 void Index::kneighbors(const std::vector<CurveView>& X, std::ptrdiff_t n_neighbors,
                        double* distances, std::int64_t* indices, const SearchOptions& options,
                        Control* control) const {
-    state_->kneighbors(&X, n_neighbors, distances, indices, options, control);
+    state().kneighbors(&X, n_neighbors, distances, indices, options, control);
 }
 
 void Index::kneighbors(std::ptrdiff_t n_neighbors, double* distances, std::int64_t* indices,
                        const SearchOptions& options, Control* control) const {
-    state_->kneighbors(nullptr, n_neighbors, distances, indices, options, control);
+    state().kneighbors(nullptr, n_neighbors, distances, indices, options, control);
 }
 
 std::vector<std::vector<Neighbor>> Index::radius_neighbors(const std::vector<CurveView>& X,
                                                            double radius,
                                                            const SearchOptions& options,
                                                            Control* control) const {
-    return state_->radius_neighbors(&X, radius, options, control);
+    return state().radius_neighbors(&X, radius, options, control);
 }
 
 std::vector<std::vector<Neighbor>> Index::radius_neighbors(double radius,
                                                            const SearchOptions& options,
                                                            Control* control) const {
-    return state_->radius_neighbors(nullptr, radius, options, control);
+    return state().radius_neighbors(nullptr, radius, options, control);
 }
 
 }  // namespace curvewise

@@ -41,8 +41,12 @@ void Poller::publish_count() noexcept {
 
 void Poller::report(std::int64_t most) {
     const std::int64_t done = std::min(control_->done(), most);
-    if (control_->report_ && !control_->report_(done, control_->total())) {
+    try {
+        if (control_->report_ && !control_->report_(done, control_->total())) control_->stop();
+    } catch (...) {
         control_->stop();
+        if (!is_sharing_) throw;
+        failure_ = std::current_exception();
     }
     next_report_ = Clock::now() + control_->interval_;
 }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <utility>
 
 #include "curvewise/control.hpp"
@@ -50,6 +51,12 @@ class Poller {
     bool set_counting(bool is_counting) noexcept {
         return std::exchange(is_counting_, is_counting);
     }
+    // While the caller shares its work with other threads, which nothing may leave behind, what a
+    // report throws stops the call and is kept for rethrow_failure(). Returns what was so before.
+    bool set_sharing(bool is_sharing) noexcept { return std::exchange(is_sharing_, is_sharing); }
+    void rethrow_failure() {
+        if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+    }
     // Takes back steps that have been counted, and are to be done again in another way.
     void take_back(std::int64_t steps) noexcept { uncounted_ -= steps; }
     // For loops over points: polls in every 2^16th iteration and throws Stopped.
@@ -91,6 +98,8 @@ class Poller {
     Control* control_;
     Role role_;
     bool is_counting_ = true;
+    bool is_sharing_ = false;
+    std::exception_ptr failure_;
     std::int64_t uncounted_ = 0;
     std::int64_t effort_ = 0;
     Clock::time_point next_report_;

@@ -46,6 +46,7 @@ void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work) {
         --at_work;
         ended.notify_one();
     };
+    const bool was_sharing = poller.set_sharing(true);
     try {
         for (std::ptrdiff_t w = 1; w < count; ++w) {
             {
@@ -69,6 +70,8 @@ void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work) {
         lock.lock();
     }
     for (std::thread& thread : threads) thread.join();
+    poller.set_sharing(was_sharing);
+    if (!was_sharing) poller.rethrow_failure();
 }
 
 Pipeline::Pipeline(std::ptrdiff_t strips) : strips_(static_cast<std::size_t>(strips)) {}

@@ -19,7 +19,8 @@ std::ptrdiff_t resolve_workers(std::ptrdiff_t workers);
 
 // Calls work(w, poller) for w = 0, 1, ... in up to `count` threads, this one among them as 0, with
 // `poller`; the others have watches of their own. Where the system refuses a thread, fewer do the
-// work: `work` must share itself out. It must not throw.
+// work: `work` must share itself out. It must not throw. What a report throws is thrown when all
+// threads have ended.
 using Work = std::function<void(std::ptrdiff_t w, Poller& poller)>;
 void run_workers(std::ptrdiff_t count, Poller& poller, const Work& work);
 

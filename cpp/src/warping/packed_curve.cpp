@@ -47,9 +47,8 @@ PackedCurve::PackedCurve(const CurveView& curve, const RangeScale& range, PointO
             const auto strided = [&](std::ptrdiff_t i) {
                 return range.shrink(curve(first + i, c));
             };
-            const auto plain = [from = row_major + first * dim_ + c, dim = dim_](std::ptrdiff_t i) {
-                return from[i * dim];
-            };
+            const auto plain = [from = row_major, offset = first * dim_ + c,
+                                dim = dim_](std::ptrdiff_t i) { return from[offset + i * dim]; };
             least = std::min(least, row_major != nullptr ? write(end - first, to, step, plain)
                                                          : write(end - first, to, step, strided));
         });

@@ -313,18 +313,81 @@ void floats_are_computed_in_doubles() {
                  "P has floats, which only lists may have; give doubles");
 }
 
+// Not 0 by every pattern, nor by every threshold.
+void the_diagonal_is_that_of_single_calls() {
+    Random random(31);
+    DtwOptions knight, no_diagonal, negative;
+    knight.own_steps.rows = {{1, 1, 2, -1}, {1, 0, 0, 1}, {2, 2, 1, -1}, {2, 0, 0, 1}};
+    no_diagonal.own_steps.rows = {{1, 1, 0, -1}, {1, 0, 0, 1}, {2, 0, 1, -1}, {2, 0, 0, 1}};
+    negative.own_steps.rows = {{1, 1, 1, -1}, {1, 0, 0, 1},  {2, 1, 0, -1},
+                               {2, 0, 0, -1}, {3, 0, 1, -1}, {3, 0, 0, -1}};
+    EdrOptions edr, exact;
+    exact.epsilon = 0.0;
+    Curve constant = random.curve(5, 2);
+    for (std::ptrdiff_t i = 0; i < constant.size(); ++i) constant(i, 0) = constant(i, 1) = 1.0;
+    const std::vector<Curve> curves{random.curve(7, 2), constant, random.curve(4, 2)};
+    const std::vector<CurveView> X = views_of(curves);
+    for (const Measure& measure :
+         {Measure(knight), Measure(no_diagonal), Measure(negative), Measure(edr), Measure(exact)}) {
+        CHECK(is_symmetric(measure));
+        for (const double cutoff : {infinity, 1.5}) {
+            std::vector<double> found(9), expected(9);
+            cdist(X, measure, found.data(), {1, cutoff});
+            cdist(X, X, measure, expected.data(), {1, cutoff});
+            CHECK_EQUAL(found, expected);
+        }
+    }
+}
+
+void a_curve_that_was_moved_from_is_a_copy() {
+    const Curve P{{0, 0}, {1, 1}}, Q{{0, 1}, {2, 1}};
+    Prepared first(P, DtwOptions{});
+    const Prepared second = std::move(first);
+    CHECK_EQUAL(second(Q), dtw(P, Q));
+    CHECK_EQUAL(first(Q), dtw(P, Q));
+}
+
+void a_cutoff_may_be_negative_where_distances_are() {
+    const Curve P{{0, 0}, {1, 1}}, Q{{0, 1}, {2, 1}};
+    DtwOptions negative;
+    negative.own_steps.rows = {{1, 1, 1, -1}, {1, 0, 0, -3}};
+    const double distance = dtw(P, Q, negative);  // 1 - 3
+    CHECK_EQUAL(distance, -2.0);
+    for (const auto& [cutoff, expected] :
+         {std::pair{-1.0, -2.0}, std::pair{-2.0, -2.0}, std::pair{-2.5, infinity}}) {
+        double found = 0.0;
+        cdist({P}, {Q}, negative, &found, {1, cutoff});
+        CHECK_EQUAL(found, expected);
+        DtwOptions cut = negative;
+        cut.cutoff = cutoff;
+        CHECK_EQUAL(dtw(P, Q, cut), expected);
+    }
+    double out = 0.0;
+    CHECK_THROWS(cdist({P}, {Q}, DtwOptions{}, &out, {1, -1.0}), std::invalid_argument,
+                 "cutoff is -1.000000; give a number >= 0");
+    CHECK_THROWS(cdist({P}, {Q}, LcssOptions{}, &out, {1, -1.0}), std::invalid_argument,
+                 "cutoff is -1.000000; give a number >= 0");
+    CHECK_THROWS(cdist({P}, {Q}, negative, &out, {1, std::nan("")}), std::invalid_argument,
+                 "cutoff is nan; give a number");
+}
+
 }  // namespace
 
 int main() {
-    return check::run({{"batches equal single calls", batches_equal_single_calls},
-                       {"floats are computed in doubles", floats_are_computed_in_doubles},
-                       {"prepared equals single calls", prepared_equals_single_calls},
-                       {"symmetry is known", symmetry_is_known},
-                       {"any number of workers", any_number_of_workers},
-                       {"many small curves", many_small_curves},
-                       {"pairs that are worth all threads", pairs_that_are_worth_all_threads},
-                       {"cutoff gives infinity", cutoff_gives_infinity},
-                       {"errors name the curve", errors_name_the_curve},
-                       {"reports go up to the total", reports_go_up_to_the_total},
-                       {"a stopped call throws", a_stopped_call_throws}});
+    return check::run(
+        {{"batches equal single calls", batches_equal_single_calls},
+         {"floats are computed in doubles", floats_are_computed_in_doubles},
+         {"prepared equals single calls", prepared_equals_single_calls},
+         {"symmetry is known", symmetry_is_known},
+         {"any number of workers", any_number_of_workers},
+         {"many small curves", many_small_curves},
+         {"pairs that are worth all threads", pairs_that_are_worth_all_threads},
+         {"cutoff gives infinity", cutoff_gives_infinity},
+         {"errors name the curve", errors_name_the_curve},
+         {"reports go up to the total", reports_go_up_to_the_total},
+         {"a stopped call throws", a_stopped_call_throws},
+         {"the diagonal is that of single calls", the_diagonal_is_that_of_single_calls},
+         {"a curve that was moved from is a copy", a_curve_that_was_moved_from_is_a_copy},
+         {"a cutoff may be negative where distances are",
+          a_cutoff_may_be_negative_where_distances_are}});
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <type_traits>
@@ -159,10 +160,51 @@ void an_index_that_is_busy() {
     CHECK_EQUAL(index.size(), std::size_t{1});
 }
 
+// With one thread and with several, at the first report and at a later one.
+void what_a_report_throws_ends_the_call() {
+    const Curve P = Random(5).curve(3000, 2), Q = Random(6).curve(3000, 2);
+    std::vector<double> out(9);
+    std::vector<std::int64_t> places(3);
+    const std::vector<CurveView> curves{P, Q, P};
+    for (const std::ptrdiff_t workers : {1, 2, 3}) {
+        DtwOptions options;
+        options.prune = false;
+        options.workers = workers;
+        const Index index(curves, DtwOptions{});
+        const std::vector<Call> calls{
+            [&](Control* control) { dtw(P, Q, options, control); },
+            [&](Control* control) { dtw_path(P, Q, options, control); },
+            [&](Control* control) {
+                cdist(curves, curves, options, out.data(), {workers}, control);
+            },
+            [&](Control* control) { pdist(curves, options, out.data(), {workers}, control); },
+            [&](Control* control) {
+                index.kneighbors(curves, 1, out.data(), places.data(), {workers}, control);
+            }};
+        for (const Call& call : calls) {
+            for (const int last : {1, 2}) {
+                const check::Note note(std::to_string(workers) + " workers, report " +
+                                       std::to_string(last));
+                int reports = 0;
+                Control control(
+                    [&](std::int64_t, std::int64_t) {
+                        if (++reports == last) throw std::logic_error("from the report");
+                        return true;
+                    },
+                    std::chrono::milliseconds(0));
+                CHECK_THROWS(call(&control), std::logic_error, "from the report");
+                CHECK_EQUAL(reports, last);
+                CHECK(control.stopped());
+            }
+        }
+    }
+}
+
 }  // namespace
 
 int main() {
     return check::run({{"single calls", single_calls},
                        {"batches", batches},
+                       {"what a report throws ends the call", what_a_report_throws_ends_the_call},
                        {"an index that is busy", an_index_that_is_busy}});
 }

@@ -120,6 +120,57 @@ void named_patterns() {
     CHECK_EQUAL(dtw(P, Q, options), infinity);
 }
 
+// Of steps that admit none; in the place of several parts, each with its own table, too.
+void a_path_of_an_infinite_value() {
+    curvewise::DtwOptions options;
+    options.step_pattern = curvewise::StepPattern::rigid;
+    for (const std::ptrdiff_t n : {2, 3000}) {
+        const Curve P = Random(8).curve(n, 1), Q = Random(9).curve(n + 1, 1);
+        const curvewise::Alignment none = dtw_path(P, Q, options);
+        CHECK_EQUAL(none.distance, infinity);
+        CHECK(none.path.empty());
+    }
+    // The distance of its first points alone makes every path infinite.
+    const curvewise::BlockDistances blocked = [](const curvewise::TableBlock& block, double* out) {
+        std::fill_n(out, block.rows * block.columns, 1.0);
+        if (block.first_row == 0 && block.first_column == 0) *out = infinity;
+    };
+    curvewise::DtwOptions limited;
+    limited.step_pattern = curvewise::StepPattern::symmetricP1;
+    limited.ground.own = &blocked;
+    for (const std::ptrdiff_t n : {4, 3000}) {
+        const Curve P = Random(8).curve(n, 1), Q = Random(9).curve(n - n / 8, 1);
+        const curvewise::Alignment found = dtw_path(P, Q, limited);
+        CHECK_EQUAL(found.distance, infinity);
+        CHECK(found.path.front() == (std::array<std::int64_t, 2>{0, 0}));
+        CHECK(found.path.back() == (std::array<std::int64_t, 2>{P.size() - 1, Q.size() - 1}));
+        for (std::size_t k = 1; k < found.path.size(); ++k) {
+            const auto rows = found.path[k][0] - found.path[k - 1][0];
+            const auto columns = found.path[k][1] - found.path[k - 1][1];
+            CHECK(rows >= 0 && rows <= 1 && columns >= 0 && columns <= 1 && rows + columns > 0);
+        }
+    }
+}
+
+// A cutoff changes no path; above a negative value it gives up nothing.
+void negative_weights() {
+    Random random(10);
+    Recurrence recurrence{
+        "negative",
+        {{1, 1, 0.0, {{0, 0, -1.0}}}, {1, 0, 0.0, {{0, 0, 2.0}}}, {0, 1, 0.0, {{0, 0, 2.0}}}},
+        {}};
+    for (const std::ptrdiff_t n : {5, 300, 520}) {
+        const Curve P = random.curve(n, 2), Q = random.curve(n - n / 100, 2);
+        const double value = written_down(recurrence.steps, P, Q).back();
+        CHECK(value < 0.0);
+        for (const double cutoff : {infinity, 0.0, value, value - 1.0}) {
+            recurrence.cutoff = cutoff;
+            CHECK_EQUAL(warp(recurrence, P, Q), value <= cutoff ? value : infinity);
+            CHECK_EQUAL(warp_path(recurrence, P, Q).distance, value);
+        }
+    }
+}
+
 // By hand: 1, 2 against 1, 2, 4, where the 4 is left out.
 void edit_distances() {
     const Curve P{{1.0}, {2.0}}, Q{{1.0}, {2.0}, {4.0}};
@@ -148,6 +199,8 @@ int main() {
                        {"the steps of dtw", the_steps_of_dtw_give_its_bits},
                        {"all named patterns", all_named_patterns},
                        {"named patterns", named_patterns},
+                       {"a path of an infinite value", a_path_of_an_infinite_value},
+                       {"negative weights", negative_weights},
                        {"edit distances", edit_distances},
                        {"messages", messages}});
 }
