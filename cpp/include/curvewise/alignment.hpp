@@ -15,7 +15,7 @@ namespace curvewise {
 struct Alignment {
     double distance = 0.0;
     /// Index pairs (i, j): point i of P is matched to point j of Q. Each step is (1, 0), (0, 1)
-    /// or (1, 1).
+    /// or (1, 1). Empty where a step pattern admits no path; the distance is then infinity.
     std::vector<std::array<std::int64_t, 2>> path;
 };
 

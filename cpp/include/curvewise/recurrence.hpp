@@ -4,6 +4,9 @@
 ///
 ///     c[i, j] = min over steps of  c[i - rows, j - columns] + constant + sum of weight x term
 ///
+/// Weights may be negative. A step is infinite if one of its terms is, whatever that term's weight.
+/// A term of weight 0 takes no part.
+///
 /// added up in this order. What a term is, CostFrom says. The value is c in the last cell, divided
 /// as Per says. Time O(n m) times the number of terms; memory O(n + m) for a value,
 /// O((n + m) log n) for a path.
@@ -105,8 +108,9 @@ struct Recurrence {
 /// or whose terms lie outside of them.
 CURVEWISE_EXPORT double warp(const Recurrence& recurrence, const CurveView& P, const CurveView& Q,
                              Control* control = nullptr);
-/// The cells that a cheapest path visits, those between the ends of its steps among them. None for
-/// a table for each coordinate, where there are several.
+/// The cells that a cheapest path visits, those between the ends of its steps among them. None
+/// where the steps admit no path; where every path is infinite, the cells of one of them. Throws
+/// std::invalid_argument for a table for each coordinate, where there are several paths.
 CURVEWISE_EXPORT Alignment warp_path(const Recurrence& recurrence, const CurveView& P,
                                      const CurveView& Q, Control* control = nullptr);
 /// Writes c to out[i * m + j]; infinity outside the window.

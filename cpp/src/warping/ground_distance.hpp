@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "curves/checks.hpp"
 #include "curves/range_scale.hpp"
@@ -120,5 +121,12 @@ int degree(Metric metric) noexcept;
 
 // The range in which curves of this largest magnitude are compared.
 RangeScale range_of(const GroundDistance& ground, double largest_magnitude) noexcept;
+
+// The cutoff of a sum for one of its quotient: a little more than the product, so that the rounding
+// of the quotient gives nothing up: of one near 0, too, which is by the smallest double.
+inline double undivided(double cutoff, double divisor) noexcept {
+    if (divisor == 1.0) return cutoff;
+    return (cutoff + std::numeric_limits<double>::denorm_min()) * (divisor * (1.0 + 1e-15));
+}
 
 }  // namespace curvewise::warping

@@ -182,7 +182,8 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         const double cutoff = std::min(call.cutoff, recurrence_.cutoff);
         const double found = with_curves(P, Q, call.poller, [&](const RecurrenceProblem& problem) {
             const bool may_give_up = problem.range.is_identity() && costs_are_positive_;
-            const double give_up = may_give_up ? cutoff * divisor(n, m) * (1.0 + 1e-15) : infinity;
+            const double give_up =
+                may_give_up ? warping::undivided(cutoff, divisor(n, m)) : infinity;
             double sum = 0.0;
             for_each_table(problem.curves, [&](std::ptrdiff_t coordinate) {
                 sum +=

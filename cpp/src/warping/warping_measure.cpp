@@ -76,13 +76,7 @@ class WarpingMeasure : public pairwise::SweptMeasure {
     double value(const PreparedP& P, const PreparedQ& Q, const pairwise::Call<Memory>& call,
                  Compute compute) const {
         const double divisor = options_.divisor(P.packed.size(), Q.packed.size());
-        double cutoff = std::min(call.cutoff, options_.cutoff);
-        if (divisor != 1.0) {
-            // A little more, so that the rounding of the quotient gives nothing up: of one near 0,
-            // too, which is by the smallest double.
-            cutoff += std::numeric_limits<double>::denorm_min();
-            cutoff *= divisor * (1.0 + 1e-15);
-        }
+        const double cutoff = warping::undivided(std::min(call.cutoff, options_.cutoff), divisor);
         const double found =
             with_problem(P, Q, call,
                          [&](WarpingProblem& problem) { return compute(problem, cutoff); }) /

@@ -219,7 +219,8 @@ class Index:
         X : array_like, shape (q, n, d), or a sequence of curves, optional
             As for :meth:`kneighbors`.
         radius : float >= 0
-            The largest distance of a neighbour.
+            The largest distance of a neighbour. It may be negative for a step pattern that has a
+            negative weight.
         return_distance : bool
             Whether to return the distances besides the indices.
         sort_results : bool

@@ -111,7 +111,8 @@ def cdist(
         Where to write the result.
     {workers}
     cutoff : float >= 0, optional
-        Values above it come back as inf; their pairs may be abandoned before their end.
+        Values above it come back as inf; their pairs may be abandoned before their end. It may be
+        negative for a callable, and for a step pattern that has a negative weight.
     progress : bool or callable
         True shows a bar (tqdm). A callable is called in this thread with (done, total), some
         twenty times a second: cells of the tables, n m for a pair, for dtw and frechet; points,

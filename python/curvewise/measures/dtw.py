@@ -223,6 +223,8 @@ def dtw_path(
         then (i-1, j), then (i, j-1), or that of the first step in the pattern; with an open end,
         the first best j. The sum of step weight times ground distance, in path order, equals the
         distance to the bit. Of a step over several cells, all that it visits are in the path.
+        If the step pattern admits no path, ``distance`` is inf and ``path`` is empty, shape (0, 2).
+        If every path is infinite, ``path`` is one that the step pattern admits.
 
     Raises
     ------

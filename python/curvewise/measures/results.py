@@ -65,7 +65,7 @@ class Alignment(_Record, Result):
         The value of the measure.
     path : ndarray of int64, shape (k, 2)
         Index pairs ``(i, j)``: point ``i`` of P is matched to point ``j`` of Q. Each step is
-        (1, 0), (0, 1) or (1, 1).
+        (1, 0), (0, 1) or (1, 1). Empty if a step pattern admits no path; `distance` is then inf.
     curves : tuple of two ndarrays, or None
         Copies of P and Q, for the picture; not those of :mod:`curvewise.reference`.
     """

@@ -45,6 +45,10 @@ class StepPattern(Result):
     For ``step_pattern`` of :func:`curvewise.dtw`, as R's ``stepPattern`` for its ``dtw``. Of equal
     steps a path takes the first.
 
+    A weight may be negative. Distances may then be below 0, and a `cutoff` or a `radius` may be
+    negative too. A step is infinite if a cell of infinite ground distance takes part in it with a
+    weight other than 0. Sums beyond the range of a double are inf or -inf. No distance is nan.
+
     Examples
     --------
     >>> import curvewise

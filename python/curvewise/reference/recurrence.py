@@ -3,10 +3,11 @@
     c[i, j] = min over steps of  c[i - rows, j - columns] + constant + sum of weight x cost
 
 added up in this order, where each cost is that of a cell on the way of the step, or one of its
-own. What comes before the first row and the first column is a border, infinite but where a
-recurrence says otherwise. Filled row by row, cell by cell, since nothing is faster to check. Time
-O(n m) times the number of costs, memory O(n m). The steps of named patterns are those that the
-library has: they are data, held to R's dtw by a test.
+own. A step with an infinite cost is infinite, whatever the cost's weight. What comes before the
+first row and the first column is a border, infinite but where a recurrence says otherwise. Filled
+row by row, cell by cell, since nothing is faster to check. Time O(n m) times the number of costs,
+memory O(n m). The steps of named patterns are those that the library has: they are data, held to
+R's dtw by a test.
 """
 
 from __future__ import annotations

@@ -169,6 +169,19 @@ void negative_weights() {
             CHECK_EQUAL(warp_path(recurrence, P, Q).distance, value);
         }
     }
+    // What one term adds another takes away again: an infinite distance is infinite all the same.
+    const curvewise::BlockDistances blocked = [](const curvewise::TableBlock& block, double* out) {
+        std::fill_n(out, block.rows * block.columns, infinity);
+        if (block.first_row == 0) *out = 1.0;
+    };
+    const Curve P = random.curve(3, 1), Q = random.curve(3, 1);
+    Recurrence differences{"differences", {{1, 1, 0.0, {{0, 0, 1.0}, {0, 0, -1.0}}}}, {}};
+    differences.ground.own = &blocked;
+    CHECK_EQUAL(warp(differences, P, Q), infinity);
+    differences.steps.front().terms = {{0, 0, -1.0}};
+    CHECK_EQUAL(warp(differences, P, Q), infinity);
+    differences.steps.front().terms = {{0, 0, 0.0}};  // takes no part
+    CHECK_EQUAL(warp(differences, P, Q), 1.0);
 }
 
 // By hand: 1, 2 against 1, 2, 4, where the 4 is left out.

@@ -227,3 +227,12 @@ def test_prepared_tells_one_curve_from_a_list():
 def test_prepared_repr():
     prepared = curvewise.Prepared([(0, 0), (1, 1)], "dtw", window=3)
     assert repr(prepared) == "Prepared(<P of shape (2, 2)>, 'dtw', window=3)"
+
+
+def test_the_diagonal_is_that_of_single_calls() -> None:
+    level, line = [1.0, 1.0, 1.0], [0.0, 2.0, 5.0]
+    for options in ({}, {"epsilon": 0.0}, {"epsilon": 0.5}):  # without one, level has 0
+        found = curvewise.cdist([level, line], measure="edr", **options)
+        expected = [curvewise.edr(curve, curve, **options) for curve in (level, line)]
+        assert found.diagonal().tolist() == expected
+    assert curvewise.cdist([level, line], measure="edr", cutoff=0.5)[0, 0] == np.inf

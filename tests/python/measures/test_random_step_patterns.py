@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any, NamedTuple, get_args
 
 import numpy as np
 import pytest
 
 import curvewise
+import curvewise.plotting
 from curvewise import Alignment, StepPattern, reference
 from curvewise._core import is_symmetric
 from curvewise._options import StepPatternName
@@ -48,6 +50,10 @@ def random_curves(rng: Generator, count: int, longest: int, dim: int) -> list[An
     return [rng.integers(-3, 4, (rng.integers(1, longest), dim)) / 2 for _ in range(count)]
 
 
+def pattern_of(given: Any) -> StepPattern:
+    return given if isinstance(given, StepPattern) else StepPattern.named(given)
+
+
 def has_negative_weight(pattern: StepPattern) -> bool:
     return any(weight < 0 for step in pattern.steps() for *_, weight in step[1:])
 
@@ -77,10 +83,7 @@ class Setting(NamedTuple):
 
     def limits(self, rng: Generator) -> Iterator[float]:
         """Yield a distance itself and a number beside it, negative only where distances may be."""
-        pattern = self.options["step_pattern"]
-        least = -np.inf if isinstance(pattern, StepPattern) else 0.0
-        if isinstance(pattern, StepPattern) and not has_negative_weight(pattern):
-            least = 0.0
+        least = -np.inf if has_negative_weight(pattern_of(self.options["step_pattern"])) else 0.0
         finite = self.distances[np.isfinite(self.distances)]
         for limit in (*rng.permutation(finite)[:1], rng.uniform(-5, 15)):
             yield max(float(limit), least)
@@ -151,12 +154,8 @@ def check_is_of_pattern(found: Alignment, sizes: tuple[int, int], options: dict[
     if len(found.path) == 0:
         assert found.path.shape == (0, 2)
         assert found.distance == np.inf
-        steps = (
-            StepPattern.named(options["step_pattern"])
-            if isinstance(options["step_pattern"], str)
-            else options["step_pattern"]
-        )
-        assert options["window"] is not None or not is_reached(steps, *sizes)
+        pattern = pattern_of(options["step_pattern"])
+        assert options["window"] is not None or not is_reached(pattern, *sizes)
     else:
         assert found.path[0].tolist() == [0, 0]
         assert found.path[-1].tolist() == [size - 1 for size in sizes]
@@ -176,8 +175,7 @@ def is_reached(pattern: StepPattern, n: int, m: int) -> bool:
 def check_all(seed: int, pattern: Any = None) -> None:
     rng = np.random.default_rng(seed)
     own = random_pattern(rng) if pattern is None else pattern
-    rows = own if isinstance(own, StepPattern) else StepPattern.named(own)
-    given = Setting.of(rng, own, may_normalize=rows.normalization != "NA")
+    given = Setting.of(rng, own, may_normalize=pattern_of(own).normalization != "NA")
     check_batches(given, rng)
     check_index(given, rng)
     check_paths(given)
@@ -249,3 +247,57 @@ def check_distances_of_infinite_cells(seed: int) -> None:
 def test_an_infinite_distance_is_on_no_finite_path(rounds: Callable[[int], int]) -> None:
     for seed in range(rounds(1000)):
         check_distances_of_infinite_cells(seed)
+
+
+@pytest.mark.parametrize("name", ["symmetric2", "symmetricP0", "typeIc"])
+def test_a_cutoff_of_the_least_double_gives_up_no_quotient(name: Any) -> None:
+    least = float(np.nextafter(0.0, 1.0))
+    for n, m, times in np.ndindex(5, 5, 6):
+        ground = np.zeros((n + 3, m + 3))
+        ground[0, 0] = times * least
+        P, Q = (np.zeros(count) for count in ground.shape)
+        options: dict[str, Any] = {"metric": ground, "step_pattern": name, "normalize": True}
+        value = curvewise.dtw(P, Q, **options)
+        assert curvewise.dtw(P, Q, **options, cutoff=least) == (value if value <= least else np.inf)
+
+
+def test_negative_limits_are_for_distances_that_may_be_negative() -> None:
+    P, Q = [0.0, 1.0], [0.0, 3.0]
+    pattern = StepPattern([(1, 1, 1, -1), (1, 0, 0, -1)])
+    assert curvewise.dtw(P, Q, step_pattern=pattern) == -2.0
+    for cutoff, expected in ((-1.0, -2.0), (-2.0, -2.0), (-2.5, np.inf)):
+        assert curvewise.dtw(P, Q, step_pattern=pattern, cutoff=cutoff) == expected
+        assert curvewise.cdist([P], [Q], step_pattern=pattern, cutoff=cutoff) == expected
+        assert curvewise.cdist([P], [Q], lambda *_: -2.0, cutoff=cutoff) == expected
+        _, places = curvewise.Index([Q], step_pattern=pattern).radius_neighbors([P], cutoff)
+        assert len(places[0]) == (expected < 0)
+    positive = StepPattern([(1, 1, 1, -1), (1, 0, 0, 1)])
+    for options in ({}, {"step_pattern": positive}, {"step_pattern": "typeIa"}):
+        for call in (
+            lambda options: curvewise.dtw(P, Q, cutoff=-1, **options),
+            lambda options: curvewise.cdist([P], [Q], cutoff=-1, **options),
+            lambda options: curvewise.pdist([P, Q], cutoff=-1, **options),
+        ):
+            with pytest.raises(ValueError, match=r"^cutoff is -1; give a number >= 0, or None$"):
+                call(options)
+        with pytest.raises(ValueError, match=r"^radius is -1; give a number >= 0$"):
+            curvewise.Index([Q], **options).radius_neighbors([P], -1)
+    with pytest.raises(ValueError, match=r"^cutoff is nan; give a number, or None$"):
+        curvewise.dtw(P, Q, cutoff=np.nan, step_pattern=pattern)
+
+
+def test_pictures_of_an_alignment_without_a_path(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib", reason="no matplotlib: pip install matplotlib")
+    from matplotlib.figure import Figure
+
+    P, Q = [0.0, 1.0, 2.0, 3.0], [0.0, 2.0, 3.0]
+    found = curvewise.dtw_path(P, Q, step_pattern="rigid")
+    assert found.path.shape == (0, 2)
+    assert "inf" in str(found)
+    assert found.plot().axes
+    artists = curvewise.plotting.plot_alignment(P, Q, Figure().subplots(), step_pattern="rigid")
+    assert len(artists.between.get_segments()) == 0
+    _, line = curvewise.plotting.plot_table(P, Q, Figure().subplots(), step_pattern="rigid")
+    assert len(line.get_xydata()) == 0
+    with pytest.raises(ValueError, match="step_pattern admits no path between 4 and 3 points"):
+        curvewise.plotting.animate_alignment(P, Q, tmp_path / "a.gif", step_pattern="rigid")
