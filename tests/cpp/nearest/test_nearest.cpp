@@ -1,7 +1,6 @@
 // The index against all distances and a stable sort, for every measure; runs of a long curve and
 // the mean under dtw against what defines them; how a Control ends a search.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -32,14 +31,17 @@ std::vector<Curve> random_curves(Random& random, std::size_t count, std::ptrdiff
 }
 
 std::vector<Measure> measures() {
-    DtwOptions symmetric2, window, open, squares;
+    DtwOptions symmetric2, window, open, squares, negative;
     symmetric2.step_pattern = StepPattern::symmetric2;
     window.window = 5;
     open.open_begin = open.open_end = true;
     squares.ground.metric = Metric::sqeuclidean;
+    // Its distances are below 0, which is no lower bound of them.
+    negative.own_steps.rows = {{1, 1, 1, -1}, {1, 0, 0, -1}, {2, 1, 0, -1},
+                               {2, 0, 0, 2},  {3, 0, 1, -1}, {3, 0, 0, 2}};
     FrechetOptions chebyshev;
     chebyshev.ground.metric = Metric::chebyshev;
-    std::vector<Measure> all{symmetric2, window, open, squares, chebyshev};
+    std::vector<Measure> all{symmetric2, window, open, squares, negative, chebyshev};
     for_each_measure([&](const auto& defaults) { all.push_back(defaults); });
     for (Measure& measure : all) {
         if (auto* options = std::get_if<CurveLengthOptions>(&measure)) {
@@ -209,97 +211,6 @@ void radius_neighbors_of_the_index() {
     }
 }
 
-// A step pattern of negative weights gives distances below 0, of which 0 is no lower bound.
-void negative_distances_have_no_bound() {
-    Random random(12);
-    DtwOptions options;
-    options.own_steps.rows = {{1, 1, 1, -1}, {1, 0, 0, -1}, {2, 1, 0, -1},
-                              {2, 0, 0, 2},  {3, 0, 1, -1}, {3, 0, 0, 2}};
-    int negative = 0;
-    for (int round = 0; round < 50; ++round) {
-        const std::vector<Curve> curves = random_curves(random, 6, 12);
-        const std::vector<CurveView> C = views_of(curves), X{C[0], C[1]};
-        std::vector<double> table(X.size() * C.size()), distances(2 * X.size());
-        std::vector<std::int64_t> indices(2 * X.size());
-        cdist(X, C, options, table.data());
-        const Index index(C, options);
-        index.kneighbors(X, 2, distances.data(), indices.data());
-        const double radius = table[2];
-        negative += radius < 0.0;
-        const auto within = index.radius_neighbors(X, radius);
-        for (std::size_t i = 0; i < X.size(); ++i) {
-            const auto row = sorted_row(table.data() + i * C.size(), C.size());
-            for (std::size_t k = 0; k < 2; ++k) {
-                CHECK_EQUAL(indices[2 * i + k], row[k].index);
-                CHECK_EQUAL(distances[2 * i + k], row[k].distance);
-            }
-            const auto count = std::count_if(
-                row.begin(), row.end(), [&](const Neighbor& n) { return n.distance <= radius; });
-            CHECK_EQUAL(static_cast<std::ptrdiff_t>(within[i].size()), count);
-        }
-    }
-    CHECK(negative > 10);
-}
-
-void an_index_that_was_moved_from_is_empty() {
-    const Curve P{{0, 0}, {1, 1}};
-    Index first({P}, DtwOptions{});
-    const Index second = std::move(first);
-    CHECK_EQUAL(second.size(), std::size_t{1});
-    CHECK_EQUAL(first.size(), std::size_t{0});
-    CHECK_EQUAL(first.curves().size(), std::size_t{0});
-    const char* const message = "the index has been moved from; make another, or assign one to it";
-    double distance = 0.0;
-    std::int64_t place = 0;
-    CHECK_THROWS(first.add({P}), std::logic_error, message);
-    CHECK_THROWS(first.kneighbors({P}, 1, &distance, &place), std::logic_error, message);
-    CHECK_THROWS(first.kneighbors(1, &distance, &place), std::logic_error, message);
-    CHECK_THROWS(first.radius_neighbors({P}, 1.0), std::logic_error, message);
-    CHECK_THROWS(first.radius_neighbors(1.0), std::logic_error, message);
-    first = Index({P, P}, DtwOptions{});
-    first.add({P});
-    CHECK_EQUAL(first.size(), std::size_t{3});
-}
-
-// A report may ask the index, but not add to it: that would wait for the end of its own call.
-void a_report_does_not_wait_for_its_own_call() {
-    const Curve P = Random(13).curve(2000, 2);
-    Index index({P, P}, DtwOptions{});
-    double distance = 0.0;
-    std::int64_t place = -1;
-    int reports = 0;
-    const auto ask = [&](std::int64_t, std::int64_t) {
-        ++reports;
-        CHECK_EQUAL(index.size(), std::size_t{2});
-        CHECK_EQUAL(index.curves().size(), std::size_t{2});
-        index.kneighbors({P.part(0, 5)}, 1, &distance, &place);
-        return true;
-    };
-    const auto add = [&](std::int64_t, std::int64_t) {
-        index.add({P});
-        return true;
-    };
-    const char* const message =
-        "add was called by the report of a call of the same index, for whose end it would wait; "
-        "add the curves after that call";
-    const std::chrono::milliseconds often(0);
-    double found[2];
-    std::int64_t nearest[2];
-    for (const std::ptrdiff_t workers : {1, 2}) {
-        Control asking(ask, often), adding(add, often), adding_anew(add, often);
-        index.kneighbors({P, P}, 1, found, nearest, {workers}, &asking);
-        CHECK_THROWS(index.kneighbors({P, P}, 1, found, nearest, {workers}, &adding),
-                     std::logic_error, message);
-        CHECK_THROWS(index.add({P}, &adding_anew), std::logic_error, message);
-        CHECK_EQUAL(index.size(), std::size_t{2});
-    }
-    CHECK(reports > 2);
-    Control asking(ask, often);
-    index.add({}, &asking);
-    index.add({P});
-    CHECK_EQUAL(index.size(), std::size_t{3});
-}
-
 void runs_are_those_of_open_ends() {
     Random random(4);
     DtwOptions open;
@@ -461,9 +372,6 @@ int main() {
          {"a control ends a search", a_control_ends_a_search},
          {"refusals name the curve", refusals_name_the_curve},
          {"radius neighbors of the index", radius_neighbors_of_the_index},
-         {"negative distances have no bound", negative_distances_have_no_bound},
-         {"an index that was moved from is empty", an_index_that_was_moved_from_is_empty},
-         {"a report does not wait for its own call", a_report_does_not_wait_for_its_own_call},
          {"runs are those of open ends", runs_are_those_of_open_ends},
          {"of equal distances the first run comes first",
           of_equal_distances_the_first_run_comes_first},
