@@ -206,9 +206,10 @@ void radius_neighbors_of_the_index() {
         CHECK_EQUAL(first.curves().size(), C.size());
         CHECK_EQUAL(first.curves()[3].size(), C[3].size());
         CHECK_EQUAL(first.curves()[3](1, 1), C[3](1, 1));
-        CHECK_THROWS(first.radius_neighbors(-1.0), std::invalid_argument,
-                     "radius is -1.000000; give a number >= 0");
     }
+    const Curve P{{0, 0}};
+    CHECK_THROWS(Index({P}, LcssOptions{}).radius_neighbors(-1.0), std::invalid_argument,
+                 "radius is -1.000000; give a number >= 0");
 }
 
 void runs_are_those_of_open_ends() {
