@@ -18,11 +18,21 @@
 namespace curvewise::bindings {
 namespace {
 
+// Whether points are longitudes and latitudes, which leaves no doubt of the layout.
+template <class Options>
+auto is_on_sphere(const Options& options, int) -> decltype(options.ground, true) {
+    return options.ground.metric == Metric::haversine;
+}
+template <class Options>
+bool is_on_sphere(const Options& /*options*/, long) {
+    return false;
+}
+
 // Calls compute(P, Q, options, control).
 template <class Options, class Compute>
 auto computed(const CurveArray& P, const CurveArray& Q, const Options& options, Compute compute) {
     const CurveView p = view(P), q = view(Q);
-    if (few_points_of_many_coordinates(p, q)) warn_if_transposed(P);
+    if (is_layout_in_doubt(p, q) && !is_on_sphere(options, 0)) ask_about_layout(P);
     const double work = options.work(static_cast<double>(p.size()), static_cast<double>(q.size()),
                                      static_cast<double>(p.dim()));
     // The curves are read before the work that the measure knows of.

@@ -60,8 +60,8 @@ CurveView listed_view(const py::object& array) {
     return view(array.cast<CurveArray>());
 }
 
-void warn_if_transposed(const CurveArray& P) {
-    py::module_::import("curvewise.curves.inputs").attr("warn_if_transposed")(P, "P");
+void ask_about_layout(const CurveArray& P) {
+    py::module_::import("curvewise.curves.layouts").attr("ask_about_curves")(P);
 }
 
 }  // namespace curvewise::bindings

@@ -44,13 +44,12 @@ struct CurvePair {
     CurveArray Q;
 };
 
-// Points as columns make curves, too: x and y of 100 points are two points in 100 dimensions.
-inline bool few_points_of_many_coordinates(const CurveView& P, const CurveView& Q) noexcept {
-    constexpr std::ptrdiff_t few = 3, many = 10;  // those of curvewise/_curves.py
-    return P.dim() > many && P.dim() == Q.dim() && P.size() <= few && Q.size() <= few;
+// More coordinates than points: x and y of 100 points, as rows, are two points in 100 dimensions.
+inline bool is_layout_in_doubt(const CurveView& P, const CurveView& Q) noexcept {
+    return P.dim() > P.size() && P.size() == Q.size() && P.dim() == Q.dim();
 }
 
-// Has Python warn of them.
-void warn_if_transposed(const CurveArray& P);
+// Has Python warn of it.
+void ask_about_layout(const CurveArray& P);
 
 }  // namespace curvewise::bindings

@@ -16,6 +16,7 @@ from . import _environment as _environment  # looks before the compiled module i
 from . import curves, datasets, measures
 from ._core import build_info as _build_info
 from .comparing.comparison import Comparison, compare
+from .curves.layouts import LayoutWarning
 from .files.curve_files import read_curve
 from .many.averages import dtw_mean, medoid, soft_dtw_mean
 from .many.nearest import Index
@@ -47,6 +48,7 @@ __all__ = [
     *measures.results.__all__,
     "Comparison",
     "Index",
+    "LayoutWarning",
     "Prepared",
     "__version__",
     "available_measures",

@@ -51,6 +51,11 @@ metric : {listed(get_args(Metric))}, array_like of shape (n, m), or callable
     "workers": """\
 workers : int
     Threads for this call: at least 1, or -1 for one per core. Never changes the result.""",
+    "layout": """\
+layout : {"channels_first", "channels_last"}, optional
+    Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
+    rows. If not given, its rows; a LayoutWarning is raised if there are more coordinates than
+    points.""",
     "prune": """\
 prune : bool
     Whether to leave out what cannot matter of the table. Never changes the result.""",

@@ -23,6 +23,7 @@ import numpy as np
 from ._extras import extra
 from ._names import did_you_mean
 from .curves.inputs import Array
+from .curves.layouts import settled_layout
 from .many.pairwise import cdist
 from .measures.registry import MEASURES, WARPINGS, MeasureName
 
@@ -219,7 +220,8 @@ def _distance_of(name: str) -> Callable[..., Any]:
         x: Series, y: Series, window: SupportsFloat | None = None, **options: Any
     ) -> float:
         P, Q, translated = _of_pair(name, x, y, window, options)
-        return measure(P, Q, **translated)
+        with settled_layout():
+            return measure(P, Q, **translated)
 
     return _documented(distance, name, "distance", "float")
 
@@ -237,7 +239,8 @@ def _pairwise_distance_of(name: str) -> Callable[..., Any]:
         second = None if y is None else _curves(y, "y", _is_multivariate(X))
         lengths = [len(curve) for curve in first + (second or [])]
         translated = _translated(name, options, window, lengths)
-        matrix = cdist(first, second, _DISTANCES[name].measure, workers=n_jobs, **translated)
+        with settled_layout():
+            matrix = cdist(first, second, _DISTANCES[name].measure, workers=n_jobs, **translated)
         return np.asarray(matrix)
 
     result = "ndarray, shape (n_cases, n_cases) or (n_cases, m_cases)"
@@ -251,7 +254,8 @@ def _cost_matrix_of(name: str) -> Callable[..., Any]:
         x: Series, y: Series, window: SupportsFloat | None = None, **options: Any
     ) -> Array:
         P, Q, translated = _of_pair(name, x, y, window, options)
-        return table(P, Q, **translated)
+        with settled_layout():
+            return table(P, Q, **translated)
 
     return _documented(cost_matrix, name, "cost_matrix", "ndarray, shape (n, m)")
 
@@ -263,7 +267,8 @@ def _alignment_path_of(name: str) -> Callable[..., Any]:
         x: Series, y: Series, window: SupportsFloat | None = None, **options: Any
     ) -> tuple[list[tuple[int, int]], float]:
         P, Q, translated = _of_pair(name, x, y, window, options)
-        found = path(P, Q, **translated)
+        with settled_layout():
+            found = path(P, Q, **translated)
         return [(int(i), int(j)) for i, j in found.path], found.distance
 
     result = "list of tuples (i, j), and the distance"

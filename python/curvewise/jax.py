@@ -20,6 +20,7 @@ import numpy as np
 
 from ._extras import extra
 from ._loss_texts import documented_loss
+from .curves.layouts import ask_about_curves
 from .measures.gradient import NO_DERIVATIVE_OF_PCM, check_pairs, of_arrays
 
 with extra("jax", "curvewise.jax needs JAX"):
@@ -192,6 +193,7 @@ def _measured(measure: str, P: Any, Q: Any, options: dict[str, Any]) -> Array:
     elif P.ndim == 3 and Q.ndim == 2:
         Q = jnp.broadcast_to(Q, (len(P), *Q.shape))
     check_pairs(P.shape, Q.shape)
+    ask_about_curves(P, Q, batched=True)
     none = [np.empty((0, *curve.shape[-2:])) for curve in (P, Q)]
     of_arrays(none[0], none[1], measure, options)  # which are refused here, if at all
     return _measure(P, Q, measure, tuple(options.items()))

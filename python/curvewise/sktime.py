@@ -85,9 +85,8 @@ class CurveDistance(BasePairwiseTransformerPanel):  # type: ignore[misc]  # unty
 
     def _transform(self, X: Panel, X2: Panel | None = None) -> Array:
         columns = None if X2 is None or X2 is X else _curves(X2)
-        matrix = cdist(
-            _curves(X), columns, self.measure, workers=self.workers, **(self.options or {})
-        )
+        options = {"workers": self.workers, "layout": "channels_last", **(self.options or {})}
+        matrix = cdist(_curves(X), columns, self.measure, **options)
         return np.asarray(matrix)
 
     @classmethod
@@ -166,7 +165,7 @@ class CurveKNeighborsTimeSeriesClassifier(BaseClassifier):  # type: ignore[misc]
     def _fit(self, X: Panel, y: npt.NDArray[Any]) -> CurveKNeighborsTimeSeriesClassifier:
         from .sklearn import CurveKNeighborsClassifier
 
-        parameters = self.get_params(deep=False)
+        parameters = {**self.get_params(deep=False), "layout": "channels_last"}
         self.classifier_ = CurveKNeighborsClassifier(**parameters).fit(_curves(X), y)
         return self
 

@@ -18,6 +18,7 @@ import numpy as np
 
 from ._extras import extra
 from ._loss_texts import documented_loss
+from .curves.layouts import ask_about_curves
 from .measures.gradient import NO_DERIVATIVE_OF_PCM, NO_SECOND_DERIVATIVE, of_arrays
 
 with extra("torch", "curvewise.torch needs PyTorch"):
@@ -186,6 +187,7 @@ def _measured(measure: str, P: Tensor, Q: Tensor, options: dict[str, Any]) -> Te
         P = P.expand(len(Q), *P.shape)
     elif P.dim() == 3 and Q.dim() == 2:
         Q = Q.expand(len(P), *Q.shape)
+    ask_about_curves(P, Q, batched=True)
     by = (torch.is_grad_enabled() and P.requires_grad, torch.is_grad_enabled() and Q.requires_grad)
     values: Tensor = _Measure.apply(P, Q, measure, options, by)[0]
     return values

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from itertools import pairwise, takewhile
 from typing import Any
 
-__all__ = ["are_coordinates", "coordinates_among", "is_time"]
+__all__ = ["are_coordinates", "are_names", "coordinates_among", "is_time"]
 
 # "time", "Time [s]", "t (s)", "time_s", "Step Time", "Zeit/s"; not "T" (temperature), "timeout".
 _TIME = re.compile(
@@ -55,6 +55,11 @@ def are_coordinates(names: Sequence[Any]) -> bool:
     if all(len(letter) == 1 and letter.isalpha() for letter in letters) and "t" not in letters:
         return all(ord(b) - ord(a) == 1 for a, b in pairwise(letters))
     return all(_COMPONENT.fullmatch(one) for one in differing)
+
+
+def are_names(columns: Sequence[Any]) -> bool:
+    """Say whether columns have names, and not the numbers that pandas and polars give them."""
+    return not all(re.fullmatch(r"(column_)?\d+", _text(column)) for column in columns)
 
 
 def coordinates_among(names: Sequence[Any]) -> list[Any]:

@@ -23,6 +23,7 @@ __all__ = [
     "all_columns",
     "chosen_columns",
     "column_names",
+    "columns_as_curves",
     "is_curve_of_another_package",
     "list_instead",
     "opened",
@@ -181,6 +182,15 @@ def all_columns(table: Any, name: str) -> str:
     if hasattr(table, "column_names"):
         return f"numpy.column_stack({name}.columns)"
     return f"{name}.to_numpy()"
+
+
+def columns_as_curves(table: Any, name: str) -> str:
+    """Return what to write for the series of a table or array with two dimensions, as curves."""
+    if hasattr(table, "column_names"):  # pyarrow
+        return f"{name}.to_pydict()"
+    if hasattr(table, "columns"):
+        return f"dict({name}.items())" if hasattr(table, "items") else f"{name}.to_dict()"
+    return f"list({name})"
 
 
 def is_curve_of_another_package(thing: Any) -> bool:

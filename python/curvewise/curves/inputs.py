@@ -9,35 +9,38 @@ computes: the C++ library for the compiled functions, numpy code for the referen
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, TypeAlias, cast
+from typing import Any, TypeAlias, cast, get_args
 
 import numpy as np
 import numpy.typing as npt
 
-from .column_roles import are_coordinates, coordinates_among
+from .._options import check_choice
+from .column_roles import are_coordinates, are_names, coordinates_among
 from .foreign_curves import (
     advice,
     all_columns,
     chosen_columns,
     column_names,
+    columns_as_curves,
+    is_curve_of_another_package,
     list_instead,
     opened,
-    warn,
 )
 from .labels import unlabelled
+from .layouts import Layout, ask_about_list, with_known_layout
 
 __all__ = [
     "Array",
     "CurveLike",
     "as_curve",
     "as_curve_list",
+    "as_curve_lists",
     "as_curves",
     "as_numbers",
     "check_column_names",
     "column_names",
     "copy_of",
     "in_columns",
-    "warn_if_transposed",
 ]
 
 Array: TypeAlias = npt.NDArray[np.float64]
@@ -46,8 +49,6 @@ CurveLike: TypeAlias = npt.ArrayLike
 
 _FLOAT64 = np.dtype(np.float64)
 _ROWS_AT_ONCE = 2**20
-# What is taken for x and y in rows. The binding has the same two numbers (numpy_view.hpp).
-_FEW_POINTS, _MANY_COORDINATES = 3, 10
 _MAY_HOLD_MASKED = (np.ma.MaskedArray, list, tuple)
 
 
@@ -68,7 +69,14 @@ def as_curve(curve: Any, name: str, keep_float32: bool = False) -> Array:
             f"{chosen_columns(curve, name, chosen)} for example, or {all_columns(curve, name)} for "
             "all"
         )
+    if array.ndim == 2 and array.shape[1] > len(array) and _knows_its_layout(curve, names):
+        return with_known_layout(array)
     return array
+
+
+def _knows_its_layout(curve: Any, names: list[Any]) -> bool:
+    """Say whether a curve is a table whose columns have names, or a line."""
+    return are_names(names) or is_curve_of_another_package(curve) and not names
 
 
 def as_numbers(curve: Any, name: str, keep_float32: bool = False) -> Array:
@@ -122,19 +130,6 @@ def _advice_on_a_single(shape: tuple[int, ...], name: str) -> str:
     if len(shape) != 3 or shape[0] != 1 or shape[1] == shape[2]:
         return ""
     return f": {name}[0]" if shape[1] > shape[2] else f": {name}[0].T?"
-
-
-def warn_if_transposed(curve: Array, name: str, transpose: str = "{}.T") -> None:
-    """Warn of x and y in rows: few points of many coordinates are a curve that nobody has.
-
-    Of a pair, the binding finds out whether to ask this, which costs short curves nothing.
-    """
-    if curve.ndim == 2 and len(curve) <= _FEW_POINTS and curve.shape[1] > _MANY_COORDINATES:
-        warn(
-            f"{name} has shape {curve.shape}, as a curve {len(curve)} point"
-            f"{'s' if len(curve) > 1 else ''} in {curve.shape[1]} dimensions; if its points are "
-            f"columns, transpose: {transpose.format(name)}"
-        )
 
 
 def _refuse_masked(values: Any, curve: Any, name: str) -> None:
@@ -191,32 +186,49 @@ def as_curves(P: Any, Q: Any) -> tuple[Array, Array]:
 
 
 def as_curve_list(
-    curves: Any, name: str, like: Any = None, *, keep_float32: bool = False
+    curves: Any, name: str, *, keep_float32: bool = False, layout: Layout | None = None
 ) -> list[Array]:
     """Return the curves of an array of shape (k, n, d), or of a sequence, as a list of arrays.
 
     Labels are left out: who keeps them asks labels.py for them first. float32 as for
-    :func:`as_numbers`.
+    :func:`as_numbers`. Without a `layout`, one in doubt is asked about: see layouts.py.
 
     Raises
     ------
     TypeError, ValueError
         Not a list of curves; a curve that :func:`as_curve` refuses, named ``XA[3]``; DataFrames
-        whose columns differ from those of the first curve, or of the first of the list `like`.
+        whose columns differ from those of the first curve; an unknown layout.
     """
-    curves, _ = unlabelled(curves, name)
-    if instead := list_instead(curves, name):
-        raise TypeError(f"{name} is a {type(curves).__name__}; {instead}")
-    if hasattr(curves, "columns") or (isinstance(curves, np.ndarray) and curves.dtype != object):
-        dimensions = np.ndim(curves)
-        if dimensions != 3:
-            raise ValueError(
-                f"{name} has {dimensions} array dimensions; give k curves as shape (k, n, d) or as "
-                f"a list: [{name}] for a single curve, list({name}) for k curves with d = 1"
-            )
-    elif isinstance(curves, str | bytes) or not isinstance(curves, Iterable):
-        raise TypeError(f"{name} is of type {type(curves).__name__}; give a list of curves")
-    given = list(curves)
+    converted = _converted(curves, name, None, keep_float32, layout)
+    if layout is None:
+        ask_about_list(converted, name)
+    return converted
+
+
+def as_curve_lists(
+    XA: Any, XB: Any, *, keep_float32: bool = False, layout: Layout | None = None
+) -> tuple[list[Array], list[Array] | None]:
+    """Return the curves of XA, and of XB if there are any, as :func:`as_curve_list` does.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As for :func:`as_curve_list`; DataFrames of XB whose columns differ from those of XA.
+    """
+    rows = _converted(XA, "XA", None, keep_float32, layout)
+    columns = None if XB is None else _converted(XB, "XB", XA, keep_float32, layout)
+    if layout is None and rows:
+        ask_about_list(rows + (columns or []), "XA")
+    return rows, columns
+
+
+def _converted(
+    curves: Any, name: str, like: Any, keep_float32: bool, layout: Layout | None
+) -> list[Array]:
+    """Return curves as arrays whose rows are points; tables have the columns of the list `like`."""
+    if layout is not None:
+        check_choice("layout", layout, get_args(Layout))
+    given = _listed(curves, name)
     first, first_name = column_names(given[0]) if given else [], f"{name}[0]"
     others = [] if like is None else unlabelled(like, "XA")[0]
     if len(others) > 0:
@@ -233,11 +245,35 @@ def as_curve_list(
         else as_curve(curve, f"{name}[{i}]", keep_float32)
         for i, curve in enumerate(given)
     ]
-    if converted and isinstance(curves, np.ndarray):
-        warn_if_transposed(converted[0], f"{name}[0]", f"{name}.transpose(0, 2, 1)")
-    elif converted:
-        warn_if_transposed(converted[0], f"{name}[0]")
-    return converted
+    return [curve.T for curve in converted] if layout == "channels_first" else converted
+
+
+def _listed(curves: Any, name: str) -> list[Any]:
+    """Return what a collection holds; refuse single arrays and tables, of whatever package."""
+    curves, _ = unlabelled(curves, name)
+    if instead := list_instead(curves, name):
+        raise TypeError(f"{name} is a {type(curves).__name__}; {instead}")
+    dimensions = _dimensions(curves)
+    if dimensions not in (None, 3):
+        raise ValueError(
+            f"{name} has {dimensions} array dimensions; give k curves as shape (k, n, d) or as "
+            f"a list: [{name}] for a single curve, {columns_as_curves(curves, name)} for k curves "
+            "with d = 1"
+        )
+    if isinstance(curves, str | bytes) or not isinstance(curves, Iterable):
+        raise TypeError(f"{name} is of type {type(curves).__name__}; give a list of curves")
+    return list(curves)
+
+
+def _dimensions(curves: Any) -> int | None:
+    """Return the array dimensions of one array or table of numbers; None for a list of curves."""
+    if isinstance(curves, np.ndarray):
+        return None if curves.dtype == object else curves.ndim
+    if hasattr(curves, "columns"):
+        return 2
+    shape = getattr(curves, "shape", None)  # xarray, torch, jax, dask, h5py, zarr, scipy.sparse
+    # A series of lists, with a single dimension, is a list of curves.
+    return len(shape) if isinstance(shape, tuple) and len(shape) != 1 else None
 
 
 def check_column_names(first: list[Any], first_name: str, second: list[Any], name: str) -> None:

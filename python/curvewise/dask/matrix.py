@@ -15,7 +15,9 @@ from typing import Any, SupportsFloat, SupportsIndex
 import numpy as np
 
 from .._core import build_info, check_batch, is_symmetric
-from ..curves.inputs import Array, as_curve_list
+from .._docstrings import filled
+from ..curves.inputs import Array, as_curve_list, as_curve_lists
+from ..curves.layouts import Layout
 from ..curves.several_curves import digest
 from ..many import pairwise
 from ..many.pairwise import Curves, Measure
@@ -36,6 +38,7 @@ __all__ = ["cdist", "pdist"]
 Store = str | os.PathLike[str]
 
 
+@filled()
 def cdist(
     XA: Curves,
     XB: Curves | None = None,
@@ -44,6 +47,7 @@ def cdist(
     block: SupportsIndex | None = None,
     cutoff: SupportsFloat | None = None,
     store: Store | None = None,
+    layout: Layout | None = None,
     **options: Any,
 ) -> dask_array.Array:
     """Compute a measure between every curve of one list and every curve of another, with dask.
@@ -62,6 +66,7 @@ def cdist(
         SIGKILL too, is repeated to go on: only the blocks that are not there are computed. Stored
         blocks are checked first. A warning names the damaged ones, which are computed again.
         Workers of a cluster must see the same folder.
+    {layout}
 
     Returns
     -------
@@ -105,8 +110,8 @@ def cdist(
     >>> lazy.compute(scheduler="threads").tolist()
     [[0.0, 2.0, 5.0], [2.0, 0.0, 3.0], [5.0, 3.0, 0.0]]
     """
-    rows = as_curve_list(XA, "XA", keep_float32=True)
-    columns = rows if XB is None else as_curve_list(XB, "XB", like=XA, keep_float32=True)
+    rows, others = as_curve_lists(XA, XB, keep_float32=True, layout=layout)
+    columns = rows if others is None else others
     limit = pairwise.checked_limit("cutoff", cutoff, measure, options)
     refuse_local_only(options)
     mirrored = False
@@ -114,7 +119,7 @@ def cdist(
         name = pairwise._check_names(measure, options)
         mirrored = is_symmetric(name, options) and XB is None  # it checks the options too
         # A block cannot say where in the whole list a curve is.
-        check_batch(rows, None if XB is None else columns, name, options)
+        check_batch(rows, others, name, options)
     size = block_size(block, rows, columns)
     token = tokenize(rows, columns, measure, limit, options, size, mirrored)
     compute = partial(_block, measure=measure, cutoff=limit, options=options)
@@ -125,6 +130,7 @@ def cdist(
     return begin_store(store, lazy.shape, (size, size), contents).filled(lazy)
 
 
+@filled()
 def pdist(
     X: Curves,
     measure: Measure = "dtw",
@@ -132,6 +138,7 @@ def pdist(
     block: SupportsIndex | None = None,
     cutoff: SupportsFloat | None = None,
     store: Store | None = None,
+    layout: Layout | None = None,
     **options: Any,
 ) -> dask_array.Array:
     """Compute a symmetric measure between every two curves of a list, with dask.
@@ -144,6 +151,7 @@ def pdist(
         As for :func:`cdist`: a block has as many distances as one of the matrix.
     store : path, optional
         As for :func:`cdist`; it takes half the disk.
+    {layout}
 
     Returns
     -------
@@ -168,7 +176,7 @@ def pdist(
     >>> lazy.compute(scheduler="threads").tolist()
     [2.0, 5.0, 3.0]
     """
-    curves = as_curve_list(X, "X", keep_float32=True)
+    curves = as_curve_list(X, "X", keep_float32=True, layout=layout)
     limit = pairwise.checked_limit("cutoff", cutoff, measure, options)
     refuse_local_only(options)
     if not callable(measure):
@@ -240,7 +248,7 @@ def _block(
     """Compute a block; without columns one of the diagonal, each of its pairs once."""
     others = None if columns is None else columns.curves
     progress = watch() or False
-    wanted = {"cutoff": cutoff, "progress": progress, **options}
+    wanted = {"cutoff": cutoff, "progress": progress, "layout": "channels_last", **options}
     return np.asarray(pairwise.cdist(rows.curves, others, measure, **wanted))
 
 
@@ -278,6 +286,7 @@ def _run(
     curves = [curve for piece in parts for curve in piece.curves]
     ours, others = curves[rows.start : rows.stop], curves[rows.stop :]
     wanted = {"measure": measure, "cutoff": cutoff, "progress": watch() or False, **options}
+    wanted["layout"] = "channels_last"
     triangle, rectangle = pairwise.pdist(ours, **wanted), pairwise.cdist(ours, others, **wanted)
     begins = np.cumsum([0, *range(len(ours) - 1, -1, -1)])
     pairs = zip(itertools.pairwise(begins), rectangle, strict=True)

@@ -12,7 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .._core import check_batch
-from ..curves.inputs import Array, as_curve_list
+from .._docstrings import filled
+from ..curves.inputs import Array, as_curve_lists
+from ..curves.layouts import Layout
 from ..many import pairwise
 from ..many.nearest import Index, checked_count
 from ..many.pairwise import Curves
@@ -22,6 +24,7 @@ from .pieces import Piece, block_size, dask_array, lazy_array, pieces, refuse_lo
 __all__ = ["kneighbors"]
 
 
+@filled()
 def kneighbors(
     X: Curves,
     curves: Curves,
@@ -29,6 +32,7 @@ def kneighbors(
     measure: MeasureName = "dtw",
     *,
     block: SupportsIndex | None = None,
+    layout: Layout | None = None,
     **options: Any,
 ) -> tuple[dask_array.Array, dask_array.Array]:
     """Find the curves that are nearest to each of some others, with dask.
@@ -45,6 +49,7 @@ def kneighbors(
         As for :class:`curvewise.Index`.
     block : int, optional
         As for :func:`cdist`: an index holds this many curves.
+    {layout}
 
     Returns
     -------
@@ -71,8 +76,8 @@ def kneighbors(
     >>> [part.tolist() for part in dask.compute(*lazy, scheduler="threads")]
     [[[1.0, 1.0]], [[0, 1]]]
     """
-    queries = as_curve_list(X, "XA", keep_float32=True)
-    targets = as_curve_list(curves, "XB", like=X, keep_float32=True)
+    queries, targets = as_curve_lists(X, curves, keep_float32=True, layout=layout)
+    assert targets is not None
     refuse_local_only(options)
     name = pairwise._check_names(measure, options)
     check_batch(queries, targets, name, options)
@@ -108,7 +113,7 @@ def _neighbor_arrays(
 
 
 def _index_of(piece: Piece, *, measure: MeasureName, options: dict[str, Any]) -> Index:
-    return Index(piece.curves, measure, **options)
+    return Index(piece.curves, measure, layout="channels_last", **options)
 
 
 def _neighbors(

@@ -23,6 +23,7 @@ from .._progress import Report, reporting
 from ..curves.foreign_curves import warn
 from ..curves.inputs import Array, CurveLike, as_curve, as_curve_list, copy_of
 from ..curves.labels import unlabelled
+from ..curves.layouts import Layout, settled_layout
 from ..drawing.figures import evenly
 from ..measures.gradient import values_and_gradients
 from ..measures.registry import MeasureName
@@ -53,6 +54,7 @@ def dtw_mean(
     tolerance: SupportsFloat = 1e-6,
     workers: SupportsIndex = Default.workers,
     progress: bool | Report = False,
+    layout: Layout | None = None,
 ) -> DtwMean:
     """Compute the mean of curves under dtw: DTW barycentre averaging (DBA).
 
@@ -77,6 +79,7 @@ def dtw_mean(
     {workers}
     progress : bool or callable
         As for :func:`curvewise.cdist`; counts cells, and ends early where the mean converges.
+    {layout}
 
     Returns
     -------
@@ -111,8 +114,8 @@ def dtw_mean(
     >>> mean.curve.tolist()
     [0.0, 2.75, 0.0]
     """
-    given = as_curve_list(curves, "curves")
-    start = _start_of(given, initial, window, workers)
+    given = as_curve_list(curves, "curves", layout=layout)
+    start = _start_of(given, initial, window, workers, layout)
     counts = _checked_weights(weights)
     limit = real_number("tolerance", tolerance, -np.inf, "give a number >= 0")
     with reporting(progress) as report:
@@ -133,6 +136,7 @@ def soft_dtw_mean(
     iterations: SupportsIndex = 50,
     tolerance: SupportsFloat = 1e-6,
     workers: SupportsIndex = Default.workers,
+    layout: Layout | None = None,
 ) -> DtwMean:
     """Compute the mean of curves under soft_dtw: a smoother one than :func:`curvewise.dtw_mean`.
 
@@ -156,6 +160,7 @@ def soft_dtw_mean(
     tolerance : float >= 0
         Ends where a move lowers the sum by no more than this part of it.
     {workers}
+    {layout}
 
     Returns
     -------
@@ -187,8 +192,8 @@ def soft_dtw_mean(
     >>> mean.converged, mean.curve.round(2).tolist()
     (True, [0.0, 2.0, 0.0])
     """
-    given = as_curve_list(curves, "curves")
-    start = _start_of(given, initial, window, workers)
+    given = as_curve_list(curves, "curves", layout=layout)
+    start = _start_of(given, initial, window, workers, layout)
     counts = _checked_weights(weights)
     limit = real_number("tolerance", tolerance, 0.0, "give a number >= 0")
     most = whole_number("iterations", iterations, 0, "give a whole number >= 0")
@@ -217,7 +222,8 @@ def soft_mean(
         total, slopes = 0.0, np.zeros(in_columns.shape)
         for alike, weight in _of_equal_length(given, shares):
             several = np.broadcast_to(mean, (len(alike), *mean.shape))
-            values, by_mean, _ = values_and_gradients(several, alike, "soft_dtw", **options)
+            with settled_layout():
+                values, by_mean, _ = values_and_gradients(several, alike, "soft_dtw", **options)
             total += float(weight @ values)
             slopes += np.tensordot(weight, by_mean, 1)
         return total, slopes.ravel()
@@ -249,15 +255,21 @@ def _mean_of(given: list[Array], mean: Array, costs: Array, converged: bool) -> 
 
 
 def _start_of(
-    curves: list[Array], initial: CurveLike | None, window: Window, workers: SupportsIndex
+    curves: list[Array],
+    initial: CurveLike | None,
+    window: Window,
+    workers: SupportsIndex,
+    layout: Layout | None,
 ) -> Array:
     """Return where a mean begins: `initial`, or the medoid of some of the curves."""
     if initial is not None:
-        return as_curve(initial, "initial")
+        start = as_curve(initial, "initial")
+        return start.T if layout == "channels_first" else start
     chosen = curves[:: max(1, -(-len(curves) // _CURVES_FOR_START))]
     if len(chosen) < 2:
         return curves[0]
-    return chosen[medoid(chosen, "dtw", metric="sqeuclidean", window=window, workers=workers)]
+    squared: dict[str, Any] = {"metric": "sqeuclidean", "window": window}
+    return chosen[medoid(chosen, "dtw", workers=workers, layout="channels_last", **squared)]
 
 
 def _checked_weights(weights: npt.ArrayLike | None) -> list[float]:
@@ -285,6 +297,7 @@ def medoid(
     *,
     workers: SupportsIndex = Default.workers,
     progress: bool | Report = False,
+    layout: Layout | None = None,
     **options: Any,
 ) -> int: ...
 @overload
@@ -294,6 +307,7 @@ def medoid(
     *,
     workers: SupportsIndex = Default.workers,
     progress: bool | Report = False,
+    layout: Layout | None = None,
     **options: Any,
 ) -> Any: ...
 @filled()
@@ -303,6 +317,7 @@ def medoid(
     *,
     workers: SupportsIndex = Default.workers,
     progress: bool | Report = False,
+    layout: Layout | None = None,
     **options: Any,
 ) -> Any:
     """Find the curve with the smallest sum of distances from all curves of a list.
@@ -316,6 +331,7 @@ def medoid(
     {workers}
     progress : bool or callable
         As for :func:`curvewise.cdist`; counts pairs.
+    {layout}
     **options
         Those of the measure's own function.
 
@@ -341,7 +357,7 @@ def medoid(
     1
     """
     curves, labels = unlabelled(curves, "curves")
-    given = as_curve_list(curves, "curves")
+    given = as_curve_list(curves, "curves", layout=layout)
     if not given:
         raise ValueError("no curves; a medoid needs at least 1")
     name = _check_names(measure, options)
@@ -353,7 +369,14 @@ def medoid(
         for begin in range(0, len(given), size):
             end = min(begin + size, len(given))
             first = begin if halves else 0
-            block = cdist(given[begin:end], given[first:], measure, workers=workers, **options)
+            block = cdist(
+                given[begin:end],
+                given[first:],
+                measure,
+                workers=workers,
+                layout="channels_last",
+                **options,
+            )
             sums[first:] += block.sum(axis=0)
             if halves:
                 sums[begin:end] += block[:, end - begin :].sum(axis=1)

@@ -24,6 +24,7 @@ from .._options import Default, check_choice, whole_number
 from .._progress import Report, reporting
 from ..curves.inputs import Array, as_curve_list
 from ..curves.labels import Labels, labelled_column, labelled_matrix, labels_at, unlabelled
+from ..curves.layouts import Layout
 from ..measures.registry import MeasureName
 from .pairwise import Curves, LabelledCurves, _check_names, checked_limit
 
@@ -48,6 +49,8 @@ class Index:
         labels, as for :func:`curvewise.cdist`.
     measure : {measures}
         A measure by its name. A curve that is asked for is P, one of the index is Q.
+    {layout}
+        It is valid for all curves that are added or looked for, too.
     **options
         Those of the measure's own function, except ``workers`` and ``cutoff``.
 
@@ -89,14 +92,23 @@ class Index:
     """
 
     def __init__(
-        self, curves: Curves | LabelledCurves, measure: MeasureName = "dtw", **options: Any
+        self,
+        curves: Curves | LabelledCurves,
+        measure: MeasureName = "dtw",
+        *,
+        layout: Layout | None = None,
+        **options: Any,
     ) -> None:
         self._measure = _check_names(measure, options)
         self._options = options
         curves, self._labels = unlabelled(curves, "curves")
         self._index = CompiledIndex(
-            as_curve_list(curves, "curves", keep_float32=True), self._measure, options
+            as_curve_list(curves, "curves", keep_float32=True, layout=layout),
+            self._measure,
+            options,
         )
+        # Curves that come later are of the same number of coordinates, and so of the same layout.
+        self._layout: Layout = layout or "channels_last"
         self._searching: list[int] = []  # threads; one stands as often as it searches
 
     def __len__(self) -> int:
@@ -108,7 +120,8 @@ class Index:
 
     def __reduce__(self) -> tuple[Any, ...]:
         arguments = (self._index.curves(), self._measure)
-        return partial(Index, **self._options), arguments, {"_labels": self._labels}
+        state = {"_labels": self._labels, "_layout": self._layout}
+        return partial(Index, layout="channels_last", **self._options), arguments, state
 
     def add(self, curves: Curves | LabelledCurves) -> None:
         """Add curves behind those there are.
@@ -142,7 +155,8 @@ class Index:
                 f"the curves of the index have {known} and those to be added {new}; give all of "
                 "them labels, as the keys of a dict, or none"
             )
-        self._index.add(as_curve_list(curves, "curves", keep_float32=True))
+        added = as_curve_list(curves, "curves", keep_float32=True, layout=self._layout)
+        self._index.add(added)
         if labels is not None:
             self._labels = [*self._labels, *labels]
 
@@ -368,7 +382,7 @@ class Index:
         if X is None:
             return None, self._labels
         X, names = unlabelled(X, "X")
-        queries = as_curve_list(X, "X", keep_float32=True)
+        queries = as_curve_list(X, "X", keep_float32=True, layout=self._layout)
         counted = names is None and self._labels is not None
         return queries, range(len(queries)) if counted else names
 

@@ -22,8 +22,9 @@ from .._core import pdist as compiled_pdist
 from .._docstrings import filled, listed
 from .._options import Default, Metric, WarpingName, check_choice, real_number
 from .._progress import Report, reporting
-from ..curves.inputs import Array, CurveLike, as_curve_list, copy_of
+from ..curves.inputs import Array, CurveLike, as_curve_list, as_curve_lists, copy_of
 from ..curves.labels import labelled_matrix, labelled_triangle, unlabelled
+from ..curves.layouts import Layout, settled_layout
 from ..measures.registry import MEASURES, MeasureName
 from ..measures.step_pattern import may_be_negative
 
@@ -67,6 +68,7 @@ def cdist(
     workers: SupportsIndex = Default.workers,
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
+    layout: Layout | None = None,
     **options: Any,
 ) -> Array: ...
 @overload
@@ -79,6 +81,7 @@ def cdist(
     workers: SupportsIndex = Default.workers,
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
+    layout: Layout | None = None,
     **options: Any,
 ) -> Any: ...
 @filled()
@@ -91,6 +94,7 @@ def cdist(
     workers: SupportsIndex = Default.workers,
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
+    layout: Layout | None = None,
     **options: Any,
 ) -> Any:
     """Compute a measure between every curve of one list and every curve of another.
@@ -117,6 +121,7 @@ def cdist(
         True shows a bar (tqdm). A callable is called in this thread with (done, total), some
         twenty times a second: cells of the tables, n m for a pair, for dtw and frechet; points,
         n + m for a pair, for the others and with a callable.
+    {layout}
     **options
         Those of the measure's own function, or of the callable.
 
@@ -161,8 +166,7 @@ def cdist(
     XA, row_labels = unlabelled(XA, "XA")
     XB, column_labels = (None, row_labels) if XB is None else unlabelled(XB, "XB")
     kept = not callable(measure)
-    rows = as_curve_list(XA, "XA", keep_float32=kept)
-    columns = None if XB is None else as_curve_list(XB, "XB", like=XA, keep_float32=kept)
+    rows, columns = as_curve_lists(XA, XB, keep_float32=kept, layout=layout)
     shape = (len(rows), len(rows if columns is None else columns))
     out = _checked_out(out, shape, "cdist")
     rows, columns = _apart(rows, out), None if columns is None else _apart(columns, out)
@@ -188,6 +192,7 @@ def pdist(
     workers: SupportsIndex = Default.workers,
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
+    layout: Layout | None = None,
     **options: Any,
 ) -> Array: ...
 @overload
@@ -199,6 +204,7 @@ def pdist(
     workers: SupportsIndex = Default.workers,
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
+    layout: Layout | None = None,
     **options: Any,
 ) -> Any: ...
 @filled(symmetric=listed(name for name, info in MEASURES.items() if info.symmetric))
@@ -210,6 +216,7 @@ def pdist(
     workers: SupportsIndex = Default.workers,
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
+    layout: Layout | None = None,
     **options: Any,
 ) -> Any:
     """Compute a symmetric measure between every two curves of a list.
@@ -224,7 +231,7 @@ def pdist(
         is symmetric is not looked at.
     out : ndarray of float64, shape (k (k-1) / 2,), C-contiguous, optional
         Where to write the result.
-    workers, cutoff, progress, **options
+    workers, cutoff, progress, layout, **options
         As for :func:`cdist`.
 
     Returns
@@ -254,7 +261,7 @@ def pdist(
     np.float64(2.0)
     """
     X, labels = unlabelled(X, "X")
-    curves = as_curve_list(X, "X", keep_float32=not callable(measure))
+    curves = as_curve_list(X, "X", keep_float32=not callable(measure), layout=layout)
     out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
     curves = _apart(curves, out)
     limit = checked_limit("cutoff", cutoff, measure, options)
@@ -358,7 +365,7 @@ def _fill(
     """Call a Python function for every pair, in the order of `out`."""
     flat = out.reshape(-1)
     done = 0
-    with reporting(progress) as report:
+    with reporting(progress) as report, settled_layout():
         for position, (P, Q) in enumerate(pairs):
             value = float(function(P, Q))
             flat[position] = np.inf if value > limit else value

@@ -21,9 +21,9 @@ from ..curves.inputs import (
     check_column_names,
     column_names,
     copy_of,
-    warn_if_transposed,
 )
 from ..curves.labels import labelled_column, unlabelled
+from ..curves.layouts import ask_about_curves
 from ..measures.registry import MeasureName
 from .pairwise import _check_names
 
@@ -67,8 +67,9 @@ class Prepared:
     """
 
     def __init__(self, P: CurveLike, measure: MeasureName = "dtw", **options: Any) -> None:
-        self._curve = copy_of(as_curve(P, "P"))
-        warn_if_transposed(self._curve, "P")
+        curve = as_curve(P, "P")
+        ask_about_curves(curve)  # and not about any Q, which has the same number of coordinates
+        self._curve = copy_of(curve)
         self._columns = column_names(P)
         self._measure = _check_names(measure, options)
         self._options = options
@@ -112,9 +113,8 @@ class Prepared:
         if labels is not None or self._is_list(Q):
             for i, curve in enumerate(Q):
                 check_column_names(self._columns, "P", column_names(curve), f"Q[{i}]")
-            return labelled_column(
-                self._prepared.values(as_curve_list(Q, "Q", keep_float32=True), workers), labels
-            )
+            curves = as_curve_list(Q, "Q", keep_float32=True, layout="channels_last")
+            return labelled_column(self._prepared.values(curves, workers), labels)
         check_column_names(self._columns, "P", column_names(Q), "Q")
         return self._prepared.value(as_curve(Q, "Q"))
 

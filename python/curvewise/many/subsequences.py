@@ -27,7 +27,8 @@ from .._options import (
 )
 from ..curves.checks import check_finite
 from ..curves.ground_distance import check_metric
-from ..curves.inputs import Array, CurveLike, as_curves, in_columns, warn_if_transposed
+from ..curves.inputs import Array, CurveLike, as_curves, in_columns
+from ..curves.layouts import ask_about_curves
 from ..curves.z_normalization import z_normalized
 from ..measures.registry import WARPINGS
 from ..measures.results import Subsequence
@@ -115,7 +116,7 @@ def subsequence(
     0.5 7 9
     """
     P, Q = as_curves(P, Q)
-    warn_if_transposed(P, "P")
+    ask_about_curves(P, Q)
     count = min(whole_number("k", k, 1, "give a whole number >= 1"), sys.maxsize)
     check_choice("measure", measure, get_args(WarpingName))
     ground: dict[str, Any] = {"metric": metric, "p": p, "radius": radius}

@@ -18,6 +18,7 @@ from .._core import values_and_gradients as compiled_values_and_gradients
 from .._docstrings import filled, listed
 from .._options import Default, Differentiable, check_choice
 from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.layouts import ask_about_curves
 
 __all__ = ["BY_BOTH_CURVES", "value_and_gradient", "values_and_gradients"]
 
@@ -161,6 +162,7 @@ def values_and_gradients(
             f"P has shape {first.shape} and Q has shape {second.shape}; give arrays of shapes "
             "(b, n, d) and (b, m, d)"
         )
+    ask_about_curves(first, second)
     values, by_P, by_Q = of_arrays(first, second, measure, options, workers=workers)
     return values, by_P, by_Q
 

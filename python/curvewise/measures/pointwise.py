@@ -7,6 +7,7 @@ from .._core import mse as compiled_mse
 from .._core import normalize as compiled_normalize
 from .._core import sum_of_squares as compiled_sum_of_squares
 from ..curves.inputs import Array, CurveLike, as_curve, check_column_names, column_names
+from ..curves.layouts import ask_about_curves
 
 __all__ = ["mae", "mse", "normalize", "sum_of_squares"]
 
@@ -145,4 +146,5 @@ def normalize(P: CurveLike, *others: CurveLike) -> list[Array]:
     for curve, name in zip(others, names[1:], strict=True):
         check_column_names(column_names(P), "P", column_names(curve), name)
     curves = [box, *(as_curve(curve, name) for curve, name in zip(others, names[1:], strict=True))]
+    ask_about_curves(*curves)
     return [compiled_normalize(box, curve, name) for curve, name in zip(curves, names, strict=True)]

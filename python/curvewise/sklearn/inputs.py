@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from .._extras import extra
+from ..curves.inputs import as_curve_list
 from ..curves.labels import unlabelled
 from ..many.pairwise import Curves, LabelledCurves
 
@@ -54,7 +55,7 @@ def curves_to_fit(estimator: Any, X: Any, *y: Any) -> tuple[Any, ...]:
     X, _ = unlabelled(X, "X")
     if _is_list_of_curves(X):
         estimator.__dict__.pop("n_features_in_", None)  # of rows that were fitted before
-        return X, *y
+        return as_curve_list(X, "X", keep_float32=True, layout=estimator.layout), *y
     checked = validate_data(estimator, X, *y, dtype=np.float64)
     rows, *targets = checked if y else (checked,)
     return list(rows), *targets
@@ -65,7 +66,10 @@ def fitted_curves(estimator: Any, X: Any) -> Any:
     check_is_fitted(estimator)
     X, _ = unlabelled(X, "X")
     if _is_list_of_curves(X):
-        return X
+        # Those that were fitted have been asked about.
+        return as_curve_list(
+            X, "X", keep_float32=True, layout=estimator.layout or "channels_last"
+        )
     return list(validate_data(estimator, X, reset=False, dtype=np.float64))
 
 

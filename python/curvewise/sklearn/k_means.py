@@ -17,11 +17,13 @@ import numpy as np
 import numpy.typing as npt
 
 from .._core import dtw_mean as compiled_dtw_mean
+from .._docstrings import filled
 from .._options import Default, check_choice, real_number, whole_number
 from ..curves.foreign_curves import warn
 from ..curves.inputs import Array, as_curve_list, copy_of
+from ..curves.layouts import Layout
 from ..many.averages import medoid, soft_mean
-from ..many.pairwise import cdist
+from ..many.pairwise import Measure, cdist
 from ..measures.soft_dtw import soft_dtw
 from .inputs import (
     BaseEstimator,
@@ -62,10 +64,12 @@ class _Mean:
     moved: Callable[..., Array]
 
 
+def _distances(curves: Curves, centers: Curves, measure: Measure, **options: Any) -> Array:
+    return np.asarray(cdist(curves, centers, measure, layout="channels_last", **options))
+
+
 def _dtw_distances(curves: Curves, centers: Curves, workers: Any, **options: Any) -> Array:
-    return np.asarray(
-        cdist(curves, centers, "dtw", metric="sqeuclidean", workers=workers, **options)
-    )
+    return _distances(curves, centers, "dtw", metric="sqeuclidean", workers=workers, **options)
 
 
 def _dtw_moved(center: Array, curves: Curves, workers: Any, *, window: Any = None) -> Array:
@@ -74,7 +78,7 @@ def _dtw_moved(center: Array, curves: Curves, workers: Any, *, window: Any = Non
 
 
 def _soft_distances(curves: Curves, centers: Curves, workers: Any, **options: Any) -> Array:
-    return np.asarray(cdist(curves, centers, soft_dtw, **options))
+    return _distances(curves, centers, soft_dtw, **options)
 
 
 def _soft_moved(center: Array, curves: Curves, workers: Any, **options: Any) -> Array:
@@ -84,11 +88,11 @@ def _soft_moved(center: Array, curves: Curves, workers: Any, **options: Any) -> 
 
 
 def _frechet_distances(curves: Curves, centers: Curves, workers: Any, **options: Any) -> Array:
-    return np.asarray(cdist(curves, centers, "frechet", workers=workers, **options))
+    return _distances(curves, centers, "frechet", workers=workers, **options)
 
 
 def _frechet_moved(center: Array, curves: Curves, workers: Any, **options: Any) -> Array:
-    return curves[medoid(curves, "frechet", workers=workers, **options)]
+    return curves[medoid(curves, "frechet", workers=workers, layout="channels_last", **options)]
 
 
 _MEANS: dict[str, _Mean] = {
@@ -98,6 +102,7 @@ _MEANS: dict[str, _Mean] = {
 }
 
 
+@filled()
 class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
     """Divide curves into clusters, each around the mean of its curves.
 
@@ -122,6 +127,7 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         Draws the first centres.
     workers : int
         Threads for a call: at least 1, or -1 for one per core. Never changes a result.
+    {layout}
 
     Attributes
     ----------
@@ -167,6 +173,7 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         tol: SupportsFloat = 1e-6,
         random_state: Any = None,
         workers: SupportsIndex = Default.workers,
+        layout: Layout | None = None,
     ) -> None:
         self.n_clusters = n_clusters
         self.measure = measure
@@ -176,6 +183,7 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         self.tol = tol
         self.random_state = random_state
         self.workers = workers
+        self.layout = layout
 
     def fit(self, X: ManyCurves, y: None = None) -> CurveKMeans:
         """Find the clusters of curves X.
@@ -203,7 +211,7 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         starts = whole_number("n_init", self.n_init, 1, "give a whole number >= 1")
         limit = real_number("tol", self.tol, 0.0, "give a number >= 0")
         (given,) = curves_to_fit(self, X)
-        curves = as_curve_list(given, "X")
+        curves = as_curve_list(given, "X", layout="channels_last")  # in float64
         most = len(curves)
         advice = f"give a whole number from 1 to {most}, the curves (n_samples={most})"
         count = whole_number("n_clusters", self.n_clusters, 1, advice, most)
@@ -242,7 +250,7 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         ValueError, TypeError
             As for :func:`curvewise.cdist`.
         """
-        curves = as_curve_list(fitted_curves(self, X), "X", keep_float32=True)
+        curves = fitted_curves(self, X)
         mean, options = self._mean()
         return _nearest(curves, self.cluster_centers_, mean, options)[0]
 

@@ -7,9 +7,11 @@ from typing import Any, Literal, SupportsIndex
 import numpy as np
 import numpy.typing as npt
 
+from .._docstrings import filled
 from .._options import Default, whole_number
 from ..curves.foreign_curves import warn
-from ..curves.inputs import as_curve, as_curve_list, copy_of
+from ..curves.inputs import as_curve, copy_of
+from ..curves.layouts import Layout
 from ..many.k_medoids import k_medoids
 from ..many.pairwise import cdist
 from ..measures.registry import MeasureName
@@ -28,6 +30,7 @@ from .inputs import (
 __all__ = ["CurveKMedoids"]
 
 
+@filled()
 class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
     """Divide curves into clusters, each around one of them: its medoid.
 
@@ -48,6 +51,7 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
         How often each curve is tried as a medoid at most.
     workers : int
         Threads for a call: at least 1, or -1 for one per core. Never changes a result.
+    {layout}
 
     Attributes
     ----------
@@ -93,12 +97,14 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
         options: Options = None,
         max_iter: SupportsIndex = 100,
         workers: SupportsIndex = Default.workers,
+        layout: Layout | None = None,
     ) -> None:
         self.n_clusters = n_clusters
         self.measure = measure
         self.options = options
         self.max_iter = max_iter
         self.workers = workers
+        self.layout = layout
 
     def fit(self, X: ManyCurves, y: None = None) -> CurveKMedoids:
         """Find the clusters of curves X.
@@ -129,8 +135,7 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
                     f"X has shape {distances.shape}; the distances of k curves have shape (k, k)"
                 )
         else:
-            (given,) = curves_to_fit(self, X)
-            curves = as_curve_list(given, "X", keep_float32=True)
+            (curves,) = curves_to_fit(self, X)
             distances = self._distances(curves, None)
         most = len(distances)
         advice = f"give a whole number from 1 to {most}, the curves (n_samples={most})"
@@ -180,7 +185,8 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
 
     def _distances(self, X: Any, medoids: Any) -> Any:
         measure: Any = self.measure
-        return cdist(X, medoids, measure, workers=self.workers, **dict(self.options or {}))
+        options = {"workers": self.workers, "layout": "channels_last", **(self.options or {})}
+        return cdist(X, medoids, measure, **options)
 
     def __sklearn_tags__(self) -> Any:
         tags = super().__sklearn_tags__()

@@ -10,8 +10,10 @@ from typing import Any, Literal, SupportsIndex, TypeAlias, get_args
 import numpy as np
 import numpy.typing as npt
 
+from .._docstrings import filled
 from .._options import Default, check_choice
 from ..curves.inputs import Array
+from ..curves.layouts import Layout
 from ..many.nearest import Index, Places
 from ..measures.registry import MeasureName
 from .inputs import (
@@ -30,6 +32,7 @@ __all__ = ["CurveKNeighborsClassifier"]
 Weights: TypeAlias = Literal["uniform", "distance"]
 
 
+@filled()
 class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore[misc]  # untyped
     """Classify a curve as the nearest of known curves are.
 
@@ -48,6 +51,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         then vote alone.
     workers : int
         Threads for a call: at least 1, or -1 for one per core. Never changes a result.
+    {layout}
 
     Attributes
     ----------
@@ -80,12 +84,14 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         options: Options = None,
         weights: Weights = "uniform",
         workers: SupportsIndex = Default.workers,
+        layout: Layout | None = None,
     ) -> None:
         self.n_neighbors = n_neighbors
         self.measure = measure
         self.options = options
         self.weights = weights
         self.workers = workers
+        self.layout = layout
 
     def fit(self, X: ManyCurves, y: npt.ArrayLike) -> CurveKNeighborsClassifier:
         """Keep curves X of classes y.
@@ -118,7 +124,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         if len(labels) != len(curves):
             raise ValueError(f"y has {len(labels)} classes for the {len(curves)} curves of X")
         self.classes_, self._codes = np.unique(labels, return_inverse=True)
-        self.index_ = Index(curves, self.measure, **(self.options or {}))
+        self.index_ = Index(curves, self.measure, layout="channels_last", **(self.options or {}))
         return self
 
     def kneighbors(

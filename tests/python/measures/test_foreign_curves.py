@@ -282,41 +282,6 @@ def test_points_as_columns_are_asked_about(module: ModuleType) -> None:
 def test_lists_of_points_as_columns_are_asked_about() -> None:
     with pytest.raises(ValueError, match=r"transpose\?\)$"):
         curvewise.cdist(np.zeros((3, 2, 9)), measure="area")
-    with pytest.warns(UserWarning, match=r"transpose: XA\.transpose\(0, 2, 1\)$"):
-        curvewise.cdist(np.zeros((3, 2, 50)))
-    with pytest.warns(UserWarning, match=r"^X\[0\] has shape \(1, 50\), as a curve 1 point in 50 "):
-        curvewise.pdist([np.zeros((1, 50)), np.ones((1, 50))])
-
-
-ROWS = np.linspace(0.0, 1.0, 100).reshape(2, 50)
-
-
-@pytest.mark.parametrize(
-    "call",
-    [
-        curvewise.dtw,
-        curvewise.frechet_path,
-        curvewise.frechet_continuous,
-        curvewise.dtw_table,
-        lambda P, Q: curvewise.Prepared(P)(Q),
-        lambda P, Q: curvewise.subsequence(P, Q),
-        lambda P, Q: curvewise.compare(P, Q),
-    ],
-)
-def test_few_points_of_many_coordinates_are_computed_with_a_warning(
-    call: Callable[[Any, Any], Any],
-) -> None:
-    with pytest.warns(UserWarning, match=r"^P has shape \(2, 50\), as a curve 2 points") as caught:
-        call(ROWS, ROWS + 1.0)
-    assert {found.filename for found in caught} == {__file__}  # the caller's line, not ours
-
-
-def test_points_in_many_dimensions_are_no_reason_to_warn() -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        curvewise.dtw(np.zeros((4, 50)), np.zeros((2, 50)))
-        curvewise.dtw(np.zeros((2, 10)), np.zeros((2, 10)))
-        curvewise.cdist(np.zeros((3, 4, 50)))
 
 
 def timed(n: int, last: bool = False) -> np.ndarray[Any, np.dtype[np.float64]]:
