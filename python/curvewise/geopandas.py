@@ -18,6 +18,7 @@ import numpy as np
 from ._extras import extra
 from ._options import Default
 from .curves.inputs import Array
+from .curves.reference_systems import check_degrees, warn_of_stretched_map
 from .many.nearest import Index
 from .many.pairwise import cdist, pdist
 from .measures.registry import MEASURES, MeasureName
@@ -81,6 +82,7 @@ class Tracks:
                 "curvewise.cdist(tracks.geometry)"
             )
         self.crs = crs
+        self._lines = lines
         metres = 1.0 if crs.is_geographic else float(crs.axis_info[0].unit_conversion_factor)
         curves = [
             _points_of(line, label) * metres for line, label in zip(lines, labels, strict=True)
@@ -242,7 +244,9 @@ class Tracks:
         Without that, a degree of longitude would count as much as one of latitude.
         """
         if not self.crs.is_geographic:
+            warn_of_stretched_map(self.crs, self._lines, "tracks")
             return options
+        check_degrees(self.crs, "tracks")
         info = MEASURES.get(measure)
         if info and "metric" not in inspect.signature(info.function).parameters:
             raise ValueError(

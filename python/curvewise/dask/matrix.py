@@ -18,6 +18,7 @@ from .._core import build_info, check_batch, is_symmetric
 from .._docstrings import filled
 from ..curves.inputs import Array, as_curve_list, as_curve_lists
 from ..curves.layouts import Layout
+from ..curves.reference_systems import check_reference_systems
 from ..curves.several_curves import digest
 from ..many import pairwise
 from ..many.pairwise import Curves, Measure
@@ -110,6 +111,7 @@ def cdist(
     >>> lazy.compute(scheduler="threads").tolist()
     [[0.0, 2.0, 5.0], [2.0, 0.0, 3.0], [5.0, 3.0, 0.0]]
     """
+    check_reference_systems(options, measure=measure, XA=XA, XB=XB)
     rows, others = as_curve_lists(XA, XB, keep_float32=True, layout=layout)
     columns = rows if others is None else others
     limit = pairwise.checked_limit("cutoff", cutoff, measure, options)
@@ -176,6 +178,7 @@ def pdist(
     >>> lazy.compute(scheduler="threads").tolist()
     [2.0, 5.0, 3.0]
     """
+    check_reference_systems(options, measure=measure, X=X)
     curves = as_curve_list(X, "X", keep_float32=True, layout=layout)
     limit = pairwise.checked_limit("cutoff", cutoff, measure, options)
     refuse_local_only(options)

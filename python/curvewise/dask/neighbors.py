@@ -15,6 +15,7 @@ from .._core import check_batch
 from .._docstrings import filled
 from ..curves.inputs import Array, as_curve_lists
 from ..curves.layouts import Layout
+from ..curves.reference_systems import check_reference_systems
 from ..many import pairwise
 from ..many.nearest import Index, checked_count
 from ..many.pairwise import Curves
@@ -76,6 +77,7 @@ def kneighbors(
     >>> [part.tolist() for part in dask.compute(*lazy, scheduler="threads")]
     [[[1.0, 1.0]], [[0, 1]]]
     """
+    check_reference_systems(options, curves=curves, X=X)
     queries, targets = as_curve_lists(X, curves, keep_float32=True, layout=layout)
     assert targets is not None
     refuse_local_only(options)

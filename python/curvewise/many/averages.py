@@ -24,6 +24,7 @@ from ..curves.foreign_curves import warn
 from ..curves.inputs import Array, CurveLike, as_curve, as_curve_list, copy_of
 from ..curves.labels import unlabelled
 from ..curves.layouts import Layout, settled_layout
+from ..curves.reference_systems import check_reference_systems
 from ..drawing.figures import evenly
 from ..measures.gradient import values_and_gradients
 from ..measures.registry import MeasureName
@@ -114,6 +115,7 @@ def dtw_mean(
     >>> mean.curve.tolist()
     [0.0, 2.75, 0.0]
     """
+    check_reference_systems({}, curves=curves)
     given = as_curve_list(curves, "curves", layout=layout)
     start = _start_of(given, initial, window, workers, layout)
     counts = _checked_weights(weights)
@@ -192,6 +194,7 @@ def soft_dtw_mean(
     >>> mean.converged, mean.curve.round(2).tolist()
     (True, [0.0, 2.0, 0.0])
     """
+    check_reference_systems({}, curves=curves)
     given = as_curve_list(curves, "curves", layout=layout)
     start = _start_of(given, initial, window, workers, layout)
     counts = _checked_weights(weights)
@@ -356,6 +359,7 @@ def medoid(
     >>> curvewise.medoid([[0, 0, 0], [0, 1, 0], [0, 4, 0]])
     1
     """
+    check_reference_systems(options, measure=measure, curves=curves)
     curves, labels = unlabelled(curves, "curves")
     given = as_curve_list(curves, "curves", layout=layout)
     if not given:

@@ -25,6 +25,7 @@ from .._progress import Report, reporting
 from ..curves.inputs import Array, as_curve_list
 from ..curves.labels import Labels, labelled_column, labelled_matrix, labels_at, unlabelled
 from ..curves.layouts import Layout
+from ..curves.reference_systems import check_reference_systems
 from ..measures.registry import MeasureName
 from .pairwise import Curves, LabelledCurves, _check_names, checked_limit
 
@@ -101,6 +102,7 @@ class Index:
     ) -> None:
         self._measure = _check_names(measure, options)
         self._options = options
+        self._crs = check_reference_systems(options, curves=curves)
         curves, self._labels = unlabelled(curves, "curves")
         self._index = CompiledIndex(
             as_curve_list(curves, "curves", keep_float32=True, layout=layout),
@@ -120,7 +122,7 @@ class Index:
 
     def __reduce__(self) -> tuple[Any, ...]:
         arguments = (self._index.curves(), self._measure)
-        state = {"_labels": self._labels, "_layout": self._layout}
+        state = {"_labels": self._labels, "_layout": self._layout, "_crs": self._crs}
         return partial(Index, layout="channels_last", **self._options), arguments, state
 
     def add(self, curves: Curves | LabelledCurves) -> None:
@@ -148,6 +150,7 @@ class Index:
                 "add was called by the progress function of a search in the same index, for whose "
                 "end it would wait; add the curves after the search"
             )
+        crs = check_reference_systems(self._options, known=self._crs, curves=curves)
         curves, labels = unlabelled(curves, "curves")
         if (labels is None) != (self._labels is None):
             known, new = ("no labels", "some") if self._labels is None else ("labels", "none")
@@ -157,6 +160,7 @@ class Index:
             )
         added = as_curve_list(curves, "curves", keep_float32=True, layout=self._layout)
         self._index.add(added)
+        self._crs = crs
         if labels is not None:
             self._labels = [*self._labels, *labels]
 
@@ -381,6 +385,7 @@ class Index:
         """Return what is asked for and, where the answer is to have labels, those of its rows."""
         if X is None:
             return None, self._labels
+        check_reference_systems(self._options, known=self._crs, X=X)
         X, names = unlabelled(X, "X")
         queries = as_curve_list(X, "X", keep_float32=True, layout=self._layout)
         counted = names is None and self._labels is not None

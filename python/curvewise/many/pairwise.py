@@ -25,6 +25,7 @@ from .._progress import Report, reporting
 from ..curves.inputs import Array, CurveLike, as_curve_list, as_curve_lists, copy_of
 from ..curves.labels import labelled_matrix, labelled_triangle, unlabelled
 from ..curves.layouts import Layout, settled_layout
+from ..curves.reference_systems import check_reference_systems
 from ..measures.registry import MEASURES, MeasureName
 from ..measures.step_pattern import may_be_negative
 
@@ -163,6 +164,7 @@ def cdist(
     ramp   0.0   2.0
     step   2.0   0.0
     """
+    check_reference_systems(options, measure=measure, XA=XA, XB=XB)
     XA, row_labels = unlabelled(XA, "XA")
     XB, column_labels = (None, row_labels) if XB is None else unlabelled(XB, "XB")
     kept = not callable(measure)
@@ -260,6 +262,7 @@ def pdist(
     >>> curvewise.pdist({"ramp": [0, 1, 2, 3], "step": [0, 0, 3, 3]})["ramp", "step"]
     np.float64(2.0)
     """
+    check_reference_systems(options, measure=measure, X=X)
     X, labels = unlabelled(X, "X")
     curves = as_curve_list(X, "X", keep_float32=not callable(measure), layout=layout)
     out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")

@@ -24,6 +24,7 @@ from ..curves.inputs import (
 )
 from ..curves.labels import labelled_column, unlabelled
 from ..curves.layouts import ask_about_curves
+from ..curves.reference_systems import check_reference_systems
 from ..measures.registry import MeasureName
 from .pairwise import _check_names
 
@@ -109,6 +110,7 @@ class Prepared:
         """
         if isinstance(Q, np.ndarray) and Q.ndim < 3:  # the usual case, which has no names
             return self._prepared.value(as_curve(Q, "Q"))
+        check_reference_systems(self._options, Q=Q)
         Q, labels = unlabelled(Q, "Q")
         if labels is not None or self._is_list(Q):
             for i, curve in enumerate(Q):

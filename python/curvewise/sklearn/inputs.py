@@ -10,6 +10,7 @@ import numpy as np
 from .._extras import extra
 from ..curves.inputs import as_curve_list
 from ..curves.labels import unlabelled
+from ..curves.reference_systems import check_reference_systems
 from ..many.pairwise import Curves, LabelledCurves
 
 with extra("sklearn", "curvewise.sklearn needs scikit-learn >= 1.6"):
@@ -52,6 +53,7 @@ Options: TypeAlias = Mapping[str, Any] | None
 
 def curves_to_fit(estimator: Any, X: Any, *y: Any) -> tuple[Any, ...]:
     """Return the curves of X, and y if it is given, checked where X is a table of rows."""
+    estimator._crs = _reference_system(estimator, X, None)
     X, _ = unlabelled(X, "X")
     if _is_list_of_curves(X):
         estimator.__dict__.pop("n_features_in_", None)  # of rows that were fitted before
@@ -64,6 +66,7 @@ def curves_to_fit(estimator: Any, X: Any, *y: Any) -> tuple[Any, ...]:
 def fitted_curves(estimator: Any, X: Any) -> Any:
     """Return curves to be compared with those that were fitted."""
     check_is_fitted(estimator)
+    _reference_system(estimator, X, estimator._crs)
     X, _ = unlabelled(X, "X")
     if _is_list_of_curves(X):
         # Those that were fitted have been asked about.
@@ -71,6 +74,11 @@ def fitted_curves(estimator: Any, X: Any) -> Any:
             X, "X", keep_float32=True, layout=estimator.layout or "channels_last"
         )
     return list(validate_data(estimator, X, reset=False, dtype=np.float64))
+
+
+def _reference_system(estimator: Any, X: Any, known: Any) -> Any:
+    options = estimator.options or {}
+    return check_reference_systems(options, measure=estimator.measure, known=known, X=X)
 
 
 def _is_list_of_curves(X: Any) -> bool:
