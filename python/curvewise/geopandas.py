@@ -18,6 +18,7 @@ import numpy as np
 from ._extras import extra
 from ._options import Default
 from .curves.inputs import Array
+from .curves.labels import check_distinct
 from .curves.reference_systems import check_degrees, warn_of_stretched_map
 from .many.nearest import Index
 from .many.pairwise import cdist, pdist
@@ -232,6 +233,7 @@ class Tracks:
         """
         from .sklearn import CurveKMedoids
 
+        check_distinct(self.curves.index, "tracks")
         known = self._on_earth(measure, options)
         found = CurveKMedoids(n_clusters, measure=measure, options=known, workers=workers)
         found.fit(list(self.curves))

@@ -21,6 +21,8 @@ from .foreign_curves import column_names
 
 __all__ = [
     "Labels",
+    "check_distinct",
+    "in_order_of",
     "labelled_column",
     "labelled_matrix",
     "labelled_triangle",
@@ -70,6 +72,56 @@ def _groups(grouped: Any, name: str) -> tuple[list[Any], list[Any]]:
             f"{name}[{coordinates_among(names)}] for example"
         )
     return groups, labels
+
+
+def in_order_of(values: Any, curves: Any, name: str) -> Any:
+    """Return one value for each curve in the order of the curves, if both have labels.
+
+    An index that only counts, as pandas gives it to what has none, is no labels, unless it counts
+    the curves in another order.
+
+    Raises
+    ------
+    ValueError
+        Labels that differ, or that are not distinct.
+    """
+    if not hasattr(values, "iloc"):
+        return values
+    _, labels = unlabelled(curves, "X")
+    if labels is None:
+        return values
+    ours, theirs = _flat(labels), _flat(values.index)
+    if ours.equals(theirs):
+        return values
+    if ours.is_unique and theirs.is_unique and len(ours) == len(theirs) and ours.isin(theirs).all():
+        return values.iloc[theirs.get_indexer(ours)]
+    if _only_counts(ours) or _only_counts(theirs):
+        return values
+    raise ValueError(
+        f"{name} has the labels {_some(theirs)} and the curves have {_some(ours)}; give a value for "
+        f"each label, once, or {name}.to_numpy() in the order of the curves"
+    )
+
+
+def _only_counts(index: Any) -> bool:
+    return list(index) == list(range(len(index)))
+
+
+def _some(index: Any) -> str:
+    shown = ", ".join(map(repr, index[:4]))
+    return f"{shown}, …" if len(index) > 4 else shown
+
+
+def check_distinct(labels: Labels, name: str, known: Labels = None) -> None:
+    """Refuse a label that two curves have, here or among those `known`, where labels answer."""
+    seen = set(() if known is None else known)
+    for label in () if labels is None else labels:
+        if label in seen:
+            raise ValueError(
+                f"{name} has the label {label!r}, which another curve has, too; give distinct "
+                "labels, since the answer is a label"
+            )
+        seen.add(label)
 
 
 def labelled_matrix(values: npt.NDArray[Any], rows: Labels, columns: Labels) -> Any:

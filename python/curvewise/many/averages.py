@@ -22,7 +22,7 @@ from .._options import Default, Window, real_number, whole_number
 from .._progress import Report, reporting
 from ..curves.foreign_curves import warn
 from ..curves.inputs import Array, CurveLike, as_curve, as_curve_list, copy_of
-from ..curves.labels import unlabelled
+from ..curves.labels import check_distinct, in_order_of, unlabelled
 from ..curves.layouts import Layout, settled_layout
 from ..curves.reference_systems import check_reference_systems
 from ..drawing.figures import evenly
@@ -118,7 +118,7 @@ def dtw_mean(
     check_reference_systems({}, curves=curves)
     given = as_curve_list(curves, "curves", layout=layout)
     start = _start_of(given, initial, window, workers, layout)
-    counts = _checked_weights(weights)
+    counts = _checked_weights(in_order_of(weights, curves, "weights"))
     limit = real_number("tolerance", tolerance, -np.inf, "give a number >= 0")
     with reporting(progress) as report:
         mean, costs, converged = compiled_dtw_mean(
@@ -197,7 +197,7 @@ def soft_dtw_mean(
     check_reference_systems({}, curves=curves)
     given = as_curve_list(curves, "curves", layout=layout)
     start = _start_of(given, initial, window, workers, layout)
-    counts = _checked_weights(weights)
+    counts = _checked_weights(in_order_of(weights, curves, "weights"))
     limit = real_number("tolerance", tolerance, 0.0, "give a number >= 0")
     most = whole_number("iterations", iterations, 0, "give a whole number >= 0")
     # Which refuses what a mean cannot be of, by the names of the curves.
@@ -361,6 +361,7 @@ def medoid(
     """
     check_reference_systems(options, measure=measure, curves=curves)
     curves, labels = unlabelled(curves, "curves")
+    check_distinct(labels, "curves")
     given = as_curve_list(curves, "curves", layout=layout)
     if not given:
         raise ValueError("no curves; a medoid needs at least 1")

@@ -23,7 +23,14 @@ from .._extras import extra
 from .._options import Default, check_choice, whole_number
 from .._progress import Report, reporting
 from ..curves.inputs import Array, as_curve_list
-from ..curves.labels import Labels, labelled_column, labelled_matrix, labels_at, unlabelled
+from ..curves.labels import (
+    Labels,
+    check_distinct,
+    labelled_column,
+    labelled_matrix,
+    labels_at,
+    unlabelled,
+)
 from ..curves.layouts import Layout
 from ..curves.reference_systems import check_reference_systems
 from ..measures.registry import MeasureName
@@ -104,6 +111,7 @@ class Index:
         self._options = options
         self._crs = check_reference_systems(options, curves=curves)
         curves, self._labels = unlabelled(curves, "curves")
+        check_distinct(self._labels, "curves")
         self._index = CompiledIndex(
             as_curve_list(curves, "curves", keep_float32=True, layout=layout),
             self._measure,
@@ -158,6 +166,7 @@ class Index:
                 f"the curves of the index have {known} and those to be added {new}; give all of "
                 "them labels, as the keys of a dict, or none"
             )
+        check_distinct(labels, "curves", self._labels)
         added = as_curve_list(curves, "curves", keep_float32=True, layout=self._layout)
         self._index.add(added)
         self._crs = crs

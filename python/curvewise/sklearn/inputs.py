@@ -9,7 +9,7 @@ import numpy as np
 
 from .._extras import extra
 from ..curves.inputs import as_curve_list
-from ..curves.labels import unlabelled
+from ..curves.labels import in_order_of, unlabelled
 from ..curves.reference_systems import check_reference_systems
 from ..many.pairwise import Curves, LabelledCurves
 
@@ -54,6 +54,7 @@ Options: TypeAlias = Mapping[str, Any] | None
 def curves_to_fit(estimator: Any, X: Any, *y: Any) -> tuple[Any, ...]:
     """Return the curves of X, and y if it is given, checked where X is a table of rows."""
     estimator._crs = _reference_system(estimator, X, None)
+    y = tuple(in_order_of(target, X, "y") for target in y)
     X, _ = unlabelled(X, "X")
     if _is_list_of_curves(X):
         estimator.__dict__.pop("n_features_in_", None)  # of rows that were fitted before

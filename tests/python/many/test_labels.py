@@ -132,6 +132,76 @@ def test_curves_are_added_with_labels_or_without_as_those_there_are():
     assert len(plain) == 1
 
 
+def test_a_label_is_that_of_one_curve_where_labels_answer():
+    twice = pd.Series(IN_PLANE, index=["a", "b", "a", "c"])
+    said = r"^curves has the label 'a', which another curve has, too; give distinct labels, since"
+    for entry in (curvewise.Index, curvewise.medoid):
+        with pytest.raises(ValueError, match=said):
+            entry(twice)
+    index = curvewise.Index({"a": IN_PLANE[0]})
+    for more in ({"a": IN_PLANE[1]}, twice[1:].set_axis(["b", "b", "c"]), {"b": 0, "a": 0}):
+        with pytest.raises(ValueError, match=r"^curves has the label '[ab]', which another curve"):
+            index.add(more)
+    assert len(index) == 1
+    index.add({"b": IN_PLANE[1]})
+    assert index.kneighbors(IN_PLANE[1:2], 1, return_distance=False)[0].tolist() == ["b"]
+
+
+LOGGED = stacked()[["name", "x", "y"]]
+MANY = {  # whose labels are in another order than the alphabet's, except for the first
+    "groupby": LOGGED.groupby("name"),
+    "unsorted groupby": LOGGED.groupby("name", sort=False),
+    "dict": dict(zip(NAMES, IN_PLANE, strict=True)),
+    "Series": pd.Series(IN_PLANE, index=NAMES),
+}
+
+
+def fitted(curves: Any, y: Any) -> Any:
+    sklearn = pytest.importorskip("curvewise.sklearn", exc_type=ImportError)
+    return sklearn.CurveKNeighborsClassifier(1).fit(curves, y)
+
+
+@pytest.mark.parametrize("kind", MANY)
+def test_classes_are_of_the_curves_with_their_labels(kind):
+    curves = MANY[kind]
+    for order in (NAMES, sorted(NAMES), NAMES[::-1]):
+        y = pd.Series([f"class of {name}" for name in order], index=order)
+        for classes in (y, y.astype("category")):
+            found = fitted(curves, classes).predict(IN_PLANE)
+            assert found.tolist() == [f"class of {name}" for name in NAMES]
+
+
+@pytest.mark.parametrize("kind", MANY)
+def test_weights_are_of_the_curves_with_their_labels(kind):
+    weights = [1.0, 2.0, 3.0, 4.0]
+    expected = curvewise.dtw_mean(IN_PLANE, initial=IN_PLANE[0], weights=weights)
+    for order in (NAMES, NAMES[::-1]):
+        labelled = pd.Series(weights, index=NAMES)[order]
+        mean = curvewise.dtw_mean(MANY[kind], initial=IN_PLANE[0], weights=labelled)
+        np.testing.assert_allclose(mean.curve, expected.curve, rtol=1e-12)
+        soft = curvewise.soft_dtw_mean(MANY[kind], initial=IN_PLANE[0], weights=labelled)
+        of_list = curvewise.soft_dtw_mean(IN_PLANE, initial=IN_PLANE[0], weights=weights)
+        np.testing.assert_allclose(soft.curve, of_list.curve, rtol=1e-6)
+
+
+def test_classes_without_labels_are_in_the_order_of_the_curves():
+    numbers = pd.Series(list("pqrs"))
+    assert fitted(MANY["dict"], numbers).predict(IN_PLANE).tolist() == list("pqrs")
+    assert fitted(MANY["dict"], list("pqrs")).predict(IN_PLANE).tolist() == list("pqrs")
+    assert fitted(IN_PLANE, pd.Series(list("pqrs"), NAMES[::-1])).predict(IN_PLANE).tolist() == [
+        *"pqrs"
+    ]
+    backwards = {3 - i: curve for i, curve in enumerate(IN_PLANE)}
+    assert fitted(backwards, numbers).predict(IN_PLANE).tolist() == list("srqp")
+
+
+@pytest.mark.parametrize("order", [[*NAMES[:3], "other"], [*NAMES[:3], "ramp"], [*NAMES, "more"]])
+def test_classes_with_other_labels_are_refused(order):
+    said = r"^y has the labels 'ramp', 'step', 'peak', .* and the curves have 'ramp', 'step', 'pe"
+    with pytest.raises(ValueError, match=said):
+        fitted(MANY["dict"], pd.Series(range(len(order)), index=order))
+
+
 def test_one_curve_against_labelled_ones():
     against = curvewise.Prepared(IN_PLANE[0], "dtw")
     values = against(dict(zip(NAMES, IN_PLANE, strict=True)))
