@@ -69,7 +69,8 @@ Parameters
 ----------
 P, Q : {array}, shapes (n, d) and (m, d), or (b, n, d) and (b, m, d)
     A pair of curves, or b pairs. Of real numbers; one of them may be a single curve that is
-    compared with b.
+    compared with b. Two dimensions are always one curve: b series of shape (b, n) are
+    ``P[..., None]``.
 **options
     {text.options}
 
@@ -83,6 +84,11 @@ Raises
 ------
 ValueError, TypeError
     As for :func:`curvewise.{name}`; shapes that do not make pairs; complex numbers.
+
+Warns
+-----
+LayoutWarning
+    All curves have the same n, and more coordinates than points.
 
 Notes
 -----

@@ -23,7 +23,7 @@ import numpy as np
 from ._extras import extra
 from ._names import did_you_mean
 from .curves.inputs import Array
-from .curves.layouts import settled_layout
+from .curves.layouts import with_known_layout
 from .many.pairwise import cdist
 from .measures.registry import MEASURES, WARPINGS, MeasureName
 
@@ -154,7 +154,9 @@ def _curve(series: Series, name: str) -> Array:
             f"{name} has {array.ndim} dimensions; a series has shape (n_channels, n_timepoints) or "
             "(n_timepoints,)"
         )
-    return array.T
+    curve = array.T
+    in_doubt = curve.ndim == 2 and curve.shape[1] > len(curve) and curve.dtype.kind in "fiub"
+    return with_known_layout(curve) if in_doubt else curve
 
 
 def _curves(collection: Collection, name: str, is_one: bool = False) -> list[Array]:
@@ -220,8 +222,7 @@ def _distance_of(name: str) -> Callable[..., Any]:
         x: Series, y: Series, window: SupportsFloat | None = None, **options: Any
     ) -> float:
         P, Q, translated = _of_pair(name, x, y, window, options)
-        with settled_layout():
-            return measure(P, Q, **translated)
+        return measure(P, Q, **translated)
 
     return _documented(distance, name, "distance", "float")
 
@@ -239,8 +240,7 @@ def _pairwise_distance_of(name: str) -> Callable[..., Any]:
         second = None if y is None else _curves(y, "y", _is_multivariate(X))
         lengths = [len(curve) for curve in first + (second or [])]
         translated = _translated(name, options, window, lengths)
-        with settled_layout():
-            matrix = cdist(first, second, _DISTANCES[name].measure, workers=n_jobs, **translated)
+        matrix = cdist(first, second, _DISTANCES[name].measure, workers=n_jobs, **translated)
         return np.asarray(matrix)
 
     result = "ndarray, shape (n_cases, n_cases) or (n_cases, m_cases)"
@@ -254,8 +254,7 @@ def _cost_matrix_of(name: str) -> Callable[..., Any]:
         x: Series, y: Series, window: SupportsFloat | None = None, **options: Any
     ) -> Array:
         P, Q, translated = _of_pair(name, x, y, window, options)
-        with settled_layout():
-            return table(P, Q, **translated)
+        return table(P, Q, **translated)
 
     return _documented(cost_matrix, name, "cost_matrix", "ndarray, shape (n, m)")
 
@@ -267,8 +266,7 @@ def _alignment_path_of(name: str) -> Callable[..., Any]:
         x: Series, y: Series, window: SupportsFloat | None = None, **options: Any
     ) -> tuple[list[tuple[int, int]], float]:
         P, Q, translated = _of_pair(name, x, y, window, options)
-        with settled_layout():
-            found = path(P, Q, **translated)
+        found = path(P, Q, **translated)
         return [(int(i), int(j)) for i, j in found.path], found.distance
 
     result = "list of tuples (i, j), and the distance"

@@ -57,6 +57,11 @@ class Tracks:
     ValueError
         No reference system; a geometry that is no LineString.
 
+    Warns
+    -----
+    UserWarning
+        By every method, if lengths on the map differ by more than 2 % from those on the Earth.
+
     Notes
     -----
     pandas keeps the accessor of an object: lines that are changed in place are not seen.

@@ -71,6 +71,8 @@ distances = curvewise.cdist([listed], measure=curvewise.mae, progress=print, cut
 distances = curvewise.pdist(np.stack((P, P)), "frechet", metric="chebyshev", out=distances)
 by_name = curvewise.cdist({"P": P, "Q": Q}, {"Q": Q})  # a DataFrame, whose types are pandas'
 by_pair = curvewise.pdist({"P": P, "Q": Q}, "frechet").loc["P", "Q"]
+distances = curvewise.pdist(np.stack((P, P)), layout="channels_last")
+layout: type[UserWarning] = curvewise.LayoutWarning
 prepared = curvewise.Prepared(listed, "dtw", window=4)
 number = prepared(Q)
 names: list[str] = curvewise.available_measures()

@@ -76,7 +76,7 @@ def as_curve(curve: Any, name: str, keep_float32: bool = False) -> Array:
 
 def _knows_its_layout(curve: Any, names: list[Any]) -> bool:
     """Say whether a curve is a table whose columns have names, or a line."""
-    return are_names(names) or is_curve_of_another_package(curve) and not names
+    return are_names(names) or (is_curve_of_another_package(curve) and not names)
 
 
 def as_numbers(curve: Any, name: str, keep_float32: bool = False) -> Array:

@@ -98,8 +98,8 @@ def in_order_of(values: Any, curves: Any, name: str) -> Any:
     if _only_counts(ours) or _only_counts(theirs):
         return values
     raise ValueError(
-        f"{name} has the labels {_some(theirs)} and the curves have {_some(ours)}; give a value for "
-        f"each label, once, or {name}.to_numpy() in the order of the curves"
+        f"{name} has the labels {_some(theirs)} and the curves have {_some(ours)}; give one value "
+        f"for each label, or {name}.to_numpy() in the order of the curves"
     )
 
 

@@ -1,12 +1,12 @@
 """Whether the points of a curve are its rows: what shapes tell, and what they leave in doubt.
 
 A curve has shape (n, d): a row is a point. Many packages for time series have the channels first.
-The rule is the same for arrays of all packages, for all measures and for all sizes:
+The same rule holds for arrays of all packages, for all measures and for all sizes:
 
-- More coordinates than points, d > n, are in doubt. Two points in space and embeddings of words have
-  such shapes, so that the curves are computed as they are, with a :class:`LayoutWarning`.
-- Curves of different n and the same d are not in doubt: with points as columns they would differ in
-  their number of coordinates, which no measure takes.
+- A shape with more coordinates than points, d > n, is in doubt. Two points in space and embeddings
+  of words have such shapes. So the curves are computed as they are, with a `LayoutWarning`.
+- Curves of different n and the same d are not in doubt. With points as columns they would differ in
+  their number of coordinates, which no measure accepts.
 - Tables whose columns have names, lines of shapely and series of aeon and sktime are not in doubt.
 
 The check looks at one shape, and at further ones only if the first has d > n.
@@ -91,15 +91,13 @@ def ask_about_list(curves: Sequence[Array], name: str) -> None:
         )
 
 
-def ask_about_curves(*curves: Any, name: str = "P", batched: bool = False) -> None:
+def ask_about_curves(*curves: Any, batched: bool = False) -> None:
     """Warn if curves that have no option for it are in doubt, and name what to write.
 
     Parameters
     ----------
     *curves : array of any package, shape (n, d) or (..., n, d)
-        The curves, or batches of them.
-    name : str
-        The name of the first.
+        P and what it is compared with, or batches of both.
     batched : bool
         Whether batches are taken too, so that (n, d) may be meant as n series.
     """
@@ -107,11 +105,11 @@ def ask_about_curves(*curves: Any, name: str = "P", batched: bool = False) -> No
         return
     shape = tuple(curves[0].shape)
     *batch, n, d = shape
-    series = f"{name}[..., None] is {n} series of {d} points; " if batched and not batch else ""
+    series = f"P[..., None] is {n} series of {d} points; " if batched and not batch else ""
     _ask(
-        name,
+        "P",
         shape,
-        f"if its points are columns, transpose: {name}{'.swapaxes(-1, -2)' if batch else '.T'}; "
+        f"if its points are columns, transpose: P{'.swapaxes(-1, -2)' if batch else '.T'}; "
         f"{series}if they are rows, warnings.simplefilter('ignore', curvewise.LayoutWarning)",
     )
 

@@ -50,7 +50,7 @@ def check_reference_systems(
     """
     first, first_name = known, "the curves before"
     for name, curves in collections.items():
-        crs = getattr(curves, "crs", None)
+        crs: Any = getattr(curves, "crs", None)
         if not hasattr(crs, "is_geographic"):  # of a GeoDataFrame and a GeoSeries
             continue
         if first is not None and not crs.equals(first, ignore_axis_order=True):
@@ -71,10 +71,9 @@ def _check_metric(crs: Any, name: str, metric: Any) -> None:
     on_sphere = isinstance(metric, str) and metric == "haversine"
     if crs.is_geographic and not on_sphere:
         raise ValueError(
-            f"{name} is in degrees ({crs.name}), which are no lengths; give metric='haversine' for "
-            f"metres, project it, {name}.to_crs({name}.estimate_utm_crs()), or compare by the "
-            f"accessor of curvewise.geopandas, {name}.curvewise; list({name}.geometry) are its bare "
-            "numbers"
+            f"{name} is in degrees ({crs.name}), which are not lengths; give metric='haversine' "
+            f"for metres, {name}.to_crs({name}.estimate_utm_crs()), or use the accessor "
+            f"{name}.curvewise of curvewise.geopandas; list({name}.geometry) has the bare numbers"
         )
     if on_sphere and crs.is_projected:
         raise ValueError(
@@ -90,8 +89,8 @@ def check_degrees(crs: Any, name: str) -> None:
     for axis in crs.axis_info[:2]:
         if axis.unit_name != "degree":
             raise ValueError(
-                f"{name} is in units of {axis.unit_name} ({crs.name}), and metric='haversine' takes "
-                f"degrees; give {name}.to_crs('EPSG:4326')"
+                f"{name} is in units of {axis.unit_name} ({crs.name}), and "
+                f"metric='haversine' takes degrees; give {name}.to_crs('EPSG:4326')"
             )
 
 

@@ -70,7 +70,8 @@ def dtw_mean(
         Where to begin, with as many points as the mean will have. If not given, the medoid of the
         curves, or of 50 of them, evenly spaced in their list.
     weights : array_like, shape (k,), optional
-        How much each curve counts, at least 0; not all 0.
+        How much each curve counts, at least 0; not all 0. A Series with the labels of the curves
+        may have them in any order.
     window : int >= 0, or float between 0 and 1, optional
         As for :func:`curvewise.dtw`.
     iterations : int >= 0
@@ -154,7 +155,8 @@ def soft_dtw_mean(
     initial : array_like, shape (n, d), optional
         As for :func:`curvewise.dtw_mean`.
     weights : array_like, shape (k,), optional
-        How much each curve counts, at least 0; not all 0.
+        How much each curve counts, at least 0; not all 0. A Series with the labels of the curves
+        may have them in any order.
     window : int >= 0, or float between 0 and 1, optional
         As for :func:`curvewise.dtw`.
     iterations : int >= 0
@@ -346,7 +348,7 @@ def medoid(
     Raises
     ------
     ValueError, TypeError, ImportError
-        As for :func:`curvewise.cdist`; ValueError where there are no curves.
+        As for :func:`curvewise.cdist`; ValueError where there are no curves, or two of one label.
 
     Notes
     -----

@@ -66,7 +66,8 @@ class Index:
     ------
     ValueError
         What the measure refuses, with the curve's place (``curves[3]``); curves of different d; an
-        unknown measure or option value.
+        unknown measure or option value; two curves with the same label; tracks in degrees without
+        ``metric="haversine"``.
     TypeError
         A curve does not hold real numbers; an option that the measure does not have.
 
@@ -145,7 +146,8 @@ class Index:
         Raises
         ------
         ValueError, TypeError
-            As for :class:`Index`; ValueError where some would have labels and others not.
+            As for :class:`Index`; ValueError where some would have labels and others not, or a
+            label that is there.
         RuntimeError
             The progress function of a search in this index calls it.
 

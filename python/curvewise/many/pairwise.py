@@ -136,7 +136,8 @@ def cdist(
     ------
     ValueError
         What the measure refuses, with the curve's place (``XA[3]``); curves of different d; an
-        unknown measure or option value; an `out` that does not fit.
+        unknown measure or option value; an `out` that does not fit; tracks in degrees without
+        ``metric="haversine"``, or in two reference systems.
     TypeError
         A curve does not hold real numbers; an option that the measure does not have.
     ImportError

@@ -23,7 +23,7 @@ from ..curves.inputs import (
     copy_of,
 )
 from ..curves.labels import labelled_column, unlabelled
-from ..curves.layouts import ask_about_curves
+from ..curves.layouts import ask_about_curves, settled_layout
 from ..curves.reference_systems import check_reference_systems
 from ..measures.registry import MeasureName
 from .pairwise import _check_names
@@ -131,6 +131,7 @@ class Prepared:
 def _prepare(
     P: Array, columns: list[Any], measure: MeasureName, options: dict[str, Any]
 ) -> Prepared:
-    prepared = Prepared(P, measure, **options)
+    with settled_layout():
+        prepared = Prepared(P, measure, **options)
     prepared._columns = columns  # of the DataFrame that P once was
     return prepared

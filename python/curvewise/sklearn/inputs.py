@@ -71,9 +71,7 @@ def fitted_curves(estimator: Any, X: Any) -> Any:
     X, _ = unlabelled(X, "X")
     if _is_list_of_curves(X):
         # Those that were fitted have been asked about.
-        return as_curve_list(
-            X, "X", keep_float32=True, layout=estimator.layout or "channels_last"
-        )
+        return as_curve_list(X, "X", keep_float32=True, layout=estimator.layout or "channels_last")
     return list(validate_data(estimator, X, reset=False, dtype=np.float64))
 
 

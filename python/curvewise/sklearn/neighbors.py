@@ -101,7 +101,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         X : array_like, shape (k, n, d) or (k, n), or a sequence of curves
             The known curves.
         y : array_like, shape (k,)
-            Their classes.
+            Their classes. A Series with the labels of X may have them in any order.
 
         Returns
         -------
@@ -111,7 +111,8 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         Raises
         ------
         ValueError, TypeError
-            As for :class:`curvewise.Index`; a `y` that does not fit, or holds no classes.
+            As for :class:`curvewise.Index`; a `y` that does not fit, has other labels than X, or
+            holds no classes.
         """
         check_choice("weights", self.weights, get_args(Weights))
         if y is None:

@@ -6,6 +6,7 @@ What is in doubt is decided here by a definition of its own; every entry is trie
 from __future__ import annotations
 
 import pickle
+import re
 import warnings
 from collections.abc import Callable
 from typing import Any
@@ -189,6 +190,10 @@ def test_what_is_known_of_a_layout_is_not_asked() -> None:
     assert not words_of(lambda: curvewise.dtw_path(named, named))
     assert not words_of(lambda: curvewise.pdist([named, named + 1.0]))
     assert not words_of(lambda: curvewise.Prepared(named)(named))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", LayoutWarning)
+        prepared = curvewise.Prepared(random(2, 3))
+    assert not words_of(lambda: pickle.loads(pickle.dumps(prepared)))
     assert words_of(lambda: curvewise.dtw(pd.DataFrame(random(2, 3)), named.to_numpy()))
     assert not words_of(lambda: curvewise.dtw([(0, 0)], [(1, 1)], metric="haversine"))
     assert not words_of(lambda: curvewise.mse(random(2, 9), random(2, 9)))  # the same transposed
@@ -232,7 +237,7 @@ def test_one_rule_for_arrays_of_all_packages(container: str) -> None:
         assert bool(words_of(lambda X=X: curvewise.Index(list(X)))) == (d > n)
         assert bool(words_of(lambda X=X: curvewise.dtw(X[0], X[1]))) == (d > n)
     for entry in (curvewise.pdist, curvewise.cdist, curvewise.Index, curvewise.dtw_mean):
-        with pytest.raises(ValueError, match=r"has 2 array dimensions; .* list\(\w+\) for k curves"):
+        with pytest.raises(ValueError, match=r"has 2 array dimensions; .* list\(\w+\) for k"):
             entry(make(random(30, 3)))
     assert curvewise.pdist(list(make(random(4, 3)))).shape == (6,)  # as the message says
 
@@ -242,11 +247,10 @@ def test_one_rule_for_tables_of_all_packages(kind: str) -> None:
     make, instead = TABLES[kind]
     X = make(random(9, 3))
     for entry in (curvewise.pdist, curvewise.medoid):
-        with pytest.raises(ValueError, match=r"has 2 array dimensions; "):
+        name = "X" if entry is curvewise.pdist else "curves"
+        written = re.escape(instead.replace("X", name))
+        with pytest.raises(ValueError, match=rf"has 2 array dimensions; .*, {written} for k cu"):
             entry(X)
-    with pytest.raises(ValueError) as caught:
-        curvewise.pdist(X)
-    assert instead in str(caught.value)
     assert len(curvewise.pdist(eval(instead, {"X": X}))) == 3  # as the message says
 
 

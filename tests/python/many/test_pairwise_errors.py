@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from curvewise import Prepared, cdist, pdist
+from curvewise import Index, Prepared, cdist, dtw_mean, medoid, pdist
 from curvewise._options import Metric
 from curvewise.measures.registry import MEASURES
 
@@ -132,8 +132,23 @@ def test_errors(message, call, error):
 
 
 def test_a_frame_is_no_list_of_curves():
-    with pytest.raises(ValueError, match=f"^{re.escape(NO_LIST)}$"):
+    said = NO_LIST.replace("list(XA)", "dict(XA.items())")
+    with pytest.raises(ValueError, match=f"^{re.escape(said)}$"):
         cdist(FRAME.assign(y=[0.0, 1.0]))
+
+
+class Degrees:
+    is_geographic, name = True, "WGS 84"
+
+
+def test_degrees_are_not_taken_for_a_plane():
+    class Tracks(pd.Series):
+        crs = Degrees()
+
+    tracks = Tracks([np.zeros((3, 2)), np.ones((3, 2))])
+    for call in (pdist, cdist, Index, medoid, dtw_mean):
+        with pytest.raises(ValueError, match=r"^\w+ is in degrees \(WGS 84\), .* metric='hav"):
+            call(tracks)
 
 
 def test_out_of_a_read_only_array():
