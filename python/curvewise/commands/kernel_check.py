@@ -24,6 +24,7 @@ import numpy as np
 from .. import reference
 from .._core import build_info, choices, measures
 from ..curves.inputs import Array
+from ..curves.layouts import settled_layout
 from ..measures.edit_distances import EditDistance
 from ..measures.registry import MEASURES, MeasureInfo
 from ..measures.results import Alignment
@@ -150,7 +151,8 @@ def _arguments(options: dict[str, Any]) -> dict[str, Any]:
 
 def _results(info: MeasureInfo, options: dict[str, Any], P: Array, Q: Array) -> list[Any]:
     """Return what each function of a measure says of two curves."""
-    return [function(P, Q, **_arguments(options)) for function in _functions(info)]
+    with settled_layout():
+        return [function(P, Q, **_arguments(options)) for function in _functions(info)]
 
 
 def _digest(results: list[list[Any]]) -> str:

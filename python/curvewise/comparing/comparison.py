@@ -15,6 +15,7 @@ from .._options import Preset, check_choice
 from ..curves.column_roles import is_time
 from ..curves.foreign_curves import warn
 from ..curves.inputs import Array, CurveLike, as_curves, in_columns
+from ..curves.layouts import ask_about_curves, settled_layout
 from ..curves.named_curve import axis_names, copied, known_names
 from ..measures import normalize
 from ..measures.registry import MEASURES, PRESETS, Condition, MeasureInfo, default_measures
@@ -205,7 +206,9 @@ def compare(
     mean 54.09 (4 %), largest 99.3 (7.3 %)
     """
     columns = known_names(P, Q)
-    P, Q = map(copied, (P, Q), as_curves(P, Q))
+    curves = as_curves(P, Q)
+    ask_about_curves(*curves)
+    P, Q = map(copied, (P, Q), curves)
     check_choice("preset", preset, PRESETS)
     if measures is None:
         measures = default_measures(P)
@@ -222,7 +225,8 @@ def compare(
     for name in names:
         scaled, of_preset = PRESETS[preset][name]
         conditions[name] = Condition(scaled, {**of_preset, **given.get(name, {})})
-    values, errors = _values(conditions, P, Q)
+    with settled_layout():
+        values, errors = _values(conditions, P, Q)
     if len(errors) == len(values):
         raise next(iter(errors.values()))
     refusals = {name: str(error) for name, error in errors.items()}

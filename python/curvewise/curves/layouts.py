@@ -105,12 +105,12 @@ def ask_about_curves(*curves: Any, batched: bool = False) -> None:
         return
     shape = tuple(curves[0].shape)
     *batch, n, d = shape
-    series = f"P[..., None] is {n} series of {d} points; " if batched and not batch else ""
+    series = f"for {n} series of {d} points give P[..., None]; " if batched and not batch else ""
     _ask(
         "P",
         shape,
-        f"if its points are columns, transpose: P{'.swapaxes(-1, -2)' if batch else '.T'}; "
-        f"{series}if they are rows, warnings.simplefilter('ignore', curvewise.LayoutWarning)",
+        f"{series}if its points are columns, transpose: P{'.swapaxes(-1, -2)' if batch else '.T'}; "
+        "if they are rows, write warnings.simplefilter('ignore', curvewise.LayoutWarning)",
     )
 
 

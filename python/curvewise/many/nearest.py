@@ -113,13 +113,10 @@ class Index:
         self._crs = check_reference_systems(options, curves=curves)
         curves, self._labels = unlabelled(curves, "curves")
         check_distinct(self._labels, "curves")
-        self._index = CompiledIndex(
-            as_curve_list(curves, "curves", keep_float32=True, layout=layout),
-            self._measure,
-            options,
-        )
-        # Curves that come later are of the same number of coordinates, and so of the same layout.
-        self._layout: Layout = layout or "channels_last"
+        given = as_curve_list(curves, "curves", keep_float32=True, layout=layout)
+        self._index = CompiledIndex(given, self._measure, options)
+        # Later curves have the same number of coordinates, which settles their layout.
+        self._layout: Layout | None = "channels_last" if given and layout is None else layout
         self._searching: list[int] = []  # threads; one stands as often as it searches
 
     def __len__(self) -> int:
@@ -172,6 +169,8 @@ class Index:
         added = as_curve_list(curves, "curves", keep_float32=True, layout=self._layout)
         self._index.add(added)
         self._crs = crs
+        if added:
+            self._layout = self._layout or "channels_last"
         if labels is not None:
             self._labels = [*self._labels, *labels]
 

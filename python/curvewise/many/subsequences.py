@@ -28,7 +28,7 @@ from .._options import (
 from ..curves.checks import check_finite
 from ..curves.ground_distance import check_metric
 from ..curves.inputs import Array, CurveLike, as_curves, in_columns
-from ..curves.layouts import ask_about_curves
+from ..curves.layouts import ask_about_curves, settled_layout
 from ..curves.z_normalization import z_normalized
 from ..measures.registry import WARPINGS
 from ..measures.results import Subsequence
@@ -121,7 +121,8 @@ def subsequence(
     check_choice("measure", measure, get_args(WarpingName))
     ground: dict[str, Any] = {"metric": metric, "p": p, "radius": radius}
     if normalize:
-        return _normalized(P, Q, count, measure, ground, window, cutoff, path, workers)
+        with settled_layout():
+            return _normalized(P, Q, count, measure, ground, window, cutoff, path, workers)
     if window is not None:
         raise ValueError("window needs normalize=True: other runs have no length of their own")
     find = dtw_subsequences if measure == "dtw" else frechet_subsequences
@@ -130,7 +131,8 @@ def subsequence(
     if not path:
         return answers
     runs = ((answer, Q[answer.start : answer.stop + 1]) for answer in answers)
-    return [_with_path(P, run, measure, ground, answer) for answer, run in runs]
+    with settled_layout():
+        return [_with_path(P, run, measure, ground, answer) for answer, run in runs]
 
 
 def _with_path(

@@ -41,7 +41,7 @@ PAIRS: dict[str, Callable[[Any, Any], Any]] = {
             *("dtw", "frechet", "frechet_continuous", "soft_dtw", "hausdorff"),
             *("erp", "edr", "lcss", "msm", "twe", "wdtw"),
             *("dtw_path", "frechet_path", "dtw_table", "frechet_table", "dtw_info"),
-            *("frechet_info", "frechet_continuous_path"),
+            *("frechet_info", "frechet_continuous_path", "soft_dtw_divergence"),
         ]
     },
     "edit_path": lambda P, Q: curvewise.edit_path(P, Q, "erp"),
@@ -49,9 +49,13 @@ PAIRS: dict[str, Callable[[Any, Any], Any]] = {
     "bounds": lambda P, Q: curvewise.frechet_continuous(P, Q, bounds=True),
     "value_and_gradient": curvewise.value_and_gradient,
     "normalize": curvewise.normalize,
-    "compare": lambda P, Q: curvewise.compare(P, Q, measures=["dtw"]),
+    "compare": lambda P, Q: curvewise.compare(P, Q, measures=["dtw", "frechet"]),
     "Prepared": lambda P, Q: curvewise.Prepared(P)(Q),
     "subsequence": curvewise.subsequence,
+    "subsequence with a path": lambda P, Q: curvewise.subsequence(P, Q, path=True),
+    "subsequence, normalized": lambda P, Q: (
+        curvewise.subsequence(P, Q, normalize=True) if len(P) <= len(Q) else None
+    ),
 }
 
 
@@ -60,7 +64,7 @@ def test_pairs(entry: str) -> None:
     for n, d in SHAPES:
         P = random(n, d)
         words = words_of(lambda P=P: PAIRS[entry](P, P + 1.0))
-        assert bool(words) == (d > n), (n, d)
+        assert len(words) == (d > n)
         for word in words:
             assert word.filename == __file__  # the caller's line
             assert str(word.message).startswith(f"P has shape ({n}, {d}), as a curve {n} point")
@@ -176,6 +180,9 @@ def test_lists_of_a_pair_are_told_apart_together() -> None:
     assert not words_of(lambda: curvewise.cdist(many, few))
     index = curvewise.Index(many)
     assert not words_of(lambda: (index.add(few), index.kneighbors(few, 1)))
+    empty = curvewise.Index([])
+    assert len(words_of(lambda: empty.add(few))) == 1
+    assert not words_of(lambda: (empty.add(few), empty.kneighbors(few, 1)))
     assert not words_of(lambda: curvewise.Prepared(many[0])(few))
     assert len(words_of(lambda: curvewise.cdist(few, random(1, 2, 3)))) == 1
 
@@ -271,7 +278,9 @@ def test_losses(package: str) -> None:
             assert [word.filename for word in words] == [__file__] * (d > n)
             if words:
                 said = str(words[0].message)
-                assert f"transpose: P.T; P[..., None] is {n} series of {d} points; " in said
+                assert (
+                    f"; for {n} series of {d} points give P[..., None]; if its points are" in said
+                )
                 assert loss(P[..., None], P[..., None]).shape == (n,)
             words = words_of(lambda P=P, batch=batch, loss=loss: loss(batch, P))
             assert len(words) == (d > n)
