@@ -12,7 +12,7 @@ from typing import Any
 from ..curves.column_roles import is_time
 from ..curves.foreign_curves import warn
 
-__all__ = ["TimeColumnWarning", "choose_columns", "choose_names", "column_name"]
+__all__ = ["TimeColumnWarning", "asked_names", "choose_columns", "choose_names", "column_name"]
 
 _DIGITS = 18  # of a number of a column; Python refuses to read numbers of thousands
 
@@ -90,8 +90,14 @@ def choose_names(header: Sequence[Sequence[Any]], columns: Sequence[str | int] |
     cells: the first of several.
     """
     rows = [[str(cell).strip() for cell in row] for row in header]
-    asked = {column.strip() for column in columns or () if isinstance(column, str)}
+    asked = asked_names(columns)
     return max(rows, key=lambda row: (asked.issubset(row), sum(map(bool, row))), default=[])
+
+
+def asked_names(columns: Sequence[str | int] | None) -> set[str]:
+    """Return the columns that are asked for by a name."""
+    texts = {column.strip() for column in columns or () if isinstance(column, str)}
+    return {text for text in texts if not text.isdecimal()}
 
 
 def column_name(names: list[str], column: int) -> str:

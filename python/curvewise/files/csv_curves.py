@@ -11,7 +11,6 @@ Time and memory are linear in the size of the file, about 2 s for 10^6 points (q
 from __future__ import annotations
 
 import codecs
-import csv
 import os
 import re
 from collections.abc import Iterator, Sequence
@@ -22,22 +21,16 @@ import numpy as np
 import numpy.typing as npt
 
 from .column_choice import choose_columns, choose_names, column_name
-from .number_tables import (
-    NumberTable,
-    Reading,
-    count_cells,
-    find_header,
-    is_number,
-    refuse_no_numbers,
-)
+from .number_tables import NumberTable, Reading, count_cells, find_header, refuse_no_numbers
+from .number_texts import is_number
+from .separators import BLANKS, cells_of, choose_separator, refuse_doubtful_cells
 
 __all__ = ["read_csv_columns"]
 
 # Lines of nothing but separators, which spreadsheets append, and comments. Excel's error values
 # are no comments: '#N/A,200' is a bad point.
 _IGNORED = re.compile(r"[\s;,]*$|\s*(?:#(?!N/A|DIV/0!|VALUE!|REF!|NAME\?|NUM!|NULL!)|%|//)")
-_BLANK_SEPARATED = re.compile(r'"([^"]*)"(?!\S)|(\S+)')
-_BLANKS = None  # what str.split and numpy.loadtxt take as the separator "any run of blanks"
+_SEPARATOR = re.compile(r'\s*"?sep=([^\w\s]|\t)"?[\s;,|]*$')  # as Excel writes and reads it
 _LAYOUT_LINES = 200
 
 
@@ -101,13 +94,15 @@ class _Layout:
     """Number of columns."""
     most: int
     """Cells that a line may have: those of the header, or else of the first line of numbers."""
+    header: list[list[str]]
+    """The lines above the first one of numbers."""
     reading: Reading
 
     def rows(self) -> Iterator[tuple[int, list[str]]]:
         """Yield the lines of numbers as cells, with their numbers from 1."""
         for line in range(self.first, len(self.lines)):
             if self.lines[line]:
-                yield line + 1, _cells(self.lines[line], self.separator)
+                yield line + 1, cells_of(self.lines[line], self.separator)
 
 
 def _read_lines(path: str | os.PathLike[str]) -> list[str]:
@@ -132,7 +127,12 @@ def _decode(data: bytes) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        return data.decode("latin-1")
+        return data.decode(_windows(data))
+
+
+def _windows(data: bytes) -> str:
+    """Return the encoding of Windows, which has dashes and apostrophes, or Latin-1."""
+    return "latin-1" if any(byte in data for byte in b"\x81\x8d\x8f\x90\x9d") else "cp1252"
 
 
 def _find_layout(
@@ -141,23 +141,28 @@ def _find_layout(
     """Choose the separator, and tell header from numbers, by the first lines of a file."""
     lines = ["" if _IGNORED.match(line) else line for line in text]
     filled = [i for i, line in enumerate(lines) if line]
-    count, separator, score = _LAYOUT_LINES, _BLANKS, 0.0
+    given = _SEPARATOR.match(lines[filled[0]]) if filled else None
+    if given:
+        lines[filled.pop(0)] = ""
+    count, separator, score = _LAYOUT_LINES, BLANKS, 0.0
     while score == 0.0:  # of a long header, more lines are looked at
         if count >= 2 * max(len(filled), _LAYOUT_LINES):
             refuse_no_numbers(file, "line", enumerate(text, 1))
         sample = filled[:count]
-        separator, score = _choose_separator([lines[i] for i in sample], reading.decimal)
+        separator, score = choose_separator(
+            [lines[i] for i in sample], reading.decimal, given[1] if given else None
+        )
         count *= 2
 
-    rows = [_cells(lines[i], separator) for i in sample]
-    first, begin = find_header(rows, [sum(map(is_number, row)) for row in rows])
+    rows = [cells_of(lines[i], separator) for i in sample]
+    first, begin = find_header(rows, [sum(map(is_number, row)) for row in rows], columns)
     if (until := reading.until) is not None:
         below = range(sample[first] + 1, len(text))
         lines = lines[: next((i for i in below if until in text[i]), None)]
         rows = [row for i, row in zip(sample, rows, strict=True) if i < len(lines)]
     names = choose_names(rows[begin:first], columns)
-    width = max(len(row) for row in rows[first:])
-    if separator is _BLANKS and len(names) != width:
+    header, width = rows[begin:first], max(len(row) for row in rows[first:])
+    if separator is BLANKS and len(names) != width:
         names = []  # "true strain  true stress": nobody can say which word belongs where
     is_title = sum(map(bool, names)) < 2
     most = max(len(names), len(rows[first]) if is_title else 0)
@@ -165,41 +170,10 @@ def _find_layout(
     if width == 1:
         # No blank, tab or semicolon is expected, and none is then accepted.
         separator = ";" if reading.decimal == "," else ","
-    return _Layout(file, lines, sample[first], separator, names, width, most, reading)
-
-
-def _choose_separator(lines: list[str], decimal: str | None) -> tuple[str | None, float]:
-    """Return what turns lines into numbers best, the first among equals, and how many it does."""
-    there_are = [sign for sign in (";", "\t", ",") if any(sign in line for line in lines)]
-    if decimal == "," and not any('"' in line for line in lines) and "," in there_are:
-        there_are.remove(",")
-    scores: dict[str | None, float] = {sign: _score(lines, sign, decimal) for sign in there_are}
-    if scores.get("\t", 0.0) == 0.0:
-        scores[_BLANKS] = _score(lines, _BLANKS, decimal)
-    separator = max(scores, key=scores.__getitem__)
-    return separator, scores[separator]
-
-
-def _score(lines: list[str], separator: str | None, decimal: str | None) -> float:
-    """Return how many of the lines are numbers, if they are separated so."""
-    score = 0.0
-    for cells in (_cells(line, separator) for line in lines):
-        # What is not separated at all has no decimal comma: "1,5" is two cells.
-        if separator == "," or decimal == "," or len(cells) > 1 or "," not in cells[0]:
-            score += sum(map(is_number, cells)) / len(cells)
-    return score
-
-
-def _cells(line: str, separator: str | None) -> list[str]:
-    if '"' not in line:
-        return [cell.strip() for cell in line.split(separator)]
-    if separator is _BLANKS:
-        return [(quoted or plain).strip() for quoted, plain in _BLANK_SEPARATED.findall(line)]
-    try:
-        row = next(csv.reader([line], delimiter=separator, skipinitialspace=True, strict=True))
-    except csv.Error:  # an open quotation mark: it stays, and makes its cell no number
-        row = line.split(separator)
-    return [cell.strip() for cell in row]
+    place = f"{file}, line {sample[first] + 1}"
+    numbers = [lines[i] for i in sample[first:] if i < len(lines)]
+    refuse_doubtful_cells(place, numbers, separator, names, most, reading.decimal, columns)
+    return _Layout(file, lines, sample[first], separator, names, width, most, header, reading)
 
 
 def _parse_fast(table: _Layout, chosen: list[int]) -> npt.NDArray[np.float64] | None:
@@ -207,6 +181,8 @@ def _parse_fast(table: _Layout, chosen: list[int]) -> npt.NDArray[np.float64] | 
     lines = table.lines[table.first :]
     if any('"' in line for line in lines):
         return None
+    if table.separator is BLANKS and not all(map(str.isascii, lines)):
+        return None  # numpy separates by blanks of any kind
     has_commas = table.separator != "," and any("," in line for line in lines)
     if has_commas or table.reading.decimal == ",":
         if table.reading.decimal == "." or any("." in line for line in lines):
@@ -223,9 +199,15 @@ def _parse_fast(table: _Layout, chosen: list[int]) -> npt.NDArray[np.float64] | 
 
 def _parse_cell_by_cell(table: _Layout, chosen: list[int]) -> npt.NDArray[np.float64]:
     """Return the numbers, or say which cell is wrong and why."""
-    comma_separates = table.separator == ","
     return NumberTable(
-        table.file, "line", table.names, table.rows, table.reading, comma_separates, table.most
+        table.file,
+        "line",
+        table.names,
+        table.rows,
+        table.reading,
+        comma_separates=table.separator == ",",
+        most=table.most,
+        header=table.header,
     ).read(chosen)
 
 

@@ -15,7 +15,8 @@ from typing import Any
 from .._extras import extra, foreign_reader
 from ..curves.inputs import Array
 from .column_choice import choose_columns, choose_names, column_name
-from .number_tables import NumberTable, Reading, find_header, is_number, refuse_no_numbers
+from .number_tables import NumberTable, Reading, find_header, refuse_no_numbers
+from .number_texts import is_number
 
 __all__ = ["read_sheet_columns"]
 
@@ -34,7 +35,7 @@ def read_sheet_columns(
     if not any(numbers):
         cells = ((i, cell) for i, row in enumerate(rows, 1) for cell in row)
         refuse_no_numbers(place, "row", cells)
-    first, begin = find_header(rows, numbers)
+    first, begin = find_header(rows, numbers, columns)
     end = len(rows)
     if (until := reading.until) is not None:
         texts = (any(until in str(cell) for cell in row) for row in rows[first + 1 :])
@@ -43,8 +44,9 @@ def read_sheet_columns(
     width = max(j + 1 for row in rows[:end] for j, cell in enumerate(row) if cell != "")
     chosen = choose_columns(place, names, width, columns)
     numbered = list(enumerate(rows[:end], 1))[first:]
-    kept = [(i, row) for i, row in numbered if any(row[j] != "" for j in chosen)]
-    values = NumberTable(place, "row", names, lambda: kept, reading).read(chosen)
+    kept = [(i, row) for i, row in numbered if any(cell != "" for cell in row)]
+    header = rows[begin:first]
+    values = NumberTable(place, "row", names, lambda: kept, reading, header=header).read(chosen)
     return values, [column_name(names, j) for j in chosen]
 
 

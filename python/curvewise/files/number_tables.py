@@ -1,15 +1,13 @@
 """Rows of cells as numbers, whether they are lines of text or rows of a sheet.
 
-A text is a number by one decimal sign or by the other, with the other one between thousands or
-without: "1.234,5" by a comma alone, "1.234" by either. The first number read that leaves no doubt
-decides for the file. Time is linear in the cells, some 5 s for 10^6 points; what is not in doubt is
-read by faster parsers before it comes here.
+What is a number is told in number_texts.py. The first number read that leaves no doubt about the
+decimal sign decides for the file. Time is linear in the cells, some 5 s for 10^6 points; what is
+not in doubt is read by faster parsers before it comes here.
 """
 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NoReturn
@@ -18,24 +16,17 @@ import numpy as np
 
 from ..curves.foreign_curves import warn
 from ..curves.inputs import Array
+from .column_choice import asked_names
+from .number_texts import SIGNS, is_number, may_be_number, to_number
 
 __all__ = [
     "NumberTable",
     "Reading",
     "count_cells",
     "find_header",
-    "is_number",
     "refuse_no_numbers",
     "say_left_out",
 ]
-
-_SIGNS = ".,"
-_EXPONENT = r"(?:[eEdD][-+]?\d+)?"
-_GROUPED = {
-    ".": re.compile(rf"[-+]?[1-9]\d{{0,2}}(?:,\d{{3}})+(?:\.\d*)?{_EXPONENT}"),
-    ",": re.compile(rf"[-+]?[1-9]\d{{0,2}}(?:\.\d{{3}})+(?:,\d*)?{_EXPONENT}"),
-}
-_FORTRAN = re.compile(r"(?<=[\d.])[dD](?=[-+]?\d)")  # 1.5D-03
 
 
 @dataclass(frozen=True)
@@ -48,7 +39,7 @@ class Reading:
     skip_invalid: bool = False
 
     def __post_init__(self) -> None:
-        if self.decimal not in (None, *_SIGNS):
+        if self.decimal not in (None, *SIGNS):
             raise ValueError(f"decimal is {self.decimal!r}; choose from '.' and ','")
         if self.until == "":
             raise ValueError("until is empty; give a text of the row before which the curve ends")
@@ -70,6 +61,8 @@ class NumberTable:
     comma_separates: bool = False
     most: int | None = None
     """Cells that a row may have, if that is known. One more may come of a decimal comma."""
+    header: Sequence[Sequence[Any]] = ()
+    """The rows of the header, which may be repeated among the numbers."""
 
     def read(self, chosen: Sequence[int]) -> Array:
         """Return the columns, given by index; or say which cell is wrong, and why.
@@ -86,25 +79,37 @@ class NumberTable:
             Rows are left out.
         """
         decimal, groups = self._decimal(chosen)
-        points, wrong = [], []
+        points, wrong, empty, first_gap = [], [], [], ""
         for number, cells in self.rows():
             point, problem = [], ""
             for column in chosen:
                 cell = cells[column] if column < len(cells) else ""
-                value = _to_number(cell, decimal)
+                value = to_number(cell, decimal)
                 self._check_decimal(cell, value, decimal, groups, chosen)
                 if value is None or not math.isfinite(value):
                     problem = problem or f"{self._place(number, column)}: {_fault(cell, value)}"
                 else:
                     point.append(value)
+            if all(column >= len(cells) or cells[column] == "" for column in chosen):
+                # Below the last row of a curve stands that of a longer one beside it.
+                empty.append(number)
+                first_gap = first_gap or problem
+                continue
+            if first_gap and not self.reading.skip_invalid:
+                raise ValueError(first_gap)
             if not problem:
                 self._check_width(number, cells)
                 points.append(point)
-            elif self.reading.skip_invalid:
-                wrong.append(number)
             else:
-                raise ValueError(problem)
-        say_left_out(self.file, self.row, wrong, len(points) + len(wrong))
+                self._check_table(number, cells)
+                if not self.reading.skip_invalid:
+                    raise ValueError(problem)
+                wrong.append(number)
+            wrong += empty
+            empty = []
+        if not points and not wrong:
+            raise ValueError(first_gap)
+        say_left_out(self.file, self.row, sorted(wrong), len(points) + len(wrong))
         return np.array(points)
 
     def _place(self, number: int, column: int) -> str:
@@ -120,6 +125,23 @@ class NumberTable:
                 "expected by the lines above; if its commas are decimal signs, separate cells by "
                 "semicolons, and begin lines above that are no header with #"
             )
+
+    def _check_table(self, number: int, cells: Sequence[Any]) -> None:
+        """Refuse a row of names that are none of the header: a second table begins there."""
+        filled = _filled(cells)
+        words = [cell for cell in filled if isinstance(cell, str) and not may_be_number(cell)]
+        if (
+            len(set(words)) < 2
+            or len(words) < len(filled)
+            or not all(any(map(str.isalpha, word)) for word in words)
+            or filled in [_filled(row) for row in self.header]
+        ):
+            return
+        raise ValueError(
+            f"{self.file}, {self.row} {number}: {_shown(', '.join(words))} seems to be the header "
+            "of a second table; name the columns of the one that is meant (columns), or end the "
+            "curve before it (until)"
+        )
 
     def _decimal(self, chosen: Sequence[int]) -> tuple[str, bool]:
         """Return the decimal sign, and whether the other one may stand between thousands alone."""
@@ -149,7 +171,7 @@ class NumberTable:
             for column in range(len(cells)) if columns is None else columns:
                 cell = cells[column] if column < len(cells) else ""
                 if isinstance(cell, str) and ("," in cell or "." in cell):
-                    signs = [sign for sign in _SIGNS if _to_number(cell, sign) is not None]
+                    signs = [sign for sign in SIGNS if to_number(cell, sign) is not None]
                     if signs:
                         yield number, column, cell, signs
 
@@ -160,10 +182,10 @@ class NumberTable:
         other = "," if decimal == "." else "."
         if groups and (value is not None or self.reading.decimal is not None):
             return
-        if not isinstance(cell, str) or other not in cell or _to_number(cell, other) is None:
+        if not isinstance(cell, str) or other not in cell or to_number(cell, other) is None:
             return
         lines = {}
-        for sign in _SIGNS:
+        for sign in SIGNS:
             lines[sign] = next(
                 (line for line, _, text, _ in self._texts(chosen) if sign in text), 0
             )
@@ -195,38 +217,6 @@ def count_cells(cells: Sequence[Any]) -> int:
     return count
 
 
-def is_number(cell: Any) -> bool:
-    """Say whether a cell is a number by one decimal sign or the other, nan and inf included."""
-    return any(_to_number(cell, sign) is not None for sign in _SIGNS)
-
-
-def _to_number(cell: Any, decimal: str) -> float | None:
-    """Return a cell as a number, nan and inf included, or None if it is not one."""
-    if not isinstance(cell, str):
-        if isinstance(cell, bool) or not isinstance(cell, (int, float, np.number)):
-            return None
-        try:
-            return float(cell)
-        except OverflowError:  # a whole number of hundreds of digits
-            return math.inf
-    if "_" in cell:  # float("1_000") is 1000.0: Python's syntax, not a measurement
-        return None
-    other = "," if decimal == "." else "."
-    if other in cell:
-        if not _GROUPED[decimal].fullmatch(cell):
-            return None
-        cell = cell.replace(other, "")
-    cell = cell.replace(",", ".")
-    try:
-        return float(cell)
-    except ValueError:
-        pass
-    try:
-        return float(_FORTRAN.sub("e", cell))
-    except ValueError:
-        return None
-
-
 def _fault(cell: Any, value: float | None) -> str:
     """Say what is wrong with a cell."""
     if value is not None:
@@ -241,12 +231,16 @@ def _shown(cell: Any) -> str:
     return repr(cell if len(text) <= 40 else text[:37] + "...")
 
 
-def find_header(rows: Sequence[Sequence[Any]], numbers: Sequence[int]) -> tuple[int, int]:
+def find_header(
+    rows: Sequence[Sequence[Any]], numbers: Sequence[int], columns: Sequence[str | int] | None
+) -> tuple[int, int]:
     """Return where the rows of numbers begin, and where the header above them does.
 
     Numbers begin at the first row that has any, except where a header stands below "Width", 12.5:
     rows that begin with a text and have one number, with a row of names between them and the first
-    row of several numbers, which begins with one, describe the test.
+    row of several numbers, which begins with one, describe the test. Nor do they where a row
+    further down has all names that are asked for: what is above it is another table. A row of the
+    header that may be one of numbers, in all columns that have them, is no header.
 
     Parameters
     ----------
@@ -254,11 +248,36 @@ def find_header(rows: Sequence[Sequence[Any]], numbers: Sequence[int]) -> tuple[
         Cells, "" where they are empty.
     numbers : sequence of int
         How many cells of each row are numbers; one row has some.
+    columns : sequence of str or int, or None
+        What is asked for.
     """
+    first, begin = _first_numbers(rows, numbers)
+    asked = asked_names(columns)
+    if asked and not any(asked <= _names(row) for row in rows[begin:first]):
+        below = (i for i in range(first, len(rows)) if asked <= _names(rows[i]) and not numbers[i])
+        begin = next((i for i in below if any(numbers[i:])), begin)
+        first = next(i for i in range(max(begin, first), len(rows)) if numbers[i])
+    filled = [j for j, cell in enumerate(rows[first]) if is_number(cell)]
+    for i in range(begin, first):
+        if all(j < len(rows[i]) and may_be_number(rows[i][j]) for j in filled):
+            return i, begin
+    return first, begin
+
+
+def _names(row: Sequence[Any]) -> set[str]:
+    return {str(cell).strip() for cell in row}
+
+
+def _filled(row: Sequence[Any]) -> list[Any]:
+    return [cell for cell in row if cell != ""]
+
+
+def _first_numbers(rows: Sequence[Sequence[Any]], numbers: Sequence[int]) -> tuple[int, int]:
+    """Return where numbers begin, and the header, in what looks like a single table."""
     first = next(i for i, count in enumerate(numbers) if count)
     several = next((i for i, count in enumerate(numbers) if count > 1), first)
     described = [i for i in range(first, several) if numbers[i]]
-    filled = [sum(cell != "" for cell in row) for row in rows[:several]]
+    filled = [len(_filled(row)) for row in rows[:several]]
     names = [i for i in range(first, several) if not numbers[i] and filled[i] > 1]
     begins = next((cell for cell in rows[several] if cell != ""), "")
     if (

@@ -58,10 +58,57 @@ def sheet(tmp_path: Path):
         ("e,s,,\n1,2,,\n3,4,,\n", [[1, 2], [3, 4]]),
         ("Width;12,5\nThickness;1,5\n\ne;s\n%;N\n0;0\n0,1;1\n", [[0, 0], [0.1, 1]]),
         ("text;x\n" * 250 + "e;s\n0;0\n1;1\n", [[0, 0], [1, 1]]),
+        ("e;s\n\u22120,5;\u2013150\n0;1E\u221203\n", [[-0.5, -150], [0, 0.001]]),
+        (
+            "e;s\n1\u202f000;2'000,5\n1 001;2\u2019010\n500;9\n",
+            [[1000, 2000.5], [1001, 2010], [500, 9]],
+        ),
+        ("1\u00a0000\n2\u2009000\n", [[1000], [2000]]),
+        ("0.5,1 250\n0.6,2 250\n", [[0.5, 1250], [0.6, 2250]]),
+        ("a,b\n1\u00a0000,2\n", [[1000, 2]]),
+        ("a b\n1 000\n2 500\n", [[1, 0], [2, 500]]),
+        ('"sep=|"\na|b\n1|2\n', [[1, 2]]),
+        ("Red,,Blue,\nX,Y,X,Y\n0,1,.5,10\n1,2,,\n2,4,,\n", [[0, 1], [1, 2], [2, 4]]),
     ],
 )
 def test_numbers_of_machines_are_read(read, content, expected) -> None:
     assert read(content) == expected
+
+
+def test_the_names_asked_for_choose_the_table(read) -> None:
+    content = "Load;Modulus\n20,81;205432\n\nRaw data\nStrain;Stress\n%;MPa\n0;1\n2;3\n"
+    assert read(content, ["Strain", "Stress"]) == [[0, 1], [2, 3]]
+    with pytest.raises(
+        ValueError, match="line 5: 'Strain, Stress' seems to be the header of a sec"
+    ):
+        read(content, skip_invalid=True)
+    assert read(content, ["Modulus"], until="Raw data") == [[205432]]
+
+
+def test_a_curve_beside_a_longer_one_ends_before_it(read, sheet) -> None:
+    rows = [["x", "y", "x", "y"], [0, 1, 0.5, 10], [1, 2, 1.5, 20], [2, 4, "", ""], [3, 8, "", ""]]
+    text = "\n".join(",".join(map(str, row)) for row in rows)
+    assert read(text, [3, 4]) == [[0.5, 10], [1.5, 20]]
+    book = sheet(*([cell if cell != "" else None for cell in row] for row in rows))
+    assert read_curve(book, [3, 4]).tolist() == [[0.5, 10], [1.5, 20]]
+    rows[2][2:] = "", ""
+    rows[4][2:] = 2.5, 30
+    text = "\n".join(",".join(map(str, row)) for row in rows)
+    with pytest.raises(ValueError, match=r"line 3, column 3 \(x\): the cell is missing"):
+        read(text, [3, 4])
+    with pytest.warns(UserWarning, match="2 of 4 lines left out, .* the first is line 3"):
+        assert read(text, [3, 4], skip_invalid=True) == [[0.5, 10], [2.5, 30]]
+    book = sheet(*([cell if cell != "" else None for cell in row] for row in rows))
+    with pytest.raises(ValueError, match=r"row 3, column 3 \(x\): the cell is missing"):
+        read_curve(book, [3, 4])
+
+
+def test_dashes_and_apostrophes_of_windows_are_read(tmp_path: Path) -> None:
+    file = tmp_path / "loop.csv"
+    file.write_bytes("e;s\n–0,5;1’250\n0;1\n".encode("cp1252"))
+    assert read_curve(file).tolist() == [[-0.5, 1250], [0, 1]]
+    file.write_bytes(b"e\x81\xe9;s\n0;1\n")
+    assert read_curve(file, ["e\x81\xe9"]).tolist() == [[0]]
 
 
 def test_the_names_asked_for_choose_the_line_of_a_header(read) -> None:
@@ -82,6 +129,18 @@ def test_the_names_asked_for_choose_the_line_of_a_header(read) -> None:
         ("5 mm\n6 mm,\n", "'mm' is not a number"),
         ("a;1;x\nb;n/a;x\nc;2;7\n", "line 1, column 1: 'a' is not a number"),
         ("a1,b2\nx3,y4\n", "no line is made of numbers; the first with a digit is line 1, 'a1,b2'"),
+        ("e;s\n0,1 %;10 MPa\n0,2;20\n", "line 2, column 1 .*'0,1 %' is not a number; correct it"),
+        ("e;s\n(5);(10)\n0,2;20\n", r"line 2, column 1 .*'\(5\)' is not a number"),
+        ("e;s\nn/a;n/a\n0,2;20\n", "line 2, column 1 .*'n/a' is not a number"),
+        (
+            "1\u00a0000,2\n2\u00a0000,3\n",
+            "line 1: the commas of '1.*,2' may separate cells or stand in",
+        ),
+        ("1 000,5\n2 000,5\n", "line 1: the blanks of '1 000,5' may stand between thousands or"),
+        ("0,05,1,25\n0,10,2,50\n", "the commas of '0,05,1,25' may .*say which is the decimal sign"),
+        ("force\n0,5\n0,6\n", "line 2: the commas of '0,5' may separate cells or stand in numbers"),
+        ("a,b\n5,6\n\ne,s\n0,1\n", "line 4: 'e, s' seems to be the header of a second table; name"),
+        ("e;s\n0;1\n;\n1;\n", r"line 4, column 2 \(s\): the cell is missing"),
         ('"5 mm"\n', "no line is made of numbers; the first with a digit is line 1, '\"5 mm\"'"),
     ],
 )
