@@ -32,6 +32,9 @@ __all__ = ["read_csv_columns"]
 _IGNORED = re.compile(r"[\s;,]*$|\s*(?:#(?!N/A|DIV/0!|VALUE!|REF!|NAME\?|NUM!|NULL!)|%|//)")
 _SEPARATOR = re.compile(r'\s*"?sep=([^\w\s]|\t)"?[\s;,|]*$')  # as Excel writes and reads it
 _LAYOUT_LINES = 200
+_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+_HEAD = 2**16  # bytes in which a file that is no text has a zero byte, which ends the reading
+_LONGEST = 2**20  # characters of a line
 
 
 def read_csv_columns(
@@ -106,23 +109,34 @@ class _Layout:
 
 
 def _read_lines(path: str | os.PathLike[str]) -> list[str]:
+    file = os.fspath(path)
     try:
-        text = _decode(Path(path).read_bytes())
+        with Path(path).open("rb") as stream:
+            data = stream.read(_HEAD)
+            if data.startswith(_UTF_16) or b"\0" not in data:
+                data += stream.read()
     except OSError as error:  # one of reading does not name the file, as one of opening does
-        error.filename = error.filename or os.fspath(path)
+        error.filename = error.filename or file
         raise
+    text = _decode(data)
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     if "\0" in text:
         line = next(i for i, line in enumerate(lines, 1) if "\0" in line)
         raise ValueError(
-            f"{os.fspath(path)} is damaged, or not a text file: line {line} has a zero byte; save "
-            "the curve as CSV"
+            f"{file} is damaged, or not a text file: line {line} has a zero byte; save the curve "
+            "as CSV"
+        )
+    if len(text) > _LONGEST and max(map(len, lines)) > _LONGEST:
+        line = next(i for i, line in enumerate(lines, 1) if len(line) > _LONGEST)
+        raise ValueError(
+            f"{file}: line {line} has {len(lines[line - 1]):,} characters, and at most "
+            f"{_LONGEST:,} are read; write one point per line"
         )
     return lines
 
 
 def _decode(data: bytes) -> str:
-    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+    if data.startswith(_UTF_16):
         return data.decode("utf-16", errors="replace")
     try:
         return data.decode("utf-8-sig")

@@ -17,6 +17,7 @@ from ..curves.inputs import Array
 from ..curves.named_curve import NamedCurve
 from .csv_curves import read_csv_columns
 from .number_tables import Reading
+from .regular_files import check_file
 
 __all__ = ["read_curve", "read_named_columns"]
 
@@ -179,21 +180,13 @@ def read_named_columns(
     ...     read_named_columns(path, ["strain", 3], Reading())[1]
     ['strain', 'stress']
     """
-    kind = Path(path).suffix.lower()
-    if kind in _WORKBOOKS:
-        from .excel_curves import read_sheet_columns
-
-        values, names = read_sheet_columns(path, columns, reading)
-    elif reading.sheet is not None:
-        raise ValueError(
-            f"sheet is {reading.sheet!r}, and {os.fspath(path)} is no workbook; leave sheet out"
-        )
-    elif kind == ".mat":
-        from .mat_curves import read_mat_columns
-
-        values, names = read_mat_columns(path, columns, reading)
-    else:
-        values, names = read_csv_columns(path, columns, reading)
+    check_file(path)
+    try:
+        values, names = _read_columns(path, columns, reading)
+    except MemoryError as error:
+        raise MemoryError(
+            f"{os.fspath(path)} takes more memory than there is; give a part of it"
+        ) from error
     # What pictures call the columns.
     titles = [f"column {name}" if name.isdecimal() else name for name in names]
     if factors is None:
@@ -211,3 +204,23 @@ def read_named_columns(
         for name, factor in zip(titles, given.tolist(), strict=True)
     ]
     return NamedCurve(values * given, changed, Path(path).name), names
+
+
+def _read_columns(
+    path: str | os.PathLike[str], columns: Sequence[str | int] | None, reading: Reading
+) -> tuple[Array, list[str]]:
+    """Read columns by the reader of the file's kind."""
+    kind = Path(path).suffix.lower()
+    if kind in _WORKBOOKS:
+        from .excel_curves import read_sheet_columns
+
+        return read_sheet_columns(path, columns, reading)
+    if reading.sheet is not None:
+        raise ValueError(
+            f"sheet is {reading.sheet!r}, and {os.fspath(path)} is no workbook; leave sheet out"
+        )
+    if kind == ".mat":
+        from .mat_curves import read_mat_columns
+
+        return read_mat_columns(path, columns, reading)
+    return read_csv_columns(path, columns, reading)

@@ -1,14 +1,17 @@
-"""Curves from a sheet of a workbook, through pandas.
+"""Curves from a sheet of a workbook, through pandas and openpyxl.
 
-pandas reads the cells as they are; what is header and what is a number is decided by the rules for
-text files (number_tables.py): texts that are numbers count, too. Time and memory are linear in the
-number of cells.
+They read the cells as they are; what is header and what is a number is decided by the rules for
+text files (number_tables.py): texts that are numbers count, too. Rows are kept up to their last
+cell, so that a stray one far below or beside the others costs nothing. Time and memory are linear
+in the number of cells, of which a sheet of too many is refused while it is read.
 """
 
 from __future__ import annotations
 
+import math
 import os
-from collections.abc import Sequence
+import zipfile
+from collections.abc import Iterable, Iterator, Sequence
 from importlib import import_module
 from typing import Any
 
@@ -20,52 +23,114 @@ from .number_texts import is_number
 
 __all__ = ["read_sheet_columns"]
 
+_MOST_ROWS = 2**20  # of a sheet
+_MOST_CELLS = 32 * _MOST_ROWS
+# Bytes of a workbook's parts, unpacked: beyond the first only if packed no tighter than the second.
+_MOST_BYTES, _MOST_PACKED, _SMALL = 2**31, 200, 2**26
+
 
 def read_sheet_columns(
     path: str | os.PathLike[str], columns: Sequence[str | int] | None, reading: Reading
 ) -> tuple[Array, list[str]]:
     """Read columns of a sheet, and their names."""
     file = os.fspath(path)
-    title, rows = _cells(path, file, 1 if reading.sheet is None else reading.sheet)
+    title, numbered = _numbered_rows(path, file, 1 if reading.sheet is None else reading.sheet)
     place = f"{file}, sheet {title!r}"
+    rows = [row for _, row in numbered]
     # Texts that are numbers are no header only where nothing else is a number.
     numbers = [sum(is_number(cell) for cell in row if not isinstance(cell, str)) for row in rows]
     if not any(numbers):
         numbers = [sum(map(is_number, row)) for row in rows]
     if not any(numbers):
-        cells = ((i, cell) for i, row in enumerate(rows, 1) for cell in row)
-        refuse_no_numbers(place, "row", cells)
+        refuse_no_numbers(place, "row", ((i, cell) for i, row in numbered for cell in row))
     first, begin = find_header(rows, numbers, columns)
     end = len(rows)
     if (until := reading.until) is not None:
         texts = (any(until in str(cell) for cell in row) for row in rows[first + 1 :])
         end = next((i for i, found in enumerate(texts, first + 1) if found), end)
-    names = choose_names(rows[begin:first], columns)
-    width = max(j + 1 for row in rows[:end] for j, cell in enumerate(row) if cell != "")
-    chosen = choose_columns(place, names, width, columns)
-    numbered = list(enumerate(rows[:end], 1))[first:]
-    kept = [(i, row) for i, row in numbered if any(cell != "" for cell in row)]
     header = rows[begin:first]
+    names = choose_names(header, columns)
+    chosen = choose_columns(place, names, max(map(len, rows[:end])), columns)
+    kept = numbered[first:end]
     values = NumberTable(place, "row", names, lambda: kept, reading, header=header).read(chosen)
     return values, [column_name(names, j) for j in chosen]
 
 
-def _cells(
+def _numbered_rows(
     path: str | os.PathLike[str], file: str, sheet: str | int
-) -> tuple[str, list[list[Any]]]:
-    """Return a sheet's title, and its cells as they are, "" where they are empty."""
+) -> tuple[str, list[tuple[int, list[Any]]]]:
+    """Return a sheet's title, and its rows that are not empty, with their numbers from 1.
+
+    Each has its cells up to the last one that is filled, "" where they are empty.
+    """
     advice = "open it in a spreadsheet program and save it again, or save the curve as CSV"
     others = ", for .xls also xlrd, for .ods odfpy"
     with extra("curves", f"to read {file}, curvewise needs pandas and openpyxl", others):
         pandas = import_module("pandas")
+        _refuse_bomb(file)
         with foreign_reader(file, "workbook", advice):
             book = pandas.ExcelFile(path)
         with book:
             title = _find_sheet(file, book.sheet_names, sheet)
             with foreign_reader(file, "workbook", advice):
-                frame = pandas.read_excel(book, sheet_name=title, header=None, na_filter=False)
-    rows = frame.to_numpy(dtype=object).tolist()
-    return title, [[c.strip() if isinstance(c, str) else c for c in row] for row in rows]
+                if book.engine == "openpyxl":
+                    rows = _filled(_openpyxl_rows(book.book[title]))
+                else:
+                    frame = pandas.read_excel(book, sheet_name=title, header=None, na_filter=False)
+                    rows = _filled(frame.to_numpy(dtype=object).tolist())
+    if rows is None:
+        raise ValueError(
+            f"{file}, sheet {title!r} has more than {_MOST_ROWS:,} rows or {_MOST_CELLS:,} cells; "
+            "delete those that are far from the curve, or save the curve as CSV"
+        )
+    return title, rows
+
+
+def _refuse_bomb(file: str) -> None:
+    """Refuse a workbook whose parts are far larger than the file."""
+    try:
+        with zipfile.ZipFile(file) as parts:
+            size = sum(part.file_size for part in parts.infolist())
+    except zipfile.BadZipFile:  # of another kind, or damaged; its reader says so
+        return
+    if size > _MOST_BYTES or (size > _SMALL and size > _MOST_PACKED * os.path.getsize(file)):
+        raise ValueError(
+            f"{file} unpacks to {size / 2**20:,.0f} MiB, which no workbook with a curve has; save "
+            "the curve as CSV"
+        )
+
+
+def _openpyxl_rows(sheet: Any) -> Iterator[list[Any]]:
+    """Yield the rows of a sheet as pandas reads them, up to their last cells."""
+    sheet.reset_dimensions()  # what the file says of its size may be wrong
+    for cells in sheet.rows:
+        yield [_value(cell) for cell in cells] if cells else []
+
+
+def _filled(rows: Iterable[list[Any]]) -> list[tuple[int, list[Any]]] | None:
+    """Return rows that are not empty, with their numbers; None if they have too many cells."""
+    found: list[tuple[int, list[Any]]] = []
+    count = 0
+    for number, row in enumerate(rows, 1):
+        count += len(row) + 1
+        if number > _MOST_ROWS or count > _MOST_CELLS:
+            return None
+        cells = [cell.strip() if isinstance(cell, str) else cell for cell in row]
+        while cells and cells[-1] == "":
+            cells.pop()
+        if cells:
+            found.append((number, cells))
+    return found
+
+
+def _value(cell: Any) -> Any:
+    """Return what a cell holds as pandas does: "" where it is empty, nan where it is an error."""
+    value = cell.value
+    if value is None:
+        return ""
+    if cell.data_type == "e":
+        return math.nan
+    return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
 def _find_sheet(file: str, titles: list[str], sheet: str | int) -> str:

@@ -10,7 +10,9 @@ Python and scipy to begin.
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
 import sys
 import warnings
 from collections.abc import Iterator, Mapping
@@ -20,6 +22,8 @@ from typing import Any
 import numpy as np
 from scipy.io import loadmat  # type: ignore[import-untyped]
 
+# Bytes that a file may take unpacked: some, and so many times its own.
+_MEMORY, _TIMES = 2**32, 20
 _SAVE = "save it in MATLAB with save(..., '-v7')"
 
 
@@ -42,6 +46,16 @@ def main(file: str) -> None:
         sys.stdout.buffer.write(np.ascontiguousarray(column).tobytes())
 
 
+def _limit_memory(most: int) -> None:
+    """Have Python raise MemoryError beyond so many bytes, where the system can do that."""
+    with contextlib.suppress(ImportError, ValueError, OSError):
+        import resource
+
+        soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+        if soft == resource.RLIM_INFINITY or soft > most:
+            resource.setrlimit(resource.RLIMIT_AS, (most, hard))
+
+
 def _columns(content: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     """Yield the names and values of all columns, those of structures inside too."""
     for variable, value in content.items():
@@ -57,4 +71,5 @@ def _columns(content: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str
 
 
 if __name__ == "__main__":
+    _limit_memory(_MEMORY + _TIMES * os.path.getsize(sys.argv[1]))
     main(sys.argv[1])

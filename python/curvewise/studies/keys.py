@@ -12,6 +12,7 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, fields
+from pathlib import Path
 from typing import Any, TypeAlias, TypeVar
 
 from .._names import did_you_mean
@@ -25,6 +26,7 @@ __all__ = [
     "described",
     "flag",
     "fraction",
+    "in_run",
     "key",
     "key_at",
     "mapping",
@@ -170,11 +172,20 @@ def path(source: Source, path: KeyPath, value: Any) -> Any:
 
 
 text = reader("a text", lambda value: isinstance(value, str) and value.strip(), str)
+in_run = reader(
+    "a path inside the run's folder, neither absolute nor with ..",
+    lambda value: isinstance(value, str) and value.strip() and _stays_inside(value),
+    str,
+)
 flag = reader("true or false", lambda value: isinstance(value, bool), bool)
 whole = reader(
     "a whole number", lambda value: isinstance(value, int) and not isinstance(value, bool), int
 )
 mapping = reader("a table, { name = value }", lambda value: isinstance(value, Mapping), dict)
+
+
+def _stays_inside(path: str) -> bool:
+    return "\0" not in path and ".." not in (parts := Path(path)).parts and not parts.is_absolute()
 
 
 def name(value: Any) -> str:

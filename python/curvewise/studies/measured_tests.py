@@ -62,7 +62,7 @@ class Columns:
 class Output(Columns):
     """A table [tests.output]: where a run has the simulation of a test."""
 
-    file: str = key(keys.text, "", required="the file that the solver writes")
+    file: str = key(keys.in_run, "", required="the file that the solver writes")
     format: str = key(keys.choice(tuple(FORMATS)), "")
     value: Formula | None = key(_formula)
     first_point: tuple[float, ...] = key(keys.numbers, ())

@@ -53,7 +53,7 @@ def _scratch(source: Source, path: KeyPath, value: Any) -> Path:
 class Success:
     """How a run says that it is complete: by a text in a file."""
 
-    file: str = key(keys.text, LOG)
+    file: str = key(keys.in_run, LOG)
     text: str = key(keys.text, "", required="the text that a complete run writes")
 
 

@@ -17,10 +17,13 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from .._extras import extra
+from ..files.regular_files import check_file
 
 __all__ = ["KeyPath", "Source", "StudyError"]
 
 KeyPath: TypeAlias = tuple["str | int", ...]
+
+_LARGEST = 2**24  # bytes of a study file
 
 _TOKEN = re.compile(
     r'(?P<text>"""(?:\\.|(?!""").)*"{3,5}|\'\'\'(?:(?!\'\'\').)*\'{3,5}'
@@ -62,7 +65,7 @@ class Source:
     Raises
     ------
     StudyError
-        The file is no TOML.
+        The file is no TOML, or no regular file of at most 16 MiB.
     OSError
         It cannot be read.
     ImportError
@@ -73,6 +76,10 @@ class Source:
         self.path = Path(path)
         self.folder = self.path.parent.resolve()
         self._found: list[tuple[int, str]] = []
+        try:
+            check_file(self.path, _LARGEST)
+        except ValueError as error:
+            raise StudyError([str(error)]) from None
         content = self.path.read_bytes()
         try:
             text = content.decode("utf-8-sig").replace("\r\n", "\n")
