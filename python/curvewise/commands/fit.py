@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import warnings
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -16,9 +17,6 @@ from .reading import add_factors, add_reading, add_sheet, read_file, warnings_pr
 from .shown import failures_unlogged, require_matplotlib
 
 __all__ = ["add_fit"]
-
-# What a name of a column says of strains that are in per cent.
-_PER_CENT = ("%", "percent", "per cent")
 
 
 def add_fit(commands: Any) -> None:
@@ -100,7 +98,7 @@ def _known(text: str) -> tuple[str, float]:
 
 
 def _fit(arguments: argparse.Namespace) -> int:
-    from ..fitting import fit_material
+    from ..fitting import UnitsWarning, fit_material
 
     require_matplotlib()
     kind = MATERIALS[arguments.material]
@@ -109,7 +107,8 @@ def _fit(arguments: argparse.Namespace) -> int:
     reading = Reading(arguments.sheet, arguments.decimal, arguments.until, arguments.skip_invalid)
     with warnings_printed():
         tests = [_test(file, arguments, reading) for file in arguments.tests]
-    with failures_unlogged():
+    with failures_unlogged(), warnings.catch_warnings():
+        warnings.simplefilter("ignore", UnitsWarning)  # they have been asked about
         fit = fit_material(
             tests,
             material,
@@ -129,11 +128,14 @@ def _fit(arguments: argparse.Namespace) -> int:
 
 
 def _test(file: str, arguments: argparse.Namespace, reading: Reading) -> Array:
-    """Read a test; ask about strains whose column says that they are in per cent."""
-    test, names = read_file(file, arguments.columns, reading, arguments.factors)
-    if arguments.factors is None and any(sign in names[0].lower() for sign in _PER_CENT):
+    """Read a test; ask about units that it seems to have, where no factors are given."""
+    from ..fitting.units_of_tests import doubt_of
+
+    test, _ = read_file(file, arguments.columns, reading, arguments.factors)
+    if arguments.factors is None and (doubt := doubt_of(test, arguments.units)):
+        factors = " ".join(doubt.factors)
         raise ValueError(
-            f"{file}: the strain is in column {names[0]!r}, which seems to be in per cent; give "
-            "--factors 0.01 1, or --factors 1 1 if it is not"
+            f"{file}: {doubt.found}; give --factors {factors}{doubt.where}, or --factors 1 1 if "
+            "its units are right"
         )
     return test

@@ -12,7 +12,14 @@ from typing import Any
 from ..curves.column_roles import is_time
 from ..curves.foreign_curves import warn
 
-__all__ = ["TimeColumnWarning", "asked_names", "choose_columns", "choose_names", "column_name"]
+__all__ = [
+    "TimeColumnWarning",
+    "asked_names",
+    "choose_columns",
+    "choose_names",
+    "column_name",
+    "column_unit",
+]
 
 _DIGITS = 18  # of a number of a column; Python refuses to read numbers of thousands
 
@@ -103,6 +110,11 @@ def asked_names(columns: Sequence[str | int] | None) -> set[str]:
 def column_name(names: list[str], column: int) -> str:
     """Return the name of a column, given by index, or its number as a user counts."""
     return (names[column] if column < len(names) else "") or str(column + 1)
+
+
+def column_unit(units: list[str], column: int) -> str:
+    """Return the unit of a column, given by index, or nothing."""
+    return units[column] if column < len(units) else ""
 
 
 def _find_column(file: str, names: list[str], width: int, column: str | int) -> int:

@@ -20,7 +20,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from .column_choice import choose_columns, choose_names, column_name
+from .column_choice import choose_columns, choose_names, column_name, column_unit
+from .column_units import units_row
 from .number_tables import NumberTable, Reading, count_cells, find_header, refuse_no_numbers
 from .number_texts import is_number
 from .separators import BLANKS, cells_of, choose_separator, refuse_doubtful_cells
@@ -39,7 +40,7 @@ _LONGEST = 2**20  # characters of a line
 
 def read_csv_columns(
     path: str | os.PathLike[str], columns: Sequence[str | int] | None, reading: Reading
-) -> tuple[npt.NDArray[np.float64], list[str]]:
+) -> tuple[npt.NDArray[np.float64], list[str], list[str]]:
     r"""Read the columns of a text file, and say which they are.
 
     Parameters
@@ -55,6 +56,8 @@ def read_csv_columns(
         The curve.
     names : list of str
         Of each column its name in the header; its number, from 1, where it has none.
+    units : list of str
+        Of each column what a row of units gives it; "" where there is none.
 
     Raises
     ------
@@ -78,7 +81,8 @@ def read_csv_columns(
     values = _parse_fast(table, chosen)
     if values is None or not np.isfinite(values).all():
         values = _parse_cell_by_cell(table, chosen)
-    return values, [column_name(table.names, column) for column in chosen]
+    names = [column_name(table.names, column) for column in chosen]
+    return values, names, [column_unit(table.units, column) for column in chosen]
 
 
 @dataclass(frozen=True)
@@ -99,6 +103,8 @@ class _Layout:
     """Cells that a line may have: those of the header, or else of the first line of numbers."""
     header: list[list[str]]
     """The lines above the first one of numbers."""
+    units: list[str]
+    """What a row of units has, blank or missing where it has none."""
     reading: Reading
 
     def rows(self) -> Iterator[tuple[int, list[str]]]:
@@ -187,7 +193,12 @@ def _find_layout(
     place = f"{file}, line {sample[first] + 1}"
     numbers = [lines[i] for i in sample[first:] if i < len(lines)]
     refuse_doubtful_cells(place, numbers, separator, names, most, reading.decimal, columns)
-    return _Layout(file, lines, sample[first], separator, names, width, most, header, reading)
+    above = text[sample[begin] if begin else 0 : sample[first]]  # "%;MPa" is no comment here
+    kept = [line for line in above if line.lstrip().startswith("%") or not _IGNORED.match(line)]
+    units = units_row([cells_of(line, separator) for line in kept], names)
+    return _Layout(
+        file, lines, sample[first], separator, names, width, most, header, units, reading
+    )
 
 
 def _parse_fast(table: _Layout, chosen: list[int]) -> npt.NDArray[np.float64] | None:

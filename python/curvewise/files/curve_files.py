@@ -15,6 +15,7 @@ import numpy as np
 
 from ..curves.inputs import Array
 from ..curves.named_curve import NamedCurve
+from .column_units import titled
 from .csv_curves import read_csv_columns
 from .number_tables import Reading
 from .regular_files import check_file
@@ -40,29 +41,33 @@ def read_curve(
     and everything else is text, one point per line:
 
     Separator
-        Semicolon, tab, comma or blanks, whichever turns the first 200 lines into numbers best.
-        Cells may be quoted. A file with numbers between tabs is never read as separated by
-        blanks, so that an empty cell stays one.
+        Semicolon, tab, ``|``, comma or blanks, whichever turns the first 200 lines into numbers
+        best, or what a first line such as "sep=;" says. Cells may be quoted. A file with numbers
+        between tabs is never read as separated by blanks, so that an empty cell stays one. Lines
+        without a header that may be other cells, such as "1 000,5", are refused.
     Decimal sign
         A point; or a comma where the separator is a semicolon, a tab or blanks ("1,5;2,5"), or
         where cells are quoted. ("1,5" on its own is two columns.) The first number read that is
         one with one of the signs alone decides; with decimal commas "1.000" and "1.000,5" have
         points between thousands. What stays open, as "1,234" beside "0.5", is refused: give
-        `decimal`. Exponents may be Fortran's, "1.5D-03".
+        `decimal`. Exponents may be Fortran's, "1.5D-03". The minus sign may be U+2212 or a dash.
+        Blanks of any width and apostrophes may stand between thousands.
     Header
         All lines before the first one that holds a number, and before them lines that begin with
         a text and hold one number, such as "Width;12,5", if a line of names follows. The column
         names are the one line with the most cells, the first among equals; or that has all names
-        in `columns`. Names that blanks separate count only if there are as many as columns.
-        Lines with more cells than there are names are refused.
+        in `columns`; that line may be further down, above a second table. Names that blanks
+        separate count only if there are as many as columns. Lines with more cells than there are
+        names are refused, and so is a second table whose names are not asked for. A row that
+        looks like numbers, such as "0,1 %;10 MPa", is no header. A row of units names the units.
     Ignored
-        Empty lines (separators alone too), lines that begin with #, % or //, and columns that
-        are not asked for.
+        Empty lines (separators alone too), lines that begin with #, % or //, columns that are
+        not asked for, and below the last point rows that are empty in those asked for.
     Encoding
-        UTF-8, UTF-16 with a byte order mark, else Latin-1. Lines end with CR, LF or CRLF.
+        UTF-8, UTF-16 with a byte order mark, else Windows-1252 or Latin-1. Lines end with CR, LF
+        or CRLF.
 
-    A sheet of a workbook has its header as text has; rows that are empty in the columns asked for
-    are ignored. The columns of a .mat file are its real arrays in the order of the file: a vector
+    A sheet of a workbook is read by the same rules. The columns of a .mat file are its real arrays in the order of the file: a vector
     is a column of its variable's name; a matrix A of k > 1 columns is "A(:,1)" to "A(:,k)"; the
     fields of a structure are "test.strain".
 
@@ -94,7 +99,8 @@ def read_curve(
     -------
     ndarray, shape (n, d)
         One row per point, one column per entry of `columns`, in the units of the file times
-        `factors`. It remembers the names of its columns, which pictures write on their axes.
+        `factors`. It remembers the names and units of its columns, which pictures write on their
+        axes.
 
     Raises
     ------
@@ -103,11 +109,14 @@ def read_curve(
         such column or sheet (lists those there are); no line holds a number, or none is left; two
         decimal signs; a line with more cells than names; a damaged file, or one of another kind;
         factors that are not finite, that are 0, or not one per column; a sheet of a file that is
-        no workbook; MATLAB variables of different lengths, or a .mat file of version 7.3.
+        no workbook; a device or a pipe, a file above 4 GiB, a line above 2^20 characters, a sheet
+        above 2^25 cells; MATLAB variables of different lengths, or a .mat file of version 7.3.
     ImportError
         A workbook without pandas and openpyxl, or a .mat file without scipy.
     OSError
         The file cannot be read.
+    MemoryError
+        The file takes more memory than there is.
 
     Warns
     -----
@@ -182,13 +191,16 @@ def read_named_columns(
     """
     check_file(path)
     try:
-        values, names = _read_columns(path, columns, reading)
+        values, names, units = _read_columns(path, columns, reading)
     except MemoryError as error:
         raise MemoryError(
             f"{os.fspath(path)} takes more memory than there is; give a part of it"
         ) from error
     # What pictures call the columns.
-    titles = [f"column {name}" if name.isdecimal() else name for name in names]
+    titles = [
+        titled(f"column {name}" if name.isdecimal() else name, unit)
+        for name, unit in zip(names, units, strict=True)
+    ]
     if factors is None:
         return NamedCurve(values, titles, Path(path).name), names
     given = np.asarray(factors, dtype=np.float64)
@@ -208,7 +220,7 @@ def read_named_columns(
 
 def _read_columns(
     path: str | os.PathLike[str], columns: Sequence[str | int] | None, reading: Reading
-) -> tuple[Array, list[str]]:
+) -> tuple[Array, list[str], list[str]]:
     """Read columns by the reader of the file's kind."""
     kind = Path(path).suffix.lower()
     if kind in _WORKBOOKS:

@@ -17,7 +17,8 @@ from typing import Any
 
 from .._extras import extra, foreign_reader
 from ..curves.inputs import Array
-from .column_choice import choose_columns, choose_names, column_name
+from .column_choice import choose_columns, choose_names, column_name, column_unit
+from .column_units import units_row
 from .number_tables import NumberTable, Reading, find_header, refuse_no_numbers
 from .number_texts import is_number
 
@@ -31,8 +32,8 @@ _MOST_BYTES, _MOST_PACKED, _SMALL = 2**31, 200, 2**26
 
 def read_sheet_columns(
     path: str | os.PathLike[str], columns: Sequence[str | int] | None, reading: Reading
-) -> tuple[Array, list[str]]:
-    """Read columns of a sheet, and their names."""
+) -> tuple[Array, list[str], list[str]]:
+    """Read columns of a sheet, their names, and the units that a row of the header gives them."""
     file = os.fspath(path)
     title, numbered = _numbered_rows(path, file, 1 if reading.sheet is None else reading.sheet)
     place = f"{file}, sheet {title!r}"
@@ -53,7 +54,8 @@ def read_sheet_columns(
     chosen = choose_columns(place, names, max(map(len, rows[:end])), columns)
     kept = numbered[first:end]
     values = NumberTable(place, "row", names, lambda: kept, reading, header=header).read(chosen)
-    return values, [column_name(names, j) for j in chosen]
+    units = units_row(header, names)
+    return values, [column_name(names, j) for j in chosen], [column_unit(units, j) for j in chosen]
 
 
 def _numbered_rows(

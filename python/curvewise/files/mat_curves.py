@@ -28,8 +28,8 @@ _SCRIPT = os.path.join(os.path.dirname(__file__), "mat_process.py")
 
 def read_mat_columns(
     path: str | os.PathLike[str], columns: Sequence[str | int] | None, reading: Reading
-) -> tuple[Array, list[str]]:
-    """Read columns of the arrays of a .mat file, and their names."""
+) -> tuple[Array, list[str], list[str]]:
+    """Read columns of the arrays of a .mat file, their names, and no units."""
     file = os.fspath(path)
     found = _columns(file)
     if not found:
@@ -52,7 +52,7 @@ def read_mat_columns(
             "be finite"
         )
     say_left_out(file, "row", (wrong + 1).tolist(), len(values))
-    return np.delete(values, wrong, axis=0), chosen
+    return np.delete(values, wrong, axis=0), chosen, [""] * len(chosen)
 
 
 def _columns(file: str) -> dict[str, Array]:

@@ -6,5 +6,6 @@ What ``curvewise fit`` does, as a function: :func:`fit_material`.
 from __future__ import annotations
 
 from .material_fit import MaterialFit, fit_material
+from .units_of_tests import UnitsWarning
 
-__all__ = ["MaterialFit", "fit_material"]
+__all__ = ["MaterialFit", "UnitsWarning", "fit_material"]

@@ -28,6 +28,7 @@ from ..curves.turns import turning_points
 from ..materials import DrivenModel, Material
 from ..materials.readings import reading_of
 from .driven_tests import Cycles, DrivenTests, fit_criterion, fit_method
+from .units_of_tests import warn_of_units
 from .wider_bounds import Beyond, search_within
 
 __all__ = ["MaterialFit", "fit_material"]
@@ -267,6 +268,12 @@ def fit_material(
     ImportError
         scipy or tqdm is missing: ``pip install "curvewise[calibration]"``.
 
+    Warns
+    -----
+    UnitsWarning
+        A test seems to have other units: by the names of its columns, or by a modulus outside
+        1 to 1,000 GPa in `units`.
+
     Notes
     -----
     Seconds. What the tests do not determine is said, and is not to be used beyond their strains.
@@ -286,6 +293,7 @@ def fit_material(
     {'E': 200000.0, 'yield': 300.0, 'Q': -50.0, 'b': 8.0, 'C1': 80000.0, 'gamma1': 400.0}
     """
     given = curve_list(tests)
+    warn_of_units(given, units)
     driven = DrivenTests.of(material, given, cycles=cycles, points=points)
     read_off = material.bounds_from(given) if bounds is None else bounds
     known = dict(fixed or {})

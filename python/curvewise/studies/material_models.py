@@ -14,6 +14,7 @@ from .._names import did_you_mean
 from ..calibration.problem.space import Space
 from ..fitting.driven_tests import CYCLES, DrivenTests
 from ..fitting.material_fit import modulus_of
+from ..fitting.units_of_tests import doubt_of
 from ..materials import MATERIALS, DrivenModel, Material
 from ..solvers.cards import FORMATS
 from . import keys
@@ -110,6 +111,17 @@ def drive(
                 ("parameters", name),
                 f"is no parameter of {model.material}{hint} (they are {', '.join(material.names)})",
             )
+
+    for i, test in enumerate(tests):
+        told = test.factors or test.x is not None
+        if not told and (doubt := doubt_of(test.experiment, model.units)):
+            factors = ", ".join(doubt.factors)
+            source.problem(
+                ("tests", i),
+                f"{doubt.found}; give factors = [{factors}]{doubt.where}, or factors = [1, 1] if "
+                "its units are right",
+            )
+    source.raise_problems()
 
     def each(what: Callable[[list[Any]], T]) -> None:
         for i, test in enumerate(tests):

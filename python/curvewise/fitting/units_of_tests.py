@@ -1,0 +1,166 @@
+"""Whether the strains and stresses of a test are in the units of a fit, as far as it tells.
+
+A name or a row of units may say that they are not; so may a modulus that no usual material has.
+Nothing is converted: the user is asked, and says so by factors. Cost: linear in the test.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+from unicodedata import normalize
+
+import numpy as np
+
+from ..curves.foreign_curves import warn
+from ..curves.named_curve import known_names
+from ..files.column_units import FORCES, LENGTHS, STRAINS, STRESSES, unit_of
+from ..materials.readings import reading_of, strain_and_stress
+
+__all__ = ["Doubt", "UnitsWarning", "doubt_of", "warn_of_units"]
+
+_PLAUSIBLE = (1e3, 1e6)  # MPa: moduli that are not asked about
+_FRACTION = 0.5  # strains beyond it are none
+_USUAL = (3e4, 4.5e5)  # MPa: moduli by which a unit explains one that is asked about
+_EXPLAINING = {1.0: "", 1e-2: "per cent", 1e-3: "mm/m", 1e-6: "µm/m"}
+_STRESS_UNITS = {
+    "": "",
+    "pa": "Pa",
+    "kpa": "kPa",
+    "mpa": "MPa",
+    "gpa": "GPa or kN/mm²",
+    "psi": "psi",
+    "ksi": "ksi",
+}
+
+
+class UnitsWarning(UserWarning):
+    """A test seems to have other units than a fit takes."""
+
+
+class Doubt(NamedTuple):
+    """What is asked about the units of a test.
+
+    Attributes
+    ----------
+    found : str
+        What seems to be.
+    factors : tuple of str
+        What strain and stress would be multiplied by if so: numbers, or letters.
+    where : str
+        What the letters are, or nothing.
+    """
+
+    found: str
+    factors: tuple[str, str]
+    where: str
+
+
+def doubt_of(test: Any, units: str) -> Doubt | None:
+    """Return what has to be asked about a test: names with other units first, then its modulus.
+
+    Parameters
+    ----------
+    test : array_like
+        Strain and stress; a curve that was read from a file knows the names of its columns.
+    units : str
+        Of the stresses of the fit.
+    """
+    names = known_names(test)
+    known = _by_names(names, units) if len(names) == 2 else None
+    return known or _by_modulus(test, units)
+
+
+def warn_of_units(tests: Sequence[Any], units: str) -> None:
+    """Warn of each test whose units have to be asked about."""
+    for i, test in enumerate(tests):
+        if doubt := doubt_of(test, units):
+            factors = ", ".join(doubt.factors)
+            warn(
+                UnitsWarning(
+                    f"tests[{i}]: {doubt.found}; if so, multiply its columns (read_curve: "
+                    f"factors=[{factors}]{doubt.where}); if not, ignore this UnitsWarning"
+                )
+            )
+
+
+def _by_names(names: Sequence[str], units: str) -> Doubt | None:
+    """Return what the names of two columns, or a row of units, say of them."""
+    found, factors, where = [], ["1", "1"], []
+    strain, stress = map(unit_of, names)
+    if STRAINS.get(strain, 1.0) != 1.0:
+        factors[0] = f"{STRAINS[strain]:g}"
+        found.append(_seems("strain", names[0], f"in {_EXPLAINING[STRAINS[strain]]}"))
+    elif strain in LENGTHS:
+        factors[0] = "F1"
+        where.append("F1 = 1 / gauge length")
+        found.append(_seems("strain", names[0], "a length"))
+    target = _in_mpa(units)
+    if target is not None and STRESSES.get(stress, target) != target:
+        factors[1] = f"{STRESSES[stress] / target:.7g}"
+        found.append(_seems("stress", names[1], f"in other units than {units}"))
+    elif target is not None and stress in FORCES:
+        factors[1] = "F2"
+        where.append(f"F2 = {FORCES[stress] / target:.7g} / area in mm²")
+        found.append(_seems("stress", names[1], "a force"))
+    if not found:
+        return None
+    letters = f" with {' and '.join(where)}" if where else ""
+    return Doubt(", and ".join(found), (factors[0], factors[1]), letters)
+
+
+def _seems(what: str, name: str, unit: str) -> str:
+    return f"the {what} is in column {name!r}, which seems to be {unit}"
+
+
+def _by_modulus(test: Any, units: str) -> Doubt | None:
+    """Return what the slope of a test says, if it is none of a usual material in these units."""
+    target = _in_mpa(units)
+    if target is None:
+        return None
+    try:
+        points = strain_and_stress(test, "test")
+        # Strains that are no fractions are refused when they are read.
+        scale = 1e-6 if np.abs(points[:, 0]).max() > _FRACTION else 1.0
+        moduli = reading_of(points * (scale, 1.0), "test").moduli
+    except ValueError:  # not a test that a fit takes, which says so
+        return None
+    modulus = scale * float(np.median(moduli))
+    if _PLAUSIBLE[0] <= modulus * target <= _PLAUSIBLE[1]:
+        return None
+    found = f"its modulus is {modulus:.4g} {units}, outside 1 to 1,000 GPa"
+    explained = sorted(
+        (_Explanation(strain, stress) for strain in _EXPLAINING for stress in _STRESS_UNITS),
+        key=_Explanation.changes,
+    )
+    explained = [
+        one
+        for one in explained
+        if _USUAL[0] <= modulus * STRESSES.get(one.stress, target) / one.strain <= _USUAL[1]
+    ]
+    if not explained:
+        return Doubt(found, ("F1", "F2"), " with the factors of its units, 1 / area of a force")
+    first = explained[0]
+    alike = [str(one) for one in explained if one.changes() == first.changes()]
+    factors = f"{first.strain:g}", f"{STRESSES.get(first.stress, target) / target:.7g}"
+    return Doubt(f"{found}, as it would be with {' or '.join(alike)}", factors, "")
+
+
+class _Explanation(NamedTuple):
+    """Units of strain, by their factor, and of stress, that would explain a modulus."""
+
+    strain: float
+    stress: str
+
+    def changes(self) -> int:
+        return (self.strain != 1.0) + bool(self.stress)
+
+    def __str__(self) -> str:
+        said = [f"strains in {_EXPLAINING[self.strain]}"] if self.strain != 1.0 else []
+        said += [f"stresses in {_STRESS_UNITS[self.stress]}"] if self.stress else []
+        return " and ".join(said)
+
+
+def _in_mpa(units: str) -> float | None:
+    """Return how many MPa a unit of stress is, or None if it is not known."""
+    return STRESSES.get(normalize("NFKC", units).casefold().strip())
