@@ -67,9 +67,9 @@ def read_curve(
         UTF-8, UTF-16 with a byte order mark, else Windows-1252 or Latin-1. Lines end with CR, LF
         or CRLF.
 
-    A sheet of a workbook is read by the same rules. The columns of a .mat file are its real arrays in the order of the file: a vector
-    is a column of its variable's name; a matrix A of k > 1 columns is "A(:,1)" to "A(:,k)"; the
-    fields of a structure are "test.strain".
+    A sheet of a workbook is read by the same rules. The columns of a .mat file are its real arrays
+    in the order of the file: a vector is a column of its variable's name; a matrix A of k > 1
+    columns is "A(:,1)" to "A(:,k)"; the fields of a structure are "test.strain".
 
     Parameters
     ----------

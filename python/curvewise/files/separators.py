@@ -20,7 +20,7 @@ BLANKS = None  # what str.split and numpy.loadtxt take as the separator "any run
 _BLANK_SEPARATED = re.compile(r'"([^"]*)"(?!\S)|(\S+)')
 # Blanks, without a narrow or no-break one between thousands.
 _BLANK = re.compile(rf"(?:(?!(?<=\d)[{BLANKS_IN_NUMBERS}]\d{{3}}(?!\d))\s)+")
-_LEADING_ZERO = re.compile(r"[-+]?0\d+")
+_LEADING_ZERO = re.compile(r"[-+]?0\d+(?:[eEdD][-+]?\d+)?")
 _GROUPS = {
     BLANKS: re.compile(r"(?<![\d.,])[1-9]\d{0,2}(?: \d{3})+(?!\d)"),
     ",": re.compile(r"(?<![\d.])[1-9]\d{0,2}(?:,\d{3})+(?=\.\d)"),
@@ -123,18 +123,21 @@ def refuse_doubtful_cells(
     """
     rows = [cells_of(line, separator) for line in lines]
     counts = [sum(map(bool, row)) for row in rows]
-    named = sum(map(bool, names)) >= max(2, *counts)
+    named = max((i for i, name in enumerate(names, 1) if name), default=0) >= max(2, *counts)
     if not 2 <= max(counts) <= most or (
         named and (separator is not BLANKS or len(set(counts)) == 1)
     ):
         return
+    # A column that there would not be says that these are cells.
+    last = max((int(column) for column in columns or () if str(column).isdecimal()), default=0)
     if separator is BLANKS and (
-        _may_be_joined(lines, counts, BLANKS, columns) or any(map(_GROUP_OF_ZERO.search, lines))
+        _may_be_joined(lines, counts, BLANKS, last) or any(map(_GROUP_OF_ZERO.search, lines))
     ):
         what = "blanks of {} may stand between thousands or between cells; write numbers without "
         what += "blanks, or name the columns in the line above"
-    elif (separator, decimal, columns) == (",", None, None) and (
-        _may_be_joined(lines, counts, ",", columns) or _may_be_split(rows, names)
+    elif (separator, decimal) == (",", None) and (
+        _may_be_joined(lines, counts, ",", last)
+        or (2 * last <= max(counts) + 1 and _may_be_split(rows, names))
     ):
         what = "commas of {} may separate cells or stand in numbers; say which is the decimal sign "
         what += "(decimal), or name the columns in the line above"
@@ -147,16 +150,16 @@ def _may_be_joined(
     lines: Sequence[str],
     counts: list[int],
     separator: str | None,
-    columns: Sequence[str | int] | None,
+    last: int,
 ) -> bool:
     """Say whether what separates cells may stand between thousands: "1 000", "1,000"."""
     group = _GROUPS[separator]
     joined = [sum(map(bool, cells_of(group.sub("0", line), separator))) for line in lines]
     if sum(joined) == sum(counts):
         return False
-    most = max((int(c) for c in columns or () if str(c).isdecimal()), default=0)
-    known = most > max(joined)  # a column that there would not be
-    return not known and (len(set(counts)) > 1 or (len(set(joined)) == 1 and joined[0] < counts[0]))
+    return last <= max(joined) and (
+        len(set(counts)) > 1 or (len(set(joined)) == 1 and joined[0] < counts[0])
+    )
 
 
 def _may_be_split(rows: Sequence[list[str]], names: Sequence[str]) -> bool:

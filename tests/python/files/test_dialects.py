@@ -126,14 +126,14 @@ class Dialect:
         return self.chance.choice(("\n", "\r\n")).join([*lines, ""])
 
 
-def outcome(file: Path, table: Table) -> str:
+def outcome(file: Path, table: Table, columns: list[int] | None = None) -> str:
     """Return "right", "said", or what was read without a word."""
     expected = [[float(text) for text in row] for row in table]
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         for skip in (False, True):
             try:
-                read = read_curve(file, skip_invalid=skip).tolist()
+                read = read_curve(file, columns, skip_invalid=skip).tolist()
             except (ValueError, UserWarning) as error:
                 found = "said" if str(file) in str(error) else f"said {error}"
             else:
@@ -148,7 +148,7 @@ def sweep(count: int, write: Callable[[random.Random], tuple[Path, Table, str]])
     right = 0
     for seed in range(count):
         file, table, content = write(random.Random(seed))
-        found = outcome(file, table)
+        found = outcome(file, table, [1, 2] if seed % 3 == 0 else None)
         assert found in ("right", "said"), f"seed {seed}: {found}\n{content}"
         right += found == "right"
     return right / count
