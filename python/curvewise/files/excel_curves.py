@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import zipfile
 from collections.abc import Iterable, Iterator, Sequence
 from importlib import import_module
@@ -24,6 +25,7 @@ from .number_texts import is_number
 
 __all__ = ["read_sheet_columns"]
 
+_FORMULA = re.compile(rb"<(?:\w{1,8}:)?f[\s/>]")
 _MOST_ROWS = 2**20  # of a sheet
 _MOST_CELLS = 32 * _MOST_ROWS
 # Bytes of a workbook's parts, unpacked: beyond the first only if packed no tighter than the second.
@@ -76,7 +78,8 @@ def _numbered_rows(
             title = _find_sheet(file, book.sheet_names, sheet)
             with foreign_reader(file, "workbook", advice):
                 if book.engine == "openpyxl":
-                    rows = _filled(_openpyxl_rows(book.book[title]))
+                    formulas = _with_formulas(file)
+                    rows = _filled(_openpyxl_rows(book.book[title], formulas and formulas[title]))
                 else:
                     frame = pandas.read_excel(book, sheet_name=title, header=None, na_filter=False)
                     rows = _filled(frame.to_numpy(dtype=object).tolist())
@@ -102,11 +105,39 @@ def _refuse_bomb(file: str) -> None:
         )
 
 
-def _openpyxl_rows(sheet: Any) -> Iterator[list[Any]]:
-    """Yield the rows of a sheet as pandas reads them, up to their last cells."""
+def _with_formulas(file: str) -> Any:
+    """Return a workbook as openpyxl reads it with its formulas, or None if it has none."""
+    with zipfile.ZipFile(file) as parts:
+        for name in parts.namelist():
+            if name.startswith("xl/worksheets/") and name.endswith(".xml"):
+                with parts.open(name) as part:
+                    end = b""
+                    while chunk := part.read(2**20):
+                        if _FORMULA.search(end + chunk):
+                            return import_module("openpyxl").load_workbook(file, read_only=True)
+                        end = chunk[-16:]
+    return None
+
+
+def _openpyxl_rows(sheet: Any, formulas: Any) -> Iterator[list[Any]]:
+    """Yield the rows of a sheet as pandas reads them, up to their last cells.
+
+    A formula without a value, as programs write that do not compute, stands for itself.
+    """
     sheet.reset_dimensions()  # what the file says of its size may be wrong
-    for cells in sheet.rows:
-        yield [_value(cell) for cell in cells] if cells else []
+    if formulas is None:
+        for cells in sheet.rows:
+            yield [_value(cell) for cell in cells] if cells else []
+        return
+    formulas.reset_dimensions()
+    for pairs in map(zip, sheet.rows, formulas.rows):
+        yield [
+            f"={formula.value}".replace("==", "=", 1)
+            if cell.value is None and formula.data_type == "f"
+            else _value(cell)
+            for cell, formula in pairs
+        ]
+    formulas.parent.close()
 
 
 def _filled(rows: Iterable[list[Any]]) -> list[tuple[int, list[Any]]] | None:

@@ -284,7 +284,7 @@ def _first_numbers(rows: Sequence[Sequence[Any]], numbers: Sequence[int]) -> tup
         names
         and names[-1] > described[-1]
         and is_number(begins)
-        and not any(is_number(rows[i][0]) for i in described)
+        and not any(may_be_number(rows[i][0]) for i in described)
     ):
         return several, described[-1] + 1
     return first, 0

@@ -57,7 +57,7 @@ def may_be_number(cell: Any) -> bool:
     """Say whether a person would read a cell as a number, or as one that is missing."""
     if not isinstance(cell, str):
         return is_number(cell)
-    if is_number(cell) or _MISSING.fullmatch(cell):
+    if is_number(cell) or _MISSING.fullmatch(cell) or cell.startswith("="):  # a formula
         return True
     text = cell.translate(_MINUS)
     return _LIKE_A_NUMBER.fullmatch(text) is not None and _NO_NUMBER.match(text) is None

@@ -192,8 +192,25 @@ def test_a_sheet_is_read_by_the_same_options(sheet) -> None:
         values = read_curve(file, until="Mean", skip_invalid=True)
     assert values.tolist() == [[0, 1000.5], [1, 2]]
     assert read_curve(sheet(["e", "s"], ["0,5", "1"], ["1", "2"])).tolist() == [[0.5, 1], [1, 2]]
+    with pytest.raises(ValueError, match=r"row 2, column 1 .*: '1,3 %' is not a number"):
+        read_curve(sheet(["e", "s"], ["1,3 %", -0.9], ["2,0", "0,5"], [-1.9, 0.9]))
+    with pytest.raises(ValueError, match=r"row 2, column 1 .*: '0,1 MPa' is not a number"):
+        read_curve(sheet(["e", "s"], ["0,1 MPa", "0,2"], [1, 2]))
+    assert read_curve(sheet(["e", "s"], ["\u22120,1", "1 000"], [1, 2])).tolist()[0] == [-0.1, 1000]
     with pytest.raises(ValueError, match=r"no row is made of numbers; .* is row 2, '5 mm'"):
         read_curve(sheet(["e"], ["5 mm"]))
+
+
+def test_formulas_that_nobody_has_computed_are_no_empty_cells(sheet) -> None:
+    for rows in (
+        (["e", "s"], [0, 1], [1, 2], ["=A2+2", "=B2*3"]),
+        (["e", "s"], [0, "=A2*2"], [1, "=A3*2"]),
+        (["e", "s"], ["=1+1", "=2+2"], [1, 2]),
+    ):
+        with pytest.raises(ValueError, match=r"column \d \([es]\): '=.*' is not a number; correct"):
+            read_curve(sheet(*rows))
+    computed = sheet(["e", "s", "sum"], [0, 1, "=A2+B2"], [1, 2, "=A3+B3"])
+    assert read_curve(computed).tolist() == [[0, 1], [1, 2]]
 
 
 def test_rows_of_matlab_that_are_not_finite_are_left_out(tmp_path: Path) -> None:
