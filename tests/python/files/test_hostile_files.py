@@ -89,8 +89,7 @@ def hostile(folder: Path, slow: bool) -> Iterator[tuple[str, object]]:
         yield str(folder / "long.csv"), "takes more memory than there is; give a part of it"
         wide = "".join(row(i, cell(f"XFD{i}", 7)) for i in range(3, 3000))
         yield workbook(folder / "wide.xlsx", sheet_of(TWO + wide)), "or 33,554,432 cells; delete"
-        return
-    for name, (sheet, expected) in SHEETS.items():
+    for name, (sheet, expected) in list(SHEETS.items())[:: 1 if slow else 3]:
         yield workbook(folder / f"{name}.xlsx", sheet), expected
     for kind in ("csv", "xlsx", "mat"):
         link = folder / f"link.{kind}"
