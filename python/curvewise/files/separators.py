@@ -130,11 +130,11 @@ def refuse_doubtful_cells(
         return
     # A column that there would not be says that these are cells.
     last = max((int(column) for column in columns or () if str(column).isdecimal()), default=0)
-    if separator is BLANKS and (
-        _may_be_joined(lines, counts, BLANKS, last) or any(map(_GROUP_OF_ZERO.search, lines))
-    ):
+    zeros = any(map(_GROUP_OF_ZERO.search, lines))
+    if separator is BLANKS and (zeros or _may_be_joined(lines, counts, BLANKS, last)):
         what = "blanks of {} may stand between thousands or between cells; write numbers without "
         what += "blanks, or name the columns in the line above"
+        what += "" if zeros else f", or give columns={[1, max(counts)]} if they are cells"
     elif (separator, decimal) == (",", None) and (
         _may_be_joined(lines, counts, ",", last)
         or (2 * last <= max(counts) + 1 and _may_be_split(rows, names))

@@ -75,6 +75,14 @@ def test_numbers_of_machines_are_read(read, content, expected) -> None:
     assert read(content) == expected
 
 
+def test_numbers_of_columns_say_what_blanks_separate(read) -> None:
+    content = "1 250.5\n2 251.5\n3 249\n"
+    with pytest.raises(ValueError, match=r"or give columns=\[1, 2\] if they are cells"):
+        read(content)
+    assert read(content, [1, 2]) == [[1, 250.5], [2, 251.5], [3, 249]]
+    assert read("0 0\n" + content) == [[0, 0], [1, 250.5], [2, 251.5], [3, 249]]
+
+
 def test_the_names_asked_for_choose_the_table(read) -> None:
     content = "Load;Modulus\n20,81;205432\n\nRaw data\nStrain;Stress\n%;MPa\n0;1\n2;3\n"
     assert read(content, ["Strain", "Stress"]) == [[0, 1], [2, 3]]
