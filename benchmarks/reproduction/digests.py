@@ -95,7 +95,9 @@ MATERIAL = (
     CPP / "src" / "materials" / "path.hpp",
     CPP / "src" / "materials" / "yoshida_uemori.cpp",
     CPP / "src" / "materials" / "yoshida_uemori.hpp",
+    CPP / "src" / "materials" / "yoshida_uemori_course.hpp",
     CPP / "src" / "materials" / "yoshida_uemori_flow.hpp",
+    CPP / "src" / "materials" / "yoshida_uemori_steady.hpp",
 )
 
 # What runs besides in a task, and decides no number.

@@ -1,6 +1,7 @@
 // The Chaboche-Voce material: its parameters, what they may be, and the walk along a path.
 #include "materials/chaboche_voce.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -38,8 +39,18 @@ void material_stress(const ChabocheVoce& material, const double* parameters, con
         checked.refuse(yield + 1, "a yield stress of " + materials::text_of(checked[yield]) +
                                       " would soften to nothing; give Q > -yield");
     }
-    materials::integrate<materials::ChabocheVocePoint>(material, checked, strain, n, stress, slopes,
-                                                       control);
+    materials::check_strains(strain, n);
+    double most = checked[yield] + std::max(0.0, checked[yield + 1]);
+    for (std::size_t i = yield + 3; i < checked.count(); i += 2) {
+        if (checked[i] > 0.0) most += checked[i] / checked[i + 1];
+    }
+    try {
+        materials::integrate<materials::ChabocheVocePoint>(material, checked,
+                                                           materials::with_rounding(most, 1e-9),
+                                                           strain, n, stress, slopes, control);
+    } catch (const materials::NoStress& found) {
+        checked.refuse(found);
+    }
 }
 
 }  // namespace curvewise

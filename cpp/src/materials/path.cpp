@@ -31,9 +31,33 @@ void check_strains(const double* strain, std::ptrdiff_t n) {
 }
 
 void refuse_stress(std::ptrdiff_t i, double stress) {
-    throw std::invalid_argument("with these parameters the stress at strain[" + std::to_string(i) +
-                                "] is " + text_of(stress) +
-                                "; give values nearer to those of a metal");
+    throw NoStress{"the stress at strain[" + std::to_string(i) + "] is " + text_of(stress) +
+                   ", beyond what hardening leads to",
+                   ""};
+}
+
+void check_slopes(std::ptrdiff_t i, const double* slopes, std::size_t first, std::size_t width,
+                  const Parameters& parameters) {
+    for (std::size_t k = 0; k < width; ++k) {
+        if (std::isfinite(slopes[k])) continue;
+        throw NoStress{"the slope of the stress at strain[" + std::to_string(i) + "] by " +
+                       parameters.name(first + k) + " is " + text_of(slopes[k]),
+                       parameters.name(first + k)};
+    }
+}
+
+void Parameters::refuse(const NoStress& found) const {
+    const auto decades = [&](std::size_t i) {
+        if (names_[i].name == found.parameter) return std::numeric_limits<double>::infinity();
+        const double usual = names_[i].unit == "stress" ? 1e3 : 10.0;
+        return values_[i] == 0.0 ? 0.0 : std::abs(std::log10(std::abs(values_[i]) / usual));
+    };
+    std::size_t farthest = 0;
+    for (std::size_t i = 1; i < count(); ++i) {
+        if (decades(i) > decades(farthest)) farthest = i;
+    }
+    refuse(farthest,
+           "with these parameters " + found.what + "; give values nearer to those of a metal");
 }
 
 }  // namespace curvewise::materials

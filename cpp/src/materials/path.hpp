@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -25,6 +26,12 @@ inline std::string text_of(double value) {
     return text.data();
 }
 
+// Thrown where parameters that make sense one by one lead to no stress: what goes wrong, and by
+// which parameter; "" for the one that is farthest from those of a metal.
+struct NoStress {
+    std::string what, parameter;
+};
+
 // Named access to the parameters of a material, and its complaints about them.
 class Parameters {
    public:
@@ -37,6 +44,7 @@ class Parameters {
     std::size_t count() const noexcept { return names_.size(); }
     double operator[](std::size_t i) const noexcept { return values_[i]; }
     const double* values() const noexcept { return values_; }
+    const std::string& name(std::size_t i) const noexcept { return names_[i].name; }
 
     void at_least_zero(std::size_t i) const {
         if (values_[i] < 0.0) refuse(i, "it must be at least 0");
@@ -48,6 +56,8 @@ class Parameters {
     [[noreturn]] void refuse(std::size_t i, const std::string& why) const {
         throw std::invalid_argument(names_[i].name + " is " + text_of(values_[i]) + "; " + why);
     }
+    // "C is 1e+16; with these parameters ..."
+    [[noreturn]] void refuse(const NoStress& found) const;
 
    private:
     std::vector<MaterialParameter> names_;
@@ -71,6 +81,11 @@ struct YoungsModulus {
         if (is_constant) return initial;
         return limit + (initial - limit) * exp(-(rate * p));
     }
+    // Of what changes with the plastic strain in the compliance 1 / E, from the modulus E on.
+    double largest_rate(double E) const {
+        const double decay = value_of(rate), end = value_of(limit);
+        return end > value_of(initial) ? decay * (end / E) : decay;
+    }
 
     // The same without slopes.
     YoungsModulus<double> plain() const {
@@ -87,34 +102,44 @@ struct YoungsModulus {
 // Throws where a strain is no strain: not finite, or beyond 100 (10,000 %).
 void check_strains(const double* strain, std::ptrdiff_t n);
 
-// Throws: parameters beyond all metals, whose products overflow.
+// Throws NoStress: parameters beyond all metals, whose products overflow or lose all digits.
 [[noreturn]] void refuse_stress(std::ptrdiff_t i, double stress);
 
+// Throws NoStress where a slope of stress i is not finite: `slopes` by the parameters from `first`.
+void check_slopes(std::ptrdiff_t i, const double* slopes, std::size_t first, std::size_t width,
+                  const Parameters& parameters);
+
+// What a sum of terms, all at least 0, allows a stress to be: with rounding, and finite.
+inline double with_rounding(double sum, double relative) {
+    return std::isfinite(sum) ? sum * (1.0 + relative) : std::numeric_limits<double>::max();
+}
+
 // Walks a point along the path: Point(material, parameters, count) is the unloaded state and
-// advance(increment of strain) returns the stress behind it.
+// advance(increment of strain) returns the stress behind it, which is at most `most`.
 template <class Point, class Number, class Material, class Visit>
-void walk(const Material& material, const Number* parameters, std::size_t count,
+void walk(const Material& material, const Number* parameters, std::size_t count, double most,
           const double* strain, std::ptrdiff_t n, runtime::Poller& poller, Visit visit) {
     Point point(material, parameters, count);
     double last = 0.0;
     for (std::ptrdiff_t i = 0; i < n; ++i) {
         poller.spend(64);
         const Number stress = point.advance(strain[i] - last);
-        if (!std::isfinite(value_of(stress))) refuse_stress(i, value_of(stress));
+        if (!(std::abs(value_of(stress)) <= most)) refuse_stress(i, value_of(stress));
         visit(i, stress);
         last = strain[i];
     }
 }
 
-// Writes the stresses and, unless null, their slopes by all parameters, by a Point<Number>.
+// Writes the stresses, each at most `most`, and, unless null, their slopes by all parameters, by a
+// Point<Number>.
 template <template <class> class Point, class Material>
-void integrate(const Material& material, const Parameters& parameters, const double* strain,
-               std::ptrdiff_t n, double* stress, double* slopes, Control* control) {
-    check_strains(strain, n);
+void integrate(const Material& material, const Parameters& parameters, double most,
+               const double* strain, std::ptrdiff_t n, double* stress, double* slopes,
+               Control* control) {
     runtime::Poller poller(control);
     const std::size_t count = parameters.count();
     if (slopes == nullptr) {
-        walk<Point<double>>(material, parameters.values(), count, strain, n, poller,
+        walk<Point<double>>(material, parameters.values(), count, most, strain, n, poller,
                             [&](std::ptrdiff_t i, double found) { stress[i] = found; });
         return;
     }
@@ -124,8 +149,13 @@ void integrate(const Material& material, const Parameters& parameters, const dou
         const std::size_t width = std::min(directions, count - first);
         std::vector<Number> seeded(parameters.values(), parameters.values() + count);
         for (std::size_t i = 0; i < width; ++i) seeded[first + i].slopes[i] = 1.0;
-        walk<Point<Number>>(material, seeded.data(), count, strain, n, poller,
+        walk<Point<Number>>(material, seeded.data(), count, most, strain, n, poller,
                             [&](std::ptrdiff_t i, const Number& found) {
+                                double sum = 0.0;
+                                for (const double slope : found.slopes) sum += slope;
+                                if (!std::isfinite(sum)) {
+                                    check_slopes(i, found.slopes.data(), first, width, parameters);
+                                }
                                 stress[i] = found.value;
                                 std::copy_n(found.slopes.begin(), width,
                                             slopes + static_cast<std::size_t>(i) * count + first);

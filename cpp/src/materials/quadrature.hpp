@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <stdexcept>
 
 #include "materials/dual.hpp"
+#include "materials/path.hpp"
 
 namespace curvewise::materials {
 
@@ -27,10 +27,7 @@ Number integral_of_decays(const Number& x, double largest_rate, Function functio
     // Panels as fractions of x, so that their ends move with it.
     const double range = largest_rate * value_of(x);
     if (!(range < 1e18)) {  // some 60 panels; infinity would take panels without end
-        throw std::invalid_argument(
-            "with these parameters the modulus decays beside hardening too steep to integrate; "
-            "give "
-            "values nearer to those of a metal");
+        throw NoStress{"the modulus decays beside hardening too steep to integrate", "xi"};
     }
     double from = 0.0, to = range > 2.0 ? 2.0 / range : 1.0;
     while (from < 1.0) {

@@ -1,6 +1,7 @@
 // The Yoshida-Uemori material: its parameters, what they may be, and the walk along a path.
 #include "materials/yoshida_uemori.hpp"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -31,7 +32,7 @@ void material_stress(const YoshidaUemori& material, const double* parameters, co
     const materials::Parameters checked(material_parameters(material), parameters);
     materials::check_modulus(checked, material.modulus);
     const std::size_t CB = material.modulus == Modulus::constant ? 1 : 3;
-    const std::size_t Y = CB + 1, C = CB + 2, H = CB + 6;
+    const std::size_t Y = CB + 1, C = CB + 2, RSAT = CB + 4, SB = CB + 5, H = CB + 6;
     checked.above_zero(Y);
     checked.above_zero(C);
     for (std::size_t i = C + 1; i < checked.count(); ++i) checked.at_least_zero(i);
@@ -41,12 +42,30 @@ void material_stress(const YoshidaUemori& material, const double* parameters, co
     if (material.growth == BoundGrowth::power && checked[H + 1] == 0.0) {
         checked.refuse(H + 1, "it must be above 0");
     }
+    constexpr double most_share = 1e6;  // beyond it rounding decides where growth stagnates
+    if (checked[H] > most_share) checked.refuse(H, "it must be at most 1e6");
     if (!(material.rtol >= 1e-12 && material.rtol <= 1e-3)) {
         throw std::invalid_argument("rtol is " + materials::text_of(material.rtol) +
                                     "; give a number from 1e-12 to 1e-3");
     }
-    materials::integrate<materials::YoshidaUemoriPoint>(material, checked, strain, n, stress,
-                                                        slopes, control);
+    materials::check_strains(strain, n);
+    double growth = checked[RSAT];
+    if (material.growth == BoundGrowth::power) {
+        double path = 0.0;
+        for (std::ptrdiff_t i = 0; i < n; ++i) {
+            path += std::abs(strain[i] - (i > 0 ? strain[i - 1] : 0.0));
+        }
+        const double C1 = checked[H + 1], C2 = checked[H + 2];
+        growth *= std::pow(C1 + path, C2) - std::pow(C1, C2);
+    }
+    const double most =
+        materials::with_rounding(checked[CB] + growth + checked[SB], 10.0 * material.rtol);
+    try {
+        materials::integrate<materials::YoshidaUemoriPoint>(material, checked, most, strain, n,
+                                                            stress, slopes, control);
+    } catch (const materials::NoStress& found) {
+        checked.refuse(found);
+    }
 }
 
 }  // namespace curvewise

@@ -258,8 +258,14 @@ class Material(ABC):
         self.stress([0.0, 1e-3], numbers)  # refuses parameters that make no sense
         if not -1.0 < poisson < 0.5:
             raise ValueError(f"poisson is {poisson}; give a ratio between -1 and 0.5")
-        if not units.isprintable() or not units.strip():
-            raise ValueError(f"units is {units!r}; name the unit of stress, such as 'MPa'")
+        date = str(date or datetime.date.today())
+        needed = {
+            "units": (units, "name the unit of stress, such as 'MPa'"),
+            "date": (date, "give it in one line of printable characters, such as '2026-11-23'"),
+        }
+        for argument, (text, what_to_do) in needed.items():  # a second line would be a keyword
+            if not text.isprintable() or not text.strip():
+                raise ValueError(f"{argument} is {text!r}; {what_to_do}")
         if wrong := [parameter for parameter in intervals or {} if parameter not in numbers]:
             raise ValueError(
                 f"intervals has {wrong[0]!r}{did_you_mean(wrong, numbers)} (the parameters: "
@@ -273,7 +279,7 @@ class Material(ABC):
             units={p.name: units if p.unit == "stress" else p.unit for p in self.parameters},
             meanings={p.name: p.meaning for p in self.parameters},
             name=name,
-            date=date or datetime.date.today().isoformat(),
+            date=date,
             poisson=float(poisson),
             intervals={
                 parameter: (float(low), float(high))

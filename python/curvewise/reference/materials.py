@@ -161,6 +161,7 @@ class _ChabocheVoce(_Point):
             np.array([constants[f"{name}{k + 1}"] for k in range(count)]) for name in ("C", "gamma")
         )
         self.state = np.zeros(2 + count)
+        self._is_back = False  # in strain, from where it has been
 
     @property
     def centre(self) -> float:
@@ -171,17 +172,39 @@ class _ChabocheVoce(_Point):
         return float(self.constants["yield"] + self.state[1])
 
     def flow(self, n: float, left: float) -> float:
-        def rates(state: Array) -> Array:
-            by_p = np.empty_like(state)
-            by_p[0] = 1.0
-            by_p[1] = self.constants["b"] * (self.constants["Q"] - state[1])
-            by_p[2:] = n * self.C - self.gamma * state[2:]
-            hardening = by_p[1] + n * by_p[2:].sum()
-            p_by_strain = 1.0 / (1.0 + float(hardening) / self.modulus(float(state[0])))
-            return by_p * p_by_strain
+        def by_p(state: Array) -> Array:
+            rates = np.empty_like(state)
+            rates[0] = 1.0
+            rates[1] = self.constants["b"] * (self.constants["Q"] - state[1])
+            rates[2:] = n * self.C - self.gamma * state[2:]
+            return rates
 
-        self.state = _runge_kutta(self.state, left, rates)
-        return left
+        def strain_by_p(state: Array) -> float:
+            rates = by_p(state)
+            hardening = float(rates[1] + n * rates[2:].sum())
+            return 1.0 + hardening / self.modulus(float(state[0]))
+
+        short = 0.02 / max(self.constants["b"], self.gamma.max(initial=0.0), 1.0)
+        if strain_by_p(self.state) > 0.5:
+            h = min(left, short) if self._is_back else left
+            self._is_back = h < left
+            self.state = _runge_kutta(self.state, h, lambda s: by_p(s) / strain_by_p(s))
+            return h
+
+        # The yield stress falls nearly as fast as E, or faster: the strain falls while p rises, and
+        # the flow continues until the strain is back. Steps in p; the last one ends at `left`.
+        def stepped(p: float) -> tuple[Array, float]:
+            begin = np.append(self.state, 0.0)
+            end = _runge_kutta(begin, p, lambda s: np.append(by_p(s[:-1]), strain_by_p(s[:-1])))
+            return end[:-1], float(end[-1])
+
+        self._is_back = True
+        low, p = 0.0, short
+        for _ in range(40 if stepped(p)[1] > left else 0):
+            middle = 0.5 * (low + p)
+            low, p = (low, middle) if stepped(middle)[1] > left else (middle, p)
+        self.state, strain = stepped(p)
+        return strain
 
 
 class _YoshidaUemori(_Point):
@@ -213,7 +236,9 @@ class _YoshidaUemori(_Point):
 
         self._grows = self._grows or outside(self.state) >= 0.0
         steepness = abs(float(self._rates(self.state, n)[2]))
-        h = min(left, max(0.1 * abs(float(self.state[2])) / steepness, 1e-13))
+        h = left
+        if steepness > 0.0:
+            h = min(left, max(0.1 * abs(float(self.state[2])) / steepness, 1e-13))
 
         def stepped(length: float) -> Array:
             return _runge_kutta(self.state, length, lambda state: self._rates(state, n))

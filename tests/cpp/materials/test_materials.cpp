@@ -235,8 +235,8 @@ void test_parameters_of_no_metal() {
     CHECK_THROWS(stress_of(steep, {99.0, 400.0, 300.0, 0.35, 15.0, 1e300, 1.1, 0.5, 2.4, 51.0},
                            {0.05, -99.0}),
                  std::invalid_argument,
-                 "with these parameters the Yoshida-Uemori equations are too steep to integrate; "
-                 "give values nearer to those of a metal");
+                 "C is 0.35; with these parameters the Yoshida-Uemori equations are too steep to "
+                 "integrate; give values nearer to those of a metal");
 }
 
 }  // namespace

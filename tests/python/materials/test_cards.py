@@ -323,3 +323,22 @@ def test_a_material_of_an_abaqus_deck(tmp_path: Path) -> None:
         read_card(file)
     with pytest.raises(ValueError, match="STEEL, SOFT; none is called 'HARD'"):
         read_card(file, name="HARD")
+
+
+# Line breaks of Python, of Unicode and of terminals; other control characters.
+BREAKS = ("\n", "\r", "\r\n", "\v", "\f", "\x1c", "\x85", "\u2028", "\u2029", "\0", "\t", "\x1b")
+
+
+@pytest.mark.parametrize("solver", FORMATS)
+@pytest.mark.parametrize("argument", ["name", "units", "date"])
+def test_no_text_brings_a_second_line_into_a_card(solver: str, argument: str) -> None:
+    material = YoshidaUemori() if solver == "ls-dyna" else ChabocheVoce()
+    parameters = SHEET if solver == "ls-dyna" else STEEL
+    for control in BREAKS:
+        for text in (f"steel{control}*INCLUDE", f"{control}steel", f"steel{control}"):
+            with pytest.raises(ValueError, match=f"{argument} is {re.escape(repr(text))}; "):
+                material.card(parameters, solver, **{argument: text})
+    if argument == "name":
+        return
+    with pytest.raises(ValueError, match=f"{argument} is ' '; "):
+        material.card(parameters, solver, **{argument: " "})
