@@ -32,7 +32,7 @@ void check_strains(const double* strain, std::ptrdiff_t n) {
 
 void refuse_stress(std::ptrdiff_t i, double stress) {
     throw NoStress{"the stress at strain[" + std::to_string(i) + "] is " + text_of(stress) +
-                   ", beyond what hardening leads to",
+                       ", beyond what hardening leads to",
                    ""};
 }
 
@@ -41,7 +41,7 @@ void check_slopes(std::ptrdiff_t i, const double* slopes, std::size_t first, std
     for (std::size_t k = 0; k < width; ++k) {
         if (std::isfinite(slopes[k])) continue;
         throw NoStress{"the slope of the stress at strain[" + std::to_string(i) + "] by " +
-                       parameters.name(first + k) + " is " + text_of(slopes[k]),
+                           parameters.name(first + k) + " is " + text_of(slopes[k]),
                        parameters.name(first + k)};
     }
 }
