@@ -69,6 +69,19 @@ def add_fit(commands: Any) -> None:
         help="last: compare the last complete cycle of each test alone, the stabilised one",
     )
     command.add_argument(
+        "--zero",
+        action="store_true",
+        help="make the first point of each test the origin: strain or stress was not zeroed",
+    )
+    command.add_argument(
+        "--toe",
+        nargs="*",
+        type=float,
+        metavar="STRESS",
+        help="cut the toe of each test: its straight part, between two stresses (default: read off "
+        "the test), goes through the origin",
+    )
+    command.add_argument(
         "--card",
         nargs="+",
         default=[],
@@ -107,6 +120,7 @@ def _fit(arguments: argparse.Namespace) -> int:
     reading = Reading(arguments.sheet, arguments.decimal, arguments.until, arguments.skip_invalid)
     with warnings_printed():
         tests = [_test(file, arguments, reading) for file in arguments.tests]
+    tests = [_from_zero(test, arguments) for test in tests]
     with failures_unlogged(), warnings.catch_warnings():
         warnings.simplefilter("ignore", UnitsWarning)  # they have been asked about
         fit = fit_material(
@@ -125,6 +139,22 @@ def _fit(arguments: argparse.Namespace) -> int:
     written += fit.write_cards(arguments.output, arguments.card, name=arguments.name)
     print("\nwritten:", ", ".join(map(str, written)))
     return 0
+
+
+def _from_zero(test: Array, arguments: argparse.Namespace) -> Array:
+    """Correct where a test begins, as --zero and --toe ask for."""
+    from ..curves import shift_to_origin
+    from ..fitting.beginnings import cut_toe
+
+    if arguments.zero:
+        test = shift_to_origin(test)
+    if arguments.toe is None:
+        return test
+    if len(arguments.toe) not in (0, 2):
+        raise ValueError(
+            f"--toe has {len(arguments.toe)} stresses; give two, low and high, or none"
+        )
+    return cut_toe(test, arguments.toe)
 
 
 def _test(file: str, arguments: argparse.Namespace, reading: Reading) -> Array:

@@ -59,7 +59,9 @@ def engineering_to_true(curve: CurveLike) -> Array:
     return np.column_stack((np.log1p(strain), stress * (1.0 + strain)))
 
 
-def shift_to_origin(curve: CurveLike, *, elastic: tuple[float, float] | None = None) -> Array:
+def shift_to_origin(
+    curve: CurveLike, *, elastic: tuple[float, float] | None = None, cut: bool = False
+) -> Array:
     """Shift a curve so that it begins at the origin.
 
     Parameters
@@ -71,6 +73,9 @@ def shift_to_origin(curve: CurveLike, *, elastic: tuple[float, float] | None = N
         so that this line, fitted by least squares, goes through the origin, and the stress stays
         as it is: the toe that slack and settling grips leave (ASTM E111's and D638's toe
         compensation). By default the first point becomes the origin.
+    cut : bool, default False
+        Leave out the toe: the curve then begins with the first point of the straight line, as a
+        fit of a material needs it. Only with `elastic`.
 
     Returns
     -------
@@ -81,7 +86,7 @@ def shift_to_origin(curve: CurveLike, *, elastic: tuple[float, float] | None = N
     ------
     TypeError, ValueError
         No curve of finite numbers; `elastic` not low < high, fewer than three points between them
-        in the first loading, or no rising line through these.
+        in the first loading, or no rising line through these; `cut` without `elastic`.
 
     Notes
     -----
@@ -95,8 +100,12 @@ def shift_to_origin(curve: CurveLike, *, elastic: tuple[float, float] | None = N
     >>> test = [[0, 0], [0.001, 100], [0.00125, 150], [0.0015, 200], [0.00175, 250]]
     >>> shift_to_origin(test, elastic=(100, 250))[:, 0].round(6)
     array([-0.0005 ,  0.0005 ,  0.00075,  0.001  ,  0.00125])
+    >>> shift_to_origin(test, elastic=(100, 250), cut=True)[:, 0].round(6)
+    array([0.0005 , 0.00075, 0.001  , 0.00125])
     """
     if elastic is None:
+        if cut:
+            raise ValueError("cut is True; give the straight part too: elastic=(low, high)")
         points = checked_curve(curve, 1)
         shifted: Array = points - points[0]
         return renamed(curve, shifted)
@@ -121,7 +130,8 @@ def shift_to_origin(curve: CurveLike, *, elastic: tuple[float, float] | None = N
         raise ValueError(f"stresses from {low} to {high} do not rise with the strain")
     # The line as strain over stress, which is steep: its error is that of the strain.
     zero = strain[inside].mean() - stress[inside].mean() * float(x @ y / (y @ y))
-    return renamed(curve, np.column_stack((strain - zero, stress)))
+    first_kept = int(inside[0]) if cut else 0
+    return renamed(curve, np.column_stack((strain - zero, stress))[first_kept:])
 
 
 def _strain_and_stress(curve: CurveLike) -> Array:

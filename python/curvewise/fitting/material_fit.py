@@ -27,6 +27,7 @@ from ..curves.several_curves import curve_list
 from ..curves.turns import turning_points
 from ..materials import DrivenModel, Material
 from ..materials.readings import reading_of
+from .beginnings import check_beginnings
 from .driven_tests import Cycles, DrivenTests, fit_criterion, fit_method
 from .units_of_tests import warn_of_units
 from .wider_bounds import Beyond, search_within
@@ -37,6 +38,8 @@ _COLUMNS = ("parameter", "unit", "value", "interval_low", "interval_high", "dete
 
 # Beyond it a fitted modulus is no longer the slope with which a test unloads.
 _SAME_MODULUS = 0.1
+# A factor by which no modulus is off in the same unit; kN/mm2 and psi are 1000 and 145 MPa's.
+_OTHER_UNIT = 30.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +62,8 @@ class MaterialFit:
         Of the stresses.
     beyond : Beyond, optional
         The parameters at bounds that were read off the tests, and what wider ones would gain.
+    beginning : str, default ""
+        Sentences about tests that begin a little beside zero strain and stress.
     """
 
     model: DrivenModel = field(repr=False)
@@ -68,6 +73,7 @@ class MaterialFit:
     modulus_read: float
     units: str = "MPa"
     beyond: Beyond | None = None
+    beginning: str = ""
 
     @property
     def material(self) -> Material:
@@ -80,7 +86,7 @@ class MaterialFit:
         return self.found.parameters
 
     def __str__(self) -> str:
-        said = (self.uncertainty, self.beyond, self.one_way, self.remark)
+        said = (self.uncertainty, self.beyond, self.beginning, self.one_way, self.remark)
         parts = [str(self.found), *(str(one) for one in said if one)]
         if failures := self.found.failures:
             parts.append(
@@ -228,8 +234,8 @@ def fit_material(
     Parameters
     ----------
     tests : array_like of shape (n, 2), or sequence of such
-        Strain [-] and stress of each test, from the unloaded state: loops, single tension tests,
-        raw records of a machine.
+        Strain [-] and stress of each test, from zero strain and stress on: loops, single tension
+        tests, raw records of a machine.
     material : Material
         Such as ``ChabocheVoce(backstresses=2)``.
     measure : str, default "sum_of_squares"
@@ -264,7 +270,10 @@ def fit_material(
     ------
     ValueError
         A test is none of strain and stress, has strains in per cent, is elastic, or has no
-        complete cycle for ``cycles="last"``; `fixed` has a name that is no parameter.
+        complete cycle for ``cycles="last"``; `fixed` has a name that is no parameter. With
+        ``cycles="all"``: a test does not begin at zero strain and stress, or begins with a toe
+        (:func:`curvewise.curves.shift_to_origin` corrects both). `fixed` or `bounds` have a modulus
+        far from the one of the tests, or leave no parameter that moves the stress.
     ImportError
         scipy or tqdm is missing: ``pip install "curvewise[calibration]"``.
 
@@ -302,6 +311,9 @@ def fit_material(
             f"fixed has no parameter of the material: {unknown[0]!r}"
             f"{did_you_mean(unknown, material.names)} ({', '.join(material.names)})"
         )
+    beginning = check_beginnings(given, units) if cycles == "all" else ""
+    modulus = modulus_of(given)
+    check_moduli({**read_off, **known}, modulus, units)
     search = partial(
         identify,
         driven.model,
@@ -315,9 +327,34 @@ def fit_material(
         found, beyond = search_within(search, {**read_off, **known}, max_runs)
     else:
         found, beyond = search({**read_off, **known}, max_runs=max_runs), None
+    uncertainty = found.uncertainty()
+    if not np.any(uncertainty.sensitivities):
+        raise ValueError(
+            f"no parameter that is searched for moves the stress ({', '.join(found.bounds)}): the "
+            f"material yields at no strain of the tests, or at once; check "
+            f"{', '.join(known) or 'bounds'}"
+        )
     return MaterialFit(
-        driven.model, driven.compared, found, found.uncertainty(), modulus_of(given), units, beyond
+        driven.model, driven.compared, found, uncertainty, modulus, units, beyond, beginning
     )
+
+
+def check_moduli(bounds: Bounds, read: float, units: str) -> None:
+    """Refuse a modulus far from the one that tests show: in another unit than their stresses."""
+    for name in ("E", "Ea"):
+        if name not in bounds:
+            continue
+        given = bounds[name]
+        low, high = (given.low, given.high) if hasattr(given, "low") else np.broadcast_to(given, 2)
+        near = min(max(read, low), high)
+        if not low > 0.0 or read / _OTHER_UNIT <= near <= read * _OTHER_UNIT:
+            continue
+        factor = max(read / near, near / read)
+        raise ValueError(
+            f"{name} is {near:.6g} {units}, and the tests show a modulus of {digits(read, 4)}: a "
+            f"factor of {factor:.4g}; give it in the unit of their stresses "
+            f"({'GPa for MPa' if 300.0 < factor < 3000.0 else 'other units'}?)"
+        )
 
 
 def modulus_of(tests: Sequence[Any]) -> float:

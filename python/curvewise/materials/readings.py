@@ -19,7 +19,15 @@ from ..curves.resampling import resample
 from ..curves.several_curves import as_points
 from ..curves.turns import last_cycle, turning_points
 
-__all__ = ["Reading", "Span", "reading_of", "strain_and_stress", "thinned", "thinned_cycle"]
+__all__ = [
+    "Reading",
+    "Span",
+    "offset_yield",
+    "reading_of",
+    "strain_and_stress",
+    "thinned",
+    "thinned_cycle",
+]
 
 # Of the stress at a turn: unloading between these is nearly straight, on the machine too.
 _UNLOADED = (0.05, 0.75)
@@ -115,7 +123,7 @@ def reading_of(experiment: object, name: str) -> Reading:
         raise ValueError(f"{name} is elastic: nothing of hardening can be read off it")
     return Reading(
         tuple(moduli),
-        _offset_yield(branches[0], moduli[0]),
+        offset_yield(branches[0], moduli[0]),
         float(np.abs(points[:, 1]).max()),
         max(plastic),
         sum(plastic),
@@ -199,7 +207,7 @@ def _moduli(parts: Sequence[Array]) -> list[float]:
     return found
 
 
-def _offset_yield(first: Array, modulus: float) -> float:
+def offset_yield(first: Array, modulus: float) -> float:
     """Return the stress at which the first loading has left its line by the offset."""
     sign = 1.0 if first[-1, 0] >= first[0, 0] else -1.0
     plastic = np.maximum.accumulate(sign * _plastic(first, modulus))

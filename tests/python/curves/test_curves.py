@@ -289,3 +289,12 @@ def test_inputs_are_not_changed() -> None:
     curves.trim(TEST)[:] = 0
     curves.shift_to_origin(TEST)[:] = 0
     assert (before == TEST).all()
+
+
+def test_the_toe_is_cut_where_that_is_wanted() -> None:
+    test = np.array([[0, 0], [0.001, 100], [0.00125, 150], [0.0015, 200], [0.002, 210]])
+    whole = curves.shift_to_origin(test, elastic=(100, 200))
+    cut = curves.shift_to_origin(test, elastic=(100, 200), cut=True)
+    np.testing.assert_array_equal(cut, whole[1:])
+    with pytest.raises(ValueError, match=r"cut is True; give the straight part too: elastic="):
+        curves.shift_to_origin(test, cut=True)

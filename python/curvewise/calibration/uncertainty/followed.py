@@ -160,8 +160,8 @@ class End:
 
     def next_place(self) -> Array | None:
         """Return where the model is to be run next, or None where the end has arrived."""
-        if self._runs >= _MOST or self._radius < _NEAREST:
-            return None
+        if self._runs >= _MOST or self._radius < _NEAREST or not self._normal.any():
+            return None  # a model that no parameter moves has no ends
         at_bound = self._place[self._index] == (self._way > 0.0)
         if at_bound and self._distance <= self._square:
             return None
