@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from .._bounds import Bounds
+from .._bounds import Below, Bounds, Log, Tied
 from .._names import did_you_mean
 from ..calibration import Identification, Uncertainty, identify
 from ..calibration.problem.tables import digits
@@ -345,7 +345,12 @@ def check_moduli(bounds: Bounds, read: float, units: str) -> None:
         if name not in bounds:
             continue
         given = bounds[name]
-        low, high = (given.low, given.high) if hasattr(given, "low") else np.broadcast_to(given, 2)
+        if isinstance(given, Tied):
+            continue
+        if isinstance(given, (Log, Below)):
+            low, high = given.low, given.high
+        else:
+            low, high = np.ravel(given)[[0, -1]].tolist()  # a pair, or one number
         near = min(max(read, low), high)
         if not low > 0.0 or read / _OTHER_UNIT <= near <= read * _OTHER_UNIT:
             continue
