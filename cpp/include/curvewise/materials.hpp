@@ -24,8 +24,9 @@
 /// just reaches the yield surface there is a kink, and they are those of one side.
 ///
 /// Time O(n) (k/8 times that for slopes by k parameters), memory O(1). Throws std::invalid_argument
-/// for strains and parameters that are not finite or make no sense, naming them; Stopped. Safe from
-/// any number of threads.
+/// for strains and parameters that are not finite or make no sense, naming them, and for parameters
+/// with which the stress leaves what the law allows or a slope is not finite; Stopped. Safe from any
+/// number of threads.
 ///
 ///     curvewise::ChabocheVoce steel;                       // two back stresses
 ///     const double parameters[] = {200e3, 300, -50, 8, 80e3, 400, 5e3, 20};

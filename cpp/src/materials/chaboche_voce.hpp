@@ -75,45 +75,6 @@ inline Behind strain_of(const Flow<double>& flow, double p, std::vector<double>&
             (bend + steepness * modulus.rate * (E - modulus.limit) / E) / E};
 }
 
-// Where a sign changes from `false` to `true` between low and high.
-template <class Sign>
-double turn_of(Sign sign, double low, double high) {
-    constexpr int halvings = 60;
-    for (int i = 0; i < halvings; ++i) {
-        const double middle = 0.5 * (low + high);
-        (sign(middle) ? high : low) = middle;
-    }
-    return 0.5 * (low + high);
-}
-
-// Where R falls faster than E, the strain may rise, fall and rise again: the derivative times
-// exp(b p) is a sum of exponentials of which only the one of R is negative, and constant, so that
-// it has one minimum. The flow is at the first root; beyond the maximum it jumps to the last one.
-inline void keep_first_root(const Flow<double>& flow, double target, std::vector<double>& falls,
-                            double& low, double& high) {
-    const auto rises = [&](double p) { return strain_of(flow, p, falls).slope > 0.0; };
-    const auto turns = [&](double p) {
-        const YoungsModulus<double>& modulus = flow.modulus;
-        const double b = flow.terms[0].rate, E = modulus.after(flow.p0 + p);
-        double sum = modulus.is_constant ? b * E : b * E - modulus.rate * (E - modulus.limit);
-        for (std::size_t k = 1; k < flow.terms.size(); ++k) {
-            const Term<double>& term = flow.terms[k];
-            sum += (b - term.rate) * term.amplitude * std::exp(-(term.rate * p));
-        }
-        return sum >= 0.0;
-    };
-    if (turns(0.0) || !rises(0.0)) return;
-    const double lowest = turn_of(turns, 0.0, high);
-    if (rises(lowest)) return;
-    const double top = turn_of([&](double p) { return !rises(p); }, 0.0, lowest);
-    constexpr double margin = 1.0 + 1e-9;  // nearer to the maximum no root is to be told
-    if (strain_of(flow, top, falls).strain >= margin * target) {
-        high = top;
-    } else {
-        low = lowest;
-    }
-}
-
 // The root of the flow's strain = target > 0, nearly: the next iterate is it to rounding. R alone
 // can fall, by `fall` at most. `falls` are those of the root.
 inline double plastic_strain(const Flow<double>& flow, double target, double fall,
@@ -129,12 +90,10 @@ inline double plastic_strain(const Flow<double>& flow, double target, double fal
     }
     const double E = modulus.after(flow.p0), first = std::max(1.0, 1.0 + slope / E);
     const double square = first * first + 2.0 * target * bend / E;
+    // Where R falls faster than E, the strain may rise, fall and rise again. From this guess on the
+    // iterates come to the first root from below, or, beyond the maximum, to the last one.
     double p =
         square > 0.0 ? std::min(high, 2.0 * target / (first + std::sqrt(square))) : target / first;
-    if (flow.terms[0].amplitude < -softest) {
-        keep_first_root(flow, target, falls, low, high);
-        if (p <= low || p >= high) p = 0.5 * (low + high);
-    }
     constexpr int most_iterations = 200;  // 60 halvings would do
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
         const Behind found = strain_of(flow, p, falls);
