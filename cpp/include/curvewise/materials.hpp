@@ -25,8 +25,8 @@
 ///
 /// Time O(n) (k/8 times that for slopes by k parameters), memory O(1). Throws std::invalid_argument
 /// for strains and parameters that are not finite or make no sense, naming them, and for parameters
-/// with which the stress leaves what the law allows or a slope is not finite; Stopped. Safe from any
-/// number of threads.
+/// with which the stress leaves what the law allows or a slope is not finite; Stopped. Safe from
+/// any number of threads.
 ///
 ///     curvewise::ChabocheVoce steel;                       // two back stresses
 ///     const double parameters[] = {200e3, 300, -50, 8, 80e3, 400, 5e3, 20};
