@@ -16,6 +16,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +25,7 @@ from .column_choice import choose_columns, choose_names, column_name, column_uni
 from .column_units import units_row
 from .number_tables import NumberTable, Reading, count_cells, find_header, refuse_no_numbers
 from .number_texts import is_number
+from .regular_files import LARGEST_OF_PIPE
 from .separators import BLANKS, cells_of, choose_separator, refuse_doubtful_cells
 
 __all__ = ["read_csv_columns"]
@@ -114,13 +116,26 @@ class _Layout:
                 yield line + 1, cells_of(self.lines[line], self.separator)
 
 
+def _rest_of(stream: BinaryIO, file: str) -> bytes:
+    """Return what is left of a file, or of a pipe up to a limit."""
+    if stream.seekable():
+        return stream.read()
+    rest = stream.read(LARGEST_OF_PIPE + 1)
+    if len(rest) > LARGEST_OF_PIPE:
+        raise ValueError(
+            f"{file} is a pipe, of which at most {LARGEST_OF_PIPE // 2**20} MiB are read; write it "
+            "to a file"
+        )
+    return rest
+
+
 def _read_lines(path: str | os.PathLike[str]) -> list[str]:
     file = os.fspath(path)
     try:
         with Path(path).open("rb") as stream:
             data = stream.read(_HEAD)
             if data.startswith(_UTF_16) or b"\0" not in data:
-                data += stream.read()
+                data += _rest_of(stream, file)
     except OSError as error:  # one of reading does not name the file, as one of opening does
         error.filename = error.filename or file
         raise

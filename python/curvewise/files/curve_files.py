@@ -109,8 +109,9 @@ def read_curve(
         such column or sheet (lists those there are); no line holds a number, or none is left; two
         decimal signs; a line with more cells than names; a damaged file, or one of another kind;
         factors that are not finite, that are 0, or not one per column; a sheet of a file that is
-        no workbook; a device or a pipe, a file above 4 GiB, a line above 2^20 characters, a sheet
-        above 2^25 cells; MATLAB variables of different lengths, or a .mat file of version 7.3.
+        no workbook; a device, a file above 4 GiB, a pipe above 256 MiB, a line above 2^20
+        characters, a sheet above 2^25 cells; MATLAB variables of different lengths, or a .mat file
+        of version 7.3.
     ImportError
         A workbook without pandas and openpyxl, or a .mat file without scipy.
     OSError
@@ -189,7 +190,7 @@ def read_named_columns(
     ...     read_named_columns(path, ["strain", 3], Reading())[1]
     ['strain', 'stress']
     """
-    check_file(path)
+    check_file(path, pipe=Path(path).suffix.lower() not in (*_WORKBOOKS, ".mat"))
     try:
         values, names, units = _read_columns(path, columns, reading)
     except MemoryError as error:

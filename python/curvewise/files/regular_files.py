@@ -1,6 +1,7 @@
-"""Whether a path is that of a file that can be read whole: no device, no pipe, not too large.
+"""Whether a path is that of a file that can be read whole: no device, not too large.
 
-A device such as /dev/zero has no end, and a pipe may never begin. Cost: one look at the path.
+A device such as /dev/zero has no end. A pipe, such as a shell's <(command), has no size. If it is
+allowed, its reader has a limit. Cost: one look at the path.
 """
 
 from __future__ import annotations
@@ -8,13 +9,26 @@ from __future__ import annotations
 import os
 import stat
 
-__all__ = ["LARGEST", "check_file"]
+__all__ = ["LARGEST_OF_PIPE", "check_file"]
 
-LARGEST = 2**32  # bytes of a file with a curve; 50 times that of a table of 10^6 points
+_LARGEST = 2**32  # bytes of a file with a curve; 50 times that of a table of 10^6 points
+LARGEST_OF_PIPE = 2**28
+"""Bytes that are read from a pipe."""
 
 
-def check_file(path: str | os.PathLike[str], largest: int = LARGEST) -> None:
-    """Refuse a path that leads to a device, a pipe or a socket, or to a file that is too large.
+def check_file(
+    path: str | os.PathLike[str], largest: int = _LARGEST, *, pipe: bool = False
+) -> None:
+    """Refuse a path that leads to a device or a socket, or to a file that is too large.
+
+    Parameters
+    ----------
+    path : path-like
+        The path.
+    largest : int
+        Size in bytes up to which a file is read.
+    pipe : bool
+        Allow a pipe.
 
     Raises
     ------
@@ -24,6 +38,8 @@ def check_file(path: str | os.PathLike[str], largest: int = LARGEST) -> None:
         It leads nowhere.
     """
     found = os.stat(path)
+    if pipe and stat.S_ISFIFO(found.st_mode):
+        return
     if not (stat.S_ISREG(found.st_mode) or stat.S_ISDIR(found.st_mode)):  # open refuses a folder
         raise ValueError(f"{os.fspath(path)} is a device or a pipe; give a regular file")
     if found.st_size > largest:

@@ -5,11 +5,13 @@ A process of its own reads them, one after the other, under a limit of memory.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import struct
 import subprocess
 import sys
+import threading
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,8 +19,9 @@ from pathlib import Path
 import openpyxl
 import pytest
 
+import curvewise
 from curvewise.commands import main
-from curvewise.files import curve_files
+from curvewise.files import csv_curves, curve_files
 from curvewise.studies import Study, StudyError
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="neither devices nor limits")
@@ -95,8 +98,8 @@ def hostile(folder: Path, slow: bool) -> Iterator[tuple[str, object]]:
         link = folder / f"link.{kind}"
         link.symlink_to("/dev/zero")
         yield str(link), "is a device or a pipe; give a regular file"
-    os.mkfifo(folder / "pipe.csv")
-    yield str(folder / "pipe.csv"), "is a device or a pipe"
+    os.mkfifo(folder / "pipe.xlsx")
+    yield str(folder / "pipe.xlsx"), "is a device or a pipe"
     for name, content, size, words in (
         ("line.csv", b"1," * 2**20, 0, "line 1 has 2,097,152 characters, and at most 1,048,576"),
         ("zero.csv", b"1,2\n3,4\n", 2**32, "line 3 has a zero byte"),
@@ -185,6 +188,27 @@ def test_a_study_reads_files_and_what_is_in_a_runs_folder(tmp_path: Path, wrong,
     study.write_text(STUDY.format(**{**right, **wrong}))
     with pytest.raises(StudyError, match=message):
         Study.read(study)
+
+
+def test_a_curve_may_come_through_a_pipe(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    for lines, words in (("1,2\n3,4\n", None), ("1,2\n" * 2**20, "at most 2 MiB are read")):
+        writer = threading.Thread(target=_write, args=(pipe, lines))
+        writer.start()
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(csv_curves, "LARGEST_OF_PIPE", 2**21)
+            if words is None:
+                assert curvewise.read_curve(pipe).tolist() == [[1.0, 2.0], [3.0, 4.0]]
+            else:
+                with pytest.raises(ValueError, match=words):
+                    curvewise.read_curve(pipe)
+        writer.join()
+
+
+def _write(pipe: Path, lines: str) -> None:
+    with contextlib.suppress(BrokenPipeError), pipe.open("w") as stream:
+        stream.write(lines)
 
 
 def test_a_study_is_a_regular_file(tmp_path: Path, capsys) -> None:
