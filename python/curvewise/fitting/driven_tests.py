@@ -1,6 +1,7 @@
 """Tests made ready for a fit: thinned, driving a point of material, and how they are compared.
 
 A test of thousands of points says no more of a material than some hundreds, its turns among them.
+A dense, noisy test is averaged first (`curves.averaging`).
 With the last cycle alone, what comes before it is driven by its turns. Cost: linear in the tests.
 """
 

@@ -252,6 +252,8 @@ def fit_material(
         has gone through all the history before it.
     points : int, default 300
         About how many points of each test are compared; tests that have fewer stay as they are.
+        A test with more rows, whose noise in strain exceeds its step from row to row, is averaged
+        over short blocks of rows first, and its reversals are found from both sides.
     seed : int, default 0
         Of the search.
     max_runs : int, optional

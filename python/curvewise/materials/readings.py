@@ -12,7 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..curves.checks import branch_slices
+from ..curves.averaging import averaged
+from ..curves.checks import Turns, branch_slices
 from ..curves.inputs import Array
 from ..curves.isotonic import isotonic
 from ..curves.resampling import resample
@@ -35,6 +36,7 @@ _UNLOADED = (0.05, 0.75)
 _LOADED = (0.05, 0.3)
 _FEW = 3  # points for a line
 _OFFSET = 0.002  # of plastic strain, or a quarter of what the first loading reaches
+_HARDLY_MORE = 1.5  # times the wanted points: as many rows are not averaged
 _MOST_STRAIN = 0.5  # beyond it a column of strains is in per cent
 
 
@@ -131,16 +133,45 @@ def reading_of(experiment: object, name: str) -> Reading:
 
 
 def thinned(experiment: object, name: str, points: int = 300) -> Array:
-    """Return a test with about as many points, its turns among them, noise in strain averaged.
+    """Return a test with about as many points, its reversals among them, noise in strain averaged.
 
-    Evenly spaced in each branch along what strain and stress go together, each by its range and
-    without its noise: the knee and the elastic part have their share. A test that has fewer is
-    returned as it is.
+    The points are evenly spaced in each branch along what strain and stress go together, each by
+    its range and without its noise: the knee and the elastic part have their share. A test with
+    fewer points is unchanged. A test whose noise exceeds its step of strain is averaged first.
     """
     test = strain_and_stress(experiment, name)
+    return _evenly(*_averaged(test, len(test), points), points)
+
+
+def thinned_cycle(experiment: object, name: str, points: int = 300) -> tuple[Array, slice]:
+    """Return a test up to the end of its last complete cycle, and where in it that cycle is.
+
+    The turns are enough of what comes before the cycle: between two of them the strain runs one
+    way, and a step of a point of material may be as long. The cycle is thinned as `thinned` does.
+    """
+    test = strain_and_stress(experiment, name)
+    try:
+        cycle = last_cycle(test)
+        test, turns = _averaged(test, cycle.stop - cycle.start, points)
+        cycle = last_cycle(test)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
+    history = [0, *(turn for turn in turns if turn < cycle.start)]
+    kept = _evenly(test[cycle], turning_points(test[cycle]), points)
+    return np.concatenate((test[history], kept)), slice(len(history), len(history) + len(kept))
+
+
+def _averaged(test: Array, rows: int, points: int) -> tuple[Array, Turns]:
+    """Return a test and its turns, averaged if `rows` of it are dense for that many points."""
+    turns = turning_points(test)
+    dense = averaged(test, turns) if rows > _HARDLY_MORE * points else None
+    return dense or (test, turns)
+
+
+def _evenly(test: Array, turns: Turns, points: int) -> Array:
+    """Return about so many points of a test, evenly spaced in each branch."""
     if len(test) <= points:
         return test
-    turns = turning_points(test)
     travel = np.zeros(len(test))
     for part in branch_slices(turns, len(test)):
         for column in (test / np.ptp(test, axis=0)).T:
@@ -149,22 +180,6 @@ def thinned(experiment: object, name: str, points: int = 300) -> Array:
             travel[part] += fitted - fitted[0]
         travel[part.stop :] = travel[part.stop - 1]
     return resample(test, max(8, points // (len(turns) + 1)), by=travel, turns=turns)
-
-
-def thinned_cycle(experiment: object, name: str, points: int = 300) -> tuple[Array, slice]:
-    """Return a test up to the end of its last complete cycle, and where in it that cycle is.
-
-    Of what comes before the cycle the turns are enough: between two of them the strain runs one
-    way, and a step of a point of material may be as long. The cycle is thinned as `thinned` does.
-    """
-    test = strain_and_stress(experiment, name)
-    try:
-        cycle = last_cycle(test)
-    except ValueError as error:
-        raise ValueError(f"{name}: {error}") from None
-    history = [0, *(turn for turn in turning_points(test) if turn < cycle.start)]
-    kept = thinned(test[cycle], name, points)
-    return np.concatenate((test[history], kept)), slice(len(history), len(history) + len(kept))
 
 
 def _plastic(branch: Array, modulus: float) -> Array:

@@ -15,6 +15,7 @@ import pytest
 from curvewise import read_curve
 from curvewise.commands import main
 from curvewise.fitting import MaterialFit, fit_material
+from curvewise.fitting.driven_tests import Cycles
 from curvewise.materials import ChabocheVoce, YoshidaUemori
 from curvewise.solvers import read_card
 
@@ -86,6 +87,39 @@ def test_the_last_cycle_alone_is_compared_after_all_of_the_history(points: int) 
     np.testing.assert_allclose(fit.found.simulations[1], fit.tests[1], atol=1.0)
     assert fit.parameters == pytest.approx(MADE_OF, rel=1e-3)
     assert fit.model.jacobian(MADE_OF)[1].shape == (len(fit.tests[1]), 2, len(MADE_OF))
+
+
+STEEL = ChabocheVoce(backstresses=2)
+STEEL_MADE_OF = dict(
+    zip(STEEL.names, (200e3, 320.0, 80.0, 10.0, 85e3, 550.0, 5e3, 30.0), strict=True)
+)
+
+
+def covered(noise: float, seed: int, cycles: Cycles) -> dict[str, bool]:
+    """Return whether each interval of a dense test with noise in strain holds the parameter."""
+    random = np.random.default_rng(seed)
+    ends = (0.0, 0.01, -0.01, 0.01, -0.01, 0.01)
+    strain = np.interp(np.linspace(0.0, 5.0, 200_000), range(6), ends)
+    test = np.column_stack((strain, STEEL.stress(strain, STEEL_MADE_OF)))
+    test += random.normal(0.0, 1.0, test.shape) * (noise, 3.0)
+    known = {name: STEEL_MADE_OF[name] for name in ("Q", "b") if cycles == "last"}
+    fit = fit_material(test, STEEL, cycles=cycles, fixed=known, progress=False)
+    return {
+        name: bool(low <= STEEL_MADE_OF[name] <= high)
+        for name, (low, high) in fit.uncertainty.intervals.items()
+    }
+
+
+def test_intervals_of_a_dense_noisy_test_hold_what_made_it() -> None:
+    assert all(covered(1e-5, 0, "all").values())
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("cycles", ["all", "last"])
+@pytest.mark.parametrize("noise", [1e-5, 3e-5])
+def test_intervals_of_dense_noisy_tests_hold_what_made_them(cycles: Cycles, noise: float) -> None:
+    held = [value for seed in range(10) for value in covered(noise, seed, cycles).values()]
+    assert np.mean(held) > 0.85  # of 0.95, in 40 or 60 that depend on each other
 
 
 def test_a_test_without_a_cycle_has_no_last_one() -> None:

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 
 from curvewise.calibration import Log
 from curvewise.calibration.problem.space import Space
+from curvewise.curves import turning_points
 from curvewise.materials import ChabocheVoce, YoshidaUemori
-from curvewise.materials.readings import reading_of, thinned
+from curvewise.materials.readings import reading_of, thinned, thinned_cycle
 
 CHABOCHE = ChabocheVoce()
 STEEL = dict(zip(CHABOCHE.names, (200e3, 300.0, -50.0, 8.0, 80e3, 400.0, 5e3, 20.0), strict=True))
@@ -118,6 +119,55 @@ def test_a_test_is_thinned_to_its_turns_and_its_knees() -> None:
     elastic = found[(found[:, 0] < 0.0015) & (np.arange(len(found)) < 100)]
     assert 15 <= len(elastic) <= 60  # by strain alone they would be 5
     assert thinned(test[::20], "test", 400) is not None
+
+
+TURNS = (0.03, -0.03, 0.03, -0.03, 0.03)
+
+
+def noisy(test: np.ndarray, strain: float, stress: float, seed: int = 1) -> np.ndarray:
+    """Return a test with normal noise."""
+    random = np.random.default_rng(seed)
+    return test + random.normal(0.0, 1.0, test.shape) * (strain, stress)
+
+
+@pytest.mark.parametrize("strain", [1e-5, 5e-5])
+def test_a_dense_noisy_test_is_averaged_onto_its_curve(strain: float) -> None:
+    test = noisy(loop(CHABOCHE, STEEL, *TURNS, points=20_000), strain, 3.0)
+    found = thinned(test, "test", 300)
+    assert 290 <= len(found) <= 300
+    turns = turning_points(found)
+    assert np.abs(found[turns, 0] - TURNS[:-1]).max() < strain / 3.0
+    errors = found[:, 1] - CHABOCHE.stress(found[:, 0], STEEL)
+    assert errors.std() < 2.0  # a row has at least 3
+    assert np.abs(errors[[0, *turns, -1]]).max() < 4.0 * errors.std()
+    for branch in np.split(errors, turns):
+        assert abs(branch.mean()) < 4.0 * errors.std() / np.sqrt(len(branch))
+
+
+def test_the_last_cycle_of_a_dense_noisy_test_has_the_history_that_it_had() -> None:
+    test = noisy(loop(CHABOCHE, STEEL, *TURNS, points=20_000), 5e-5, 3.0)
+    path, part = thinned_cycle(test, "test", 300)
+    assert np.abs(path[: part.start, 0] - (0.0, *TURNS[:2])).max() < 5e-5 / 3.0
+    cycle = path[part]
+    assert 280 <= len(cycle) <= 300
+    ends = cycle[[0, *turning_points(cycle), -1], 0]
+    assert np.abs(ends - TURNS[2:]).max() < 5e-5 / 3.0
+    errors = cycle[:, 1] - CHABOCHE.stress(path[:, 0], STEEL)[part]
+    assert errors.std() < 2.0
+    assert abs(errors.mean()) < errors.std() / 3.0
+
+
+@pytest.mark.parametrize(
+    ("rows", "strain", "stress"),
+    [(2000, 2e-5, 2.0), (20_000, 0.0, 5.0), (20_000, 1e-6, 5.0), (89, 1e-3, 2.0)],
+    ids=["steps above the noise", "stress alone", "hardly in strain", "few rows"],
+)
+def test_a_test_that_is_not_dense_keeps_its_rows(rows: int, strain: float, stress: float) -> None:
+    test = noisy(loop(CHABOCHE, STEEL, *TURNS, points=rows), strain, stress)
+    found = thinned(test, "test", 300)
+    turns = turning_points(test)
+    np.testing.assert_array_equal(found[turning_points(found)], test[turns])
+    np.testing.assert_array_equal(found[[0, -1]], test[[0, -1]])
 
 
 @pytest.mark.parametrize("name", TESTS)
