@@ -158,17 +158,15 @@ def shape_cases(function: str) -> Iterator[tuple[str, Case]]:
 
 
 def compare_shape_cases() -> Iterator[tuple[str, Case]]:
-    """Yield shapes that the measure which compare calls first refuses."""
+    """Yield shapes that every measure refuses which compare calls."""
     raw = {"preset": "raw"}
     dims = "P has shape (5, 2) and Q has shape (4, 3); both need the same number of coordinates"
     none = "P has shape (5, 0); a curve needs at least 1 coordinate"
     for label, options in (("scaled", {}), ("raw", raw), ("paper", {"preset": "paper"})):
         yield f"dims-{label}", Case(good(), good(4, 3), options, dims)
         yield f"no-columns-{label}", Case(np.empty((5, 0)), good(), options, none)
-        few = "Q has shape (1, 2); area needs at least 2 points"
-        yield f"1-{label}", Case(good(), good(1), options, few)
     xy = "P has shape (5, 3) and Q has shape (4, 3); pcm needs 2 coordinates, x and y"
-    yield "solid", Case(good(5, 3), good(4, 3), {"measures": ["dtw", "pcm"]}, xy)
+    yield "solid", Case(good(5, 3), good(4, 3), {"measures": ["pcm", "area"]}, xy)
     empty = "P has shape (0, 3); frechet needs at least 1 point"
     yield "empty", Case(good(0, 3), good(4, 3), raw, empty)
 
