@@ -70,8 +70,9 @@ def add_fit(commands: Any) -> None:
     )
     command.add_argument(
         "--zero",
-        action="store_true",
-        help="make the first point of each test the origin: strain or stress was not zeroed",
+        action=argparse.BooleanOptionalAction,
+        help="make the first point of each test the origin, if strain or stress was not zeroed; "
+        "--no-zero: fit tests that do not begin at zero as they are",
     )
     command.add_argument(
         "--toe",
@@ -111,7 +112,7 @@ def _known(text: str) -> tuple[str, float]:
 
 
 def _fit(arguments: argparse.Namespace) -> int:
-    from ..fitting import UnitsWarning, fit_material
+    from ..fitting import BeginningWarning, UnitsWarning, fit_material
 
     require_matplotlib()
     kind = MATERIALS[arguments.material]
@@ -121,8 +122,11 @@ def _fit(arguments: argparse.Namespace) -> int:
     with warnings_printed():
         tests = [_test(file, arguments, reading) for file in arguments.tests]
     tests = [_from_zero(test, arguments) for test in tests]
+    if arguments.zero is not False and arguments.cycles == "all":
+        _ask_about_beginnings(tests, arguments.units)
     with failures_unlogged(), warnings.catch_warnings():
-        warnings.simplefilter("ignore", UnitsWarning)  # they have been asked about
+        for asked in (BeginningWarning, UnitsWarning):
+            warnings.simplefilter("ignore", asked)
         fit = fit_material(
             tests,
             material,
@@ -155,6 +159,16 @@ def _from_zero(test: Array, arguments: argparse.Namespace) -> Array:
             f"--toe has {len(arguments.toe)} stresses; give two, low and high, or none"
         )
     return cut_toe(test, arguments.toe)
+
+
+def _ask_about_beginnings(tests: list[Array], units: str) -> None:
+    """Refuse tests that do not begin at zero, with what to write if they are right."""
+    from ..fitting.beginnings import BeginningError, check_beginnings
+
+    try:
+        check_beginnings(tests, units)
+    except BeginningError as error:
+        raise ValueError(f"{error}; or fit the tests as they are (--no-zero)") from None
 
 
 def _test(file: str, arguments: argparse.Namespace, reading: Reading) -> Array:

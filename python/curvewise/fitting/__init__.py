@@ -5,7 +5,8 @@ What ``curvewise fit`` does, as a function: :func:`fit_material`.
 
 from __future__ import annotations
 
+from .beginnings import BeginningWarning
 from .material_fit import MaterialFit, fit_material
 from .units_of_tests import UnitsWarning
 
-__all__ = ["MaterialFit", "UnitsWarning", "fit_material"]
+__all__ = ["BeginningWarning", "MaterialFit", "UnitsWarning", "fit_material"]

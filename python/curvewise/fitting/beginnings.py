@@ -2,12 +2,14 @@
 
 The first loading has a straight part, from 0.4 to 0.7 of the offset yield stress. Its line, strain
 over stress by least squares, and the first point say by which strain a test misses the origin. A
-test that misses it by more than a share of the yield strain, and more than noise, is refused: the
-fit would make up for it by a yield stress near 0. O(n) time.
+test that misses it by more than a share of the yield strain, and more than noise, is doubtful: a
+fit makes up for it by a yield stress near 0. Model error looks the same in the first points, so the
+command asks and Python warns. O(n) time.
 """
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -19,7 +21,14 @@ from ..curves.stress_strain import shift_to_origin
 from ..curves.turns import turning_points
 from ..materials.readings import offset_yield, reading_of, strain_and_stress
 
-__all__ = ["beginning_of", "check_beginnings", "cut_toe"]
+__all__ = [
+    "BeginningError",
+    "BeginningWarning",
+    "beginning_of",
+    "check_beginnings",
+    "cut_toe",
+    "warn_of_beginnings",
+]
 
 # Shares of the offset yield stress: the straight part, and what is left of stress in a test that
 # begins unloaded.
@@ -30,6 +39,14 @@ _MOST, _SEEN = 0.08, 0.012
 _MOST_TOE, _SEEN_TOE = 0.12, 0.03
 _NOISE = 4.0  # times its standard error
 _STEEPEST = 1.3  # times the modulus that was read
+
+
+class BeginningError(ValueError):
+    """A test does not begin at zero strain and stress."""
+
+
+class BeginningWarning(UserWarning):
+    """A test that is fitted does not begin at zero strain and stress."""
 
 
 class Beginning(NamedTuple):
@@ -120,7 +137,7 @@ def beginning_of(test: Any, name: str) -> Beginning:
 
 
 def check_beginnings(tests: Sequence[Any], units: str) -> str:
-    """Refuse tests that do not begin at the origin, and speak of those that nearly do.
+    """Refuse tests that do not begin at the origin, and report those that nearly do.
 
     Parameters
     ----------
@@ -136,7 +153,7 @@ def check_beginnings(tests: Sequence[Any], units: str) -> str:
 
     Raises
     ------
-    ValueError
+    BeginningError
         A test misses the origin; the message says by how much, and what to do.
     """
     said = []
@@ -150,6 +167,23 @@ def check_beginnings(tests: Sequence[Any], units: str) -> str:
             _check_offset(begin, name, units)
             said.append(_said(begin, name, units))
     return ". ".join(filter(None, said))
+
+
+def warn_of_beginnings(tests: Sequence[Any], units: str, *, level: int) -> str:
+    """Warn of a test that does not begin at the origin; return `check_beginnings`, or the warning.
+
+    Parameters
+    ----------
+    tests, units
+        As for `check_beginnings`.
+    level : int
+        How many calls up the warning is shown.
+    """
+    try:
+        return check_beginnings(tests, units)
+    except BeginningError as error:
+        warnings.warn(str(error), BeginningWarning, stacklevel=level + 1)
+        return str(error)
 
 
 def cut_toe(test: Any, elastic: Sequence[float] = ()) -> Array:
@@ -175,7 +209,7 @@ def _check_loaded(begin: Beginning, name: str, units: str) -> None:
     strain, stress = begin.strain, begin.stress
     if stress * strain > 0.0 and abs(stress) <= _STEEPEST * begin.modulus * abs(strain):
         return
-    raise ValueError(
+    raise BeginningError(
         f"{name} begins with a stress of {stress:.4g} {units} at a strain of {strain:.4g}, to "
         "which no loading from zero strain and stress leads; begin the test with its first "
         "loading, or correct the zero of the strain"
@@ -192,7 +226,7 @@ def _check_offset(begin: Beginning, name: str, units: str) -> None:
     low, high = (f"{stress:.2g}" for stress in begin.elastic)
     if has_toe or (is_off and not is_along):
         minus = "-" if begin.sign < 0.0 else ""
-        raise ValueError(
+        raise BeginningError(
             f"{name} begins with a toe: its first point is at a strain of {begin.strain:.4g} and a "
             f"stress of {begin.stress:.4g} {units}, and its straight part, extended, has no stress "
             f"at a strain of {zero:.4g}; cut the toe (curvewise fit: --toe; Python: "
@@ -200,7 +234,7 @@ def _check_offset(begin: Beginning, name: str, units: str) -> None:
             "cut=True))"
         )
     if is_off:
-        raise ValueError(
+        raise BeginningError(
             f"{name} does not begin at zero: its first point is at a strain of {begin.strain:.4g} "
             f"and a stress of {begin.stress:.4g} {units}, a strain of {missed:.4g} beside the "
             "elastic line through zero. If strain or stress was not zeroed, or the test follows a "

@@ -27,7 +27,7 @@ from ..curves.several_curves import curve_list
 from ..curves.turns import turning_points
 from ..materials import DrivenModel, Material
 from ..materials.readings import reading_of
-from .beginnings import check_beginnings
+from .beginnings import warn_of_beginnings
 from .driven_tests import Cycles, DrivenTests, fit_criterion, fit_method
 from .units_of_tests import warn_of_units
 from .wider_bounds import Beyond, search_within
@@ -272,15 +272,18 @@ def fit_material(
     ------
     ValueError
         A test is none of strain and stress, has strains in per cent, is elastic, or has no
-        complete cycle for ``cycles="last"``; `fixed` has a name that is no parameter. With
-        ``cycles="all"``: a test does not begin at zero strain and stress, or begins with a toe
-        (:func:`curvewise.curves.shift_to_origin` corrects both). `fixed` or `bounds` have a modulus
-        far from the one of the tests, or leave no parameter that moves the stress.
+        complete cycle for ``cycles="last"``; `fixed` has a name that is no parameter. `fixed` or
+        `bounds` have a modulus far from the one of the tests, or leave no parameter that moves the
+        stress.
     ImportError
         scipy or tqdm is missing: ``pip install "curvewise[calibration]"``.
 
     Warns
     -----
+    BeginningWarning
+        With ``cycles="all"``: a test does not begin at zero strain and stress, or begins with a toe
+        (:func:`curvewise.curves.shift_to_origin` corrects both). The fit then often ends with a
+        yield stress near 0.
     UnitsWarning
         A test seems to have other units: by the names of its columns, or by a modulus outside
         1 to 1,000 GPa in `units`.
@@ -313,7 +316,7 @@ def fit_material(
             f"fixed has no parameter of the material: {unknown[0]!r}"
             f"{did_you_mean(unknown, material.names)} ({', '.join(material.names)})"
         )
-    beginning = check_beginnings(given, units) if cycles == "all" else ""
+    beginning = warn_of_beginnings(given, units, level=2) if cycles == "all" else ""
     modulus = modulus_of(given)
     check_moduli({**read_off, **known}, modulus, units)
     search = partial(

@@ -12,6 +12,7 @@ from typing import Any, TypeVar, get_args, get_type_hints
 
 from .._names import did_you_mean
 from ..calibration.problem.space import Space
+from ..fitting.beginnings import warn_of_beginnings
 from ..fitting.driven_tests import CYCLES, DrivenTests
 from ..fitting.material_fit import modulus_of
 from ..fitting.units_of_tests import doubt_of
@@ -136,6 +137,8 @@ def drive(
     each(lambda one: DrivenTests.of(material, one, cycles=model.cycles))
     source.raise_problems()
     measured = [test.experiment for test in tests]
+    if model.cycles == "all":
+        warn_of_beginnings(measured, model.units, level=2)
     bounds = {**material.bounds_from(measured), **given}
     try:
         Space(bounds)

@@ -1,4 +1,4 @@
-"""Tests that begin beside zero strain and stress, or with a toe: refused, with a remedy."""
+"""Tests that begin beside zero strain and stress, or with a toe: asked about, with a remedy."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 from curvewise import read_curve
 from curvewise.commands import main
 from curvewise.curves import shift_to_origin
-from curvewise.fitting import fit_material
+from curvewise.fitting import BeginningWarning, fit_material
 from curvewise.fitting.beginnings import check_beginnings, cut_toe
 from curvewise.materials import ChabocheVoce
 
@@ -114,9 +114,12 @@ def test_measured_loops_are_fitted_as_they_are(data_dir: Path) -> None:
     check_beginnings([machine * (0.01, 1.0)], "MPa")
 
 
-def test_the_fit_refuses_or_speaks() -> None:
-    with pytest.raises(ValueError, match="does not begin at zero"):
-        fit_material(moved(TEST, 2e-4, 0.0), MATERIAL, progress=False)
+def test_the_fit_warns_or_reports() -> None:
+    test = moved(TEST, 2e-4, 0.0)
+    with pytest.warns(BeginningWarning, match="does not begin at zero") as warned:
+        fit = fit_material(test, MATERIAL, fixed=KNOWN, max_runs=5, progress=False)
+    assert warned[0].filename == __file__
+    assert str(warned[0].message) in str(fit)
     fit = fit_material(moved(TEST, 0.0, -20.0), MATERIAL, fixed=KNOWN, max_runs=5, progress=False)
     assert "first points of tests[0] are beside the elastic line" in str(fit)
 
@@ -136,7 +139,9 @@ def test_the_command_has_the_remedies(test, flags, tmp_path: Path, capsys) -> No
     command = ["fit", str(file), "--backstresses", "1", "--fix", "Q=-50", "b=8"]
     command += ["--output", str(tmp_path)]
     assert main(command) == 1
-    assert flags[0] in capsys.readouterr().err or flags[0] == "--zero"
+    asked = capsys.readouterr().err
+    assert flags[0] in asked or flags[0] == "--zero"
+    assert "(--no-zero)" in asked
     assert main([*command, *flags]) == 0
     rows = (tmp_path / "parameters.csv").read_text(encoding="utf-8").splitlines()[1:]
     for name, _, _, low, high, *_ in (row.split(",") for row in rows):
@@ -144,6 +149,8 @@ def test_the_command_has_the_remedies(test, flags, tmp_path: Path, capsys) -> No
             continue
         middle, half = 0.5 * (float(low) + float(high)), 0.5 * (float(high) - float(low))
         assert abs(MADE_OF[name] - middle) < 2.0 * half, name
+    if flags == ["--zero"]:
+        assert main([*command, "--no-zero"]) == 0
     assert main([*command, "--toe", "120"]) == 1
     assert "--toe has 1 stresses; give two, low and high, or none" in capsys.readouterr().err
 
