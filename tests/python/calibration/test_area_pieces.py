@@ -34,8 +34,12 @@ def loop(count):
     return np.column_stack((x, np.sin(np.linspace(0.0, 7.0, count)) + x))
 
 
+def along_y(curve, size=1.0):
+    return size * np.column_stack((np.zeros(len(curve)), np.ones(len(curve))))
+
+
 def noisy(curve, slopes, cost=1.0, test=None):
-    return NoisyCurve(curve if test is None else test, curve, 1, slopes, cost)
+    return NoisyCurve(curve if test is None else test, curve, along_y(curve), slopes, cost)
 
 
 CURVES = {"line": line(47), "loop": loop(160), "few": loop(9), "two": line(2)}
@@ -45,7 +49,7 @@ CURVES["repeated"] = np.repeat(CURVES["loop"], 2, axis=0)
 @pytest.mark.parametrize("name", CURVES)
 def test_pieces_are_those_of_the_measure(name):
     curve = CURVES[name]
-    sums = sums_of_pieces(curve, curve, 1)
+    sums = sums_of_pieces(curve, curve, along_y(curve))
     assert sums.shape == (len(matched_curves(curve, curve)[2]), len(curve))
     # Of so little noise the warping path knows nothing.
     noise = 1e-7 * np.random.default_rng(0).normal(size=len(curve))
@@ -54,15 +58,26 @@ def test_pieces_are_those_of_the_measure(name):
     assert np.abs(sums @ noise).sum() == pytest.approx(expected, rel=1e-4)
 
 
-def test_noise_may_be_in_either_column():
-    curve = CURVES["loop"]
-    turned = sums_of_pieces(curve[:, ::-1], curve[:, ::-1], 0)
-    assert turned.toarray() == pytest.approx(sums_of_pieces(curve, curve, 1).toarray(), abs=1e-15)
+@pytest.mark.parametrize("name", CURVES)
+def test_points_may_move_in_any_direction(name):
+    curve, random = CURVES[name], np.random.default_rng(8)
+    moves = random.normal(size=curve.shape)
+    sums = sums_of_pieces(curve, curve, moves)
+    noise = 1e-7 * random.normal(size=len(curve))
+    expected = curvewise.area(curve, curve + noise[:, np.newaxis] * moves, spacing="matched")
+    assert np.abs(sums @ noise).sum() == pytest.approx(expected, rel=1e-4)
+    turned = sums_of_pieces(curve[:, ::-1], curve[:, ::-1], moves[:, ::-1])
+    assert turned.toarray() == pytest.approx(-sums.toarray(), abs=1e-14)
+
+
+def test_points_that_move_along_a_line_enclose_nothing():
+    curve = line(47)
+    assert np.abs(sums_of_pieces(curve, curve, curve).toarray()).max() < 1e-16
 
 
 def test_a_single_point_encloses_nothing():
     still = np.zeros((5, 2))
-    assert sums_of_pieces(CURVES["loop"], still, 1).nnz == 0
+    assert sums_of_pieces(CURVES["loop"], still, along_y(still)).nnz == 0
 
 
 def test_of_many_points_a_piece_it_is_a_median_of_twenty_means():
@@ -94,7 +109,7 @@ def test_the_scatter_is_the_sandwich_of_dense_matrices():
     """Of signs: 2 phi(0) times the slopes inside, and covariances of (2 / pi) arcsin outside."""
     curve = CURVES["loop"]
     slopes = np.random.default_rng(7).normal(size=(len(curve), 3))
-    sums = sums_of_pieces(curve, curve, 1).toarray()
+    sums = sums_of_pieces(curve, curve, along_y(curve)).toarray()
     together = sums @ sums.T
     deviations = np.sqrt(np.diag(together))
     by_place = sums @ slopes
@@ -109,7 +124,7 @@ def test_medians_of_pieces_scatter_so():
     curve, random = CURVES["loop"], np.random.default_rng(3)
     t = np.linspace(0.0, 1.0, len(curve))
     slopes = np.column_stack((np.ones(len(t)), np.sin(5.0 * t), np.cos(9.0 * t)))
-    sums = sums_of_pieces(curve, curve, 1)
+    sums = sums_of_pieces(curve, curve, along_y(curve))
     A, one = sums @ slopes, np.eye(sums.shape[0])
     above = np.block([[A, -one], [-A, -one]])
     cost, sides = np.r_[np.zeros(3), np.ones(len(A))], [(None, None)] * 3 + [(0.0, None)] * len(A)
@@ -200,7 +215,7 @@ def test_white_noise_of_an_area_of_pieces_alone_has_their_scatter():
     wave[:, 1] += 0.01 * np.sin(np.linspace(0.0, 40.0, 60))
     alike = estimate(found_by("area", wave))
     assert not alike.correlation.is_white
-    expected = alike.correlation.scatter(alike.moves, math.pi / 2.0, math.pi / 2.0 * math.log(2.0))
+    expected = alike.correlation.scatter(alike.moves, of_median=True)
     assert alike.covariance == pytest.approx(expected, rel=1e-12)
 
 

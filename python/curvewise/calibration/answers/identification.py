@@ -27,7 +27,7 @@ from ..records.recorder import Recorder
 from ..records.search_record import Ending, SearchRecord
 from ..report.page import write_report
 from ..report.uncertainty_summary import summary_of
-from ..uncertainty.determined import determined_by
+from ..uncertainty.determined import Verdict, verdict_on
 from ..uncertainty.sensitivity import Optimum, design_runs, optimum_surfaces
 from ..uncertainty.uncertainty import Uncertainty, uncertainty_of
 
@@ -141,16 +141,14 @@ class Identification(Result):
 
     def _ending(self) -> str:
         """Say how the search ended; what is not determined has not converged to anything."""
-        determined = self.determined
-        bounded = self.problem.space.at_bounds(self.parameters)  # which the table says
-        loose = [n for n, good in (determined or {}).items() if not good and n not in bounded]
-        if self.converged and loose:
+        verdict = self._verdict()
+        if self.converged and verdict is not None and verdict.loose:
             return (
-                f"undetermined: {', '.join(loose)} (the objective hardly notices; see "
-                f"uncertainty()); the search ended: {self.message}"
+                f"undetermined: {verdict.loose}; see uncertainty(); the search ended: "
+                f"{self.message}"
             )
         text = f"{'converged' if self.converged else 'not converged'}: {self.message}"
-        if self.converged and determined is None:
+        if self.converged and verdict is None:
             runs = self.uncertainty_runs
             text += f"\nare the parameters determined? uncertainty() says, after {runs} runs"
         return text
@@ -167,12 +165,15 @@ class Identification(Result):
     def determined(self) -> dict[str, bool] | None:
         """Whether the tests determine each parameter, as far as can be said without noise.
 
-        A parameter is determined if it is at no bound, cannot change by a quarter of itself or of
-        its bounds' range, others with it, before the objective rises by 1 %, and if twice its
-        standard error by linear theory is within the same. None if that would take runs
+        A parameter is determined if it is at no bound, and half its interval by linear theory is
+        within 25 % of its value and of its bounds' range. None if that would take runs
         (`uncertainty_runs`).
         """
-        return None if self.uncertainty_runs else determined_by(self._optimum())
+        verdict = self._verdict()
+        return None if verdict is None else verdict.determined
+
+    def _verdict(self) -> Verdict | None:
+        return None if self.uncertainty_runs else verdict_on(self._optimum())
 
     def uncertainty(
         self,
@@ -187,8 +188,9 @@ class Identification(Result):
         Parameters
         ----------
         sigma : float or sequence of float, optional
-            The standard deviation of the noise in y, of all loops or of each, which is white then.
-            By default the residuals are taken for the noise, correlated as they are.
+            The standard deviation of the noise in y, of all loops or of each. The noise is then
+            white, and x has none. By default the residuals are taken for the noise, in x and in y,
+            correlated as they are.
         level : float, default 0.95
             The probability of the intervals.
         samples : int, default 0
@@ -217,11 +219,10 @@ class Identification(Result):
         followed along the model, in some 3 to 6 runs and at most 15, to where its curves have moved
         as far as they would by the linear interval; an interval then need not be symmetric, and is
         never narrower than the linear one.
-        Residuals that go on alike from point to point, since the model is wrong, are taken for an
-        autoregression of the first order in each branch, with white noise upon it, and widen the
-        intervals. Where the model does not say its slopes, intervals that are a large part of the
-        bounds say "not determined", and no more. Sources: see the modules of
-        ``curvewise.calibration.uncertainty``.
+        Correlated residuals mean model error. Intervals are then those of a bootstrap-t by circular
+        shifts of the residuals, on the linearised model. If the model has no ``jacobian``,
+        intervals that are a large part of the bounds say "not determined", and no more. Sources:
+        see the modules of ``curvewise.calibration.uncertainty``.
 
         Examples
         --------
@@ -231,7 +232,7 @@ class Identification(Result):
         >>> def line(p):
         ...     return np.column_stack((x, p["slope"] * x + p["intercept"]))
         >>> test = line({"slope": 2.0, "intercept": 1.0})
-        >>> test[:, 1] += np.random.default_rng(0).normal(0.0, 0.1, 50)
+        >>> test[:, 1] += np.random.default_rng(1).normal(0.0, 0.1, 50)
         >>> found = identify(
         ...     line,
         ...     test,
@@ -242,7 +243,7 @@ class Identification(Result):
         ... )
         >>> errors = found.uncertainty().standard_errors
         >>> {name: round(error, 3) for name, error in errors.items()}
-        {'slope': 0.041, 'intercept': 0.024}
+        {'slope': 0.043, 'intercept': 0.025}
         """
         runs = self.uncertainty_runs
         computed = uncertainty_of(

@@ -178,11 +178,8 @@ def _weakest(search: ShownSearch, add: AddFigure, most: int) -> str:
         if loop.test.size > 1 and loop.simulation is not None:
             figure = figures.weakest_direction(loop, both, most)
             drawn.append(add(figure, f"{loop.title}, moved along the weakest direction"))
-    changes = [
-        [name, *(digits(summary[which][name], 4) for which in ("weakest_direction", "unnoticed"))]
-        for name in names
-    ]
-    header = ["parameter", "change along the weakest direction", "change that raises the value 1 %"]
+    changes = [[name, digits(summary["weakest_direction"][name], 4)] for name in names]
+    header = ["parameter", "change along the weakest direction"]
     sensitivities = [
         [loop.title, *(f"{100 * value:.3g}" for value in row)]
         for loop, row in zip(loops, summary["sensitivities"], strict=True)

@@ -41,17 +41,17 @@ class NoisyCurve(NamedTuple):
     test : ndarray, shape (m, 2)
     fitted : ndarray, shape (n, 2)
         Its points, of which each has noise of its own.
-    y : int
-        The column that noise is in.
+    moves : ndarray, shape (n, 2)
+        How each of them moves with one deviation of its noise.
     slopes : ndarray, shape (n, k)
-        Of y of the points, in deviations of their noise, by the place in the unit cube.
+        Of the points, in deviations of their noise, by the place in the unit cube.
     cost : float
         How much the objective changes where all points move by one deviation.
     """
 
     test: Array
     fitted: Array
-    y: int
+    moves: Array
     slopes: Array
     cost: float
 
@@ -76,7 +76,7 @@ def area_scatter(curves: Iterable[NoisyCurve]) -> Array | None:
 
 def _signs(curve: NoisyCurve) -> tuple[Array, Array, Any]:
     """Return what the pieces deviate by, their slopes in deviations, and arcsines as a matrix."""
-    sums = sums_of_pieces(curve.test, curve.fitted, curve.y)
+    sums = sums_of_pieces(curve.test, curve.fitted, curve.moves)
     ones = np.ones(len(curve.fitted))
     together = float(np.abs(sums @ ones).sum())
     sums = sums * (curve.cost / together if together > 0.0 else 0.0)
@@ -89,8 +89,8 @@ def _signs(curve: NoisyCurve) -> tuple[Array, Array, Any]:
     return deviations, unit @ curve.slopes, angles
 
 
-def sums_of_pieces(test: Array, fitted: Array, y: int) -> Any:
-    """Return by how much the area of each piece changes with y of each point.
+def sums_of_pieces(test: Array, fitted: Array, moves: Array) -> Any:
+    """Return by how much the area of each piece changes as each point moves.
 
     Returns
     -------
@@ -101,13 +101,14 @@ def sums_of_pieces(test: Array, fitted: Array, y: int) -> Any:
     lengths = box_scaled_arc_lengths(fitted, test)
     at = lengths / (lengths[-1] or 1.0) * pieces
     # Between two of these a piece and a segment go on together.
-    places = np.unique(np.concatenate([at, np.arange(at[-1])]))
-    middle = (places[:-1] + places[1:]) / 2.0
+    cuts = np.unique(np.concatenate([at, np.arange(at[-1])]))
+    middle = (cuts[:-1] + cuts[1:]) / 2.0
     segment = np.searchsorted(at, middle, side="right") - 1
-    begin, end = ((p - at[segment]) / np.diff(at)[segment] for p in (places[:-1], places[1:]))
-    along = np.diff(fitted[:, 1 - y])[segment]
-    of_end = along * (end**2 - begin**2) / 2.0
-    of_begin = along * (end - begin) - of_end
-    rows = np.tile(middle.astype(np.intp), 2)
-    entries = np.concatenate([of_begin, of_end]), (rows, np.concatenate([segment, segment + 1]))
-    return required("scipy.sparse").csr_array(entries, shape=(pieces, len(fitted)))
+    begin, end = ((p - at[segment]) / np.diff(at)[segment] for p in (cuts[:-1], cuts[1:]))
+    points = np.concatenate([segment, segment + 1])
+    of_end = (end**2 - begin**2) / 2.0
+    shares = np.concatenate([end - begin - of_end, of_end])
+    normals = np.column_stack((-np.diff(fitted[:, 1]), np.diff(fitted[:, 0])))[np.tile(segment, 2)]
+    entries = shares * (normals * moves[points]).sum(axis=1)
+    places = np.tile(middle.astype(np.intp), 2), points
+    return required("scipy.sparse").csr_array((entries, places), shape=(pieces, len(fitted)))

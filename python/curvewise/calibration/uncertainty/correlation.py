@@ -1,74 +1,40 @@
-"""How alike the residuals of neighbouring points are, by restricted likelihood.
+"""Noise as the residuals of a fit show it: white, or correlated from point to point.
 
-A model that is wrong leaves residuals that go on alike from point to point, with the noise of the
-load cell upon them. Both together are taken for an autoregression of the first order, which begins
-anew at every turning point, plus white noise. How far the autoregression reaches and what share of
-the variance is white are known from the residuals only roughly, and a fit takes from them most of
-what reaches furthest; so no best pair is taken, a grid of pairs is, each with the probability that
-the residuals give it. Restricted likelihood allows exactly for the parameters that were fitted.
-It goes by the differences of neighbours above all, which are many. The error of a model is no
-autoregression, and what of it goes on longest, which an estimate takes over, may be larger than
-these say; then the squares of the residuals add up to more than is expected (`excess`). Cost: O(n
-k) for each model that is tried, since the inverse of an autoregression's covariance has three
-diagonals.
+Model error leaves correlated residuals: they continue along a test and recur in every cycle. Their
+covariance comes from the residuals themselves. Circular shifts, reversal and change of sign are
+taken to be equally likely. The covariance of a test is then the circulant matrix of its sample
+autocovariances, whose spectrum is the periodogram. A fit takes part of the noise. So the residuals
+are enlarged until fits of shifted residuals leave as much as the observed fit. Intervals are those
+of a bootstrap-t: the move of each refit, on the linearised model, in units of the standard error
+that its own residuals give. Student's t allows for the few frequencies that decide an error. White
+noise is assumed unless neighbours differ less, or a variance from the autocovariances is larger,
+than in 99 % of draws of white noise (Monte Carlo tests; the first statistic is Durbin and
+Watson's). Cost: O(n log n + n k) for each of 600 draws of n points and k parameters.
 
-Where branches repeat (`repeats`), a model that is wrong is wrong alike in each of them, and many
-cycles say hardly more than one. There a share of the autoregression is common to all like branches,
-and this share is a third number of the grid. Cost: O(n m (k + m)) a model, of m places, by
-Woodbury's identity.
-
-H. D. Patterson, R. Thompson, "Recovery of inter-block information when block sizes are unequal",
-Biometrika 58 (1971) 545-554; D. A. Harville, "Bayesian inference for variance components using only
-error contrasts", Biometrika 61 (1974) 383-385 (that it is the likelihood without the parameters);
-M. A. Woodbury, "Inverting modified matrices", Princeton, Statist. Research Group, report 42 (1950).
+B. Efron, R. J. Tibshirani, "An introduction to the bootstrap", Chapman & Hall (1993), section 12.5;
+D. N. Politis, J. P. Romano, "A circular block-resampling procedure for stationary data", in
+"Exploring the limits of bootstrap", Wiley (1992); R. B. Blackman, J. W. Tukey, "The measurement of
+power spectra", Dover (1958), B.6 (equivalent degrees of freedom); J. Durbin, G. S. Watson,
+Biometrika 37 (1950) 409-428; G. A. Barnard, J. R. Stat. Soc. B 25 (1963) 294 (Monte Carlo tests).
 """
 
 from __future__ import annotations
 
-import itertools
 import math
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from ..._extras import required
 from ...curves.inputs import Array
-from .repeats import PARTS, Branches
 
-__all__ = ["Correlation", "correlation_of", "white"]
+__all__ = ["Correlation", "correlation_of", "given_noise"]
 
-# How far an autoregression reaches, in parts of its branch, the share of white noise, and of the
-# rest the share that like branches have in common.
-_REACHES = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
-_SHARES = (0.003, 0.03, 0.2)
-_COMMON = (0.0, 0.25, 0.5, 0.75)
-_WHITE = (0.0, 1.0, 0.0)
-_IMPOSSIBLE = 1e-4  # models of a smaller probability are left out
-# White noise alone is believed where no model is more likely by exp(4), as for 1 in 50 draws of
-# white noise (a likelihood ratio of two parameters): its errors are then those of least squares.
-_BETTER = 4.0
-
-
-class Model(NamedTuple):
-    """One model of the noise.
-
-    Attributes
-    ----------
-    probability : float
-    reach : float
-        Of the autoregression, in parts of a branch.
-    share : float
-        Of white noise in the variance.
-    common : float
-        Which share of the autoregression like branches have in common.
-    variance : float
-    """
-
-    probability: float
-    reach: float
-    share: float
-    common: float
-    variance: float
+_DRAWS = 300  # of the bootstrap, and of white noise for the test
+_BELIEVED = 0.99  # share of draws of white noise that pass each test
+_LEAST = 1e-3  # share of the noise that a fit leaves
+_LEAST_FREEDOM = 3.0  # the fewest with which Student's t has a variance
+_AT_ONCE = 4_000_000  # coordinates of draws in memory
 
 
 class Correlation(NamedTuple):
@@ -76,248 +42,224 @@ class Correlation(NamedTuple):
 
     Attributes
     ----------
-    models : list of Model
-        Whose probabilities add up to 1.
-    branches : Branches
-    excess : float
-        The sum of squares of the residuals, in parts of what the models expect.
+    noise : list of ndarray
+        For each test the residuals, enlarged by what the fit has taken. For white noise only the
+        mean of their squares counts.
+    is_white : bool
+        Whether the noise is taken for white.
+    deviates : ndarray, shape (draws, k), or None
+        Of the bootstrap-t, absolute; None for white noise.
     """
 
-    models: list[Model]
-    branches: Branches
-    excess: float = 1.0
-
-    @property
-    def is_white(self) -> bool:
-        """Whether white noise alone is believed."""
-        return all(model.share == 1.0 for model in self.models)
+    noise: list[Array]
+    is_white: bool
+    deviates: Array | None = None
 
     @property
     def variance(self) -> float:
-        """In the mean of the models."""
-        return sum(model.probability * model.variance for model in self.models)
+        """Mean square of the noise."""
+        squares = np.concatenate(self.noise) ** 2
+        return float(squares.mean())
 
-    def scatter(self, columns: Array, white: float = 1.0, alike: float = 1.0) -> Array:
-        """Return columns' V columns for the covariance V of the noise, in the mean of the models.
+    def scatter(self, columns: Array, *, of_median: bool = False) -> Array:
+        """Return columns' V columns for the covariance V of the noise.
 
         Parameters
         ----------
         columns : ndarray, shape (points, k)
-        white, alike : float
-            What white noise and the autoregression are multiplied with.
+        of_median : bool
+            Take the covariance of signs, in units in which that of a median follows.
         """
-        square = columns.T @ columns
-        total = np.zeros_like(square)
-        for model in self.models:
-            one = white * model.share * square
-            if model.share < 1.0:
-                one += alike * (1.0 - model.share) * self._along(columns, model)
-            total += model.probability * model.variance * one
-        return total
-
-    def _along(self, columns: Array, model: Model) -> Array:
-        """Return columns' R columns for the covariance R of the autoregressions."""
+        if self.is_white:
+            scale = self.variance * (math.pi / 2.0 if of_median else 1.0)
+            return scale * (columns.T @ columns)
         total = np.zeros((columns.shape[1], columns.shape[1]))
-        for branch in self.branches.slices:
-            part = columns[branch]
-            total += part.T @ _correlated(part, _neighbours(model.reach, len(part)))
-        if model.common > 0.0:
-            total *= 1.0 - model.common
-            rho = _neighbours(model.reach, PARTS)
-            for sums in self.branches.gathered(columns):
-                total += model.common * (sums.T @ _correlated(sums, rho))
+        for noise, part in self._parts(columns):
+            spectrum = np.abs(np.fft.rfft(noise)) ** 2 / len(noise)
+            if of_median:
+                spectrum = _of_signs(spectrum, len(noise))
+            waves = np.fft.rfft(part, axis=0)
+            weights = _both_halves(len(noise)) * spectrum
+            total += np.real(waves.conj().T @ (weights[:, np.newaxis] * waves)) / len(noise)
         return total
 
-    def draw(self, random: np.random.Generator) -> Array:
-        """Return noise drawn anew, of one of the models."""
-        chances = [model.probability for model in self.models]
-        model = self.models[random.choice(len(chances), p=chances)]
-        count = self.branches.slices[-1].stop
-        noise: Array = math.sqrt(model.share) * random.normal(size=count)
-        if model.share < 1.0:
-            own = math.sqrt((1.0 - model.share) * (1.0 - model.common))
-            for branch in self.branches.slices:
-                size = branch.stop - branch.start
-                rho = _neighbours(model.reach, size)
-                noise[branch] += own * _autoregression(random.normal(size=size), rho)
-        if model.common > 0.0:
-            factor = _shared_factor(model.reach, model.share, model.common, self.branches)
-            noise += factor @ random.normal(size=factor.shape[1])
-        return math.sqrt(model.variance) * noise
+    def freedom(self, columns: Array) -> Array:
+        """Return the equivalent degrees of freedom of the variances of correlated noise, (k,).
 
-    @property
-    def independent(self) -> float:
-        """How many independent points would say as much: points by the sum of correlations."""
-        return self._independent(1)
-
-    @property
-    def independent_squares(self) -> float:
-        """How many independent squares would say as much: by the sum of squared correlations."""
-        return self._independent(2)
-
-    def _independent(self, power: int) -> float:
-        """Return the points by the mean of the models' sums of correlations to a power.
-
-        Powers of an autoregression's correlations are the correlations of a shorter one.
+        Those of a weighted mean of the periodogram, whose squares are in the mean twice those of
+        the spectrum.
         """
-        branches = self.branches
-        count = branches.slices[-1].stop
-        alike = 0.0
-        for model in self.models:
-            together, part = float(count), (1.0 - model.share) ** power
-            if part > 0.0:
-                reach, common = model.reach / power, model.common**power
-                whole = sum(_all_pairs(reach, one.stop - one.start) for one in branches.slices)
-                if common > 0.0:
-                    whole *= 1.0 - common
-                    for sums in branches.gathered(np.ones((count, 1))):
-                        shared = sums.T @ _correlated(sums, _neighbours(reach, PARTS))
-                        whole += common * float(shared[0, 0])
-                together += part * (whole - together)
-            alike += model.probability * together
-        return float(count) ** 2 / alike
+        shares = [
+            _power(part) * np.abs(np.fft.rfft(noise))[:, np.newaxis] ** 2
+            for noise, part in self._parts(columns)
+        ]
+        whole = np.concatenate(shares)
+        squares = (whole**2).sum(axis=0)
+        freedom = 4.0 * whole.sum(axis=0) ** 2 / np.where(squares > 0.0, squares, np.inf)
+        at_least: Array = np.maximum(freedom, _LEAST_FREEDOM)
+        return at_least
+
+    def _parts(self, columns: Array) -> Iterator[tuple[Array, Array]]:
+        """Yield the noise of each test, and the rows of columns that belong to it."""
+        ends = np.cumsum([len(noise) for noise in self.noise])[:-1]
+        return zip(self.noise, np.split(columns, ends), strict=True)
+
+    def draw(self, random: np.random.Generator) -> list[Array]:
+        """Return noise drawn again, of each test."""
+        if self.is_white:
+            deviation = math.sqrt(self.variance)
+            return [deviation * random.normal(size=len(noise)) for noise in self.noise]
+        return [_shifted(noise, random) for noise in self.noise]
 
 
-def white(branches: Branches, variance: float = 1.0) -> Correlation:
-    """Return noise without correlation."""
-    return Correlation([Model(1.0, *_WHITE, variance)], branches)
+def given_noise(counts: Sequence[int]) -> Correlation:
+    """Return white noise of one deviation, of tests of these numbers of points."""
+    return Correlation([np.ones(count) for count in counts], True)
 
 
-def correlation_of(residuals: Array, slopes: Array, branches: Branches) -> Correlation:
-    """Return what the residuals of a fit say of the noise.
+def correlation_of(residuals: Sequence[Array], slopes: Array, moves: Array) -> Correlation:
+    """Return what the residuals of a fit show of the noise.
 
     Parameters
     ----------
-    residuals : ndarray, shape (points,)
-        Of all tests, each in units of its test's deviation.
+    residuals : sequence of ndarray
+        Of each test, in units of its deviation.
     slopes : ndarray, shape (points, k)
         Of the fitted values, in the same units: what the fit has taken from the residuals.
-    branches : Branches
+    moves : ndarray, shape (points, k)
+        By how much the estimates move with the noise of each point.
     """
     basis, values, _ = np.linalg.svd(slopes, full_matrices=False)
     basis = basis[:, values > 1e-9 * values[0]]
-    left = residuals - basis @ (basis.T @ residuals)
-    square = float(left @ left)
-    if not square > 0.0:  # fitted to the last digit
-        return white(branches)
-    common = _COMMON if branches.ways else (0.0,)
-    tried = [_WHITE, *itertools.product(_REACHES, _SHARES, common)]
-    found = [_likelihood(left / math.sqrt(square), basis, branches, *model) for model in tried]
-    logarithms = np.array([logarithm for logarithm, _ in found])
-    if logarithms.max() < logarithms[0] + _BETTER:
-        return white(branches, square * found[0][1])
-    chances = np.exp(logarithms - logarithms.max())
-    chances[chances < _IMPOSSIBLE * chances.sum()] = 0.0
-    chances /= chances.sum()
-    models = [
-        Model(float(chance), *model, square * variance)
-        for chance, model, (_, variance) in zip(chances, tried, found, strict=True)
-        if chance > 0.0
-    ]
-    return Correlation(models, branches, square / _expected_square(models, basis, branches))
-
-
-def _expected_square(models: list[Model], basis: Array, branches: Branches) -> float:
-    """Return the sum of squares that fitted residuals are expected to have.
-
-    The trace of (I - B B') V for an orthonormal basis B and the covariance V.
-    """
-    count = len(basis)
-    repeated = 0 if branches.places is None else int(np.sum(branches.places >= 0))
-    whole = 0.0
-    for model in models:
-        alike = (1.0 - model.common) * count + model.common * repeated
-        one = model.share * count + (1.0 - model.share) * alike
-        whole += model.probability * model.variance * one
-    return whole - float(np.trace(Correlation(models, branches).scatter(basis)))
-
-
-def _likelihood(
-    residuals: Array, basis: Array, branches: Branches, reach: float, share: float, common: float
-) -> tuple[float, float]:
-    """Return the logarithm of the restricted likelihood of a model, and its variance."""
-    freedom = len(residuals) - basis.shape[1]
-    if share == 1.0:
-        square = float(residuals @ residuals)
-        return -0.5 * freedom * math.log(square), square / freedom
-    linalg = required("scipy.linalg")
-    diagonal, beside = np.ones(len(residuals)), np.zeros(len(residuals))
-    logarithm = 0.0
-    for branch in branches.slices:  # T, the inverse of the autoregression's covariance R
-        count = branch.stop - branch.start
-        if count < 2:
-            continue
-        rho = _neighbours(reach, count)
-        new = 1.0 - rho**2
-        diagonal[branch] = (1.0 + rho**2) / new
-        diagonal[[branch.start, branch.stop - 1]] = 1.0 / new
-        beside[branch.start + 1 : branch.stop] = -rho / new
-        logarithm += (count - 1) * math.log(new)
-    # A = a R + b I has the inverse (a I + b T)^-1 T.
-    shared_factor = _shared_factor(reach, share, common, branches)
-    columns = np.column_stack((residuals, basis, shared_factor))
-    right = diagonal[:, np.newaxis] * columns
-    right[1:] += beside[1:, np.newaxis] * columns[:-1]
-    right[:-1] += beside[1:, np.newaxis] * columns[1:]
-    factor = linalg.cholesky_banded(
-        np.vstack((share * beside, (1.0 - share) * (1.0 - common) + share * diagonal)),
-        check_finite=False,
+    counts = [len(one) for one in residuals]
+    # What the fit could still have taken would be taken for noise of long range.
+    left = np.concatenate(residuals)
+    left = left - basis @ (basis.T @ left)
+    count, freedom = len(left), len(left) - basis.shape[1]
+    parts = np.split(left, np.cumsum(counts)[:-1])
+    if not left.any():  # fitted to the last digit
+        return Correlation(parts, True)
+    squares, random = _Squares(basis, moves, counts), np.random.default_rng(0)
+    seen = squares.of(left[np.newaxis])
+    _, by_chance = squares.of_draws(lambda: random.normal(size=count))
+    if _pass_for_white(seen, by_chance, moves):
+        return Correlation([math.sqrt(count / freedom) * part for part in parts], True)
+    enlarging = float(seen.enlarging[0])
+    enlarged = [math.sqrt(enlarging) * part for part in parts]
+    moved, after = squares.of_draws(
+        lambda: np.concatenate([_shifted(part, random) for part in enlarged])
     )
-    solved = linalg.cho_solve_banded((factor, False), right, check_finite=False)
-    logarithm += 2.0 * float(np.log(factor[1]).sum())
-    count = 1 + basis.shape[1]
-    products = columns[:, :count].T @ solved[:, :count]
-    if common > 0.0:  # V = A + F F', of the factor F
-        beside_factor = shared_factor.T @ solved
-        inner = np.eye(shared_factor.shape[1]) + beside_factor[:, count:]
-        seen = beside_factor[:, :count]
-        products -= seen.T @ np.linalg.solve(inner, seen)
-        logarithm += float(np.linalg.slogdet(inner)[1])
-    of_basis, shared = products[1:, 1:], products[1:, 0]
-    square = float(products[0, 0] - shared @ np.linalg.solve(of_basis, shared))
-    logarithm += float(np.linalg.slogdet(of_basis)[1])
-    return -0.5 * (freedom * math.log(square) + logarithm), square / freedom
+    errors = np.sqrt(after.variances * after.enlarging[:, np.newaxis])
+    return Correlation(enlarged, False, np.abs(moved) / np.where(errors > 0.0, errors, np.inf))
 
 
-def _shared_factor(reach: float, share: float, common: float, branches: Branches) -> Array:
-    """Return F, whose F F' is the covariance of what like branches have in common."""
-    if common == 0.0:
-        return np.empty((branches.slices[-1].stop, 0))
-    powers = _neighbours(reach, PARTS) ** np.abs(np.subtract.outer(range(PARTS), range(PARTS)))
-    one_way = math.sqrt((1.0 - share) * common) * np.linalg.cholesky(powers)
-    return branches.spread(np.kron(np.eye(branches.ways), one_way))
+def _pass_for_white(seen: _Sums, by_chance: _Sums, moves: Array) -> bool:
+    """Say whether residuals pass for white, beside those of draws of white noise."""
+    by_white = (moves**2).sum(axis=0)
+    noticed = by_white > 0.0
+
+    def excess(sums: _Sums) -> Array:
+        ratios = sums.variances[:, noticed] / by_white[noticed]
+        found: Array = ratios.max(axis=1, initial=0.0) / sums.whole
+        return found
+
+    same = np.quantile(by_chance.steps / by_chance.whole, 1.0 - _BELIEVED)
+    most = np.quantile(excess(by_chance), _BELIEVED)
+    return bool(seen.steps / seen.whole >= same and excess(seen) <= most)
 
 
-def _neighbours(reach: float, count: int) -> float:
-    """Return the correlation of neighbours, of a reach in parts of a branch of so many points."""
-    return math.exp(-1.0 / (reach * count)) if reach > 0.0 else 0.0
+class _Sums(NamedTuple):
+    """Sums of squares of the residuals of draws, and of what their shifts would do.
 
-
-def _all_pairs(reach: float, count: int) -> float:
-    """Return the sum of the correlations of all pairs of points of a branch, a series summed."""
-    rho = _neighbours(reach, count)
-    ends = (1.0 - rho**count) / (1.0 - rho)
-    return count + 2.0 * rho / (1.0 - rho) * (count - ends)
-
-
-def _autoregression(white_noise: Array, rho: float) -> Array:
-    """Return an autoregression of the deviation 1, of independent draws of the deviation 1."""
-    changes = math.sqrt(1.0 - rho**2) * white_noise
-    changes[0] = white_noise[0]
-    return _carried_on(changes, rho)
-
-
-def _correlated(columns: Array, rho: float) -> Array:
-    """Return R @ columns with R[i, j] = rho ** |i - j|, by a walk there and a walk back."""
-    correlated: Array = _carried_on(columns, rho) + _carried_on(columns[::-1], rho)[::-1] - columns
-    return correlated
-
-
-def _carried_on(columns: Array, rho: float) -> Array:
-    """Return y with y[i] = columns[i] + rho y[i - 1], as scipy.signal's lfilter does.
-
-    To rounding, without the second that the import of scipy.signal takes.
+    Attributes
+    ----------
+    whole, steps, taken : ndarray, shape (draws,)
+        Of the residuals; of the differences of neighbours; of what a fit takes from shifts.
+    variances : ndarray, shape (draws, k)
+        Of the estimates, with shifts.
     """
-    bands = np.array([[1.0], [-rho]]).repeat(len(columns), axis=1)
-    found: Array = required("scipy.linalg").solve_banded((1, 0), bands, columns, check_finite=False)
-    return found
+
+    whole: Array
+    steps: Array
+    taken: Array
+    variances: Array
+
+    @property
+    def enlarging(self) -> Array:
+        """By what squares are multiplied, so that fits of shifts leave as much."""
+        enlarging: Array = self.whole / np.maximum(self.whole - self.taken, _LEAST * self.whole)
+        return enlarging
+
+
+class _Squares:
+    """What makes `_Sums`: spectra of what a fit takes, and of how the estimates move.
+
+    Parameters
+    ----------
+    basis : ndarray, shape (points, r)
+        Orthonormal: what a fit takes.
+    moves : ndarray, shape (points, k)
+    counts : sequence of int
+        Points of each test.
+    """
+
+    def __init__(self, basis: Array, moves: Array, counts: Sequence[int]) -> None:
+        self._basis, self._moves = basis, moves
+        self._ends = np.cumsum(counts)[:-1]
+        parts = zip(np.split(basis, self._ends), np.split(moves, self._ends), strict=True)
+        self._powers = [np.column_stack((_power(b).sum(axis=1), _power(m))) for b, m in parts]
+
+    def of(self, residuals: Array) -> _Sums:
+        """Return the sums of residuals, shape (draws, points)."""
+        total = np.zeros((len(residuals), self._powers[0].shape[1]))
+        steps = np.zeros(len(residuals))
+        for part, power in zip(np.split(residuals, self._ends, axis=1), self._powers, strict=True):
+            total += np.abs(np.fft.rfft(part, axis=1)) ** 2 @ power
+            steps += (np.diff(part, axis=1) ** 2).sum(axis=1)
+        return _Sums((residuals**2).sum(axis=1), steps, total[:, 0], total[:, 1:])
+
+    def of_draws(self, one: Callable[[], Array]) -> tuple[Array, _Sums]:
+        """Return by how much draws of noise move the estimates, and `of` what a fit leaves."""
+        moved, sums = [], []
+        step = max(1, _AT_ONCE // len(self._basis))
+        for first in range(0, _DRAWS, step):
+            noise = np.array([one() for _ in range(min(step, _DRAWS - first))])
+            moved.append(noise @ self._moves)
+            sums.append(self.of(noise - (noise @ self._basis) @ self._basis.T))
+        return np.concatenate(moved), _Sums(*map(np.concatenate, zip(*sums, strict=True)))
+
+
+def _power(columns: Array) -> Array:
+    """Return by what the squares of a spectrum are weighted in the mean square of a product."""
+    count = len(columns)
+    weights = _both_halves(count)[:, np.newaxis]
+    power: Array = weights * np.abs(np.fft.rfft(columns, axis=0)) ** 2 / float(count) ** 2
+    return power
+
+
+def _both_halves(count: int) -> Array:
+    """Return how often each frequency of a real spectrum occurs in the whole one."""
+    times = np.full(count // 2 + 1, 2.0)
+    times[0] = 1.0
+    if count % 2 == 0:
+        times[-1] = 1.0
+    return times
+
+
+def _of_signs(spectrum: Array, count: int) -> Array:
+    """Return the spectrum of arcsines of autocorrelations: of signs of normal variables."""
+    covariances = np.fft.irfft(spectrum, count)
+    if not covariances[0] > 0.0:
+        return spectrum
+    arcsines = covariances[0] * np.arcsin(np.clip(covariances / covariances[0], -1.0, 1.0))
+    of_signs: Array = np.maximum(np.fft.rfft(arcsines).real, 0.0)
+    return of_signs
+
+
+def _shifted(noise: Array, random: np.random.Generator) -> Array:
+    """Return noise shifted along its test, and at random reversed and with the other sign."""
+    shifted = np.roll(noise, random.integers(len(noise)))
+    if random.random() < 0.5:
+        shifted = shifted[::-1]
+    signed: Array = shifted if random.random() < 0.5 else -shifted
+    return signed

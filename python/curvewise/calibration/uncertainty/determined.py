@@ -1,43 +1,44 @@
 """Which parameters the tests determine: the rule, and what is known without a bootstrap.
 
-A parameter is determined if it is at no bound, and may be wrong by at most a quarter of its value
-and a quarter of its bounds' range: tests that leave more than that open have hardly told more than
-the bounds. Of a parameter that is nearly 0 a fiftieth of the range takes the place of the quarter
-of the value. By how much it may be wrong is half its interval or twice its error, and by how much
-it may change unnoticed. Cost: that of the singular values (`sensitivity`) and of a fitted curve.
+A parameter is determined if it is at no bound, and half its interval is at most a quarter of its
+value and of its bounds' range: tests that leave more than that open have barely told more than the
+bounds. For a parameter near 0 the limit is a fiftieth of the range instead of a quarter of the
+value. Cost: that of an estimate.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from ..problem.space import Space
+from ..problem.tables import per_cent
 from .noise import noise_of
-from .sensitivity import Optimum, sensitivity_of
+from .sensitivity import Optimum
 from .spread import linear_spread
 
-__all__ = ["THE_RULE", "determined", "determined_by"]
+__all__ = ["THE_RULE", "Verdict", "determined", "half_widths", "verdict_on"]
 
 _OF_VALUE, _OF_RANGE, _SMALL = 0.25, 0.25, 0.02
 
 THE_RULE = (
-    "A parameter is not determined if it is at a bound, or if half its interval, or the change "
-    f"that raises the value by 1 %, is more than {100 * _OF_VALUE:g} % of the parameter or "
-    f"{100 * _OF_RANGE:g} % of the range between its bounds"
+    "A parameter is not determined if it is at a bound, or if half its interval is more than "
+    f"{100 * _OF_VALUE:g} % of the parameter or {100 * _OF_RANGE:g} % of the range between its "
+    "bounds"
 )
 """The rule in words, for a page."""
 
 
 def determined(
-    space: Space, parameters: Mapping[str, float], changes: Iterable[float]
+    space: Space, parameters: Mapping[str, float], halves: Iterable[float]
 ) -> dict[str, bool]:
-    """Return which parameters are determined, where each of them may be wrong by a change."""
+    """Return which parameters are determined, by half their intervals."""
     at_bounds = space.at_bounds(parameters)
     return {
-        name: name not in at_bounds and change <= _most(space, name, abs(parameters[name]))
-        for name, change in zip(space.names, changes, strict=True)
+        name: name not in at_bounds and half <= _most(space, name, abs(parameters[name]))
+        for name, half in zip(space.names, halves, strict=True)
     }
 
 
@@ -49,14 +50,45 @@ def _most(space: Space, name: str, size: float) -> float:
     return min(max(_OF_VALUE * size, _SMALL * (high - low)), _OF_RANGE * (high - low))
 
 
-def determined_by(optimum: Optimum) -> dict[str, bool]:
-    """Return which parameters are determined as far as can be said without a bootstrap.
+class Verdict(NamedTuple):
+    """Which parameters are determined, as far as can be said without a bootstrap.
 
-    By how far they go unnoticed, and by twice the standard errors of the linear theory.
+    Attributes
+    ----------
+    determined : dict of str to bool
+    loose : str
+        Those that are not and are at no bound, with half their intervals in per cent. Empty if
+        there are none.
     """
+
+    determined: dict[str, bool]
+    loose: str
+
+
+def verdict_on(optimum: Optimum) -> Verdict:
+    """Return which parameters are determined, by the intervals of the linear theory."""
     space = optimum.problem.space
-    errors = linear_spread(optimum, noise_of(optimum, None), 0.95).errors
-    unnoticed = np.abs(space.differential(optimum.unit)) @ sensitivity_of(optimum).reach
-    changes = np.maximum(unnoticed, 2.0 * errors)
+    halves = half_widths(linear_spread(optimum, noise_of(optimum, None), 0.95).intervals)
     parameters = space.dictionary(space.point(optimum.unit))
-    return determined(space, parameters, changes.tolist())
+    good = determined(space, parameters, halves)
+    at_bounds = space.at_bounds(parameters)
+    loose = [
+        f"{name} ± {_share(space, name, parameters[name], half)}"
+        for name, half in zip(space.names, halves, strict=True)
+        if not good[name] and name not in at_bounds
+    ]
+    return Verdict(good, ", ".join(loose))
+
+
+def half_widths(intervals: Sequence[tuple[float, float]]) -> list[float]:
+    """Return half the width of each interval."""
+    halves: list[float] = (np.ptp(intervals, axis=1) / 2.0).tolist()
+    return halves
+
+
+def _share(space: Space, name: str, value: float, change: float) -> str:
+    """Return a change in per cent of what it is too large a part of."""
+    if change > _OF_VALUE * abs(value) > 0.0:
+        return f"{per_cent(change, value)} %"
+    low, high = space.bounds[name]
+    return f"{per_cent(change, high - low)} % of its range"

@@ -1,4 +1,4 @@
-"""The simulated point that belongs to each measured one: what residuals are differences from.
+"""The simulated point that belongs to each measured one, by y at the measured x.
 
 A dynamic time warping path says which part of the simulation a measured point belongs to; there
 the simulation is interpolated at the measured x, on the branch that is meant. Where it does not
@@ -13,7 +13,7 @@ import numpy as np
 from ...curves.inputs import Array
 from ...measures import dtw_path, normalize
 
-__all__ = ["fitted_points"]
+__all__ = ["fitted_points", "matched_places", "reach_of"]
 
 _REACH = 0.05  # how far from the matched point, as a fraction of the simulation's points
 
@@ -28,19 +28,30 @@ def fitted_points(P: Array, Q: Array) -> Array:
     """
     if len(P) == 1:
         return Q[:1].copy()
-    i, j = dtw_path(*normalize(P, Q)).path.T
-    places = np.bincount(i, weights=j) / np.bincount(i)
+    places = matched_places(P, Q)
     fitted = P.copy()
     fitted[:, -1] = np.interp(places, np.arange(len(Q)), Q[:, -1])
     if P.shape[1] != 2:
         return fitted
-    reach = max(2, round(_REACH * len(Q)))
+    reach = reach_of(Q)
     for k, (x, place) in enumerate(zip(P[:, 0], places, strict=True)):
         first = max(0, int(place) - reach)
         y = _nearest_crossing(Q[first : int(place) + reach + 2], x, place - first)
         if y is not None:
             fitted[k, 1] = y
     return fitted
+
+
+def matched_places(P: Array, Q: Array) -> Array:
+    """Return where along Q, in its points, a warping path has each point of P."""
+    i, j = dtw_path(*normalize(P, Q)).path.T
+    places: Array = np.bincount(i, weights=j) / np.bincount(i)
+    return places
+
+
+def reach_of(Q: Array) -> int:
+    """Return how many points of Q from the matched one the fitted one may be."""
+    return max(2, round(_REACH * len(Q)))
 
 
 def _nearest_crossing(Q: Array, x: float, place: float) -> float | None:

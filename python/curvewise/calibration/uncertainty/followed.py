@@ -37,6 +37,7 @@ from ...curves.inputs import Array
 from ...curves.several_curves import points_of
 from ..problem.simulator import Simulator
 from ..surfaces.surfaces import Surfaces
+from .directions import Directions
 from .estimate import estimate_of, point_slopes, points_of_tests
 from .noise import Noise
 from .sensitivity import Optimum
@@ -56,9 +57,9 @@ def followed_spread(optimum: Optimum, noise: Noise, level: float) -> tuple[Sprea
     """Return the spread by sensitivities with its intervals followed, and the runs it took."""
     estimate, space = estimate_of(optimum, noise), optimum.problem.space
     spread = spread_of(estimate, optimum, level)
-    widths = estimate.quantile(level) * np.sqrt(np.diag(estimate.covariance))
+    widths = estimate.quantiles(level) * np.sqrt(np.diag(estimate.covariance))
     squares = widths**2 / np.diag(estimate.inverse)
-    compared = Compared(estimate.factors, [len(fitted) for fitted in noise.fitted])
+    compared = Compared(estimate.factors, estimate.directions)
     slopes = compared.slopes(optimum)
     ends = [
         End(optimum.unit, slopes, index, way, float(square))
@@ -76,20 +77,20 @@ def followed_spread(optimum: Optimum, noise: Noise, level: float) -> tuple[Sprea
 
 
 class Compared(NamedTuple):
-    """What is compared of curves: y at as many points as were measured, each with its factor."""
+    """What is compared of curves: how far each point is in its direction, times its factor."""
 
     factors: Array
-    counts: list[int]
+    directions: list[Directions]
 
     def points(self, optimum: Optimum) -> Array:
         """Return it of the curves at the place of an optimum, shape (points,)."""
-        y = points_of_tests(optimum, optimum.curves(optimum.unit), self.counts)
-        compared: Array = self.factors * y
+        sizes = points_of_tests(optimum.curves(optimum.unit), self.directions)
+        compared: Array = self.factors * sizes
         return compared
 
     def slopes(self, optimum: Optimum) -> Array:
         """Return its slopes there, shape (points, k)."""
-        return self.factors[:, np.newaxis] * point_slopes(optimum, self.counts)
+        return self.factors[:, np.newaxis] * point_slopes(optimum, self.directions)
 
 
 def _follow(ends: Sequence[End], optimum: Optimum, compared: Compared) -> int:

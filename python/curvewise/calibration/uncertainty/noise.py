@@ -1,8 +1,13 @@
 """The noise of a test: its residuals from the fitted curve, or a given deviation; draws of it.
 
-Residuals that go on alike from point to point (a model that is wrong rather than noise) are drawn
-so that they keep to that (`correlation`). Cost: that of a dynamic time warping path for every loop;
-a draw is O(n).
+Residuals are taken in the directions of the deviations (`directions`). How much noise each
+coordinate has is fitted to their squares: by non-negative least squares, first with equal weights
+and then with those of the first fit. If that is hardly more likely, the noise is where the model
+answers. Residuals that go on alike from point to point (a model that
+is wrong rather than noise) are drawn so that they keep to that (`correlation`). Cost: that of a
+dynamic time warping path for every loop; a draw is O(n).
+
+C. L. Lawson, R. J. Hanson, "Solving least squares problems", Prentice-Hall (1974), chapter 23.
 """
 
 from __future__ import annotations
@@ -13,12 +18,20 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..._extras import required
 from ...curves.inputs import Array
 from .correlation import Correlation
-from .fitted_points import fitted_points
+from .directions import Directions, fitted_tests
 from .sensitivity import Optimum
 
 __all__ = ["Noise", "draw_noise", "noise_of"]
+
+# The least deviation of a point in parts of its test's, and that of a test in parts of its height:
+# a test that is fitted to the last digit has no noise that could be divided by.
+_LEAST_OF_TEST, _LEAST_OF_HEIGHT, _LEAST = 0.01, 1e-12, 1e-150
+# By how much the logarithm of the likelihood of noise in another coordinate has to be larger: the
+# 95 % point of a likelihood ratio of one parameter.
+_BETTER = 2.0
 
 
 class Noise(NamedTuple):
@@ -26,50 +39,136 @@ class Noise(NamedTuple):
 
     Attributes
     ----------
-    fitted : list of ndarray
+    fitted : sequence of ndarray
         For each test the simulated point that belongs to each measured one.
-    residuals : list of ndarray or None
-        Measured minus fitted y; None where sigma is given.
-    sigma : ndarray, shape (tests,)
-        The standard deviation of each test, enlarged for the parameters that were fitted.
+    directions : sequence of Directions
+        For each test the directions of the deviations of the measured points.
+    residuals : sequence of ndarray or None
+        How far the measured points are from the simulation in these directions, in units of y;
+        None where sigma is given.
+    components : sequence of ndarray, shape (d,)
+        For each test the standard deviation in each coordinate, in units of y, enlarged for the
+        parameters that were fitted.
+    heights : sequence of float
+        For each test its extent in y.
     freedom : int
         Points of all tests minus parameters.
     """
 
-    fitted: list[Array]
-    residuals: list[Array] | None
-    sigma: Array
+    fitted: Sequence[Array]
+    directions: Sequence[Directions]
+    residuals: Sequence[Array] | None
+    components: Sequence[Array]
+    heights: Sequence[float]
     freedom: int
+
+    @property
+    def sigma(self) -> Array:
+        """The standard deviation of each test, of all its coordinates together."""
+        return np.array([_size(one) for one in self.components])
+
+    def to_divide_by(self) -> Noise:
+        """Return the noise with a deviation of each test that is not 0."""
+        components = []
+        for one, direction, height in zip(
+            self.components, self.directions, self.heights, strict=True
+        ):
+            least = max(_LEAST_OF_HEIGHT * height, _LEAST)
+            components.append(one if _size(one) > least else least * direction.unit[0])
+        return self._replace(components=components)
+
+    def deviations(self, directions: Sequence[Directions]) -> list[Array]:
+        """Return for each test the standard deviations of points in directions."""
+        found = []
+        for at, components in zip(directions, self.components, strict=True):
+            sizes = np.sqrt(at.unit**2 @ components**2)
+            found.append(np.maximum(sizes, max(_LEAST_OF_TEST * _deviation(sizes), _LEAST)))
+        return found
+
+    def moves(self, directions: Sequence[Directions]) -> list[Array]:
+        """Return for each test the likeliest moves of points by one deviation in directions.
+
+        Noise in y alone moves a point along y whatever its direction is; noise of equal deviations
+        in all coordinates moves it in its direction.
+        """
+        parts = zip(directions, self.components, self.deviations(directions), strict=True)
+        return [c * (c * at.unit / sizes[:, np.newaxis]) * at.scale for at, c, sizes in parts]
 
 
 def noise_of(optimum: Optimum, sigma: float | Sequence[float] | None) -> Noise:
-    """Return the fitted points, and the residuals or the deviation that is given."""
+    """Return the fitted points, and the residuals or the deviation in y that is given."""
     objective = optimum.problem.objective
-    experiments, ys = objective.experiments, objective.y_columns
-    count = len(experiments)
-    curves = optimum.curves(optimum.unit)
-    fitted = objective.fitted(curves) or [
-        fitted_points(P, Q) for P, Q in zip(experiments, curves, strict=True)
-    ]
-    total = sum(map(len, experiments))
+    tests, curves = objective.experiments, optimum.curves(optimum.unit)
+    fitted, directions, residuals = zip(*fitted_tests(objective, curves), strict=True)
+    total = sum(map(len, tests))
     freedom = total - optimum.unit.size
     if freedom < 1:
         raise ValueError(f"the tests have {total} points for {optimum.unit.size} parameters")
+    in_y = [np.eye(P.shape[1])[y] for P, y in zip(tests, objective.y_columns, strict=True)]
+    heights = [float(e[y]) for e, y in zip(objective.extents, objective.y_columns, strict=True)]
     if sigma is not None:
-        given = np.broadcast_to(np.asarray(sigma, dtype=np.float64), (count,)).copy()
+        given = np.broadcast_to(np.asarray(sigma, dtype=np.float64), len(tests))
         if not (np.isfinite(given).all() and (given >= 0).all()):
             raise ValueError(f"sigma is {sigma}; give a finite deviation, not negative")
-        return Noise(fitted, None, given, freedom)
-    inflation = math.sqrt(total / freedom)
-    residuals = [P[:, y] - F[:, y] for P, F, y in zip(experiments, fitted, ys, strict=True)]
-    # Of a single number there is no residual to speak of: a hundredth of it, if nothing is given.
-    deviations = np.array(
-        [
-            given or (_deviation(r) * inflation if r.size > 1 else 0.01 * float(extent[-1]))
-            for r, given, extent in zip(residuals, objective.sigmas, objective.extents, strict=True)
-        ]
-    )
-    return Noise(fitted, residuals, deviations, freedom)
+        components = [size * axis for size, axis in zip(given, in_y, strict=True)]
+        return Noise(fitted, directions, None, components, heights, freedom)
+    components, answers = [], _answers(optimum)
+    for i, (residual, one) in enumerate(zip(residuals, directions, strict=True)):
+        # A single number has no residual to speak of: a hundredth of it, if nothing is given.
+        found = 0.01 * heights[i] * in_y[i]
+        if residual.size > 1:
+            found = math.sqrt(total / freedom) * _components(residual, one, answers[i])
+        if known := objective.sigmas[i]:
+            found = known * (found / _size(found) if found.any() else in_y[i])
+        components.append(found)
+    return Noise(fitted, directions, residuals, components, heights, freedom)
+
+
+def _answers(optimum: Optimum) -> list[Array]:
+    """Return by test the mean square move of the curve in each coordinate of its box."""
+    scaled, curves = optimum.scaled_slopes(), optimum.curves(optimum.unit)
+    pairs = zip(scaled, curves, strict=True)
+    return [(part**2).sum(axis=1).reshape(curve.shape).sum(axis=0) for part, curve in pairs]
+
+
+def _components(residuals: Array, directions: Directions, answers: Array) -> Array:
+    """Return the standard deviation in each coordinate, of residuals in directions.
+
+    Parameters
+    ----------
+    residuals : ndarray, shape (n,)
+    directions : Directions
+    answers : ndarray, shape (d,)
+        How much of the model's answer is in each coordinate; noise is shared out so, unless other
+        shares are clearly more likely. They cannot be if all directions are equal.
+    """
+    parts, squares = directions.unit**2, residuals**2
+    level = float(np.mean(squares))
+    answers = answers * parts.any(axis=0)
+    shares = answers / answers.sum() if answers.any() else parts.mean(axis=0)
+    likeliest: Array = float(np.mean(squares / _floored(parts @ shares))) * shares
+    if np.ptp(parts, axis=0).max() > 0.0 and level > 0.0:
+        nnls, sizes = required("scipy.optimize").nnls, np.ones(len(squares))
+        for _ in range(2):
+            others, _ = nnls(parts / sizes[:, np.newaxis], squares / level / sizes)
+            sizes = _floored(parts @ others)
+        gain = _logarithm(squares, level * sizes) - _logarithm(squares, parts @ likeliest)
+        likeliest = level * others if gain > _BETTER else likeliest
+    return np.sqrt(likeliest)
+
+
+def _floored(variances: Array) -> Array:
+    return np.maximum(variances, _LEAST_OF_TEST**2 * float(variances.mean()))
+
+
+def _logarithm(squares: Array, variances: Array) -> float:
+    """Return the logarithm of the likelihood of normal deviations, less a constant."""
+    variances = _floored(variances)
+    return -0.5 * float(np.sum(np.log(variances) + squares / variances))
+
+
+def _size(components: Array) -> float:
+    return math.sqrt(float(components @ components))
 
 
 def _deviation(residuals: Array) -> float:
@@ -77,7 +176,6 @@ def _deviation(residuals: Array) -> float:
 
 
 def draw_noise(noise: Noise, correlation: Correlation, random: np.random.Generator) -> list[Array]:
-    """Return noise of every test, drawn anew."""
-    counts = [len(fitted) for fitted in noise.fitted]
-    parts = np.split(correlation.draw(random), np.cumsum(counts)[:-1])
-    return [sigma * part for sigma, part in zip(noise.sigma, parts, strict=True)]
+    """Return noise of every test, drawn again: moves of its points."""
+    drawn, moves = correlation.draw(random), noise.moves(noise.directions)
+    return [part[:, np.newaxis] * move for part, move in zip(drawn, moves, strict=True)]

@@ -1,17 +1,14 @@
-"""Surfaces of the curves around an optimum, and what they say of it without any noise.
+"""Surfaces of the curves around an optimum, and how sensitive the loops are to the parameters.
 
 Slopes come from the runs that a search has made nearby, weighted by nearness, or from two runs a
-parameter where there are too few of these. Their singular values say which combinations of
-parameters the loops notice, and along each of these directions how far one can go before the
-objective rises by a hundredth: parameters that may go far are not determined, whatever a search
-says of its convergence. Cost: no runs, or 2 k; some 40 k evaluations of the objective.
+parameter if there are too few of these. Their singular values say to which combinations of
+parameters the loops are sensitive. Cost: no runs, or 2 k.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -21,12 +18,11 @@ from ..problem.problem import Problem
 from ..surfaces.nearby_runs import NearbyRuns, Run, narrowest, runs_near
 from ..surfaces.surfaces import Responses, Surfaces
 
-__all__ = ["Optimum", "Sensitivity", "design_runs", "optimum_surfaces", "sensitivity_of"]
+__all__ = ["Optimum", "design_runs", "optimum_surfaces", "sensitivity_of"]
 
 _NEAR = 0.1  # runs further away than this fraction of the bounds' range are not looked at
 _STEP = 0.02  # runs nearer than this count alike; the step of fresh runs
 _LEAST = 0.15  # the smallest singular value of the places of the runs, in units of their distances
-_RISE = 0.01  # a rise of the objective by this fraction goes unnoticed
 
 
 @dataclass(frozen=True)
@@ -72,25 +68,6 @@ class Optimum:
     def loop_sensitivities(self) -> Array:
         """Return the root mean square move of every loop, in units of its box; (loops, k)."""
         return np.array([np.linalg.norm(part, axis=0) for part in self.scaled_slopes()])
-
-
-class Sensitivity(NamedTuple):
-    """What the loops notice of the parameters.
-
-    Attributes
-    ----------
-    singular_values : ndarray, shape (k,)
-        Of the scaled slopes, the largest first.
-    directions : ndarray, shape (k, k)
-        Row i is the direction of value i, in the unit cube.
-    reach : ndarray, shape (k,)
-        By how much each parameter changes, in units of its bounds' range, along the direction in
-        which it can go furthest before the objective rises by 1 %; at most 1.
-    """
-
-    singular_values: Array
-    directions: Array
-    reach: Array
 
 
 def design_runs(problem: Problem, unit: Array, runs: Sequence[Run]) -> int:
@@ -150,31 +127,16 @@ def _differences(problem: Problem, unit: Array, responses: Responses, base: Arra
     return slopes
 
 
-def sensitivity_of(optimum: Optimum) -> Sensitivity:
-    """Return what the loops notice of the parameters, and how far these may go unnoticed."""
+def sensitivity_of(optimum: Optimum) -> tuple[Array, Array]:
+    """Return to which combinations of parameters the loops are sensitive.
+
+    Returns
+    -------
+    singular_values : ndarray, shape (k,)
+        Of the scaled slopes, the largest first.
+    directions : ndarray, shape (k, k)
+        Row i is the direction of value i, in the unit cube.
+    """
     slopes = np.concatenate(optimum.scaled_slopes())
     _, values, directions = np.linalg.svd(slopes, full_matrices=False)
-    objective = optimum.problem.objective
-    lowest = objective.predicted(optimum.curves(optimum.unit)).value
-    least = lowest + max(_RISE * lowest, objective.negligible)
-
-    def unnoticed(direction: Array, t: float) -> bool:
-        curves = optimum.curves(optimum.unit + t * direction)
-        return objective.predicted(curves).value <= least
-
-    reach = np.zeros(directions.shape[1])
-    for direction in directions:
-        furthest = max(_furthest(unnoticed, sign * direction) for sign in (1.0, -1.0))
-        reach = np.maximum(reach, furthest * np.abs(direction))
-    return Sensitivity(values, directions, np.minimum(reach, 1.0))
-
-
-def _furthest(unnoticed: Callable[[Array, float], bool], direction: Array) -> float:
-    """Return how far one can go in a direction, at most through the whole cube."""
-    low, high = 0.0, 1.0 / float(np.abs(direction).max())
-    if unnoticed(direction, high):
-        return high
-    for _ in range(14):
-        middle = (low + high) / 2.0 if low > 0 else high / 4.0
-        low, high = (middle, high) if unnoticed(direction, middle) else (low, middle)
-    return low
+    return values, directions

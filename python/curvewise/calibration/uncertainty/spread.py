@@ -55,7 +55,7 @@ def spread_of(estimate: Estimate, optimum: Optimum, level: float) -> Spread:
     differential = space.differential(optimum.unit)
     covariance = differential @ estimate.covariance @ differential.T
     errors = np.sqrt(np.diag(covariance))
-    width = estimate.quantile(level) * errors
+    width = estimate.quantiles(level) * errors
     point = np.array(space.point(optimum.unit))
     intervals = _within(space, point - width, point + width)
     return Spread(errors, np.zeros_like(errors), intervals, _correlation(covariance))
@@ -97,14 +97,12 @@ def bootstrapped_spread(
     """Return the spread of the parameters that other noise would have given."""
     random = np.random.default_rng(seed)
     space = optimum.problem.space
-    ys = optimum.problem.objective.y_columns
     correlation = estimate_of(optimum, noise).correlation
     steps = _natural_steps(optimum, noise.sigma)
     units = np.empty((samples, optimum.unit.size))
     for i in range(samples):
-        tests = [fitted.copy() for fitted in noise.fitted]
-        for test, y, drawn in zip(tests, ys, draw_noise(noise, correlation, random), strict=True):
-            test[:, y] += drawn
+        drawn = draw_noise(noise, correlation, random)
+        tests = [fitted + moves for fitted, moves in zip(noise.fitted, drawn, strict=True)]
         units[i] = _reminimised(optimum, tests, steps)
     points = np.array([space.point(unit) for unit in units])
     covariance = np.atleast_2d(np.cov(points.T))

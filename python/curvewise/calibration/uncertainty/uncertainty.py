@@ -1,12 +1,12 @@
 """What the tests determine, as one report: errors, intervals, the weakest direction, what is loose.
 
-The noise is that of the residuals, or of a deviation that is given (`noise`), correlated as they
-are (`correlation`); how far the parameters would move with other noise is said by sensitivities,
-along the model where it says its slopes (`followed`), or by a bootstrap on response surfaces
-(`spread`); what the loops do not notice has nothing to do with noise (`sensitivity`); `determined`
-is the verdict on both. Cost: no runs, 2 k of them where the search has left no surfaces, or some
-10 k of a model with slopes; some 30 k evaluations of the measure, and with a bootstrap as many for
-each of its `samples`. Sources: see those modules.
+The noise is that of the residuals, normal to the curves (`directions`), or of a deviation that is
+given (`noise`), correlated as they are (`correlation`); how far the parameters would move with
+other noise is said by sensitivities, along the model where it says its slopes (`followed`), or by a
+bootstrap on response surfaces (`spread`); what the loops do not notice has nothing to do with noise
+(`sensitivity`); `determined` is the verdict on both. Cost: no runs, 2 k of them where the search
+has left no surfaces, or some 10 k of a model with slopes; some 30 k evaluations of the measure, and
+with a bootstrap as many for each of its `samples`. Sources: see those modules.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from ...showing.result import Result, Table
 from ..objective.noisy_tests import advice_against_noise
 from ..problem.space import Space
 from ..problem.tables import digits, parameter_table, per_cent
-from .determined import determined
+from .determined import determined, half_widths
 from .followed import followed_spread
 from .noise import noise_of
 from .sensitivity import Optimum, sensitivity_of
@@ -72,18 +72,17 @@ class Uncertainty(Result):
         By how much each parameter changes, in its own unit, along the direction that the loops
         notice least: by so much that one of them changes by 10 % of its value, or of its bounds'
         range if its value is 0.
-    unnoticed : dict of str to float
-        By how much each parameter may change, others with it, before the objective rises by 1 %.
     determined : dict of str to bool
-        Whether half the interval and `unnoticed` are within 25 % of the value (or 2 % of the
-        bounds' range, if that is more) and 25 % of the bounds' range, and the parameter is not at a
-        bound.
+        Whether half the interval is within 25 % of the value (or 2 % of the bounds' range, if that
+        is more) and 25 % of the bounds' range, and the parameter is not at a bound. With `samples`
+        the interval by sensitivities has to be, too.
     at_bounds : dict of str to str
         "lower" or "upper", for the parameters that are at a bound.
     at_limits : tuple of str
         Those of them whose bound is no assumption: 0, or the parameter that they stay below.
     sigma : ndarray, shape (loops,)
-        The standard deviation of the noise, as given or as the residuals have it.
+        The standard deviation of the noise in units of y, as given or as the residuals have it. The
+        variances of x and y are added, x scaled by the test's box.
     level, samples, measure
         As asked for.
     runs : int
@@ -98,7 +97,6 @@ class Uncertainty(Result):
     sensitivities: Array = field(repr=False)
     singular_values: Array = field(repr=False)
     weakest_direction: dict[str, float]
-    unnoticed: dict[str, float]
     determined: dict[str, bool]
     at_bounds: dict[str, str]
     at_limits: tuple[str, ...]
@@ -246,7 +244,11 @@ def uncertainty_of(
         spread = linear_spread(optimum, noise, level)
     else:
         spread = bootstrapped_spread(optimum, noise, level, samples, seed)
-    values, directions, reach = sensitivity_of(optimum)
+    halves = half_widths(spread.intervals)
+    if samples:  # draws that begin at the optimum stay there along a flat direction
+        by_theory = half_widths(linear_spread(optimum, noise, level).intervals)
+        halves = list(map(max, halves, by_theory))
+    values, directions = sensitivity_of(optimum)
     point = space.point(optimum.unit)
     parameters = space.dictionary(point)
     weakest = differential @ directions[-1]
@@ -257,8 +259,6 @@ def uncertainty_of(
     def named(values: Iterable[_Value]) -> dict[str, _Value]:
         return dict(zip(space.names, values, strict=True))
 
-    unnoticed = np.abs(differential) @ reach
-    halves = np.ptp(spread.intervals, axis=1) / 2.0
     return Uncertainty(
         parameters=parameters,
         standard_errors=named(spread.errors.tolist()),
@@ -268,8 +268,7 @@ def uncertainty_of(
         sensitivities=optimum.loop_sensitivities(),
         singular_values=values,
         weakest_direction=named(weakest.tolist()),
-        unnoticed=named(unnoticed.tolist()),
-        determined=determined(space, parameters, np.maximum(halves, unnoticed).tolist()),
+        determined=determined(space, parameters, halves),
         at_bounds=space.at_bounds(parameters),
         at_limits=space.at_limits(parameters),
         sigma=noise.sigma,

@@ -1,0 +1,146 @@
+"""The direction in which each measured point deviates from the fitted curve.
+
+A test may have noise in x, in y, or in both, and a model may answer with either. So a deviation is
+taken normal to the fitted curve, in coordinates scaled by the test's box; a deviation along the
+curve changes no measure to the first order. A curve of other than two coordinates, one without
+extent, a single number and a sum of squares have their deviations in the coordinate y. Sizes of
+deviations are in units of y. Cost: O(n) a test, and a warping path for the feet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from ...curves.inputs import Array
+from ..objective.objective import Objective
+from .fitted_points import fitted_points, matched_places, reach_of
+
+__all__ = ["Directions", "at_all_points", "at_places", "directions_of", "fitted_tests"]
+
+Places: TypeAlias = npt.NDArray[np.intp]
+
+_STILL = 1e-9  # of the longest: a shorter step of a curve has no direction
+
+
+class Directions(NamedTuple):
+    """The directions of the deviations of a curve's points.
+
+    Attributes
+    ----------
+    unit : ndarray, shape (n, d)
+        Unit vectors, in the units of `scale`; their y is not negative.
+    scale : ndarray, shape (d,)
+        The size in each coordinate that counts as much as 1 in y.
+    """
+
+    unit: Array
+    scale: Array
+
+    def across(self, moves: Array) -> Array:
+        """Return how far moves, of shape (n, d), go along the directions."""
+        sizes: Array = (moves / self.scale * self.unit).sum(axis=1)
+        return sizes
+
+
+def directions_of(objective: Objective, index: int, curve: Array, places: Array) -> Directions:
+    """Return the directions at places along a curve that belongs to a test.
+
+    Parameters
+    ----------
+    objective : Objective
+    index : int
+        The number of the test.
+    curve : ndarray, shape (m, d)
+    places : ndarray, shape (n,)
+        In points of the curve, from 0 to m - 1.
+    """
+    scale = _scale(objective, index, curve)
+    if scale is None:
+        return _along_y(objective, index, len(places))
+    steps = np.diff(curve / scale, axis=0)
+    lengths = np.hypot(*steps.T)
+    moving = lengths > _STILL * lengths.max()
+    # A step without length goes the way of the last one before it, or else of the first.
+    last = np.maximum.accumulate(np.where(moving, np.arange(len(steps)), moving.argmax()))
+    step = last[np.minimum(places.astype(np.intp), len(steps) - 1)]
+    normals = np.column_stack((-steps[step, 1], steps[step, 0])) / lengths[step, np.newaxis]
+    normals[normals[:, 1] < 0.0] *= -1.0
+    return Directions(normals, scale)
+
+
+def at_all_points(objective: Objective, index: int, curve: Array) -> Directions:
+    """Return the directions at the points of a curve that belongs to a test."""
+    return directions_of(objective, index, curve, np.arange(len(curve), dtype=np.float64))
+
+
+def fitted_tests(
+    objective: Objective, curves: Sequence[Array]
+) -> Iterator[tuple[Array, Directions, Array]]:
+    """Yield for each test its fitted points, their directions, and the residuals in these.
+
+    The residuals are from the points of a curve that are nearest to the measured ones. The fitted
+    points are those that a warping path matches with these: they do not scatter along the curve.
+    """
+    known = objective.fitted(curves)
+    for index, (test, curve) in enumerate(zip(objective.experiments, curves, strict=True)):
+        scale = _scale(objective, index, curve)
+        if scale is None:
+            points = fitted_points(test, curve) if known is None else known[index]
+            directions = _along_y(objective, index, len(test))
+            yield points, directions, directions.across(test - points)
+        else:
+            places = matched_places(test, curve)
+            feet = _feet(test / scale, curve / scale, places)
+            directions = directions_of(objective, index, curve, feet)
+            residuals = directions.across(test - at_places(curve, feet))
+            yield at_places(curve, places), directions, residuals
+
+
+def at_places(curve: Array, places: Array) -> Array:
+    """Return a curve's points at places along it, shape (n, d)."""
+    known = np.arange(len(curve))
+    return np.column_stack([np.interp(places, known, column) for column in curve.T])
+
+
+def _scale(objective: Objective, index: int, curve: Array) -> Array | None:
+    """Return the scale of a test's normals; None where its deviations are in y."""
+    test, extent = objective.experiments[index], objective.extents[index]
+    if test.shape[1] != 2 or objective.measures[index] == "sum_of_squares":
+        return None
+    has_extent = np.ptp(test, axis=0).min() > 0.0 and np.ptp(curve, axis=0).max() > 0.0
+    return extent / extent[1] if has_extent else None
+
+
+def _along_y(objective: Objective, index: int, count: int) -> Directions:
+    unit = np.zeros((count, objective.experiments[index].shape[1]))
+    unit[:, objective.y_columns[index]] = 1.0
+    return Directions(unit, np.ones(unit.shape[1]))
+
+
+def _feet(P: Array, Q: Array, places: Array) -> Array:
+    """Return the places of the points of Q nearest to those of P, downhill from places along Q."""
+    step = np.minimum(places.astype(np.intp), len(Q) - 2)
+    squares, fractions = _projected(P, Q, step)
+    for _ in range(reach_of(Q)):
+        ahead = np.where(fractions == 1.0, 1, np.where(fractions == 0.0, -1, 0))
+        there = np.clip(step + ahead, 0, len(Q) - 2)
+        others, at = _projected(P, Q, there)
+        nearer = (ahead != 0) & (others < squares)
+        if not nearer.any():
+            break
+        step, squares = np.where(nearer, there, step), np.where(nearer, others, squares)
+        fractions = np.where(nearer, at, fractions)
+    return step + fractions
+
+
+def _projected(P: Array, Q: Array, step: Places) -> tuple[Array, Array]:
+    """Return the squared distances to steps of Q, and where along these the nearest points are."""
+    along, off = Q[step + 1] - Q[step], P - Q[step]
+    length = (along**2).sum(axis=1)
+    fractions = np.clip((along * off).sum(axis=1) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
+    squares: Array = ((off - fractions[:, np.newaxis] * along) ** 2).sum(axis=1)
+    return squares, fractions
