@@ -71,6 +71,7 @@ def test_steps_of_several_tests_are_counted_together():
     assert "resample them evenly to 100 and 81 points" in found.message
 
 
+@pytest.mark.nightly("a perfect fit|a good fit")
 @pytest.mark.parametrize(
     ("test", "options"),
     [
