@@ -130,6 +130,17 @@ def test_white_noise_is_white_and_a_wave_is_not():
     assert found.variance == pytest.approx(noise[0] @ noise[0] / 37, rel=1e-9)
 
 
+def test_a_slow_error_below_the_noise_is_found_by_the_variances():
+    """Neighbours barely show it; the estimates move with it."""
+    x = np.linspace(0.0, 1.0, 400)
+    slopes = np.column_stack((np.ones_like(x), x, x**2))
+    found = []
+    for seed in range(20):
+        noise = np.random.default_rng(seed).normal(size=400) + 0.5 * np.sin(9.0 * x)
+        found.append(not noise_in([left_by(noise, slopes)], slopes)[0].is_white)
+    assert np.mean(found) > 0.5
+
+
 def test_residuals_of_nothing_are_white():
     found, _ = noise_in([np.zeros(40)], DESIGN)
     assert found.is_white
