@@ -6,16 +6,18 @@ they know the curves, the picture of what was found.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from ..drawing.bunch import bunch_figure
-from ..drawing.linked_curves import alignment_figure, matching_figure, placement_figure
+from ..drawing.linked_curves import matching_figure, placement_figure
 from ..showing.result import Result, Table
+from .alignment import Alignment
+from .record import Curves, Record, printed
 
 if TYPE_CHECKING:
     from ..drawing.picture import Picture
@@ -29,69 +31,6 @@ __all__ = [
     "Subsequence",
     "WarpingInfo",
 ]
-
-
-Curves: TypeAlias = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None
-
-
-@dataclass(frozen=True, repr=False)
-class _Record:
-    """A record that does not print its arrays."""
-
-    def __repr__(self) -> str:
-        names = [one.name for one in fields(self) if one.repr]
-        return _printed(self, [(name, getattr(self, name)) for name in names])
-
-    def __str__(self) -> str:
-        return repr(self)
-
-
-def _printed(record: object, items: Iterable[tuple[str, Any]]) -> str:
-    parts = [f"{name}={_short(value)}" for name, value in items]
-    return f"{type(record).__name__}({', '.join(parts)})"
-
-
-def _short(value: Any) -> str:
-    return f"<array of shape {value.shape}>" if isinstance(value, np.ndarray) else repr(value)
-
-
-@dataclass(frozen=True, repr=False)
-class Alignment(_Record, Result):
-    """A distance with the path that attains it.
-
-    Attributes
-    ----------
-    distance : float
-        The value of the measure.
-    path : ndarray of int64, shape (k, 2)
-        Index pairs ``(i, j)``: point ``i`` of P is matched to point ``j`` of Q. Each step is
-        (1, 0), (0, 1) or (1, 1). Empty if a step pattern admits no path; `distance` is then inf.
-    curves : tuple of two ndarrays, or None
-        Copies of P and Q, for the picture; not those of :mod:`curvewise.reference`.
-    """
-
-    distance: float
-    path: npt.NDArray[np.int64]
-    curves: Curves = field(default=None, repr=False, compare=False)
-
-    def plot(self) -> Picture:
-        """Return a matplotlib Figure of the curves and the pairs of the path.
-
-        Where the curves are not known, or have more than two coordinates, of the path alone.
-
-        Raises
-        ------
-        ImportError
-            matplotlib is not installed: ``pip install "curvewise[plot]"``.
-        """
-        return alignment_figure(self.curves, self.path)
-
-    picture_shows = "The curves and which points are matched"
-
-    def parts(self) -> Sequence[Table | str]:
-        """Return the distance, and how long the path is."""
-        rows = [["distance", f"{self.distance:.6g}"], ["pairs of points", f"{len(self.path)}"]]
-        return [Table(rows)]
 
 
 class AreaQuads(NamedTuple):
@@ -109,11 +48,11 @@ class AreaQuads(NamedTuple):
     areas: npt.NDArray[np.float64]
 
     def __repr__(self) -> str:
-        return _printed(self, self._asdict().items())
+        return printed(self, self._asdict().items())
 
 
 @dataclass(frozen=True, repr=False)
-class Matching(_Record, Result):
+class Matching(Record, Result):
     """A distance with two walks along the curves that attain it.
 
     Attributes
@@ -153,7 +92,7 @@ class Matching(_Record, Result):
 
 
 @dataclass(frozen=True, repr=False)
-class PcmMatch(_Record, Result):
+class PcmMatch(Record, Result):
     """Where partial curve mapping places the shorter curve on the longer.
 
     Attributes
@@ -245,7 +184,7 @@ class WarpingInfo:
 
 
 @dataclass(frozen=True, repr=False)
-class Subsequence(_Record):
+class Subsequence(Record):
     """A run of consecutive points of Q that is like P.
 
     Attributes
@@ -266,7 +205,7 @@ class Subsequence(_Record):
 
 
 @dataclass(frozen=True, repr=False)
-class DtwMean(_Record, Result):
+class DtwMean(Record, Result):
     """The mean of curves under dtw, or under soft_dtw.
 
     Attributes
