@@ -28,7 +28,7 @@ with atheris.instrument_imports(include=READERS) if atheris else contextlib.null
     from curvewise import read_curve
     from curvewise.files import csv_curves
     from curvewise.files.column_choice import TimeColumnWarning
-    from curvewise.files.number_tables import Reading
+    from curvewise.files.file_options import Reading
 
 SEEDS = Path(__file__).parent / "corpus" / "read_curve"
 WORDS = (b"1,5", b"-0.5e3", b"nan", b"inf", b";", b"\t", b",", b'"', b"\r\n", b"\n", b"#", b"//")

@@ -13,10 +13,9 @@ from typing import Any, get_args
 
 from .._options import Crossing, Preset, Spacing, Window
 from ..comparing.comparison import Comparison, compare
-from ..files.number_tables import Reading
 from ..measures import curve_length_residuals, normalize
 from ..measures.registry import MEASURES, PRESETS
-from .reading import add_factors, add_reading, add_sheet, read_file, warnings_printed
+from .reading import add_for_two, read_file, said_of_two, warnings_printed
 from .shown import print_table, require_matplotlib, write_picture
 
 __all__ = ["add_compare"]
@@ -28,7 +27,7 @@ def add_compare(commands: Any) -> None:
     command.set_defaults(run=_compare, usage_error=command.error)
     command.add_argument("A", help="the reference, e.g. the experiment: one point per line")
     command.add_argument("B", help="the other curve, e.g. the simulation")
-    _add_columns(command)
+    add_for_two(command)
     command.add_argument(
         "--preset",
         choices=get_args(Preset),
@@ -70,23 +69,6 @@ def add_compare(commands: Any) -> None:
     )
 
 
-def _add_columns(command: argparse.ArgumentParser) -> None:
-    """Add what is said of each file: its columns, their units, the sheet of a workbook."""
-    add_reading(command)
-    command.add_argument(
-        "--columns-b",
-        nargs="+",
-        metavar="COLUMN",
-        help="those of B, where they are others than those of A",
-    )
-    command.add_argument(
-        "--decimal-b", choices=[".", ","], help="that of B, where it is another than that of A"
-    )
-    for file in "AB":
-        add_factors(command, f"-{file.lower()}", f" of {file}")
-        add_sheet(command, f"-{file.lower()}", f" {file}")
-
-
 def _window(text: str) -> Window:
     """Read a whole number, or a fraction between 0 and 1."""
     with contextlib.suppress(ValueError):
@@ -103,16 +85,10 @@ def _compare(arguments: argparse.Namespace) -> int:
     if arguments.plot:
         require_matplotlib()
     files = [arguments.A, arguments.B]
-    columns = [arguments.columns, arguments.columns_b or arguments.columns]
-    sheets = [arguments.sheet_a, arguments.sheet_b]
-    decimals = [arguments.decimal, arguments.decimal_b or arguments.decimal]
-    readings = [
-        Reading(sheet, decimal, arguments.until, arguments.skip_invalid)
-        for sheet, decimal in zip(sheets, decimals, strict=True)
-    ]
-    factors = [arguments.factors_a, arguments.factors_b]
+    said = said_of_two(arguments)
+    factors = [one.numbers() for one in said]
     with warnings_printed():
-        curves, names = zip(*map(read_file, files, columns, readings, factors), strict=True)
+        curves, names = zip(*map(read_file, files, said), strict=True)
     options: dict[str, dict[str, Any]] = {}
     for measure, option in (("area", "spacing"), ("area", "crossing"), ("dtw", "window")):
         if (value := getattr(arguments, option)) is not None:
@@ -133,7 +109,9 @@ def _compare(arguments: argparse.Namespace) -> int:
         read = {"files": files, "columns": names, "factors": factors}
         print(json.dumps(read | _in_json(comparison), indent=2))
     else:
-        print_table(comparison, files, list(map(_columns_in_words, names, factors)))
+        print_table(
+            comparison, files, [_columns_in_words(*one) for one in zip(names, factors, strict=True)]
+        )
     if arguments.plot:
         write_picture(comparison, arguments.plot)
         if not arguments.json:

@@ -10,10 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from ..curves.inputs import Array
-from ..files.number_tables import Reading
 from ..materials import MATERIALS
 from ..solvers.cards import FORMATS
-from .reading import add_factors, add_reading, add_sheet, read_file, warnings_printed
+from .reading import Said, add_repeated, read_file, said_of_each, warnings_printed
 from .shown import failures_unlogged, require_matplotlib
 
 __all__ = ["add_fit"]
@@ -32,9 +31,7 @@ def add_fit(commands: Any) -> None:
     command.add_argument(
         "tests", nargs="+", metavar="TEST", help="a file with strain and stress, one point per line"
     )
-    add_reading(command)
-    add_factors(command)
-    add_sheet(command)
+    add_repeated(command)
     command.add_argument(
         "--material",
         choices=list(MATERIALS),
@@ -118,9 +115,10 @@ def _fit(arguments: argparse.Namespace) -> int:
     kind = MATERIALS[arguments.material]
     given = vars(arguments)
     material = kind(**{one.name: given[one.name] for one in fields(kind) if one.name in given})
-    reading = Reading(arguments.sheet, arguments.decimal, arguments.until, arguments.skip_invalid)
+    files = arguments.tests
     with warnings_printed():
-        tests = [_test(file, arguments, reading) for file in arguments.tests]
+        each = zip(files, said_of_each(arguments, len(files)), strict=True)
+        tests = [_test(file, said, arguments.units) for file, said in each]
     tests = [_from_zero(test, arguments) for test in tests]
     if arguments.zero is not False and arguments.cycles == "all":
         _ask_about_beginnings(tests, arguments.units)
@@ -138,7 +136,7 @@ def _fit(arguments: argparse.Namespace) -> int:
             progress=sys.stderr.isatty(),
         )
     print(fit)
-    names = [Path(file).name for file in arguments.tests]
+    names = [Path(file).name for file in files]
     written = fit.write(arguments.output, names=names)
     written += fit.write_cards(arguments.output, arguments.card, name=arguments.name)
     print("\nwritten:", ", ".join(map(str, written)))
@@ -171,15 +169,11 @@ def _ask_about_beginnings(tests: list[Array], units: str) -> None:
         raise ValueError(f"{error}; or fit the tests as they are (--no-zero)") from None
 
 
-def _test(file: str, arguments: argparse.Namespace, reading: Reading) -> Array:
+def _test(file: str, said: Said, units: str) -> Array:
     """Read a test; ask about units that it seems to have, where no factors are given."""
     from ..fitting.units_of_tests import doubt_of
 
-    test, _ = read_file(file, arguments.columns, reading, arguments.factors)
-    if arguments.factors is None and (doubt := doubt_of(test, arguments.units)):
-        factors = " ".join(doubt.factors)
-        raise ValueError(
-            f"{file}: {doubt.found}; give --factors {factors}{doubt.where}, or --factors 1 1 if "
-            "its units are right"
-        )
+    test, _ = read_file(file, said, units)
+    if said.factors is None and (doubt := doubt_of(test, units)):
+        raise ValueError(f"{file}: {doubt.asked('command')}")
     return test

@@ -1,4 +1,10 @@
-"""What the commands say of the files that they read: columns, units, decimal signs, sheets."""
+"""What the commands say of the files that they read: columns, units, decimal signs, sheets.
+
+The options are made from their declarations (`files.file_options`). A command that reads several
+files of one kind takes each option once for all files, or once for each, in their order
+(`add_repeated`, `said_of_each`); a command that reads A and B takes an ending of the option for one
+of them (`add_for_two`, `said_of_two`).
+"""
 
 from __future__ import annotations
 
@@ -7,60 +13,152 @@ import contextlib
 import shlex
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
 
 from ..curves.inputs import Array
 from ..files.column_choice import TimeColumnWarning
+from ..files.column_units import factor_of
 from ..files.curve_files import read_named_columns
-from ..files.number_tables import Reading
+from ..files.file_options import READING, FileOption, Reading
+from ..files.number_texts import SIGNS
 
-__all__ = ["add_factors", "add_reading", "add_sheet", "read_file", "warnings_printed"]
+__all__ = [
+    "Said",
+    "add_for_two",
+    "add_repeated",
+    "read_file",
+    "said_of_each",
+    "said_of_two",
+    "warnings_printed",
+]
 
 
-def add_reading(command: argparse.ArgumentParser) -> None:
-    """Add the options that all files of a command have alike."""
-    command.add_argument(
-        "--columns",
-        nargs="+",
-        metavar="COLUMN",
-        help="names from the header, or numbers from 1; by default the first two",
+def _factor(text: str) -> str:
+    """Read a number or a unit, which is converted when the unit of the stresses is known."""
+    try:
+        factor_of(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    return text
+
+
+_COLUMNS = FileOption(
+    "columns",
+    "names",
+    "names from the header, or numbers from 1 (default: the first two); capitals, blanks and the "
+    "unit of a name do not count",
+    "COLUMN",
+)
+_FACTORS = FileOption(
+    "factors",
+    "factors",
+    "numbers that the columns are multiplied by, or their units, which are converted to "
+    "fractions, MPa, N and mm: 0.01 1, or %% psi",
+    "F",
+)
+_OPTIONS = (_COLUMNS, _FACTORS, *READING)
+_SETTINGS: dict[str, dict[str, Any]] = {
+    "names": {"nargs": "+"},
+    "factors": {"nargs": "+", "type": _factor},
+    "row": {"type": int},
+    "sign": {"choices": list(SIGNS)},
+}
+
+
+class Said(NamedTuple):
+    """What is said of one file.
+
+    Attributes
+    ----------
+    columns : list of str, or None
+    factors : list of str, or None
+        Numbers and units, as they were written.
+    reading : Reading
+    """
+
+    columns: list[str] | None
+    factors: list[str] | None
+    reading: Reading
+
+    def numbers(self, units: str = "MPa") -> list[float] | None:
+        """Return the factors as numbers, those of stresses for a unit of stress."""
+        if self.factors is None:
+            return None
+        return [factor_of(factor, units) for factor in self.factors]
+
+
+def add_repeated(command: argparse.ArgumentParser) -> None:
+    """Add the options that are said of a file, once for all files or once for each."""
+    group = command.add_argument_group(
+        "files", "Give an option once for all files, or once for each file, in their order."
     )
-    command.add_argument(
-        "--decimal",
-        choices=[".", ","],
-        help="the decimal sign of numbers that are text; by default told from the numbers",
-    )
-    command.add_argument(
-        "--until",
-        metavar="TEXT",
-        help="a curve ends before the first row of its file that contains TEXT below the first "
-        "numbers: statistics, or a second table",
-    )
-    command.add_argument(
-        "--skip-invalid",
-        action="store_true",
-        help="leave out rows that are not made of numbers, and say how many",
-    )
+    for option in _OPTIONS:
+        _add(group, option, option.flag, repeated=True)
 
 
-def add_factors(command: argparse.ArgumentParser, ending: str = "", of: str = "") -> None:
-    """Add --factors, with an ending for one of several files."""
-    command.add_argument(
-        f"--factors{ending}",
-        nargs="+",
-        type=float,
-        metavar="F",
-        help=f"what the columns{of} are multiplied by, to change units: 0.01 1e-6",
+def add_for_two(command: argparse.ArgumentParser) -> None:
+    """Add the options that are said of a file, of A and B together or of one of them."""
+    group = command.add_argument_group(
+        "files",
+        "An option is said of both files; with the ending -a or -b, such as --columns-b, of one.",
     )
+    for option in _OPTIONS:
+        _add(group, option, option.flag)
+        for ending in "ab":
+            _add(group, option, f"{option.flag}-{ending}", is_shown=False)
 
 
-def add_sheet(command: argparse.ArgumentParser, ending: str = "", of: str = "") -> None:
-    """Add --sheet, with an ending for one of several files."""
-    command.add_argument(
-        f"--sheet{ending}",
-        metavar="SHEET",
-        help=f"of the workbook{of}: its name, or its number from 1; by default the first",
-    )
+def _add(
+    group: Any, option: FileOption, flag: str, *, repeated: bool = False, is_shown: bool = True
+) -> None:
+    """Add an option; its value is None where it is not given."""
+    settings: dict[str, Any] = {"help": option.help if is_shown else argparse.SUPPRESS}
+    settings["dest"] = flag[2:].replace("-", "_")
+    if option.kind == "flag":
+        group.add_argument(flag, action="store_true", default=None, **settings)
+        return
+    settings |= _SETTINGS.get(option.kind, {})
+    if option.metavar:
+        settings["metavar"] = option.metavar
+    group.add_argument(flag, action="append" if repeated else "store", **settings)
+
+
+def said_of_each(arguments: argparse.Namespace, count: int) -> list[Said]:
+    """Return what is said of each of so many files by the options of `add_repeated`."""
+    given = vars(arguments)
+    each: list[dict[str, Any]] = [{} for _ in range(count)]
+    for option in _OPTIONS:
+        values = given[option.word]
+        if values is None:
+            continue
+        if option.kind == "flag":
+            values = [values]
+        if len(values) not in (1, count):
+            raise ValueError(
+                f"{option.flag} is given {len(values)} times for {count} files; give it once for "
+                "all files, or once for each"
+            )
+        for i, one in enumerate(each):
+            one[option.name] = values[i % len(values)]
+    return list(map(_said, each))
+
+
+def said_of_two(arguments: argparse.Namespace) -> list[Said]:
+    """Return what is said of A and of B by the options of `add_for_two`."""
+    given = vars(arguments)
+    both: list[dict[str, Any]] = [{}, {}]
+    for option in _OPTIONS:
+        for one, ending in zip(both, "ab", strict=True):
+            own = given[f"{option.word}_{ending}"]
+            one[option.name] = given[option.word] if own is None else own
+    return list(map(_said, both))
+
+
+def _said(values: Mapping[str, Any]) -> Said:
+    given = {name: value for name, value in values.items() if value is not None}
+    columns, factors = given.pop("columns", None), given.pop("factors", None)
+    return Said(columns, factors, Reading(**given))
 
 
 @contextlib.contextmanager
@@ -73,14 +171,12 @@ def warnings_printed() -> Iterator[None]:
         print("curvewise:", words, file=sys.stderr)
 
 
-def read_file(
-    file: str, columns: list[str] | None, reading: Reading, factors: list[float] | None
-) -> tuple[Array, list[str]]:
+def read_file(file: str, said: Said, units: str = "MPa") -> tuple[Array, list[str]]:
     """Read the columns of a file; refuse to guess them where the first of several is time."""
     with warnings.catch_warnings():
         warnings.simplefilter("error", TimeColumnWarning)
         try:
-            return read_named_columns(file, columns, reading, factors=factors)
+            return read_named_columns(file, said.columns, said.reading, factors=said.numbers(units))
         except TimeColumnWarning as guessed:
             wanted = shlex.join(guessed.wanted)
             raise ValueError(f"{guessed.found}; name those wanted: --columns {wanted}") from None

@@ -9,8 +9,10 @@ import operator
 from collections.abc import Sequence
 from typing import Any
 
+from .._names import did_you_mean
 from ..curves.column_roles import is_time
 from ..curves.foreign_curves import warn
+from .column_units import TIMES, bare_name, unit_of
 
 __all__ = [
     "TimeColumnWarning",
@@ -19,8 +21,10 @@ __all__ = [
     "choose_names",
     "column_name",
     "column_unit",
+    "names_in",
 ]
 
+_MOST_HINTS = 3
 _DIGITS = 18  # of a number of a column; Python refuses to read numbers of thousands
 
 
@@ -42,7 +46,11 @@ class TimeColumnWarning(UserWarning):
 
 
 def choose_columns(
-    file: str, names: list[str], width: int, columns: Sequence[str | int] | None
+    file: str,
+    names: list[str],
+    width: int,
+    columns: Sequence[str | int] | None,
+    units: Sequence[str] = (),
 ) -> list[int]:
     """Return the indices of the columns asked for; by default the first two, or the only one.
 
@@ -55,7 +63,10 @@ def choose_columns(
     width : int
         The number of columns.
     columns : sequence of str or int, or None
-        Names, or numbers from 1 (as int or str).
+        Names, or numbers from 1 (as int or str). Of a name, capitals, blanks, hyphens, underscores
+        and the unit do not count if no column has it to the letter.
+    units : sequence of str
+        What a row of units gives the columns.
 
     Raises
     ------
@@ -70,7 +81,7 @@ def choose_columns(
         The first two of several columns are taken, and the first is time.
     """
     if columns is None:
-        if width > 2 and names and is_time(names[0]):
+        if width > 2 and names and (is_time(names[0]) or _unit(names[0], units) in TIMES):
             others = [column_name(names, column) for column in range(1, width)]
             found = f"the first two of the {width} columns of {file} are {names[0]} and {others[0]}"
             warn(TimeColumnWarning(found, _likely(others)))
@@ -80,6 +91,11 @@ def choose_columns(
     if len(columns) == 0:
         raise ValueError("columns is empty; name at least one column")
     return [_find_column(file, names, width, column) for column in columns]
+
+
+def _unit(name: str, units: Sequence[str]) -> str:
+    """Return the unit of the first column, by its name or by a row of units."""
+    return unit_of(name) or (units[0].casefold() if units else "")
 
 
 def _likely(names: list[str]) -> list[str]:
@@ -98,7 +114,19 @@ def choose_names(header: Sequence[Sequence[Any]], columns: Sequence[str | int] |
     """
     rows = [[str(cell).strip() for cell in row] for row in header]
     asked = asked_names(columns)
-    return max(rows, key=lambda row: (asked.issubset(row), sum(map(bool, row))), default=[])
+
+    def rank(row: list[str]) -> tuple[bool, bool, int]:
+        return names_in(row, asked, True), names_in(row, asked, False), sum(map(bool, row))
+
+    return max(rows, key=rank, default=[])
+
+
+def names_in(row: Sequence[Any], asked: set[str], to_the_letter: bool) -> bool:
+    """Say whether a row has all names that are asked for, to the letter or nearly."""
+    cells = {str(cell).strip() for cell in row}
+    if to_the_letter:
+        return asked <= cells
+    return set(map(bare_name, asked)) <= set(map(bare_name, cells))
 
 
 def asked_names(columns: Sequence[str | int] | None) -> set[str]:
@@ -124,12 +152,33 @@ def _find_column(file: str, names: list[str], width: int, column: str | int) -> 
             raise ValueError(f"{file} has several columns {name!r}; give its number, from 1")
         return names.index(name)
     if isinstance(column, str) and (not column.isdecimal() or len(column) > _DIGITS):
-        listed = ", ".join(filter(None, names))
-        there_are = f"its columns are {listed}" if listed else "it has no header"
-        raise ValueError(
-            f"{file} has no column {column!r}; {there_are}; by number, give 1 to {width}"
-        )
+        return _near_column(file, names, width, column)
     number = int(column) if isinstance(column, str) else operator.index(column)
     if not 1 <= number <= width:
         raise ValueError(f"{file} has no column {column}; columns are numbered 1 to {width}")
     return number - 1
+
+
+def _near_column(file: str, names: list[str], width: int, column: str) -> int:
+    """Return the index of the only column whose name is nearly the one asked for."""
+    wanted = bare_name(column)
+    found = [i for i, name in enumerate(names) if wanted and name and bare_name(name) == wanted]
+    if len(found) == 1:
+        return found[0]
+    listed = ", ".join(filter(None, names))
+    if found:
+        several = " and ".join(repr(names[i]) for i in found)
+        raise ValueError(
+            f"{file} has several columns like {column!r}: {several}; give the whole name, or the "
+            f"number, {' or '.join(str(i + 1) for i in found)}"
+        )
+    longer = [name for name in names if wanted and wanted in bare_name(name)]
+    hint = (
+        f"; did you mean {' or '.join(map(repr, longer[:_MOST_HINTS]))}?"
+        if longer
+        else did_you_mean([column], filter(None, names))
+    )
+    there_are = f"its columns are {listed}" if listed else "it has no header"
+    numbers = f"by number, give 1 to {width}"
+    said = f"{hint} ({there_are}; {numbers})" if hint else f"; {there_are}; {numbers}"
+    raise ValueError(f"{file} has no column {column!r}{said}")

@@ -11,7 +11,20 @@ from collections.abc import Sequence
 from typing import Any
 from unicodedata import normalize
 
-__all__ = ["FORCES", "LENGTHS", "STRAINS", "STRESSES", "titled", "unit_of", "units_row"]
+__all__ = [
+    "FORCES",
+    "LENGTHS",
+    "STRAINS",
+    "STRESSES",
+    "TIMES",
+    "VOLTAGES",
+    "bare_name",
+    "factor_of",
+    "in_mpa",
+    "titled",
+    "unit_of",
+    "units_row",
+]
 
 # What strains of each unit are multiplied by.
 STRAINS = {
@@ -20,7 +33,7 @@ STRAINS = {
     **dict.fromkeys(("‰", "permille", "mm/m", "millistrain", "mε"), 1e-3),
     **dict.fromkeys(("μm/m", "um/m", "με", "μe", "ue", "microstrain", "μstrain", "ustrain"), 1e-6),
 }
-# Stresses and forces in MPa and N.
+# Stresses, forces and lengths in MPa, N and mm.
 STRESSES = {
     **dict.fromkeys(("mpa", "n/mm2", "n/mm^2", "n/mm**2", "mn/m2", "mn/m^2"), 1.0),
     **dict.fromkeys(("gpa", "kn/mm2", "kn/mm^2"), 1e3),
@@ -28,11 +41,18 @@ STRESSES = {
     **{"kpa": 1e-3, "bar": 0.1, "psi": 0.006894757, "ksi": 6.894757, "kgf/mm2": 9.80665},
 }
 FORCES = {"n": 1.0, "kn": 1e3, "lbf": 4.448222, "kip": 4448.222, "kgf": 9.80665, "dan": 10.0}
-LENGTHS = ("mm", "μm", "um", "cm", "m", "in", "inch")
-_OTHERS = ("s", "sec", "ms", "min", "h", "hz", "v", "mv", "°c", "k", "cycles")
-_KNOWN = {*STRAINS, *STRESSES, *FORCES, *LENGTHS, *_OTHERS}
+LENGTHS = {
+    **{"mm": 1.0, "cm": 10.0, "m": 1e3},
+    **dict.fromkeys(("μm", "um"), 1e-3),
+    **dict.fromkeys(("in", "inch"), 25.4),
+}
+TIMES = ("s", "sec", "ms", "min", "h")
+VOLTAGES = ("v", "mv")
+_OTHERS = ("hz", "°c", "k", "cycles")
+_KNOWN = {*STRAINS, *STRESSES, *FORCES, *LENGTHS, *TIMES, *VOLTAGES, *_OTHERS}
 # Words that are units only in brackets or in a row of units.
 _WORDS = {"-", "1", "bar", "in", "min", "sec", "cycles", "inch"}
+_TEMPERATURES = {"c", "f", "°f", "deg c"}
 _IN_BRACKETS = re.compile(r"[(\[{<]\s*([^()\[\]{}<>]*?)\s*[)\]}>]\s*$")
 _LAST_WORD = re.compile(r"(?:[\s_,;:/]|\bin )\s*([^\s_,;:]+)$")
 
@@ -57,6 +77,73 @@ def unit_of(name: str) -> str:
         if word in _KNOWN and word not in _WORDS and len(word) > 1:
             return word
     return next((word for word in STRAINS if len(word) > 4 and word in text), "")
+
+
+def in_mpa(units: str) -> float | None:
+    """Return how many MPa a unit of stress is, or None if it is not known."""
+    return STRESSES.get(normalize("NFKC", units).casefold().strip())
+
+
+def factor_of(given: float | str, units: str = "MPa") -> float:
+    """Return a factor that is given as a number, or as the unit that it converts.
+
+    Parameters
+    ----------
+    given : float or str
+        A number, or the unit of a column: of strain, which becomes a fraction, of stress, which
+        becomes one in `units`, of force, which becomes N, or of length, which becomes mm.
+    units : str
+        Unit of stresses.
+
+    Raises
+    ------
+    ValueError
+        Neither a number nor a known unit.
+
+    Examples
+    --------
+    >>> from curvewise.files.column_units import factor_of
+    >>> [factor_of(one) for one in ("0.01", "%", "GPa", "kN")]
+    [0.01, 0.01, 1000.0, 1000.0]
+    """
+    try:
+        return float(given)
+    except ValueError:
+        pass
+    word = normalize("NFKC", str(given)).casefold().strip()
+    if word in STRESSES:
+        if (target := in_mpa(units)) is None:
+            raise ValueError(
+                f"the factor is {given!r}, and {units!r} is no unit that it can be converted to; "
+                "give a number"
+            )
+        return STRESSES[word] / target
+    for known in (STRAINS, FORCES, LENGTHS):
+        if word in known:
+            return known[word]
+    raise ValueError(
+        f"the factor is {given!r}; give a number, or a unit such as %, µm/m, kN, mm, psi or GPa"
+    )
+
+
+def bare_name(name: str) -> str:
+    """Return the name of a column without capitals, blanks, hyphens, underscores and its unit.
+
+    Examples
+    --------
+    >>> from curvewise.files.column_units import bare_name
+    >>> [bare_name(name) for name in ("Strain 1 (%)", "stress_MPa", "Force / kN", "True Strain")]
+    ['strain1', 'stress', 'force', 'truestrain']
+    """
+    text = normalize("NFKC", name).casefold().strip()
+    if (found := _IN_BRACKETS.search(text)) and (found[1] in _KNOWN or found[1] in _TEMPERATURES):
+        text = text[: found.start()]
+    else:
+        for found in re.finditer(_LAST_WORD, text):
+            if found[1] in _KNOWN and found[1] not in _WORDS and len(found[1]) > 1:
+                text = text[: found.start()]
+                break
+    return re.sub(r"[\s_/,;:-]+", "", text) or re.sub(r"\s+", "", name.casefold())
 
 
 def units_row(rows: Sequence[Sequence[Any]], names: Sequence[str]) -> list[str]:

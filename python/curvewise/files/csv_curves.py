@@ -10,7 +10,6 @@ Time and memory are linear in the size of the file, about 2 s for 10^6 points (q
 
 from __future__ import annotations
 
-import codecs
 import os
 import re
 from collections.abc import Iterator, Sequence
@@ -23,7 +22,15 @@ import numpy.typing as npt
 
 from .column_choice import choose_columns, choose_names, column_name, column_unit
 from .column_units import units_row
-from .number_tables import NumberTable, Reading, count_cells, find_header, refuse_no_numbers
+from .encodings import UTF_16, decoded
+from .file_options import Reading
+from .number_tables import (
+    NumberTable,
+    begin_of_table,
+    count_cells,
+    find_header,
+    refuse_no_numbers,
+)
 from .number_texts import is_number
 from .regular_files import LARGEST_OF_PIPE
 from .separators import BLANKS, cells_of, choose_separator, refuse_doubtful_cells
@@ -33,9 +40,9 @@ __all__ = ["read_csv_columns"]
 # Lines of nothing but separators, which spreadsheets append, and comments. Excel's error values
 # are no comments: '#N/A,200' is a bad point.
 _IGNORED = re.compile(r"[\s;,]*$|\s*(?:#(?!N/A|DIV/0!|VALUE!|REF!|NAME\?|NUM!|NULL!)|%|//)")
+_COMMENT = re.compile(r"\s*(?:#+|%+|//)\s*")
 _SEPARATOR = re.compile(r'\s*"?sep=([^\w\s]|\t)"?[\s;,|]*$')  # as Excel writes and reads it
 _LAYOUT_LINES = 200
-_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _HEAD = 2**16  # bytes in which a file that is no text has a zero byte, which ends the reading
 _LONGEST = 2**20  # characters of a line
 
@@ -71,15 +78,16 @@ def read_csv_columns(
     >>> import tempfile
     >>> from pathlib import Path
     >>> from curvewise.files.csv_curves import read_csv_columns
-    >>> from curvewise.files.number_tables import Reading
+    >>> from curvewise.files.file_options import Reading
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = Path(folder, "loop.csv")
     ...     _ = path.write_text("time,strain,stress\n0,0,0\n1,0.001,199.5\n")
     ...     read_csv_columns(path, ["strain", 3], Reading())[1]
     ['strain', 'stress']
     """
-    table = _find_layout(os.fspath(path), _read_lines(path), columns, reading)
-    chosen = choose_columns(table.file, table.names, table.width, columns)
+    lines = _read_lines(path, reading.encoding)
+    table = _find_layout(os.fspath(path), lines, columns, reading)
+    chosen = choose_columns(table.file, table.names, table.width, columns, table.units)
     values = _parse_fast(table, chosen)
     if values is None or not np.isfinite(values).all():
         values = _parse_cell_by_cell(table, chosen)
@@ -129,17 +137,20 @@ def _rest_of(stream: BinaryIO, file: str) -> bytes:
     return rest
 
 
-def _read_lines(path: str | os.PathLike[str]) -> list[str]:
+def _read_lines(path: str | os.PathLike[str], encoding: str | None = None) -> list[str]:
     file = os.fspath(path)
     try:
         with Path(path).open("rb") as stream:
             data = stream.read(_HEAD)
-            if data.startswith(_UTF_16) or b"\0" not in data:
+            if encoding or data.startswith(UTF_16) or b"\0" not in data:
                 data += _rest_of(stream, file)
     except OSError as error:  # one of reading does not name the file, as one of opening does
         error.filename = error.filename or file
         raise
-    text = _decode(data)
+    try:
+        text = data.decode(encoding).removeprefix("\ufeff") if encoding else decoded(data)
+    except UnicodeDecodeError as error:
+        raise ValueError(f"{file} is not text in the encoding {encoding!r}: {error}") from None
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     if "\0" in text:
         line = next(i for i, line in enumerate(lines, 1) if "\0" in line)
@@ -156,20 +167,6 @@ def _read_lines(path: str | os.PathLike[str]) -> list[str]:
     return lines
 
 
-def _decode(data: bytes) -> str:
-    if data.startswith(_UTF_16):
-        return data.decode("utf-16", errors="replace")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return data.decode(_windows(data))
-
-
-def _windows(data: bytes) -> str:
-    """Return the encoding of Windows, which has dashes and apostrophes, or Latin-1."""
-    return "latin-1" if any(byte in data for byte in b"\x81\x8d\x8f\x90\x9d") else "cp1252"
-
-
 def _find_layout(
     file: str, text: list[str], columns: Sequence[str | int] | None, reading: Reading
 ) -> _Layout:
@@ -179,10 +176,16 @@ def _find_layout(
     given = _SEPARATOR.match(lines[filled[0]]) if filled else None
     if given:
         lines[filled.pop(0)] = ""
+    start = begin_of_table(file, "line", list(enumerate(text, 1)), reading)
+    if start or reading.begins_later:
+        lines[:start] = [""] * start
+        if reading.header_row is not None:  # the names may stand in a comment
+            lines[start] = _COMMENT.sub("", text[start])
+        filled = [i for i in range(start, len(lines)) if lines[i]]
     count, separator, score = _LAYOUT_LINES, BLANKS, 0.0
     while score == 0.0:  # of a long header, more lines are looked at
         if count >= 2 * max(len(filled), _LAYOUT_LINES):
-            refuse_no_numbers(file, "line", enumerate(text, 1))
+            refuse_no_numbers(file, "line", enumerate(text[start:], start + 1))
         sample = filled[:count]
         separator, score = choose_separator(
             [lines[i] for i in sample], reading.decimal, given[1] if given else None
@@ -190,13 +193,16 @@ def _find_layout(
         count *= 2
 
     rows = [cells_of(lines[i], separator) for i in sample]
-    first, begin = find_header(rows, [sum(map(is_number, row)) for row in rows], columns)
+    first, begin = find_header(rows, [sum(map(is_number, row)) for row in rows], columns, reading)
+    if first == len(rows):
+        refuse_no_numbers(file, "line", ((i + 1, text[i]) for i in sample[1:]))
     if (until := reading.until) is not None:
         below = range(sample[first] + 1, len(text))
         lines = lines[: next((i for i in below if until in text[i]), None)]
         rows = [row for i, row in zip(sample, rows, strict=True) if i < len(lines)]
-    names = choose_names(rows[begin:first], columns)
-    header, width = rows[begin:first], max(len(row) for row in rows[first:])
+    header = rows[begin:first]
+    names = choose_names(header[:1] if reading.header_row else header, columns)
+    width = max(map(len, rows[first:]))
     if separator is BLANKS and len(names) != width:
         names = []  # "true strain  true stress": nobody can say which word belongs where
     is_title = sum(map(bool, names)) < 2
@@ -208,7 +214,7 @@ def _find_layout(
     place = f"{file}, line {sample[first] + 1}"
     numbers = [lines[i] for i in sample[first:] if i < len(lines)]
     refuse_doubtful_cells(place, numbers, separator, names, most, reading.decimal, columns)
-    above = text[sample[begin] if begin else 0 : sample[first]]  # "%;MPa" is no comment here
+    above = text[sample[begin] if begin else start : sample[first]]  # "%;MPa" is no comment here
     kept = [line for line in above if line.lstrip().startswith("%") or not _IGNORED.match(line)]
     units = units_row([cells_of(line, separator) for line in kept], names)
     return _Layout(

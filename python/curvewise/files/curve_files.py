@@ -17,7 +17,7 @@ from ..curves.inputs import Array
 from ..curves.named_curve import NamedCurve
 from .column_units import titled
 from .csv_curves import read_csv_columns
-from .number_tables import Reading
+from .file_options import Reading
 from .regular_files import check_file
 
 __all__ = ["read_curve", "read_named_columns"]
@@ -32,8 +32,11 @@ def read_curve(
     sheet: str | int | None = None,
     factors: Sequence[float] | None = None,
     decimal: Literal[".", ","] | None = None,
+    from_: str | None = None,
+    header_row: int | None = None,
     until: str | None = None,
     skip_invalid: bool = False,
+    encoding: str | None = None,
 ) -> Array:
     r"""Read a curve from a file: text, a sheet of Excel, or variables of MATLAB.
 
@@ -64,8 +67,9 @@ def read_curve(
         Empty lines (separators alone too), lines that begin with #, % or //, columns that are
         not asked for, and below the last point rows that are empty in those asked for.
     Encoding
-        UTF-8, UTF-16 with a byte order mark, else Windows-1252 or Latin-1. Lines end with CR, LF
-        or CRLF.
+        UTF-8, UTF-16 with a byte order mark, else GBK if all bytes above ASCII are pairs and most
+        of these are common Chinese characters, else Windows-1252 or Latin-1; or `encoding`. Lines
+        end with CR, LF or CRLF.
 
     A sheet of a workbook is read by the same rules. The columns of a .mat file are its real arrays
     in the order of the file: a vector is a column of its variable's name; a matrix A of k > 1
@@ -76,8 +80,9 @@ def read_curve(
     path : str or path-like
         The file.
     columns : sequence of str or int, optional
-        Names from the header, or numbers from 1 (as int or str), in the order wanted. By default
-        the first two columns, or the only one.
+        Names from the header, or numbers from 1 (as int or str), in the order wanted. If no column
+        has a name to the letter, capitals, blanks, hyphens, underscores and the unit do not count:
+        "stress" is "Stress (MPa)". By default the first two columns, or the only one.
     sheet : str or int, optional
         The sheet of a workbook, by its name, or by its number from 1 (as int or str). By default
         the first.
@@ -87,6 +92,11 @@ def read_curve(
     decimal : {".", ","}, optional
         The decimal sign of numbers that are text, if they leave it open; the other one may then
         stand between thousands. By default told from the numbers.
+    from_ : str, optional
+        The table begins with the first row that contains this text: its title, or its names. What
+        is above, such as a table of results, is not looked at.
+    header_row : int, optional
+        The row of the file that has the names, from 1; it may be a comment. Not with `from_`.
     until : str, optional
         The curve ends before the first row that contains this text, below the first row of
         numbers: where statistics or a second table follow. By default, and where no row contains
@@ -94,6 +104,8 @@ def read_curve(
     skip_invalid : bool, optional
         Leave out rows in which a cell is missing, not a number, nan or inf, and warn how many.
         By default such a row is an error.
+    encoding : str, optional
+        The encoding of a text file, such as "gbk" or "cp1251".
 
     Returns
     -------
@@ -109,7 +121,8 @@ def read_curve(
         such column or sheet (lists those there are); no line holds a number, or none is left; two
         decimal signs; a line with more cells than names; a damaged file, or one of another kind;
         factors that are not finite, that are 0, or not one per column; a sheet of a file that is
-        no workbook; a device, a file above 4 GiB, a pipe above 256 MiB, a line above 2^20
+        no workbook; no row with `from_` or `header_row`; an unknown encoding, or not that of the
+        file; a device, a file above 4 GiB, a pipe above 256 MiB, a line above 2^20
         characters, a sheet above 2^25 cells; MATLAB variables of different lengths, or a .mat file
         of version 7.3.
     ImportError
@@ -129,6 +142,7 @@ def read_curve(
     Notes
     -----
     O(size) time and memory: about 2 s for 10^6 points of text (quoted: 5 s), more of a workbook.
+    Workbooks in Strict Open XML are read, too.
     .xls needs xlrd and .ods odfpy, beside pandas. A .mat file is read in a process of its own,
     which takes 0.5 s, since scipy's reader can crash on a damaged one.
 
@@ -146,7 +160,7 @@ def read_curve(
     array([[0.000e+00, 0.000e+00],
            [1.000e-03, 1.995e+02]])
     """
-    reading = Reading(sheet, decimal, until, skip_invalid)
+    reading = Reading(sheet, from_, header_row, until, skip_invalid, decimal, encoding)
     return read_named_columns(path, columns, reading, factors=factors)[0]
 
 
@@ -183,7 +197,7 @@ def read_named_columns(
     >>> import tempfile
     >>> from pathlib import Path
     >>> from curvewise.files.curve_files import read_named_columns
-    >>> from curvewise.files.number_tables import Reading
+    >>> from curvewise.files.file_options import Reading
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = Path(folder, "loop.csv")
     ...     _ = path.write_text("time,strain,stress\n0,0,0\n1,0.001,199.5\n")

@@ -8,6 +8,7 @@ in the number of cells, of which a sheet of too many is refused while it is read
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import re
@@ -20,8 +21,10 @@ from .._extras import extra, foreign_reader
 from ..curves.inputs import Array
 from .column_choice import choose_columns, choose_names, column_name, column_unit
 from .column_units import units_row
-from .number_tables import NumberTable, Reading, find_header, refuse_no_numbers
+from .file_options import Reading
+from .number_tables import NumberTable, begin_of_table, find_header, refuse_no_numbers
 from .number_texts import is_number
+from .strict_workbooks import transitional
 
 __all__ = ["read_sheet_columns"]
 
@@ -37,8 +40,33 @@ def read_sheet_columns(
 ) -> tuple[Array, list[str], list[str]]:
     """Read columns of a sheet, their names, and the units that a row of the header gives them."""
     file = os.fspath(path)
-    title, numbered = _numbered_rows(path, file, 1 if reading.sheet is None else reading.sheet)
-    place = f"{file}, sheet {title!r}"
+    if reading.encoding is not None:
+        raise ValueError(
+            f"encoding is {reading.encoding!r}, and {file} is a workbook; leave encoding out"
+        )
+    sheet = 1 if reading.sheet is None else reading.sheet
+    title, titles, numbered = _numbered_rows(path, file, sheet)
+    try:
+        return _columns_of(f"{file}, sheet {title!r}", numbered, columns, reading)
+    except ValueError as error:
+        if reading.sheet is not None or len(titles) == 1:
+            raise
+        raise ValueError(
+            f"{error}; the sheets of the workbook are {', '.join(map(repr, titles))}: name the one "
+            "with the curve (sheet)"
+        ) from None
+
+
+def _columns_of(
+    place: str,
+    numbered: list[tuple[int, list[Any]]],
+    columns: Sequence[str | int] | None,
+    reading: Reading,
+) -> tuple[Array, list[str], list[str]]:
+    """Return the columns of the rows of a sheet, with their names and units."""
+    if reading.begins_later:
+        lines = [(i, "\t".join(map(str, row))) for i, row in numbered]
+        numbered = numbered[begin_of_table(place, "row", lines, reading) :]
     rows = [row for _, row in numbered]
     # Texts that are numbers are no header only where nothing else is a number.
     numbers = [sum(is_number(cell) for cell in row if not isinstance(cell, str)) for row in rows]
@@ -46,24 +74,26 @@ def read_sheet_columns(
         numbers = [sum(map(is_number, row)) for row in rows]
     if not any(numbers):
         refuse_no_numbers(place, "row", ((i, cell) for i, row in numbered for cell in row))
-    first, begin = find_header(rows, numbers, columns)
+    first, begin = find_header(rows, numbers, columns, reading)
+    if first == len(rows):
+        refuse_no_numbers(place, "row", ((i, cell) for i, row in numbered[1:] for cell in row))
     end = len(rows)
     if (until := reading.until) is not None:
         texts = (any(until in str(cell) for cell in row) for row in rows[first + 1 :])
         end = next((i for i, found in enumerate(texts, first + 1) if found), end)
     header = rows[begin:first]
-    names = choose_names(header, columns)
-    chosen = choose_columns(place, names, max(map(len, rows[:end])), columns)
+    names = choose_names(header[:1] if reading.header_row else header, columns)
+    units = units_row(header, names)
+    chosen = choose_columns(place, names, max(map(len, rows[:end])), columns, units)
     kept = numbered[first:end]
     values = NumberTable(place, "row", names, lambda: kept, reading, header=header).read(chosen)
-    units = units_row(header, names)
     return values, [column_name(names, j) for j in chosen], [column_unit(units, j) for j in chosen]
 
 
 def _numbered_rows(
     path: str | os.PathLike[str], file: str, sheet: str | int
-) -> tuple[str, list[tuple[int, list[Any]]]]:
-    """Return a sheet's title, and its rows that are not empty, with their numbers from 1.
+) -> tuple[str, list[str], list[tuple[int, list[Any]]]]:
+    """Return a sheet's title, all titles, and its rows that are not empty, numbered from 1.
 
     Each has its cells up to the last one that is filled, "" where they are empty.
     """
@@ -73,12 +103,14 @@ def _numbered_rows(
         pandas = import_module("pandas")
         _refuse_bomb(file)
         with foreign_reader(file, "workbook", advice):
-            book = pandas.ExcelFile(path)
+            readable = transitional(file)
+            book = pandas.ExcelFile(readable)
         with book:
-            title = _find_sheet(file, book.sheet_names, sheet)
+            titles = list(book.sheet_names)
+            title = _find_sheet(file, titles, sheet)
             with foreign_reader(file, "workbook", advice):
                 if book.engine == "openpyxl":
-                    formulas = _with_formulas(file)
+                    formulas = _with_formulas(readable)
                     rows = _filled(_openpyxl_rows(book.book[title], formulas and formulas[title]))
                 else:
                     frame = pandas.read_excel(book, sheet_name=title, header=None, na_filter=False)
@@ -88,7 +120,7 @@ def _numbered_rows(
             f"{file}, sheet {title!r} has more than {_MOST_ROWS:,} rows or {_MOST_CELLS:,} cells; "
             "delete those that are far from the curve, or save the curve as CSV"
         )
-    return title, rows
+    return title, titles, rows
 
 
 def _refuse_bomb(file: str) -> None:
@@ -105,7 +137,7 @@ def _refuse_bomb(file: str) -> None:
         )
 
 
-def _with_formulas(file: str) -> Any:
+def _with_formulas(file: str | io.BytesIO) -> Any:
     """Return a workbook as openpyxl reads it with its formulas, or None if it has none."""
     with zipfile.ZipFile(file) as parts:
         for name in parts.namelist():

@@ -19,7 +19,8 @@ import numpy as np
 from .._extras import extra
 from ..curves.inputs import Array
 from .column_choice import choose_columns
-from .number_tables import Reading, say_left_out
+from .file_options import Reading
+from .number_tables import say_left_out
 
 __all__ = ["read_mat_columns"]
 
@@ -31,6 +32,9 @@ def read_mat_columns(
 ) -> tuple[Array, list[str], list[str]]:
     """Read columns of the arrays of a .mat file, their names, and no units."""
     file = os.fspath(path)
+    if reading.begins_later or reading.encoding:
+        given = reading.begins_later or f"encoding is {reading.encoding!r}"
+        raise ValueError(f"{given}, and {file} is a file of MATLAB without rows; leave it out")
     found = _columns(file)
     if not found:
         raise ValueError(f"{file} holds no real arrays; a curve is one point per row")

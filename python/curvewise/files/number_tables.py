@@ -8,6 +8,7 @@ not in doubt is read by faster parsers before it comes here.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NoReturn
@@ -16,33 +17,18 @@ import numpy as np
 
 from ..curves.foreign_curves import warn
 from ..curves.inputs import Array
-from .column_choice import asked_names
+from .column_choice import asked_names, names_in
+from .file_options import Reading
 from .number_texts import SIGNS, is_number, may_be_number, to_number
 
 __all__ = [
     "NumberTable",
-    "Reading",
+    "begin_of_table",
     "count_cells",
     "find_header",
     "refuse_no_numbers",
     "say_left_out",
 ]
-
-
-@dataclass(frozen=True)
-class Reading:
-    """How a file is read, besides its columns; the keywords of :func:`curvewise.read_curve`."""
-
-    sheet: str | int | None = None
-    decimal: str | None = None
-    until: str | None = None
-    skip_invalid: bool = False
-
-    def __post_init__(self) -> None:
-        if self.decimal not in (None, *SIGNS):
-            raise ValueError(f"decimal is {self.decimal!r}; choose from '.' and ','")
-        if self.until == "":
-            raise ValueError("until is empty; give a text of the row before which the curve ends")
 
 
 @dataclass(frozen=True)
@@ -87,7 +73,8 @@ class NumberTable:
                 value = to_number(cell, decimal)
                 self._check_decimal(cell, value, decimal, groups, chosen)
                 if value is None or not math.isfinite(value):
-                    problem = problem or f"{self._place(number, column)}: {_fault(cell, value)}"
+                    fault = _fault(cell, value, is_alone=len(_filled(cells)) == 1)
+                    problem = problem or f"{self._place(number, column)}: {fault}"
                 else:
                     point.append(value)
             if all(column >= len(cells) or cells[column] == "" for column in chosen):
@@ -139,8 +126,8 @@ class NumberTable:
             return
         raise ValueError(
             f"{self.file}, {self.row} {number}: {_shown(', '.join(words))} seems to be the header "
-            "of a second table; name the columns of the one that is meant (columns), or end the "
-            "curve before it (until)"
+            "of a second table; begin with it (from), end the curve before it (until), or name the "
+            "columns of the one that is meant (columns)"
         )
 
     def _decimal(self, chosen: Sequence[int]) -> tuple[str, bool]:
@@ -217,11 +204,16 @@ def count_cells(cells: Sequence[Any]) -> int:
     return count
 
 
-def _fault(cell: Any, value: float | None) -> str:
-    """Say what is wrong with a cell."""
+def _fault(cell: Any, value: float | None, *, is_alone: bool) -> str:
+    """Say what is wrong with a cell, which may be the only one of its row that is filled."""
     if value is not None:
         return f"{_shown(cell)} is {value}; curves must be finite"
     fault = "the cell is missing" if cell == "" else f"{_shown(cell)} is not a number"
+    if is_alone and re.search(r"[^\W\d_]{2}", str(cell)) and not may_be_number(cell):
+        return (
+            f"{fault}; if a second table begins here, begin with it (from) or end the curve before "
+            "it (until); if not, leave the row out (skip_invalid)"
+        )
     return f"{fault}; correct it, end the curve before it (until), or leave it out (skip_invalid)"
 
 
@@ -231,8 +223,42 @@ def _shown(cell: Any) -> str:
     return repr(cell if len(text) <= 40 else text[:37] + "...")
 
 
+def begin_of_table(file: str, row: str, rows: Sequence[tuple[int, str]], reading: Reading) -> int:
+    """Return the index of the row with which the table begins, by `from_` or `header_row`.
+
+    Parameters
+    ----------
+    file, row : str
+        What messages call the file, and a row.
+    rows : sequence of tuple
+        The number of each row, as a user counts, and its text.
+    reading : Reading
+        The options; without them the table begins with the first row.
+    """
+    if (text := reading.from_) is not None:
+        found = next((i for i, (_, line) in enumerate(rows) if text in line), None)
+        if found is None:
+            raise ValueError(
+                f"{file} has no {row} that contains {text!r}; give a text of the {row} with which "
+                "the table begins (from)"
+            )
+        return found
+    if (number := reading.header_row) is not None:
+        found = next((i for i, (n, line) in enumerate(rows) if n == number and line.strip()), None)
+        if found is None:
+            raise ValueError(
+                f"{file}: {row} {number} is empty, or below the end; give the number of the {row} "
+                "that has the names of the columns (header_row)"
+            )
+        return found
+    return 0
+
+
 def find_header(
-    rows: Sequence[Sequence[Any]], numbers: Sequence[int], columns: Sequence[str | int] | None
+    rows: Sequence[Sequence[Any]],
+    numbers: Sequence[int],
+    columns: Sequence[str | int] | None,
+    reading: Reading,
 ) -> tuple[int, int]:
     """Return where the rows of numbers begin, and where the header above them does.
 
@@ -250,22 +276,35 @@ def find_header(
         How many cells of each row are numbers; one row has some.
     columns : sequence of str or int, or None
         What is asked for.
+    reading : Reading
+        With a `header_row` the first row has the names, whatever it looks like.
     """
-    first, begin = _first_numbers(rows, numbers)
-    asked = asked_names(columns)
-    if asked and not any(asked <= _names(row) for row in rows[begin:first]):
-        below = (i for i in range(first, len(rows)) if asked <= _names(rows[i]) and not numbers[i])
-        begin = next((i for i in below if any(numbers[i:])), begin)
-        first = next(i for i in range(max(begin, first), len(rows)) if numbers[i])
-    filled = [j for j, cell in enumerate(rows[first]) if is_number(cell)]
+    if reading.header_row is not None:
+        first, begin = next((i for i, count in enumerate(numbers) if count and i), len(rows)), 1
+    else:
+        first, begin = _first_numbers(rows, numbers)
+        if asked := asked_names(columns):
+            begin = _begin_of_asked(rows, numbers, asked, begin, first)
+            first = next(i for i in range(max(begin, first), len(rows)) if numbers[i])
+    filled = [j for j, cell in enumerate(rows[first]) if is_number(cell)] if rows[first:] else []
     for i in range(begin, first):
-        if all(j < len(rows[i]) and may_be_number(rows[i][j]) for j in filled):
-            return i, begin
-    return first, begin
+        if filled and all(j < len(rows[i]) and may_be_number(rows[i][j]) for j in filled):
+            first = i
+            break
+    return first, 0 if reading.header_row is not None else begin
 
 
-def _names(row: Sequence[Any]) -> set[str]:
-    return {str(cell).strip() for cell in row}
+def _begin_of_asked(
+    rows: Sequence[Sequence[Any]], numbers: Sequence[int], asked: set[str], begin: int, first: int
+) -> int:
+    """Return where the header is that has all names asked for: to the letter, or nearly."""
+    for to_the_letter in (True, False):
+        if any(names_in(row, asked, to_the_letter) for row in rows[begin:first]):
+            return begin
+        for i in range(first, len(rows)):
+            if not numbers[i] and names_in(rows[i], asked, to_the_letter) and any(numbers[i:]):
+                return i
+    return begin
 
 
 def _filled(row: Sequence[Any]) -> list[Any]:

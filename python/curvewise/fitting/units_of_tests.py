@@ -7,17 +7,28 @@ Nothing is converted: the user is asked, and says so by factors. Cost: linear in
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
-from unicodedata import normalize
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
+from ..curves.column_roles import is_time
 from ..curves.foreign_curves import warn
 from ..curves.named_curve import known_names
-from ..files.column_units import FORCES, LENGTHS, STRAINS, STRESSES, unit_of
+from ..files.column_units import (
+    FORCES,
+    LENGTHS,
+    STRAINS,
+    STRESSES,
+    TIMES,
+    VOLTAGES,
+    in_mpa,
+    unit_of,
+)
 from ..materials.readings import reading_of, strain_and_stress
 
 __all__ = ["Doubt", "UnitsWarning", "doubt_of", "warn_of_units"]
+
+Asking: TypeAlias = Literal["command", "study", "python"]
 
 _PLAUSIBLE = (1e3, 1e6)  # MPa: moduli that are not asked about
 _FRACTION = 0.5  # strains beyond it are none
@@ -49,11 +60,39 @@ class Doubt(NamedTuple):
         What strain and stress would be multiplied by if so: numbers, or letters.
     where : str
         What the letters are, or nothing.
+    is_other : bool
+        Whether a column is neither strain nor stress, in any unit.
     """
 
     found: str
     factors: tuple[str, str]
     where: str
+    is_other: bool = False
+
+    def asked(self, by: Asking) -> str:
+        """Return what seems to be, and what to write if so and if not.
+
+        Parameters
+        ----------
+        by : {"command", "study", "python"}
+            Who asks: the words are those of options, of keys or of keywords.
+        """
+        right = "they are strain and stress" if self.is_other else "its units are right"
+        if by == "command":
+            way = f"give --factors {' '.join(self.factors)}{self.where}"
+            way = "name others: --columns STRAIN STRESS" if self.is_other else way
+            return f"{self.found}; {way}, or --factors 1 1 if {right}"
+        if by == "study":
+            way = f"give factors = [{', '.join(self.factors)}]{self.where}"
+            way = 'name others: columns = ["STRAIN", "STRESS"]' if self.is_other else way
+            return f"{self.found}; {way}, or factors = [1, 1] if {right}"
+        if self.is_other:
+            return f"{self.found}; if so, read others (read_curve: columns=[...])"
+        factors = ", ".join(self.factors)
+        return (
+            f"{self.found}; if so, multiply its columns (read_curve: factors=[{factors}]"
+            f"{self.where})"
+        )
 
 
 def doubt_of(test: Any, units: str) -> Doubt | None:
@@ -75,19 +114,20 @@ def warn_of_units(tests: Sequence[Any], units: str) -> None:
     """Warn of each test whose units have to be asked about."""
     for i, test in enumerate(tests):
         if doubt := doubt_of(test, units):
-            factors = ", ".join(doubt.factors)
-            warn(
-                UnitsWarning(
-                    f"tests[{i}]: {doubt.found}; if so, multiply its columns (read_curve: "
-                    f"factors=[{factors}]{doubt.where}); if not, ignore this UnitsWarning"
-                )
-            )
+            said = f"tests[{i}]: {doubt.asked('python')}; if not, ignore this UnitsWarning"
+            warn(UnitsWarning(said))
 
 
 def _by_names(names: Sequence[str], units: str) -> Doubt | None:
     """Return what the names of two columns, or a row of units, say of them."""
     found, factors, where = [], ["1", "1"], []
     strain, stress = map(unit_of, names)
+    is_volts = stress in VOLTAGES or "volt" in names[1].casefold()
+    if is_time(names[0]) or strain in TIMES:
+        found.append(_seems("strain", names[0], "a time"))
+        if is_volts:
+            found.append(_seems("stress", names[1], "a voltage"))
+        return Doubt(", and ".join(found), ("1", "1"), "", is_other=True)
     if STRAINS.get(strain, 1.0) != 1.0:
         factors[0] = f"{STRAINS[strain]:g}"
         found.append(_seems("strain", names[0], f"in {_EXPLAINING[STRAINS[strain]]}"))
@@ -95,7 +135,7 @@ def _by_names(names: Sequence[str], units: str) -> Doubt | None:
         factors[0] = "F1"
         where.append("F1 = 1 / gauge length")
         found.append(_seems("strain", names[0], "a length"))
-    target = _in_mpa(units)
+    target = in_mpa(units)
     if target is not None and STRESSES.get(stress, target) != target:
         factors[1] = f"{STRESSES[stress] / target:.7g}"
         found.append(_seems("stress", names[1], f"in other units than {units}"))
@@ -103,6 +143,10 @@ def _by_names(names: Sequence[str], units: str) -> Doubt | None:
         factors[1] = "F2"
         where.append(f"F2 = {FORCES[stress] / target:.7g} / area in mm²")
         found.append(_seems("stress", names[1], "a force"))
+    elif is_volts:
+        factors[1] = "F2"
+        where.append(f"F2 = {units} per volt")
+        found.append(_seems("stress", names[1], "a voltage"))
     if not found:
         return None
     letters = f" with {' and '.join(where)}" if where else ""
@@ -115,7 +159,7 @@ def _seems(what: str, name: str, unit: str) -> str:
 
 def _by_modulus(test: Any, units: str) -> Doubt | None:
     """Return what the slope of a test says, if it is none of a usual material in these units."""
-    target = _in_mpa(units)
+    target = in_mpa(units)
     if target is None:
         return None
     try:
@@ -159,8 +203,3 @@ class _Explanation(NamedTuple):
         said = [f"strains in {_EXPLAINING[self.strain]}"] if self.strain != 1.0 else []
         said += [f"stresses in {_STRESS_UNITS[self.stress]}"] if self.stress else []
         return " and ".join(said)
-
-
-def _in_mpa(units: str) -> float | None:
-    """Return how many MPa a unit of stress is, or None if it is not known."""
-    return STRESSES.get(normalize("NFKC", units).casefold().strip())

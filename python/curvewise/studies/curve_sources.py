@@ -21,7 +21,7 @@ from .. import solvers
 from ..curves.inputs import Array
 from ..files.column_choice import TimeColumnWarning
 from ..files.curve_files import read_named_columns
-from ..files.number_tables import Reading
+from ..files.file_options import Reading
 from ..solvers import SolverOutput
 from . import keys
 from .formulas import Formula

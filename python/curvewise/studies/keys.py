@@ -31,6 +31,7 @@ __all__ = [
     "key_at",
     "mapping",
     "name",
+    "name_or_number",
     "not_negative",
     "number",
     "numbers",
@@ -77,8 +78,12 @@ def table(read: ReadAt) -> Any:
 
 
 def described(kind: type) -> dict[str, Mapping[str, Any]]:
-    """Return the keys that a dataclass describes, with what it says of each."""
-    return {item.name: item.metadata for item in fields(kind) if "read" in item.metadata}
+    """Return the keys that a dataclass describes, with what it says of each.
+
+    An underscore at the end of a field, which Python's words need, is not part of the key.
+    """
+    found = {item.name: item.metadata for item in fields(kind) if "read" in item.metadata}
+    return {name.rstrip("_"): {**how, "field": name} for name, how in found.items()}
 
 
 class Table:
@@ -130,10 +135,12 @@ class Table:
         keys = described(kind)
         for name, how in keys.items():
             if how["is_table"]:
-                known[name] = how["read"](self.source, (*self.path, name), self.given.get(name))
+                value = self.given.get(name)
+                known[how["field"]] = how["read"](self.source, (*self.path, name), value)
             elif name in self.given:
                 try:
-                    known[name] = how["read"](self.source, (*self.path, name), self.given[name])
+                    value = self.given[name]
+                    known[how["field"]] = how["read"](self.source, (*self.path, name), value)
                 except ValueError as error:
                     self.problem(name, str(error))
             elif how["required"]:
@@ -220,6 +227,15 @@ def numbers(value: Any) -> tuple[float, ...]:
     if not isinstance(value, list) or not value:
         raise ValueError(f"is {value!r}; give a list of numbers")
     return tuple(number(item) for item in value)
+
+
+def name_or_number(wanted: str) -> Callable[[Any], Any]:
+    """Return what reads a text, or a number from 1."""
+    return reader(
+        f"{wanted}, or its number from 1",
+        lambda value: isinstance(value, (str, int)) and not isinstance(value, bool),
+        as_it_is,
+    )
 
 
 def at_least(least: int) -> Callable[[Any], int]:

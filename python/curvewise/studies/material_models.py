@@ -116,12 +116,7 @@ def drive(
     for i, test in enumerate(tests):
         told = test.factors or test.x is not None
         if not told and (doubt := doubt_of(test.experiment, model.units)):
-            factors = ", ".join(doubt.factors)
-            source.problem(
-                ("tests", i),
-                f"{doubt.found}; give factors = [{factors}]{doubt.where}, or factors = [1, 1] if "
-                "its units are right",
-            )
+            source.problem(("tests", i), doubt.asked("study"))
     source.raise_problems()
 
     def each(what: Callable[[list[Any]], T]) -> None:

@@ -10,9 +10,11 @@ from typing import Any
 import numpy as np
 
 from ..curves.inputs import Array
-from ..files.number_tables import Reading
+from ..files.column_units import factor_of
+from ..files.file_options import READING, Reading
 from . import keys
 from .curve_sources import FORMATS, CurveSource, Quantity, format_of
+from .file_keys import said as said_of_file
 from .formulas import Formula, undefined_names
 from .keys import Table, described, key, key_at, table
 from .search_settings import Comparison
@@ -30,16 +32,17 @@ def _formula(value: Any) -> Formula:
     return Formula(keys.text(value))
 
 
-def _name_or_number(wanted: str) -> Any:
-    """Return what reads which column, or which sheet."""
-    return keys.reader(
-        f"{wanted}, or its number from 1",
-        lambda value: isinstance(value, (str, int)) and not isinstance(value, bool),
-        keys.as_it_is,
-    )
+def _factors(value: Any) -> tuple[float, ...]:
+    """Read a list of numbers and units."""
+    if not isinstance(value, list) or not any(isinstance(item, str) for item in value):
+        return keys.numbers(value)
+    try:
+        return tuple(factor_of(i) if isinstance(i, str) else keys.number(i) for i in value)
+    except ValueError as error:
+        raise ValueError(f"cannot be used: {error}") from None
 
 
-_column = _name_or_number("the name of a column")
+_column = keys.name_or_number("the name of a column")
 
 
 @dataclass(frozen=True)
@@ -49,11 +52,14 @@ class Columns:
     columns: Any = key(keys.as_it_is)
     x: Formula | None = key(_formula)
     y: Formula | None = key(_formula)
-    factors: tuple[float, ...] = key(keys.numbers, ())
-    sheet: str | int | None = key(_name_or_number("its name"))
-    decimal: str | None = key(keys.choice((".", ",")))
-    until: str | None = key(keys.text)
-    skip_invalid: bool = key(keys.flag, False)
+    factors: tuple[float, ...] = key(_factors, ())
+    sheet: str | int | None = said_of_file("sheet")
+    from_: str | None = said_of_file("from_")
+    header_row: int | None = said_of_file("header_row")
+    until: str | None = said_of_file("until")
+    skip_invalid: bool = said_of_file("skip_invalid")
+    decimal: str | None = said_of_file("decimal")
+    encoding: str | None = said_of_file("encoding")
     value: Formula | None = None
     first_point: tuple[float, ...] = ()
 
@@ -231,7 +237,11 @@ def _source(table: Table, said: Columns, file: str, format: str) -> CurveSource:
     first = said.first_point
     if first and len(first) != (len(formulas) or width):
         table.problem("first_point", f"is {list(first)}; give a number for each coordinate")
-    reading = Reading(said.sheet, said.decimal, said.until, said.skip_invalid)
+    try:
+        reading = Reading(**{option.name: getattr(said, option.name) for option in READING})
+    except ValueError as error:
+        table.problem("", f"cannot be read: {error}")
+        reading = Reading()
     return CurveSource(file, format, names, columns, said.factors, formulas, first, reading)
 
 

@@ -113,7 +113,7 @@ def test_factors_change_the_units_of_each_file(run, output, compared, files):
         run("compare", *files, "--factors-b", "2"),
         "factors has shape (1,); B.csv gives 2 columns, and each needs one",
     )
-    assert run("compare", *files, "--factors-a", "1", "MPa")[0] == USAGE
+    assert run("compare", *files, "--factors-a", "1", "stone")[0] == USAGE
 
 
 def test_sheets_of_workbooks(run, compared, files):

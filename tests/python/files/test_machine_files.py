@@ -147,7 +147,10 @@ def test_the_names_asked_for_choose_the_line_of_a_header(read) -> None:
         ("1 000,5\n2 000,5\n", "line 1: the blanks of '1 000,5' may stand between thousands or"),
         ("0,05,1,25\n0,10,2,50\n", "the commas of '0,05,1,25' may .*say which is the decimal sign"),
         ("force\n0,5\n0,6\n", "line 2: the commas of '0,5' may separate cells or stand in numbers"),
-        ("a,b\n5,6\n\ne,s\n0,1\n", "line 4: 'e, s' seems to be the header of a second table; name"),
+        (
+            "a,b\n5,6\n\ne,s\n0,1\n",
+            "line 4: 'e, s' seems to be the header of a second table; begin",
+        ),
         ("e;s\n0;1\n;\n1;\n", r"line 4, column 2 \(s\): the cell is missing"),
         ('"5 mm"\n', "no line is made of numbers; the first with a digit is line 1, '\"5 mm\"'"),
     ],

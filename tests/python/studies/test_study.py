@@ -203,7 +203,7 @@ def test_a_check_sees_other_units(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("right", "wrong", "message"),
     [
-        ('f = "force"', 'f = "Force"', "out.csv has no column 'Force'; its columns are time, st"),
+        ('f = "force"', 'f = "load"', "out.csv has no column 'load'; its columns are time, st"),
         ('file = "out.csv"', 'file = "out.frd"', "the run has written no out.frd; it has written "),
         (
             'file = "out.csv"',

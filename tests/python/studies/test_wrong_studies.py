@@ -61,9 +61,9 @@ WRONG = {
     ),
     "a column that is not there": (
         'columns = ["strain", "stress"]',
-        'columns = ["strain", "Stress"]',
+        'columns = ["strain", "force"]',
         "study.toml, line 6: tests[1].columns cannot be used: {folder}/test.csv has no column "
-        "'Stress'; its columns are time, strain, stress; by number, give 1 to 3",
+        "'force'; its columns are time, strain, stress; by number, give 1 to 3",
     ),
     "a test that is not there": (
         'file = "test.csv"',

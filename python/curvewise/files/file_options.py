@@ -1,0 +1,126 @@
+"""The options that say how a file is read: each is declared once, here.
+
+`curvewise.read_curve` takes them as keywords, the commands as ``--options``, a study as keys of a
+test. What an option is called, which values it takes and what it does stands in one row of
+`READING`; commands and studies are made from it.
+"""
+
+from __future__ import annotations
+
+import codecs
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple, TypeAlias
+
+from .number_texts import SIGNS
+
+__all__ = ["READING", "FileOption", "Kind", "Reading"]
+
+Kind: TypeAlias = Literal["text", "name", "row", "flag", "sign"]
+
+
+class FileOption(NamedTuple):
+    """An option that is said of a file.
+
+    Attributes
+    ----------
+    name : str
+        The keyword in Python; ``from_`` is ``from`` elsewhere.
+    kind : str
+        Its values: a text, a name or a number from 1, the number of a row, a flag, or a decimal
+        sign.
+    help : str
+        What it does, for the command line.
+    metavar : str
+        What help calls its value.
+    """
+
+    name: str
+    kind: str
+    help: str
+    metavar: str = ""
+
+    @property
+    def word(self) -> str:
+        """Its name in a study."""
+        return self.name.rstrip("_")
+
+    @property
+    def flag(self) -> str:
+        """Its name on the command line."""
+        return f"--{self.word.replace('_', '-')}"
+
+
+READING = (
+    FileOption("sheet", "name", "name of the sheet, or its number from 1 (default: 1)", "SHEET"),
+    FileOption(
+        "from_",
+        "text",
+        "begin at the first row that contains TEXT: the title or the names of the second table",
+        "TEXT",
+    ),
+    FileOption(
+        "header_row", "row", "take the names of the columns from row N of the file, from 1", "N"
+    ),
+    FileOption(
+        "until",
+        "text",
+        "end before the first row that contains TEXT below the first numbers: statistics, or the "
+        "next table",
+        "TEXT",
+    ),
+    FileOption("skip_invalid", "flag", "leave out rows that are not numbers, and say how many"),
+    FileOption("decimal", "sign", "decimal sign of numbers that are text (default: read off them)"),
+    FileOption(
+        "encoding",
+        "text",
+        "encoding of a text file, such as gbk or cp1251 (default: read off its bytes)",
+        "NAME",
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How a file is read, besides its columns; the keywords of :func:`curvewise.read_curve`."""
+
+    sheet: str | int | None = None
+    from_: str | None = None
+    header_row: int | None = None
+    until: str | None = None
+    skip_invalid: bool = False
+    decimal: str | None = None
+    encoding: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.decimal not in (None, *SIGNS):
+            raise ValueError(f"decimal is {self.decimal!r}; choose from '.' and ','")
+        if self.until == "":
+            raise ValueError("until is empty; give a text of the row before which the curve ends")
+        if self.from_ == "":
+            raise ValueError("from is empty; give a text of the row with which the table begins")
+        if self.header_row is not None and self.header_row < 1:
+            raise ValueError(f"header_row is {self.header_row}; rows are numbered from 1")
+        if self.from_ is not None and self.header_row is not None:
+            raise ValueError(
+                f"from is {self.from_!r} and header_row is {self.header_row}; give one of them"
+            )
+        if self.encoding is not None:
+            _check_encoding(self.encoding)
+
+    @property
+    def begins_later(self) -> str:
+        """The option that says where the table begins, with its value, or ""."""
+        if self.from_ is not None:
+            return f"from is {self.from_!r}"
+        return "" if self.header_row is None else f"header_row is {self.header_row}"
+
+
+def _check_encoding(name: Any) -> None:
+    """Refuse what is not the name of an encoding of text."""
+    try:
+        codecs.lookup(name)
+        "".encode(name)
+    except (LookupError, TypeError, ValueError):
+        raise ValueError(
+            f"encoding is {name!r}, which Python does not know; give one such as 'gbk' or 'cp1251'"
+        ) from None
