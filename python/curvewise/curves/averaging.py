@@ -22,7 +22,7 @@ from .checks import Turns
 from .inputs import Array
 from .turns import turning_points
 
-__all__ = ["averaged"]
+__all__ = ["averaged", "averaged_turns"]
 
 _FEWEST_ROWS = 16  # of a window in which noise and speed are read
 _WINDOWS = 60  # most windows in a branch of the median length
@@ -81,7 +81,7 @@ class _Branch(NamedTuple):
         return value
 
 
-def averaged(record: Array, turns: Turns) -> tuple[Array, Turns] | None:
+def averaged(record: Array, turns: Turns, reversal: float = 0.1) -> tuple[Array, Turns] | None:
     """Return a dense record as means of blocks of rows, and where it turns; None if it is sparse.
 
     Parameters
@@ -90,7 +90,32 @@ def averaged(record: Array, turns: Turns) -> tuple[Array, Turns] | None:
         The first column drives the others.
     turns : sequence of int
         The rows with its extremes, as `turning_points` returns them.
+    reversal : float
+        The smallest reversal that counts, as it was for `turns`.
     """
+    found = _located(record, turns, reversal)
+    if found is None:
+        return None
+    branches, places, reached = found
+    return _joined(branches, [0.0, *places, len(record) - 1.0], reached)
+
+
+def averaged_turns(record: Array, turns: Turns, reversal: float = 0.1) -> Turns | None:
+    """Return the rows at which the averages of a dense record turn; None if it is sparse.
+
+    Parameters
+    ----------
+    record, turns, reversal
+        As for `averaged`.
+    """
+    found = _located(record, turns, reversal)
+    return None if found is None else np.rint(found[1]).astype(np.int64)
+
+
+def _located(
+    record: Array, turns: Turns, reversal: float
+) -> tuple[list[_Branch], list[float], list[float]] | None:
+    """Return the branches of a dense record, the rows where they meet, and the values there."""
     branch = float(np.median(np.diff([0, *turns, len(record)])))
     window = max(_FEWEST_ROWS, int(branch / _WINDOWS))
     if branch < 4 * window:
@@ -104,10 +129,12 @@ def averaged(record: Array, turns: Turns) -> tuple[Array, Turns] | None:
     if branch < _SHORTEST * size:
         return None
     (whole,) = _branches(record, [0, len(record)], size, 0, least)
-    found = turning_points(whole.driving)
+    found = turning_points(whole.driving, reversal=reversal)
     if len(found) != len(turns):
         return None
-    places = [_middle(whole, turn, 2.0 * noise / math.sqrt(size)) for turn in found.tolist()]
+    widest = 0.5 * reversal * float(np.ptp(whole.driving))  # half of what a reversal has
+    alike = min(2.0 * noise / math.sqrt(size), widest)
+    places = [_middle(whole, turn, alike) for turn in found.tolist()]
     for left_out in _GAPS:
         ends = [0, *map(round, places), len(record)]
         shortest = min(b - a for a, b in pairwise(ends))
@@ -116,7 +143,7 @@ def averaged(record: Array, turns: Turns) -> tuple[Array, Turns] | None:
         gap = math.ceil(min(left_out * size, shortest / 8))
         branches = _branches(record, ends, size, gap, least)
         places, reached = _reversals(branches, ends[1:-1], max(gap, size), 0.1 * noise)
-    return _joined(branches, [0.0, *places, len(record) - 1.0], reached)
+    return branches, places, reached
 
 
 def _noise_and_speeds(column: Array, rows: int) -> tuple[float, Array]:
@@ -193,7 +220,6 @@ def _smoothed(values: Array, leaf: int, penalty: float) -> tuple[Array, npt.NDAr
 
 def _middle(whole: _Branch, turn: int, alike: float) -> float:
     """Return the middle of the rows about a turn at which the driving column is alike."""
-    alike = min(alike, 0.05 * float(np.ptp(whole.driving)))  # half of what a reversal has
     apart = np.flatnonzero(np.abs(whole.driving - whole.driving[turn]) > alike)
     after = int(np.searchsorted(apart, turn))
     return 0.5 * float(whole.rows[apart[after - 1]] + whole.rows[apart[after]])
