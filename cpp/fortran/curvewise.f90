@@ -24,7 +24,7 @@ module curvewise
     ! step_pattern; the others by their places in curvewise.h
     integer(c_int), parameter, public :: symmetric1 = 0, symmetric2 = 1
     integer(c_int), parameter, public :: spacing_distance = 0, spacing_x = 1, &
-        spacing_arc_length = 2, spacing_matched = 3                              ! spacing
+        spacing_arc_length = 2, spacing_matched = 3, spacing_function = 4        ! spacing
     integer(c_int), parameter, public :: rearrange = 0, split = 1                ! crossing
     integer(c_int), parameter, public :: scale_mean = 0, scale_mean_abs = 1, scale_range = 2
     integer(c_ptrdiff_t), parameter, public :: no_window = -1

@@ -24,7 +24,7 @@ _HELD_PATH = "Time O(n m), memory O(n + m) for each pair and thread."
 _TEXTS = {
     "area": _Text(
         """\
-Those of :func:`curvewise.area`, except ``spacing="arc_length"``. As a loss,
+Those of :func:`curvewise.area`, except ``spacing="arc_length"`` and "function". As a loss,
     ``spacing="matched"``, which takes other increments and noise, and does not jump.""",
         """\
 Jekel et al. (2018). The cuts of the refinement, or the matching, are held. Time and memory of

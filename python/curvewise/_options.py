@@ -86,7 +86,7 @@ StepPatternName: TypeAlias = Literal[
     "mori2006",
 ]
 Window: TypeAlias = SupportsIndex | float | None
-Spacing: TypeAlias = Literal["distance", "x", "arc_length", "matched"]
+Spacing: TypeAlias = Literal["distance", "x", "arc_length", "matched", "function"]
 Crossing: TypeAlias = Literal["rearrange", "split"]
 Offsets: TypeAlias = SupportsIndex | Literal["continuous"]
 LengthScale: TypeAlias = Literal["mean", "mean_abs", "range"]

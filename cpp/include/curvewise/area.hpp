@@ -4,8 +4,10 @@
 /// quadrilateral i is (A[i], A[i+1], B[i+1], B[i]); the measure is the sum of their areas.
 /// Symmetric to rounding, except with Spacing::arc_length and Spacing::matched. Time
 /// O(n + m + |n - m| log m), with Spacing::matched O(n + m + (50 T)^2), where P travels T widths
-/// and heights of its box, at most that of T = 280; memory O(n + m). Throws std::invalid_argument
-/// for a curve that is not finite, has fewer than 2 points or other than 2 coordinates;
+/// and heights of its box, at most that of T = 280, with Spacing::function O(n + m); memory
+/// O(n + m). Throws std::invalid_argument for a curve that is not finite, has fewer than 2 points
+/// or other than 2 coordinates; with Spacing::function for one whose x turns back, and for curves
+/// without a common span of x;
 /// std::bad_alloc; Stopped. Safe from any number of threads.
 ///
 ///     curvewise::AreaOptions options;
@@ -24,21 +26,23 @@
 
 namespace curvewise {
 
-/// What the refinement measures a segment by. Raw stress-strain data want `x`, or curves scaled by
-/// normalize(): with `distance` stress, being the larger number, decides alone (174 where the
-/// paper's Table 4 says 45.1).
+/// What the refinement measures a segment by. Raw stress-strain loops want `x`, or curves scaled by
+/// normalize(), functions of x `function`: with `distance` stress, being the larger number, decides
+/// alone (174 where the paper's Table 4 says 45.1).
 enum class Spacing {
     distance,    ///< sqrt(dx^2 + dy^2): the paper's text
     x,           ///< |dx|: what the paper's Table 4 was computed with (within 1.4 %)
     arc_length,  ///< a vertex wherever the other curve has one, by relative arc length, after
                  ///< scaling by P's box: independent of how either curve was sampled
-    matched  ///< not Algorithm 1: by a warping path, areas with their signs in pieces of a tenth
-             ///< of P's box. Little moved by sampling, noise and outliers; Crossing does not act
+    matched,  ///< not Algorithm 1: by a warping path, areas with their signs in pieces of a tenth
+              ///< of P's box. Little moved by sampling, noise and outliers; Crossing does not act
+    function  ///< not Algorithm 1: the integral of |f - g| over the x that both curves span, as
+              ///< piecewise linear functions of x; Crossing does not act
 };
 
 /// The names of the enumerators, in their order.
 constexpr auto choice_names(Spacing /*spacing*/) noexcept {
-    return names_up_to<Spacing::matched>("distance", "x", "arc_length", "matched");
+    return names_up_to<Spacing::function>("distance", "x", "arc_length", "matched", "function");
 }
 
 /// What becomes of a quadrilateral that intersects itself.
@@ -60,7 +64,8 @@ struct AreaOptions {
 
     Spacing spacing = Spacing::distance;
     Crossing crossing = Crossing::rearrange;
-    /// Sum the squared areas (the paper's section 4, the analogue of sum-of-squares).
+    /// Sum the squared areas (the paper's section 4, the analogue of sum-of-squares); with
+    /// Spacing::function the integral of (f - g)^2.
     bool squared = false;
 
     constexpr bool is_symmetric() const noexcept {
@@ -70,6 +75,7 @@ struct AreaOptions {
     constexpr double work(double n, double m, double /*dim*/) const noexcept {
         // Of most loops 250 to 300 samples are matched.
         if (spacing == Spacing::matched) return 20.0 * (n + m) + 1e5;
+        if (spacing == Spacing::function) return n + m;
         return n + m + 30.0 * (n > m ? n - m : m - n);
     }
 };
@@ -91,7 +97,8 @@ struct AreaQuads {
     std::vector<double> areas;
 };
 
-/// In units of x times units of y; with options.squared, of that squared.
+/// In units of x times units of y; with options.squared, of that squared, or with
+/// Spacing::function in units of x times units of y squared.
 CURVEWISE_EXPORT double area(const CurveView& P, const CurveView& Q,
                              const AreaOptions& options = {}, Control* control = nullptr);
 

@@ -95,7 +95,8 @@ enum curvewise_spacing {
     CURVEWISE_SPACING_DISTANCE,
     CURVEWISE_SPACING_X,
     CURVEWISE_SPACING_ARC_LENGTH,
-    CURVEWISE_SPACING_MATCHED
+    CURVEWISE_SPACING_MATCHED,
+    CURVEWISE_SPACING_FUNCTION
 };
 /** Values of curvewise_area_options.crossing. */
 enum curvewise_crossing { CURVEWISE_REARRANGE, CURVEWISE_SPLIT };

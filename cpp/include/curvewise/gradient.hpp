@@ -38,8 +38,8 @@ struct Gradients {
     double* by_q = nullptr;
 };
 
-/// Not for Spacing::arc_length: std::invalid_argument. With Crossing::rearrange the value jumps,
-/// and the derivative is that between two jumps.
+/// Not for Spacing::arc_length and Spacing::function: std::invalid_argument. With
+/// Crossing::rearrange the value jumps, and the derivative is that between two jumps.
 CURVEWISE_EXPORT double value_and_gradients(const AreaOptions& options, const CurveView& P,
                                             const CurveView& Q, const Gradients& out,
                                             Control* control = nullptr);

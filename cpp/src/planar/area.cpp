@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 
 #include "curves/arc_gradient.hpp"
 #include "curves/arc_length.hpp"
@@ -14,6 +15,7 @@
 #include "curvewise/gradient.hpp"
 #include "pairwise/batch_of.hpp"
 #include "pairwise/evaluate.hpp"
+#include "planar/function_strips.hpp"
 #include "planar/matched_curves.hpp"
 #include "planar/quad.hpp"
 #include "planar/refinement.hpp"
@@ -118,10 +120,26 @@ class AreaMeasure : public pairwise::LinearMeasure {
 
     explicit AreaMeasure(const AreaOptions& options) : options_(options) {}
     static curves::Requirements requirements() noexcept { return {AreaOptions::measure, 2, true}; }
+    // A curve that is no function of x has no area to itself either.
+    bool is_zero_to_itself(const curves::CheckedCurve& /*checked*/) const noexcept {
+        return options_.spacing != Spacing::function;
+    }
+    void check_p(const PreparedP& P, runtime::Poller& poller) const {
+        if (options_.spacing == Spacing::function) planar::check_is_function(P.checked, poller);
+    }
 
     double operator()(const PreparedP& P, const PreparedQ& Q,
                       const pairwise::Call<Memory>& call) const {
         const RangeScale range = range_of(P, Q);
+        if (options_.spacing == Spacing::function) {
+            double integral = 0.0;
+            planar::FunctionStrips strips(P.checked, Q.checked, range, call.poller);
+            strips.for_each(call.poller, [&](const Quad& strip) {
+                integral +=
+                    options_.squared ? planar::strip_squares(strip) : planar::strip_area(strip);
+            });
+            return range.restore(integral, options_.squared ? 3 : 2);
+        }
         double sum = 0.0;
         const auto add = [&](double area) { sum += options_.squared ? area * area : area; };
         if (options_.spacing == Spacing::matched) {
@@ -155,7 +173,12 @@ class AreaMeasure : public pairwise::LinearMeasure {
                 {restored(quad.a), restored(quad.b), restored(quad.c), restored(quad.d)});
             result.areas.push_back(range.restore(measured.area, 2));
         };
-        if (options_.spacing == Spacing::matched) {
+        if (options_.spacing == Spacing::function) {
+            planar::FunctionStrips strips(P.checked, Q.checked, range, call.poller);
+            strips.for_each(call.poller, [&](const Quad& strip) {
+                add({strip, planar::strip_area(strip), planar::Figure::simple});
+            });
+        } else if (options_.spacing == Spacing::matched) {
             const auto visit = [&](const auto& curves, auto first, auto end, double area) {
                 for (std::size_t i = first; i < end; ++i) {
                     const Quad quad = quad_at(curves, i);
@@ -309,9 +332,11 @@ AreaQuads area_quads(const CurveView& P, const CurveView& Q, const AreaOptions& 
 
 double value_and_gradients(const AreaOptions& options, const CurveView& P, const CurveView& Q,
                            const Gradients& out, Control* control) {
-    if (options.spacing == Spacing::arc_length) {
+    if (options.spacing == Spacing::arc_length || options.spacing == Spacing::function) {
         throw std::invalid_argument(
-            "area has no gradient with spacing='arc_length'; choose from distance, x, matched");
+            std::string("area has no gradient with spacing='") +
+            choice_names(options.spacing)[static_cast<std::size_t>(options.spacing)] +
+            "'; choose from distance, x, matched");
     }
     const AreaMeasure measure(options);
     return pairwise::with_pair(measure, P, Q, control,

@@ -77,10 +77,23 @@ class Comparison(Result):
     def notes(self) -> list[str]:
         """What looks wrong: coordinates in which one curve is more than 20 times the other.
 
-        Per cent against a fraction, for example. `str` and a notebook show it below the values.
+        Per cent against a fraction, for example. With area's ``spacing="function"``, also the x
+        over which it integrates. `str` and a notebook show the notes below the values.
         """
         P, Q = map(in_columns, (self.P, self.Q))
-        return other_units(P, Q, axis_names(P.shape[1], None, self.P, self.Q), "P", "Q")
+        units = other_units(P, Q, axis_names(P.shape[1], None, self.P, self.Q), "P", "Q")
+        return [*self._common_span(), *units]
+
+    def _common_span(self) -> list[str]:
+        """Say which x both curves span, where an area is an integral over it."""
+        area = self.conditions.get("area")
+        if not area or area.options.get("spacing") != "function" or "area" in self.refusals:
+            return []
+        spans = [(float(curve[:, 0].min()), float(curve[:, 0].max())) for curve in (self.P, self.Q)]
+        low, high = max(low for low, _ in spans), min(high for _, high in spans)
+        p, q = (f"{100 * (high - low) / (end - begin):.3g} %" for begin, end in spans)
+        span = f"x from {low:.6g} to {high:.6g}"
+        return [f"area is over {span}: {p} of the span of P, {q} of that of Q"]
 
     @property
     def deviations(self) -> Deviations:

@@ -179,7 +179,8 @@ def _between_facing(
     quads, _ = area_quads(P, Q, **{**plain, **in_order})
     A, B = (np.concatenate([quads[:, k], quads[-1:, m]]) for k, m in ((0, 1), (3, 2)))
     leashes = np.hypot(*(A - B).T)
-    length, largest = travel(P[:, 0]), float(leashes.max())
+    is_of_x = options.get("spacing") == "function"  # over the x that both curves span
+    length, largest = travel(A[:, 0] if is_of_x else P[:, 0]), float(leashes.max())
     mean = area(P, Q, **plain) / length if length > 0 else math.inf
     if not mean <= largest:
         mean = _mean_leash(leashes, np.diff(A, axis=0), np.diff(B, axis=0))

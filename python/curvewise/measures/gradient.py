@@ -52,7 +52,7 @@ def value_and_gradient(
     measure : {measures}
         The measure.
     **options
-        Its options; of area not ``spacing="arc_length"``.
+        Its options; of area not ``spacing="arc_length"`` and "function".
 
     Returns
     -------

@@ -7,7 +7,8 @@ simple one is half the cross product of its diagonals, which is Gauss's formula 
 cancellation. Time O(n + (n - m) log m), memory O(n).
 
 With "matched" the curves are matched by a warping path instead (matching.py); areas have signs,
-which cancel within each of the pieces into which the path is cut.
+which cancel within each of the pieces into which the path is cut. With "function" the strips
+between two functions of x are integrated instead (function_strips.py).
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import range_exponent, times_power_of_two
 from ..measures.results import AreaQuads
 from .checks import check_pair
+from .function_strips import function_strips, strip_areas, strip_squares
 from .matched_curves import Indices, matched_curves
 from .refinement import facing_curves
 
@@ -39,6 +41,9 @@ def area(
     """Add up the areas of :func:`area_quads`, where cost and source are."""
     measured = _measure(P, Q, spacing, crossing)
     parts = measured.areas
+    if spacing == "function" and squared:
+        squares = np.asarray(np.sum(strip_squares(measured.quads)))
+        return float(times_power_of_two(squares, 3 * measured.exponent))
     if measured.pieces is not None:
         with np.errstate(under="ignore"):
             parts = np.add.reduceat(parts, measured.pieces)
@@ -78,6 +83,9 @@ def _measure(P: CurveLike, Q: CurveLike, spacing: Spacing, crossing: Crossing) -
     check_choice("crossing", crossing, get_args(Crossing))
     P, Q = check_pair(P, Q, "area", least_points=2, planar=True)
     exponent = range_exponent(P, Q)
+    if spacing == "function":
+        strips = function_strips(P, Q, exponent)
+        return _Measured(strips, strip_areas(strips), exponent, None)
     if spacing == "matched":
         P, Q = times_power_of_two(P, -exponent), times_power_of_two(Q, -exponent)
         return _measure_pieces(P, Q, exponent)

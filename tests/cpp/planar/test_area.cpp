@@ -289,10 +289,35 @@ void matched_area_of_the_reference() {
     CHECK_CLOSE(curvewise::area(P, Q, options), 6.3181757077365654, 1e-12);
 }
 
+void functions_of_x() {
+    const Curve line{{0.0, 0.0}, {4.0, 4.0}};
+    const Curve constant{{0.0, 1.0}, {0.5, 1.0}, {0.7, 1.0}, {3.0, 1.0}, {4.0, 1.0}};
+    const AreaOptions of_x{Spacing::function}, squares{Spacing::function, Crossing::split, true};
+    CHECK_EQUAL(area(line, constant, of_x), 5.0);
+    CHECK_CLOSE(area(line, constant, squares), 28.0 / 3.0, 1e-15);
+    // One that falls, spans more, and jumps.
+    const Curve step{{9.0, 0.0}, {1.0, 0.0}, {1.0, 2.0}, {-3.0, 2.0}};
+    CHECK_EQUAL(area(line, step, of_x), 1.5 + 7.5);
+    CHECK_EQUAL(area(step, line, of_x), 9.0);
+    const AreaQuads strips = area_quads(line, step, of_x);
+    CHECK_EQUAL(strips.areas, (std::vector<double>{1.5, 7.5}));
+    CHECK_EQUAL(strips.quads[0], (QuadPoints{{{0, 0}, {1, 1}, {1, 2}, {0, 2}}}));
+    const auto refuses_of_x = [&](const Curve& Q, const std::string& message) {
+        CHECK_THROWS(area(line, Q, of_x), std::invalid_argument, message);
+    };
+    refuses_of_x(Curve{{0.0, 0.0}, {2.0, 0.0}, {1.0, 0.0}},
+                 "Q[2] turns back in x; area with spacing='function' needs x that only rises or "
+                 "only falls: sort the points by x, or choose another spacing");
+    refuses_of_x(Curve{{4.0, 0.0}, {5.5, 0.0}},
+                 "P spans x from 0 to 4 and Q from 4 to 5.5; area with spacing='function' needs a "
+                 "common span");
+}
+
 }  // namespace
 
 int main() {
-    return check::run({{"matched area of the reference", matched_area_of_the_reference},
+    return check::run({{"functions of x", functions_of_x},
+                       {"matched area of the reference", matched_area_of_the_reference},
                        {"values by hand", values_by_hand},
                        {"crossing segments", crossing_segments},
                        {"random quadrilaterals", random_quadrilaterals},

@@ -17,7 +17,7 @@ import pytest
 from programs import KINDS, MARKS, ROOT, compiler, output, run
 
 import curvewise
-from curvewise._options import CoordinateMetric
+from curvewise._options import CoordinateMetric, Spacing
 from curvewise.materials import ChabocheVoce, YoshidaUemori
 
 pytestmark = MARKS
@@ -162,16 +162,18 @@ def test_cutoff(call) -> None:
 
 
 def test_planar_options(call) -> None:
-    for spacing in ("distance", "x", "arc_length", "matched"):
+    for code, spacing in enumerate(get_args(Spacing)):
         for crossing in ("rearrange", "split"):
             for squared in (False, True):
                 given = {"spacing": spacing, "crossing": crossing, "squared": squared}
                 codes = (
-                    ["distance", "x", "arc_length", "matched"].index(spacing),
+                    code,
                     ["rearrange", "split"].index(crossing),
                     int(squared),
                 )
-                assert call("area", P, Q, Area(*codes)) == curvewise.area(P, Q, **given)
+                pair = [curve[np.argsort(curve[:, 0])] for curve in (P, Q)]
+                p, q = pair if spacing == "function" else (P, Q)
+                assert call("area", p, q, Area(*codes)) == curvewise.area(p, q, **given)
     assert call("pcm", P, Q, Pcm(17, 0)) == curvewise.pcm(P, Q, offsets=17)
     assert call("pcm", P, Q, Pcm(0, 1)) == curvewise.pcm(P, Q, offsets="continuous")
     for code, scale in enumerate(("mean", "mean_abs", "range")):
@@ -182,7 +184,7 @@ def test_planar_options(call) -> None:
 @pytest.mark.parametrize(
     ("name", "options", "message"),
     [
-        ("area", Area(4, 0, 0), "unknown spacing 4; choose from 0 to 3"),
+        ("area", Area(5, 0, 0), "unknown spacing 5; choose from 0 to 4"),
         ("area", Area(0, -1, 0), "unknown crossing -1; choose from 0 to 1"),
         ("pcm", Pcm(0, 0), "offsets is 0; give a whole number >= 1, or 'continuous'"),
         ("frechet", Frechet(6, 2.0, 1), "unknown metric 6; choose from 0 to 5"),
