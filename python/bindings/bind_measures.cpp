@@ -86,6 +86,13 @@ py::tuple as_tuple(Matching&& matching) {
                                                                   {count, py::ssize_t{2}}));
 }
 
+// Distance, from P to Q, from Q to P; each of the two as distance, place on P, place on Q.
+py::tuple as_tuple(HausdorffPoints&& found) {
+    const FarthestPoint &p = found.from_p, &q = found.from_q;
+    return py::make_tuple(found.distance, py::make_tuple(p.distance, p.parameter, p.nearest),
+                          py::make_tuple(q.distance, q.nearest, q.parameter));
+}
+
 py::tuple as_tuple(Interval&& interval) { return py::make_tuple(interval.low, interval.high); }
 
 // What is bound is plain functions of few types: what pybind11 makes of a type, the compiler has to
@@ -315,6 +322,8 @@ void bind_measures(py::module_& module) {
     module.def("frechet_continuous_bounds",
                found<FrechetContinuousOptions, frechet_continuous_bounds>);
     module.def("frechet_continuous_path", found<FrechetContinuousOptions, frechet_continuous_path>);
+    module.def("hausdorff_continuous_points",
+               found<HausdorffContinuousOptions, hausdorff_continuous_points>);
     module.def("frechet_within", [](const CurveArray& P, const CurveArray& Q, double distance,
                                     bool continuous) {
         const auto decide = [=](const CurveView& p, const CurveView& q,

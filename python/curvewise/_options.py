@@ -118,6 +118,7 @@ class Default:
     squared: Final[bool] = _DEFAULTS["squared"]
     offsets: Final[Offsets] = _DEFAULTS["offsets"]
     scale: Final[LengthScale] = _DEFAULTS["scale"]
+    directed: Final[bool] = _DEFAULTS["directed"]
     workers: Final[SupportsIndex] = _DEFAULTS["workers"]
     prune: Final[bool] = _DEFAULTS["prune"]
     cutoff: Final[SupportsFloat | None] = _DEFAULTS["cutoff"]

@@ -14,6 +14,7 @@
 #include "curvewise/frechet.hpp"
 #include "curvewise/frechet_continuous.hpp"
 #include "curvewise/hausdorff.hpp"
+#include "curvewise/hausdorff_continuous.hpp"
 #include "curvewise/pcm.hpp"
 
 namespace curvewise {
@@ -22,8 +23,9 @@ namespace detail {
 template <class... Options, class... More>
 std::variant<Options..., More...> joined(const std::variant<Options...>*,
                                          const std::variant<More...>*);
-using SingleMeasure = std::variant<AreaOptions, PcmOptions, FrechetOptions, DtwOptions,
-                                   CurveLengthOptions, FrechetContinuousOptions, HausdorffOptions>;
+using SingleMeasure =
+    std::variant<AreaOptions, PcmOptions, FrechetOptions, DtwOptions, CurveLengthOptions,
+                 FrechetContinuousOptions, HausdorffOptions, HausdorffContinuousOptions>;
 }  // namespace detail
 
 /// A measure, chosen by the type of its options.

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "continuous/boxed_side.hpp"
 #include "continuous/coupling.hpp"
 #include "continuous/leash_bounds.hpp"
 #include "continuous/leash_search.hpp"
@@ -23,7 +24,6 @@ namespace {
 
 using continuous::BoxedCurve;
 using continuous::LeashSearch;
-using curves::CheckedCurve;
 using curves::RangeScale;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -38,20 +38,7 @@ class FrechetContinuousMeasure : public pairwise::Distance {
    public:
     using Memory = continuous::LeashMemory;
     static constexpr bool is_swept = false;
-    // Not scaled, which curves within the usual range need not be.
-    struct PreparedP {
-        PreparedP(const CheckedCurve& curve, runtime::Poller& poller)
-            : checked(curve), boxed(curve.curve, RangeScale(1.0), poller) {}
-        static bool holds_points() noexcept { return true; }
-        void look_at_own_points() noexcept {
-            const CurveView& given = checked.curve;
-            const double* const points = boxed.point<0>(0);
-            checked.curve = given.is_flat() ? CurveView(points, given.size(), 1, 1, 0)
-                                            : CurveView(points, given.size(), given.dim());
-        }
-        CheckedCurve checked;
-        BoxedCurve boxed;
-    };
+    using PreparedP = continuous::BoxedSide;
     using PreparedQ = PreparedP;
     using Call = pairwise::Call<Memory>;
 

@@ -44,7 +44,12 @@ class NearestEdges {
         return found;
     }
 
-   private:
+    // The square of a point's distance from the curve, whose nearest edge is put into `near`, where
+    // the search begins.
+    double nearest(const double* z, std::ptrdiff_t& near) const {
+        return search(z, descend(z, near), near);
+    }
+
     // From edge `near` to one whose neighbours are not nearer.
     double descend(const double* z, std::ptrdiff_t& near) const {
         double square = square_to_edge(z, near);
@@ -61,6 +66,32 @@ class NearestEdges {
         return square;
     }
 
+    // Which part of an edge lies before its point nearest to z.
+    double fraction(const double* z, std::ptrdiff_t edge) const noexcept {
+        const double* const x = curve_.point<Dim>(edge);
+        const double* const y = curve_.point<Dim>(edge + 1);
+        double uu = 0.0, uw = 0.0;
+        for (std::ptrdiff_t c = 0; c < curve_.dim(); ++c) {
+            const double u = y[c] - x[c];
+            uu += u * u;
+            uw += u * (z[c] - x[c]);
+        }
+        return uu > 0.0 ? std::min(std::max(uw / uu, 0.0), 1.0) : 0.0;
+    }
+
+    double square_to_edge(const double* z, std::ptrdiff_t edge) const noexcept {
+        const double* const x = curve_.point<Dim>(edge);
+        const double* const y = curve_.point<Dim>(edge + 1);
+        const double t = fraction(z, edge);
+        double square = 0.0;
+        for (std::ptrdiff_t c = 0; c < curve_.dim(); ++c) {
+            const double h = (z[c] - x[c]) - t * (y[c] - x[c]);
+            square += h * h;
+        }
+        return square;
+    }
+
+   private:
     // The nearest edge of all, where one is nearer than `square`.
     double search(const double* z, double square, std::ptrdiff_t& near) const {
         search_box(z, curve_.levels() - 1, 0, square, near);
@@ -85,24 +116,6 @@ class NearestEdges {
         }
         search_box(z, level - 1, 2 * b, square, near);
         if (2 * b + 1 < curve_.boxes(level - 1)) search_box(z, level - 1, 2 * b + 1, square, near);
-    }
-
-    double square_to_edge(const double* z, std::ptrdiff_t edge) const noexcept {
-        const double* const x = curve_.point<Dim>(edge);
-        const double* const y = curve_.point<Dim>(edge + 1);
-        double uu = 0.0, uw = 0.0;
-        for (std::ptrdiff_t c = 0; c < curve_.dim(); ++c) {
-            const double u = y[c] - x[c];
-            uu += u * u;
-            uw += u * (z[c] - x[c]);
-        }
-        const double t = uu > 0.0 ? std::min(std::max(uw / uu, 0.0), 1.0) : 0.0;
-        double square = 0.0;
-        for (std::ptrdiff_t c = 0; c < curve_.dim(); ++c) {
-            const double h = (z[c] - x[c]) - t * (y[c] - x[c]);
-            square += h * h;
-        }
-        return square;
     }
 
     const BoxedCurve& curve_;

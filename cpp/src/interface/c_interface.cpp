@@ -47,7 +47,7 @@ static_assert(is_measure<CURVEWISE_FRECHET, curvewise::FrechetOptions>);
 static_assert(is_measure<CURVEWISE_DTW, curvewise::DtwOptions>);
 static_assert(is_measure<CURVEWISE_CURVE_LENGTH, curvewise::CurveLengthOptions>);
 static_assert(is_measure<CURVEWISE_FRECHET_CONTINUOUS, curvewise::FrechetContinuousOptions>);
-// hausdorff and the edit distances are C++'s and Python's alone.
+// The Hausdorff distances and the edit distances are C++'s and Python's alone.
 constexpr int measures = CURVEWISE_FRECHET_CONTINUOUS + 1;
 
 [[noreturn]] void refuse_choice(const char* option, int given, int count) {

@@ -68,7 +68,8 @@ Condition condition(Preset preset, CurveLengthOptions options) {
 template <class Options>
 constexpr bool is_compared =
     !std::is_same_v<Options, FrechetContinuousOptions> &&
-    !std::is_same_v<Options, HausdorffOptions> && !is_edit_distance<Options>;
+    !std::is_same_v<Options, HausdorffOptions> &&
+    !std::is_same_v<Options, HausdorffContinuousOptions> && !is_edit_distance<Options>;
 
 // The values that a Comparison has as members, too.
 template <class Options>

@@ -204,7 +204,8 @@ def _pairs(info: MeasureInfo, seed: str) -> Iterator[tuple[Array, Array]]:
     shapes += [(300, 170)] if info.planar else _TALL
     if "matched" in seed:  # noise travels far, and is sampled as densely as it does
         shapes[-1] = (60, 40)
-    if info.name == "frechet_continuous":  # whole numbers in Python are slow
+    # Whole numbers in Python are slow; all places of a Hausdorff distance are many.
+    if info.name in ("frechet_continuous", "hausdorff_continuous"):
         shapes = [(n % 18 + 1, m % 18 + 1) for n, m in shapes]
     # The curves are not centred on zero, since curve_length may divide by their mean.
     centre = 3.0 if info.planar else 0.0

@@ -22,6 +22,7 @@ from .frechet import frechet, frechet_info, frechet_path, frechet_table
 from .frechet_continuous import frechet_continuous, frechet_continuous_path, frechet_within
 from .gradient import value_and_gradient, values_and_gradients
 from .hausdorff import hausdorff
+from .hausdorff_continuous import hausdorff_continuous, hausdorff_continuous_points
 from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, normalize, sum_of_squares
 from .soft_dtw import soft_dtw, soft_dtw_divergence
@@ -46,6 +47,8 @@ __all__ = [
     "frechet_table",
     "frechet_within",
     "hausdorff",
+    "hausdorff_continuous",
+    "hausdorff_continuous_points",
     "mae",
     "mse",
     "normalize",

@@ -21,6 +21,7 @@ from .edit_distances import EditDistance, edit_path, edit_table
 from .frechet import frechet, frechet_path, frechet_table
 from .frechet_continuous import frechet_continuous
 from .hausdorff import hausdorff
+from .hausdorff_continuous import hausdorff_continuous
 from .pcm import pcm
 from .results import Alignment
 
@@ -37,7 +38,16 @@ __all__ = [
 
 
 MeasureName: TypeAlias = (
-    Literal["area", "pcm", "frechet", "dtw", "curve_length", "frechet_continuous", "hausdorff"]
+    Literal[
+        "area",
+        "pcm",
+        "frechet",
+        "dtw",
+        "curve_length",
+        "frechet_continuous",
+        "hausdorff",
+        "hausdorff_continuous",
+    ]
     | EditDistance
 )
 
@@ -158,6 +168,15 @@ MEASURES: Mapping[str, MeasureInfo] = {
             planar=False,
             symmetric=True,
             picture="plot_farthest",
+            by_default=False,
+        ),
+        MeasureInfo(
+            name="hausdorff_continuous",
+            title="Continuous Hausdorff",
+            function=hausdorff_continuous,
+            planar=False,
+            symmetric=True,
+            picture="plot_farthest_of_lines",
             by_default=False,
         ),
         *(

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ..curves.arc_length import points_at
 from ..drawing.bunch import bunch_figure
 from ..drawing.linked_curves import matching_figure, placement_figure
 from ..showing.result import Result, Table
@@ -26,6 +27,7 @@ __all__ = [
     "Alignment",
     "AreaQuads",
     "DtwMean",
+    "FarthestPoints",
     "Matching",
     "PcmMatch",
     "Subsequence",
@@ -49,6 +51,38 @@ class AreaQuads(NamedTuple):
 
     def __repr__(self) -> str:
         return printed(self, self._asdict().items())
+
+
+@dataclass(frozen=True, repr=False)
+class FarthestPoints(Record):
+    """A Hausdorff distance of polygonal curves with the points that attain it.
+
+    Attributes
+    ----------
+    distance : float
+        The value of the measure.
+    distances : ndarray, shape (2,) or (1,)
+        The largest distance of a point of P from Q, and that of a point of Q from P unless the
+        measure is directed.
+    parameters : ndarray, shape (2, 2) or (1, 2)
+        For each of them the place on P and the place on Q: the index of a vertex plus a fraction
+        of the edge behind it.
+    curves : tuple of two ndarrays
+        Copies of P and Q.
+    """
+
+    distance: float
+    distances: npt.NDArray[np.float64]
+    parameters: npt.NDArray[np.float64]
+    curves: tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] = field(
+        repr=False, compare=False
+    )
+
+    @property
+    def points(self) -> npt.NDArray[np.float64]:
+        """Points at `parameters`, shape (2, 2, d) or (1, 2, d): for each distance on P and on Q."""
+        places = zip(self.curves, self.parameters.T, strict=True)
+        return np.stack([points_at(curve, at) for curve, at in places], axis=1)
 
 
 @dataclass(frozen=True, repr=False)

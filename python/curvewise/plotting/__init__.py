@@ -17,7 +17,7 @@ from .animation import animate_alignment
 from .area import plot_area
 from .comparison import plot_comparison
 from .curve_length import plot_curve_length
-from .farthest import plot_farthest
+from .farthest import plot_farthest, plot_farthest_of_lines
 from .matching import plot_free_space, plot_matching
 from .pcm import plot_pcm
 from .table import plot_table
@@ -30,6 +30,7 @@ __all__ = [
     "plot_comparison",
     "plot_curve_length",
     "plot_farthest",
+    "plot_farthest_of_lines",
     "plot_free_space",
     "plot_matching",
     "plot_pcm",

@@ -1,4 +1,4 @@
-"""The pair of points that a Hausdorff distance is the distance of. Time O(n m)."""
+"""The pair of points that a Hausdorff distance is the distance of: of vertices, or of lines."""
 
 from __future__ import annotations
 
@@ -8,16 +8,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._options import Default, Metric, Order, Radius
+from ..curves.arc_length import points_at
 from ..curves.ground_distance import check_metric, ground_distances
 from ..curves.inputs import CurveLike
-from ..drawing.figures import CurveArtists
+from ..drawing.figures import CurveArtists, draw_curves, draw_links
 from ..drawing.links import draw_pair, draw_path
+from ..measures import hausdorff_continuous_points
 from .measured import measured_and_drawn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["plot_farthest"]
+__all__ = ["plot_farthest", "plot_farthest_of_lines"]
 
 
 def plot_farthest(
@@ -86,3 +88,63 @@ def plot_farthest(
         for line, i in zip((artists.P, artists.Q), farthest, strict=True)
     ]
     return artists._replace(accent=draw_pair(ax, ends, "Hausdorff distance"))
+
+
+def plot_farthest_of_lines(
+    P: CurveLike,
+    Q: CurveLike,
+    ax: Axes,
+    *,
+    directed: bool = Default.directed,
+    normalized: bool = False,
+    names: Sequence[str] | None = None,
+) -> CurveArtists:
+    """Draw the point of each polygonal curve that is farthest from the other curve.
+
+    Parameters
+    ----------
+    P, Q : array_like, shape (n, d) and (m, d), or (n,) and (m,), d = 1 or 2
+        The curves.
+    ax : matplotlib.axes.Axes
+        Axes to draw into.
+    directed
+        As for :func:`curvewise.hausdorff_continuous`.
+    normalized, names
+        As in `plot_area`.
+
+    Returns
+    -------
+    CurveArtists
+        `between` is a LineCollection of a line for each directed distance, from the farthest point
+        to the nearest point of the other curve. `accent` is the longest of the lines.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for :func:`curvewise.hausdorff_continuous`, and for d > 2. Nothing is drawn then.
+
+    Notes
+    -----
+    Time and memory of :func:`curvewise.hausdorff_continuous`.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from curvewise.plotting import plot_farthest_of_lines
+    >>> ax = Figure().subplots()
+    >>> artists = plot_farthest_of_lines([(0, 0), (4, 0)], [(0, 0), (0, 3), (4, 3), (4, 0)], ax)
+    >>> artists.accent.get_xydata().tolist()
+    [[2.0, 0.0], [2.0, 3.0]]
+    """
+    refused = "plot_farthest_of_lines draws 1 or 2 coordinates"
+    measured, drawn, labels = measured_and_drawn(P, Q, normalized, names, refused)
+    found = hausdorff_continuous_points(*measured, directed=directed)
+    lines = draw_curves(ax, *drawn, labels, apart=True)
+    ends = [
+        points_at(np.asarray(line.get_xydata()), at)
+        for line, at in zip(lines, found.parameters.T, strict=True)
+    ]
+    links = np.stack(ends, axis=1)
+    between = draw_links(ax, links, "farthest points")
+    longest = links[np.argmax(found.distances)]
+    return CurveArtists(*lines, between, draw_pair(ax, longest, "Hausdorff distance"))

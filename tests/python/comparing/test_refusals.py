@@ -25,6 +25,7 @@ CURVES: dict[str, list[tuple[float, float]]] = {
     "mean of zero": [(0, 1), (4, -1)],
     "an arc": [(0, 1), (2, 3), (4, 2)],
 }
+WIDTH = max(map(len, MEASURES))
 PAIRS = list(itertools.product(CURVES, repeat=2))
 
 
@@ -53,7 +54,7 @@ def test_every_measure_of_degenerate_curves(preset: Any) -> None:
             assert math.isnan(found.to_dict()[name])
             with pytest.raises(ValueError, match=re.escape(expected)):
                 found[name]
-            assert f"{name:<18}  no value: {expected}" in str(found).splitlines()
+            assert f"{name:<{WIDTH}}  no value: {expected}" in str(found).splitlines()
             assert name not in found.deviations
         assert list(found.to_dict()) == list(MEASURES)
         assert not any("times" in note for note in found.notes), (names, found.notes)

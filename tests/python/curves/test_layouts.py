@@ -39,6 +39,7 @@ PAIRS: dict[str, Callable[[Any, Any], Any]] = {
         name: getattr(curvewise, name)
         for name in [
             *("dtw", "frechet", "frechet_continuous", "soft_dtw", "hausdorff"),
+            *("hausdorff_continuous", "hausdorff_continuous_points"),
             *("erp", "edr", "lcss", "msm", "twe", "wdtw"),
             *("dtw_path", "frechet_path", "dtw_table", "frechet_table", "dtw_info"),
             *("frechet_info", "frechet_continuous_path", "soft_dtw_divergence"),

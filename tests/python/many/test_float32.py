@@ -20,6 +20,7 @@ MEASURES: dict[str, tuple[dict[str, Any], tuple[int, ...]]] = {
     "frechet": ({}, DIMS),
     "frechet_continuous": ({}, DIMS),
     "hausdorff": ({}, DIMS),
+    "hausdorff_continuous": ({}, DIMS),
     "erp": ({}, DIMS),
     "twe": ({}, DIMS),
     "area": ({}, (2,)),

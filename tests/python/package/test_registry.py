@@ -40,7 +40,7 @@ CHOICES = {
 }
 
 # C and Fortran have the others.
-OF_CPP_AND_PYTHON = ("hausdorff", *get_args(EditDistance))
+OF_CPP_AND_PYTHON = ("hausdorff", "hausdorff_continuous", *get_args(EditDistance))
 # What a measure's options are where they are no other's, or are other than others'.
 OWN_DEFAULTS = {
     "erp": ("gap",),

@@ -341,6 +341,21 @@ def test_a_matching_is_drawn_along_both_curves(ax) -> None:
         plotting.plot_matching(np.zeros((3, 3)), np.zeros((3, 3)), ax)
 
 
+def test_the_farthest_points_of_lines_are_drawn(ax) -> None:
+    square = [(0, 0), (10, 0), (10, 6), (0, 6), (0, 0)]
+    other = [(0, 0), (0, 6), (10, 6), (10, 0)]
+    artists = plotting.plot_farthest_of_lines(square, other, ax)
+    links = np.array(artists.between.get_segments())
+    found = curvewise.hausdorff_continuous_points(square, other)
+    np.testing.assert_array_equal(links, found.points)
+    np.testing.assert_array_equal(artists.accent.get_xydata(), found.points[0])
+    assert artists.accent.get_label() == "Hausdorff distance"
+    directed = plotting.plot_farthest_of_lines(other, square, ax, directed=True)
+    assert len(directed.between.get_segments()) == 1
+    with pytest.raises(ValueError, match=r"plot_farthest_of_lines draws 1 or 2 coordinates"):
+        plotting.plot_farthest_of_lines(np.zeros((3, 3)), np.zeros((3, 3)), ax)
+
+
 def test_free_space_is_where_a_leash_reaches(ax) -> None:
     P, Q = [(0, 0), (10, 0)], [(0, 0), (7, 0), (3, 0), (10, 0)]
     image, path = plotting.plot_free_space(P, Q, ax)
