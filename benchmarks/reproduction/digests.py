@@ -44,6 +44,7 @@ SEARCH = (
     CALIBRATION / "methods" / "search.py",
     CALIBRATION / "objective" / "sampling.py",
     CALIBRATION / "problem" / "evaluations.py",
+    CALIBRATION / "problem" / "execution.py",
     CALIBRATION / "problem" / "ledger.py",
     CALIBRATION / "problem" / "problem.py",
     CALIBRATION / "problem" / "simulator.py",
@@ -70,7 +71,7 @@ METHODS = {
         PACKAGE / "measures" / "gradient.py",
     ),
 }
-FOLDS = (CALIBRATION / "cross_validation.py", CALIBRATION / "problem" / "selection.py")
+FOLDS = (CALIBRATION / "cross_validation.py", CALIBRATION / "models" / "forward.py")
 OBJECTIVE = (
     CALIBRATION / "objective" / "criterion.py",
     CALIBRATION / "objective" / "objective.py",

@@ -21,12 +21,12 @@ from ..curves.several_curves import as_points, curve_list
 from ..showing.result import Table, Tabular
 from .answers.identification import Identification
 from .identify import identify
+from .models.forward import Selection
 from .models.identity import model_identity
 from .models.pool import Model
 from .objective.criterion import Criterion, Measure, criterion_of
 from .objective.noisy_tests import warn_of_noise
 from .objective.objective import Objective
-from .problem.selection import Selection
 from .problem.space import Space
 from .records.store import SimulationStore
 

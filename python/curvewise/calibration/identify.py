@@ -18,14 +18,15 @@ from .answers.identification import Identification
 from .methods import method_of
 from .methods.method import Method
 from .methods.search import Plan
+from .models.forward import ForwardModel, Selection, SingleModel
 from .models.pool import Model
 from .objective.cases import Case, Cases
 from .objective.criterion import Measure, criterion_of
 from .objective.noisy_tests import warn_of_noise
 from .objective.objective import Objective
 from .problem.evaluations import Progress
-from .problem.problem import Problem, models_of
-from .problem.selection import Selection
+from .problem.execution import Execution
+from .problem.problem import Problem
 from .problem.space import Space
 from .records.store import StoreOrPath
 
@@ -145,7 +146,8 @@ def identify(
     >>> round(found.parameters["slope"], 4), round(found.parameters["intercept"], 4)
     (2.0, 1.0)
     """
-    plan = Plan(method_of(method), seed, start, progress, callback, max_runs)
+    execution = Execution(store, workers, executor)
+    plan = Plan(method_of(method), seed, start, progress, callback, max_runs, execution)
     if bounds is None:
         raise TypeError("identify needs bounds: a dict of name: (low, high)")
     space = Space(bounds)
@@ -166,9 +168,10 @@ def identify(
     if not isinstance(model, Selection):  # of whose tests cross_validate has warned
         warn_of_noise([objective])
         space.warn_of_wide_bounds()
-    models, assemble = models_of(model if cases is None else cases)
-    problem = Problem(models, assemble, objective, space, store, workers, executor)
-    return identification_of(problem, plan)
+    forward: Any = model if cases is None else cases
+    if not isinstance(forward, ForwardModel):
+        forward = SingleModel(forward, len(objective.experiments))
+    return identification_of(Problem(objective, space, forward), plan)
 
 
 def _cases_of(model: Any) -> Cases | None:

@@ -22,15 +22,18 @@ import numpy as np
 from .._bounds import Bounds
 from .answers.ended_search import identification_of
 from .answers.identification import Identification
+from .answers.joined_searches import continued
 from .answers.several_measures import SeveralMeasures
 from .methods import method_of
 from .methods.method import Method
 from .methods.search import Plan
+from .models.forward import SingleModel
 from .models.pool import Model
 from .objective.criterion import Measure
 from .objective.noisy_tests import warn_of_noise
 from .objective.objective import objectives_of
-from .problem.problem import Problem, models_of
+from .problem.execution import Execution
+from .problem.problem import Problem
 from .problem.space import Space
 from .records.store import SimulationStore, StoreOrPath
 from .surfaces.nearby_runs import Run
@@ -119,20 +122,21 @@ def identify_each(
     objectives = objectives_of(experiments, measures)
     space = Space(bounds)
     searching = method_of(method)
-    plan = Plan(searching, seed, start, progress, None, max_runs)
+    afterwards = Execution(store, workers, executor)
     for objective in objectives.values():
         searching.check(objective.measures[0])
     warn_of_noise(objectives.values())
     space.warn_of_wide_bounds()
     found: dict[str, Identification] = {}
     with ExitStack() as stack:
-        if store is None:
+        if afterwards.store is None:
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="curvewise_"))
             store = SimulationStore(Path(folder, "runs.db"), version="of this call")
-        models, assemble = models_of(model)
+        execution = replace(afterwards, store=store)
+        plan = Plan(searching, seed, start, progress, None, max_runs, execution)
         known: tuple[Run, ...] = ()
         for name, objective in objectives.items():
-            problem = Problem(models, assemble, objective, space, store, workers, executor)
+            problem = Problem(objective, space, SingleModel(model, len(objective.experiments)))
             chosen = searching.chosen_for(objective)
             plan = replace(plan, method=chosen)
             if known:  # a start is given from here on: one search a measure
@@ -141,7 +145,8 @@ def identify_each(
             found[name] = identification_of(problem, plan, known)
             known = found[name].runs_with_curves
         _go_on(found, replace(plan, method=searching), known)
-    return SeveralMeasures(found)
+    # A temporary store is gone by now; what comes after the searches runs without it.
+    return SeveralMeasures({n: replace(one, execution=afterwards) for n, one in found.items()})
 
 
 def _go_on(found: dict[str, Identification], plan: Plan, known: tuple[Run, ...]) -> None:
@@ -160,7 +165,7 @@ def _go_on(found: dict[str, Identification], plan: Plan, known: tuple[Run, ...])
             again = replace(plan, method=method, start=begin, max_runs=left)
             after = identification_of(before.problem, again, known)
             known = after.runs_with_curves
-            found[name] = before.followed_by(after)
+            found[name] = continued(before, after)
             if before.value - after.value > _WORTH_A_ROUND * before.value:
                 gained.append(name)
         waiting = gained

@@ -186,7 +186,8 @@ def profile(
         near = at_values[i - 1] if i > middle else at_values[i + 1]
         held = replace(found.problem, space=space.with_fixed(name, float(values[i])))
         start = {key: near[key] for key in held.space.names}
-        best = identification_of(held, Plan(search, found.seed, start, False, None, None))
+        plan = Plan(search, found.seed, start, False, None, None, found.execution)
+        best = identification_of(held, plan)
         at_values[i], lowest[i], runs = best.parameters, best.value, runs + best.runs
     rise = _rise(optimum, noise, index, half)
     sides = [(values[middle::-1], lowest[middle::-1]), (values[middle:], lowest[middle:])]

@@ -25,7 +25,6 @@ from ..curves.several_curves import points_of
 from ..drawing.effects import elementary_effects
 from ..showing.result import Result, Table
 from .answers.identification import Identification
-from .problem.problem import Problem
 from .surfaces.surfaces import Responses
 
 if TYPE_CHECKING:
@@ -138,7 +137,7 @@ def screening(found: Identification, *, paths: int = 10, seed: int = 0) -> Scree
     random = np.random.default_rng(seed)
     orders = [random.permutation(k) for _ in range(paths)]
     places = np.array([_path(order, random) for order in orders]).reshape(-1, k)
-    vectors, responses, runs = _responses(problem, places, found.simulations)
+    vectors, responses, runs = _responses(found, places)
     moves: list[list[Array]] = [[] for _ in range(k)]
     for path, order in enumerate(orders):
         for step, parameter in enumerate(order):
@@ -173,14 +172,12 @@ def _path(order: np.ndarray[Any, np.dtype[np.int64]], random: np.random.Generato
     return np.array(places)
 
 
-def _responses(
-    problem: Problem, places: Array, simulations: Sequence[Array]
-) -> tuple[list[Array | None], Responses, int]:
+def _responses(found: Identification, places: Array) -> tuple[list[Array | None], Responses, int]:
     """Return the curves at places, None where a run fails, and how many runs were made."""
-    responses = Responses(simulations)
+    problem, responses = found.problem, Responses(found.simulations)
     vectors: list[Array | None] = [None] * len(places)
     parameters = [problem.space.dictionary(problem.space.point(place)) for place in places]
-    with problem.simulator() as simulator:
+    with found.execution.simulator(problem.model) as simulator:
         for i, outcome in simulator.run(parameters):
             if (
                 not outcome.message

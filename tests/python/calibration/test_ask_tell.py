@@ -19,6 +19,7 @@ from curvewise.calibration import (
     identify,
 )
 from curvewise.calibration.methods.called_back import course_of
+from curvewise.calibration.problem.execution import Execution
 
 BOUNDS = {"a": (0.0, 10.0), "b": (-1.0, 1.0), "fixed": 3.0}
 X = np.linspace(0.0, 1.0, 15)
@@ -140,7 +141,7 @@ def test_where_a_search_begins():
 
 def test_a_problem_without_a_model_is_for_asking():
     with pytest.raises(ValueError, match=r"no model: its search is driven by ask\(\) and tell\("):
-        Problem.of(TEST, BOUNDS).simulator().__enter__()
+        Execution().simulator(Problem.of(TEST, BOUNDS).model).__enter__()
     with pytest.raises(TypeError, match="spacings"):
         Problem.of(TEST, BOUNDS, spacings="x")
 

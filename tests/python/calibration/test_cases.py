@@ -59,7 +59,7 @@ def three_cases(cycle=cycle, tension=tension):
 
 
 def test_a_cycle_a_tension_test_and_a_strength_in_one_call():
-    counted = Mock(side_effect=cycle), Mock(side_effect=tension)
+    counted = Mock(cycle, side_effect=cycle), Mock(tension, side_effect=tension)
     cases = three_cases(*counted)
     before = [one.call_count for one in counted]
     found = identify(cases, bounds=BOUNDS, **QUIET)

@@ -13,6 +13,7 @@ import pytest
 from test_resuming import BOUNDS, EXPERIMENT, assert_same, fragile_line, line
 
 from curvewise.calibration import SDRM, SimulationStore, TrustRegion, identify
+from curvewise.calibration.models.forward import SingleModel
 from curvewise.calibration.models.pool import ModelPool, Outcome
 from curvewise.calibration.problem.simulator import Dispatch, Simulator
 
@@ -152,7 +153,7 @@ def test_what_is_begun_is_saved_before_it_is_asked_for(tmp_path):
     executor = Handed()
     pool = ModelPool(Dispatch([line]), executor=executor)
     with pool, SimulationStore(tmp_path / "s.db", version="1") as store:
-        simulator = Simulator(pool, [line], lambda outcomes: outcomes[0], store)
+        simulator = Simulator(pool, SingleModel(line, 1), store)
         simulator.begin([{"a": 1.0}, {"a": 2.0}, {"a": 3.0}])
         executor.end(2.0)
         executor.end(3.0)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from curvewise.calibration import (
     Below,
+    DifferentialEvolution,
     Global,
     Objective,
     SimulationStore,
@@ -69,6 +71,32 @@ def test_a_front_goes_from_the_best_of_one_measure_to_the_best_of_the_other(tmp_
     assert len(found.plot().axes) == 2
     with pytest.raises(ValueError, match="there are 3 measures; give two"):
         front(store, TEST, ["area", "dtw", "frechet"])
+
+
+@pytest.mark.parametrize("has_store", [False, True])
+def test_what_comes_after_several_measures_runs_the_model_again(tmp_path: Path, has_store: bool):
+    """Without a store too, when the temporary one of the searches has gone."""
+    calls = []
+
+    def counted(p):
+        calls.append(p)
+        return power(p)
+
+    store = SimulationStore(tmp_path / "runs.db", version="1") if has_store else None
+    method = DifferentialEvolution(popsize=3, maxiter=3)
+    keywords = {"measures": ["area", "dtw"], "method": method, "store": store, "progress": False}
+    each = identify_each(counted, TEST, BOUNDS, **keywords)
+    for measure, found in each.items():
+        assert found.uncertainty_runs == 4
+        first = found.uncertainty()
+        assert first.runs == 4
+        before = len(calls)
+        assert found.uncertainty().intervals == first.intervals
+        assert len(calls) - before == (0 if has_store else 4)
+        stored = has_store and measure == "dtw"  # those of the other measure's screening
+        assert screening(found, paths=4).runs == (0 if stored else 12)
+        assert profile(found, "n", points=5, method=method).runs > 4
+    assert (tmp_path / "runs.db").exists() == has_store
 
 
 def test_a_profile_of_a_nearly_linear_model_is_the_interval_by_sensitivities(found):

@@ -41,6 +41,7 @@ def identification_of(
         preset=objective.preset,
         runs=ended.runs,
         problem=problem,
+        execution=plan.execution,
         runs_with_curves=evaluations.runs_with_curves,
         part=objective.part,
         condition=objective.condition,

@@ -20,6 +20,7 @@ from ...drawing.loops import loops_and_convergence
 from ...measures.registry import Condition
 from ...showing.result import Result, Table
 from ..objective.criterion import Part
+from ..problem.execution import Execution
 from ..problem.problem import Problem
 from ..problem.tables import measure_table, parameter_table
 from ..records.evaluation import Evaluation
@@ -69,9 +70,9 @@ class Identification(Result):
         As asked for.
     runs : int
         How many runs of the model were made for it; the others were looked up.
-    problem, runs_with_curves, recorder
-        What was searched, the runs whose curves are known, and what writes the search down: for
-        what comes after the search.
+    problem, execution, runs_with_curves, recorder
+        What was searched, what runs the models, the runs whose curves are known, and what writes
+        the search down: for what comes after the search.
     condition : Condition or None
         Whether the measure is computed on scaled curves, and its options, the preset's included;
         None for "sum_of_squares" and for a function.
@@ -93,6 +94,7 @@ class Identification(Result):
     preset: str
     runs: int
     problem: Problem = field(repr=False)
+    execution: Execution = field(repr=False)
     runs_with_curves: tuple[tuple[Array, Evaluation], ...] = field(repr=False)
     part: Part
     condition: Condition | None = field(repr=False)
@@ -159,7 +161,7 @@ class Identification(Result):
 
         A model that says its slopes is run by `uncertainty` besides, some ten times a parameter.
         """
-        return design_runs(self.problem, self._unit, self.runs_with_curves)
+        return design_runs(self.problem, self._unit, self.simulations, self.runs_with_curves)
 
     @property
     def determined(self) -> dict[str, bool] | None:
@@ -355,31 +357,14 @@ class Identification(Result):
         """Whether the curves around the optimum are known without runs of the model."""
         return len(self.simulations) == len(self.experiments) and not self.uncertainty_runs
 
-    def followed_by(self, later: Identification) -> Identification:
-        """Return a later search of the same problem as the continuation of this one."""
-        best = later if later.value <= self.value else self
-        # One that only confirms the value has gained nothing, which is no reason for doubt.
-        ending = self if self.converged and later.value >= self.value else later
-        count = len(self.history)
-        history = np.concatenate([self.history, later.history])
-        history["evaluation"] = np.arange(1, len(history) + 1)
-        failures = [(count + number, message) for number, message in later.failures]
-        return replace(
-            best,
-            history=history.view(np.recarray),
-            failures=(*self.failures, *failures),
-            converged=ending.converged,
-            message=ending.message,
-            runs=self.runs + later.runs,
-            runs_with_curves=later.runs_with_curves,
-        )
-
     @property
     def _unit(self) -> Array:
         return self.problem.space.unit_of(self.parameters)
 
     def _optimum(self) -> Optimum:
-        return optimum_surfaces(self.problem, self._unit, self.simulations, self.runs_with_curves)
+        return optimum_surfaces(
+            self.problem, self.execution, self._unit, self.simulations, self.runs_with_curves
+        )
 
     def plot(self, *, names: Sequence[str] | None = None) -> Picture:
         """Return a matplotlib Figure of the loops and of the convergence.

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from ..._extras import required
 from ..problem.details import details_of
 from ..problem.evaluations import Evaluations, Progress
+from ..problem.execution import Execution
 from ..problem.ledger import Finish, SearchEndedError
 from ..problem.problem import Problem
 from ..records.recorder import Recorder
@@ -21,7 +22,7 @@ __all__ = ["EndedSearch", "Plan", "run_search"]
 
 @dataclass(frozen=True)
 class Plan:
-    """How to search: as the arguments of `identify` of the same names."""
+    """How to search, as the arguments of `identify` of the same names, and what runs models."""
 
     method: Method
     seed: int
@@ -29,6 +30,7 @@ class Plan:
     progress: bool
     callback: Callable[[Progress], Any] | None
     max_runs: int | None
+    execution: Execution
 
     def __post_init__(self) -> None:
         if self.max_runs is not None and self.max_runs < 1:
@@ -58,8 +60,9 @@ def run_search(problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()) -
     start = None if plan.start is None else problem.space.unit(plan.start)
     required("scipy")
     tqdm = required("tqdm").tqdm  # a line of text, in a notebook too: widgets may be missing there
-    settings, details = _settings(problem, plan), details_of(problem, plan.max_runs)
-    with problem.simulator() as simulator:
+    settings = _settings(problem, plan)
+    details = details_of(problem, plan.execution, plan.max_runs)
+    with plan.execution.simulator(problem.model) as simulator:
         recorder = Recorder(settings, details, simulator.store)
         most = "" if plan.max_runs is None else " of at most {total_fmt}"
         line = f"{{desc}}{{elapsed}}, {{n_fmt}}{most} runs{{postfix}}"
@@ -93,6 +96,6 @@ def _settings(problem: Problem, plan: Plan) -> dict[str, Any]:
         "seed": plan.seed,
         "start": None if plan.start is None else dict(plan.start),
     }
-    if (identities := problem.identities()) is not None:
+    if (identities := plan.execution.identities(problem.callables)) is not None:
         settings["model"] = identities
     return settings

@@ -86,6 +86,7 @@ class SharedRuns(ABC):
             by_curve = self._ledger.slopes(self.points[number])
             known = None if by_curve is None else self._known_slopes(number, by_curve)
             self._slopes[number] = known
+            self.has_slopes &= known is not None
         return self._slopes[number]
 
     def least_known(self, centre: Array, reach: float) -> list[Array]:

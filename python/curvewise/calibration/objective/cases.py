@@ -8,19 +8,26 @@ everywhere counts 1. Cost: that of the models; cases with the same model share i
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
 import numpy as np
 
+from ...curves.inputs import Array
 from ...curves.several_curves import curve_list, points_of
+from ..models.forward import ForwardModel, curve_slopes
 from ..models.pool import Model, Outcome
 from .criterion import Measure, criterion_of
 from .objective import Objective
 from .terms import CurveTerm, Label, NumberTerm, Term
 
 __all__ = ["Case", "Cases"]
+
+# Steps along the derivatives of a model's curves, as parts of the bounds' ranges. A response that
+# changes by the wide one alone is a step function (the strain of the highest point, say), whose
+# derivative is of no use.
+_DIFFERENCE, _WIDE = 1e-6, 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +39,9 @@ class Case:
     name : str
         What messages and tables call it.
     model : callable
-        ``model(parameters) -> curve`` or number. Cases with the same object share its runs.
+        ``model(parameters) -> curve`` or number. Cases with the same object share its runs. If
+        every case's model has a ``jacobian(parameters)``, the search uses its derivatives instead
+        of runs.
     experiment : array_like, shape (n, d), or float
         The measured curve, or a number such as an ultimate strength.
     measure : str, callable or Criterion, default "area"
@@ -100,8 +109,11 @@ class Case:
         return CurveTerm(curve, criterion, label, self.weight, self.sigma)
 
 
-class Cases:
+class Cases(ForwardModel):
     """Several cases: their objective, their models, and how the outcomes of these become one.
+
+    Derivatives go through a response by differences along the derivatives of the model's curves,
+    from one more call of the model, in this process.
 
     Parameters
     ----------
@@ -116,8 +128,13 @@ class Cases:
                 raise ValueError(f"two cases are called {name!r}; rename one")
         self.cases = tuple(cases)
         models = {id(case.model): case.model for case in cases}
-        self.models: list[Model] = list(models.values())
+        self._models = tuple(models.values())
         self._places = [list(models).index(id(case.model)) for case in cases]
+
+    @property
+    def callables(self) -> Sequence[Model]:
+        """The models, each of them once."""
+        return self._models
 
     def objective(self) -> Objective:
         """Return the weighted sum over the cases."""
@@ -132,6 +149,30 @@ class Cases:
         ]
         return Outcome(simulations, "", seconds)
 
+    def slopes(self, parameters: Mapping[str, float], rates: Array) -> list[Array] | None:
+        """Return the derivatives of every case's simulation; None if those of one are unknown."""
+        places = range(len(self._models))
+        by_model = [self._slopes_of_model(place, parameters, rates) for place in places]
+        pairs = zip(self.cases, self._places, strict=True)
+        found = [_slopes_of_case(case, *by_model[place]) for case, place in pairs]
+        known = [slopes for slopes in found if slopes is not None]
+        return known if len(known) == len(found) else None
+
+    def _slopes_of_model(
+        self, place: int, parameters: Mapping[str, float], rates: Array
+    ) -> tuple[Sequence[Array], list[Array] | None]:
+        """Return a model's curves, if a response asks for them, and their derivatives."""
+        model, count = self._models[place], 1
+        curves: Sequence[Array] = ()
+        asking = zip(self.cases, self._places, strict=True)
+        if any(case.response is not None and at == place for case, at in asking):
+            try:
+                curves = _curves(model(dict(parameters)))
+            except Exception:  # a run that fails has no derivatives
+                return (), None
+            count = len(curves)
+        return curves, curve_slopes(model, parameters, rates, count) if count else None
+
 
 def _response(case: Case, outcome: Outcome) -> Any:
     """Return what of an outcome a case compares, or why there is nothing."""
@@ -140,7 +181,7 @@ def _response(case: Case, outcome: Outcome) -> Any:
     result = outcome.simulations
     if case.response is not None and result is not None:
         try:
-            curves = points_of([[[result]]] if _is_number(result) else result)
+            curves = _curves(result)
             result = case.response(curves[0] if len(curves) == 1 else list(curves))
         except Exception as error:  # whatever the user's function stumbles over
             return RuntimeError(f"response: {type(error).__name__}: {error}")
@@ -155,6 +196,45 @@ def _response(case: Case, outcome: Outcome) -> Any:
             "picks one, or a case for each"
         )
     return curves[0]
+
+
+def _slopes_of_case(
+    case: Case, curves: Sequence[Array], slopes: list[Array] | None
+) -> Array | None:
+    """Return the derivatives of what a case compares, by those of its model's curves."""
+    if slopes is None:
+        return None
+    if case.response is None:
+        return slopes[0]
+    if [one.shape[:2] for one in slopes] != [curve.shape for curve in curves]:
+        return None
+    found = _differences(case, curves, slopes, _DIFFERENCE)
+    if found is None or found.any():
+        return found
+    wide = _differences(case, curves, slopes, _WIDE)
+    return None if wide is None or wide.any() else found
+
+
+def _differences(
+    case: Case, curves: Sequence[Array], slopes: Sequence[Array], step: float
+) -> Array | None:
+    """Return how fast a response changes along each derivative; None where it has no value."""
+    columns = []
+    for move in zip(*(np.moveaxis(one, -1, 0) for one in slopes), strict=True):
+        ahead, behind = (
+            _response(case, Outcome([c + by * m for c, m in zip(curves, move, strict=True)], "", 0))
+            for by in (step, -step)
+        )
+        if np.shape(ahead) != np.shape(behind) or not np.shape(ahead):  # an exception, or None
+            return None
+        columns.append((ahead - behind) / (2.0 * step))
+    alike = all(column.shape == columns[0].shape for column in columns)
+    return np.stack(columns, axis=-1) if alike else None
+
+
+def _curves(result: Any) -> tuple[Array, ...]:
+    """Return what a model gave as curves; a number as one of one point."""
+    return points_of([[[result]]] if _is_number(result) else result)
 
 
 def _is_number(result: Any) -> bool:

@@ -9,18 +9,19 @@ from typing import Any
 from ...installation import build_info
 from ..models.identity import qualified_name
 from ..records.search_record import text_of
+from .execution import Execution
 from .problem import Problem
 
 __all__ = ["details_of"]
 
 
-def details_of(problem: Problem, max_runs: int | None) -> dict[str, Any]:
+def details_of(problem: Problem, execution: Execution, max_runs: int | None) -> dict[str, Any]:
     """Return what a report needs beside the settings of a search; JSON can hold it.
 
     Tests with the names of their columns and of the tests, the parameters searched for, what the
     model is called, and the versions of what computes.
     """
-    objective = problem.objective
+    objective, models = problem.objective, problem.callables
     return {
         "experiments": text_of(objective.experiments),
         "axes": [list(names) for names in objective.axes()],
@@ -29,7 +30,7 @@ def details_of(problem: Problem, max_runs: int | None) -> dict[str, Any]:
         "parameters": list(problem.space.names),
         "y": list(objective.y_columns),
         "has_function": objective.has_function,
-        "model": problem.identities() or [qualified_name(model) for model in problem.models],
+        "model": execution.identities(models) or [qualified_name(model) for model in models],
         "max_runs": max_runs,
         "versions": _versions(),
     }

@@ -7,17 +7,15 @@ is done when all of its runs are. Cost: that of the models; a look-up takes some
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, TypeAlias
 
+from ..models.forward import ForwardModel
 from ..models.identity import ModelIdentity, model_identity
 from ..models.pool import Model, ModelPool, Outcome
 from ..records.store import SimulationStore
 
-__all__ = ["Assemble", "Dispatch", "Simulator"]
-
-Assemble: TypeAlias = Callable[[list[Outcome]], Outcome]
-"""Makes one outcome of those of all models."""
+__all__ = ["Dispatch", "Simulator"]
 
 _Run: TypeAlias = tuple[int, tuple[float, ...]]  # a model's number, and its parameters
 
@@ -42,11 +40,9 @@ class Simulator:
     Parameters
     ----------
     pool : ModelPool
-        Runs a `Dispatch` of the models.
-    models : sequence of callable
-        The same models.
-    assemble : callable
-        Makes one outcome of those of all models.
+        Runs a `Dispatch` of the model's functions.
+    model : ForwardModel
+        The functions, and what makes one outcome of theirs.
     store : SimulationStore, optional
         Where runs are looked up and saved.
 
@@ -62,15 +58,14 @@ class Simulator:
     def __init__(
         self,
         pool: ModelPool,
-        models: Sequence[Model],
-        assemble: Assemble,
+        model: ForwardModel,
         store: SimulationStore | None = None,
     ) -> None:
-        self._pool, self._assemble, self.store = pool, assemble, store
-        self._count = len(models)
+        self._pool, self._model, self.store = pool, model, store
+        self._count = len(model.callables)
         self._identities: list[ModelIdentity] = []
         if store is not None:
-            self._identities = [model_identity(model, store.version) for model in models]
+            self._identities = [model_identity(one, store.version) for one in model.callables]
             for identity in self._identities:
                 store.register(identity)
         self.runs = self.looked_up = 0
@@ -119,7 +114,7 @@ class Simulator:
         return {"model": j, "parameters": parameters}
 
     def _assembled(self, outcomes: dict[int, Outcome]) -> Outcome:
-        return self._assemble([outcomes[j] for j in range(self._count)])
+        return self._model.assembled([outcomes[j] for j in range(self._count)])
 
     def _known(self, values: dict[str, float]) -> dict[int, Outcome]:
         """Return what is known of a set of parameters, by the model's number."""

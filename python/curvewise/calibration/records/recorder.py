@@ -6,7 +6,9 @@ What was taken down is read again as a :class:`SearchRecord`, the same from eith
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from copy import copy
+from dataclasses import replace
 from typing import Any
 
 from .evaluation import Evaluation
@@ -43,6 +45,18 @@ class Recorder:
     def has_store(self) -> bool:
         """Whether what is taken down outlives the process."""
         return self._store is not None
+
+    @property
+    def evaluations(self) -> tuple[Evaluation, ...]:
+        """What has been taken down so far, in order."""
+        return tuple(self._evaluations)
+
+    def with_evaluations(self, evaluations: Iterable[Evaluation]) -> Recorder:
+        """Return a copy without a store that has these evaluations, numbered in their order."""
+        other = copy(self)
+        other._store = None
+        other._evaluations = [replace(one, number=n) for n, one in enumerate(evaluations, 1)]
+        return other
 
     def add(self, evaluation: Evaluation) -> None:
         """Take down an evaluation."""

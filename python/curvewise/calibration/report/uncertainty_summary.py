@@ -69,7 +69,7 @@ def _optimum(
     record: SearchRecord, simulations: tuple[Array, ...], unit: Array, slopes: Array
 ) -> Optimum:
     """Return the optimum of a search, made again of what was written down."""
-    problem = Problem((), _run_nothing, _objective(record), space_of(record))
+    problem = Problem(_objective(record), space_of(record))
     responses = Responses(simulations)
     base = responses.vector(simulations)
     return Optimum(problem, unit, responses, Surfaces(unit, base, slopes))

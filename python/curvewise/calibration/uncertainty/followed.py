@@ -96,7 +96,7 @@ class Compared(NamedTuple):
 def _follow(ends: Sequence[End], optimum: Optimum, compared: Compared) -> int:
     """Let all ends arrive, side by side, and return in how many runs, made now or before."""
     fitted = compared.points(optimum)
-    with optimum.problem.simulator() as simulator:
+    with optimum.execution.simulator(optimum.problem.model) as simulator:
         while steps := [(end, place) for end in ends if (place := end.next_place()) is not None]:
             places = [place for _, place in steps]
             for (end, place), there in zip(steps, _run(optimum, simulator, places), strict=True):

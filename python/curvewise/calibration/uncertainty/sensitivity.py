@@ -8,12 +8,13 @@ parameters the loops are sensitive. Cost: no runs, or 2 k.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ...curves.inputs import Array
 from ...curves.several_curves import points_of
+from ..problem.execution import Execution
 from ..problem.problem import Problem
 from ..surfaces.nearby_runs import NearbyRuns, Run, narrowest, runs_near
 from ..surfaces.surfaces import Responses, Surfaces
@@ -37,12 +38,18 @@ class Optimum:
         The optimum in the unit cube.
     responses, surfaces
         The curves as linear functions of the place in the unit cube.
+    execution : Execution
+        What runs the model.
+    has_slopes : bool
+        Whether the surfaces have the model's own derivatives.
     """
 
     problem: Problem
     unit: Array
     responses: Responses
     surfaces: Surfaces
+    execution: Execution = field(default_factory=Execution)
+    has_slopes: bool = False
 
     def curves(self, unit: Array) -> list[Array]:
         """Return the predicted curves at a place."""
@@ -70,15 +77,19 @@ class Optimum:
         return np.array([np.linalg.norm(part, axis=0) for part in self.scaled_slopes()])
 
 
-def design_runs(problem: Problem, unit: Array, runs: Sequence[Run]) -> int:
+def design_runs(
+    problem: Problem, unit: Array, simulations: Sequence[Array], runs: Sequence[Run]
+) -> int:
     """Return how many runs `optimum_surfaces` will make."""
-    if problem.has_slopes or _nearby(unit, runs) is not None:
+    if _nearby(unit, runs) is not None:
         return 0
-    return 2 * len(problem.space.names)
+    has_slopes = Responses(simulations).slopes(problem.slopes(unit)) is not None
+    return 0 if has_slopes else 2 * len(problem.space.names)
 
 
 def optimum_surfaces(
     problem: Problem,
+    execution: Execution,
     unit: Array,
     simulations: Sequence[Array],
     runs: Sequence[Run],
@@ -87,13 +98,15 @@ def optimum_surfaces(
     responses = Responses(simulations)
     base = responses.vector(simulations)
     near = _nearby(unit, runs)
-    if (known := responses.slopes(problem.slopes(unit))) is not None:
+    known = responses.slopes(problem.slopes(unit))
+    if known is not None:
         slopes = known
     elif near is None:
-        slopes = _differences(problem, unit, responses, base)
+        slopes = _differences(problem, execution, unit, responses, base)
     else:
         slopes = near.slopes(responses, _STEP)
-    return Optimum(problem, unit, responses, Surfaces(unit, base, slopes))
+    surfaces = Surfaces(unit, base, slopes)
+    return Optimum(problem, unit, responses, surfaces, execution, known is not None)
 
 
 def _nearby(unit: Array, runs: Sequence[Run]) -> NearbyRuns | None:
@@ -105,12 +118,14 @@ def _nearby(unit: Array, runs: Sequence[Run]) -> NearbyRuns | None:
     return near if narrowest(directions) >= _LEAST else None
 
 
-def _differences(problem: Problem, unit: Array, responses: Responses, base: Array) -> Array:
+def _differences(
+    problem: Problem, execution: Execution, unit: Array, responses: Responses, base: Array
+) -> Array:
     """Return slopes by central differences; to one side at a bound and where a run fails."""
     k = unit.size
     places = np.clip(np.vstack((unit + _STEP * np.eye(k), unit - _STEP * np.eye(k))), 0.0, 1.0)
     parameters = [problem.space.dictionary(problem.space.point(place)) for place in places]
-    with problem.simulator() as simulator:
+    with execution.simulator(problem.model) as simulator:
         outcomes = dict(simulator.run(parameters))
     vectors: list[Array | None] = []
     for i in range(2 * k):

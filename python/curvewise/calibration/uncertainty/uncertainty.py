@@ -237,7 +237,7 @@ def uncertainty_of(
     space, objective = optimum.problem.space, optimum.problem.objective
     noise = noise_of(optimum, sigma)
     differential = space.differential(optimum.unit)
-    if samples == 0 and optimum.problem.has_slopes:
+    if samples == 0 and optimum.has_slopes:
         spread, more = followed_spread(optimum, noise, level)
         runs += more
     elif samples == 0:
