@@ -53,7 +53,8 @@ class MaterialFit:
     tests : tuple of ndarray
         As they were compared: strain and stress, thinned.
     found : Identification
-        What the search ended with; where bounds were widened, that in the widest.
+        What the search ended with. If bounds were widened, it is the search in the widest, with
+        the history, the failures and the runs of all searches.
     uncertainty : Uncertainty or None
         None where it was not asked for, by a study.
     modulus_read : float
@@ -98,7 +99,7 @@ class MaterialFit:
     @property
     def runs(self) -> int:
         """How many runs of the model the searches took, of all bounds."""
-        return self.found.evaluations if self.beyond is None else self.beyond.runs
+        return self.found.evaluations
 
     @property
     def one_way(self) -> str:

@@ -16,6 +16,7 @@ from typing import Any
 
 from .._bounds import Below, Bounds, Log, on_its_scale
 from ..calibration import Identification
+from ..calibration.answers.joined_searches import joined
 
 __all__ = ["Beyond", "search_within"]
 
@@ -78,6 +79,13 @@ def search_within(
         As read off the tests.
     most_runs : int, optional
         Of the model, in all searches.
+
+    Returns
+    -------
+    Identification
+        The chosen search, with the evaluations of all.
+    Beyond or None
+        What wider bounds have given; None if no bound was widened.
     """
     first = search(bounds, max_runs=most_runs)
     sides = _assumed(first)
@@ -105,7 +113,8 @@ def search_within(
     is_good = whole.value <= (1.0 + _ALIKE) * end.value
     found = whole if is_good and len(_assumed(whole)) <= len(_assumed(end)) else end
     gain = 1.0 - found.value / first.value if first.value else 0.0
-    return found, Beyond(sides, max(gain, 0.0), _assumed(found), _runs(searches))
+    beyond = Beyond(sides, max(gain, 0.0), _assumed(found), _runs(searches))
+    return joined(searches, found), beyond
 
 
 def _runs(searches: list[Identification]) -> int:

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from curvewise import read_curve
+from curvewise.calibration import identify
 from curvewise.commands import main
 from curvewise.fitting import MaterialFit, fit_material
 from curvewise.fitting.driven_tests import Cycles
@@ -169,8 +170,29 @@ def test_where_wider_bounds_would_never_do_it_is_said(monkeypatch) -> None:
 def test_a_limit_of_runs_is_one_for_the_searches_in_all_bounds() -> None:
     fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=340, progress=False)
     assert fit.beyond.sides == {"E": "upper"}
-    assert fit.found.evaluations < fit.runs == 340
+    assert fit.found.evaluations == fit.runs == fit.found.runs == fit.beyond.runs == 340
     assert f"; {fit.runs} runs in all" in str(fit)
+
+
+def test_a_fit_in_wider_bounds_has_the_evaluations_of_all_searches(monkeypatch) -> None:
+    searches = []
+
+    def recorded(*arguments, **keywords):
+        searches.append(identify(*arguments, **keywords))
+        return searches[-1]
+
+    monkeypatch.setattr("curvewise.fitting.material_fit.identify", recorded)
+    fit = fit_material(LOOP, Narrow(backstresses=1), max_runs=340, progress=False)
+    found = fit.found
+    assert len(searches) > 2
+    for name in ("E", "value", "failed"):
+        whole = np.concatenate([one.history[name] for one in searches])
+        np.testing.assert_array_equal(found.history[name], whole)
+    assert found.history["evaluation"].tolist() == list(range(1, 341))
+    assert found.value == found.history["value"].min()
+    record = found.record()
+    assert [one.number for one in record.evaluations] == list(range(1, 341))
+    assert record.evaluations[-1].value == searches[-1].history["value"][-1]
 
 
 def test_what_hardens_along_a_line_has_no_saturation_and_that_is_said(data_dir: Path) -> None:
