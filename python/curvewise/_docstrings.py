@@ -62,6 +62,9 @@ prune : bool
     "cutoff": """\
 cutoff : float >= 0, optional
     A distance above it is inf, and is found to be so early.""",
+    "missing": """\
+missing : {"refuse", "skip"}
+    Whether points with a nan are refused, or take no part; a warning then says how many.""",
     "invalid": """\
 ValueError
     A curve is not finite or empty; the curves differ in d; an option is unknown or out of
@@ -74,8 +77,8 @@ With a metric of one's own, in one thread and without pruning: a callable is ask
 O(n + m), and up to three times for a path. It need not be symmetric. Its exceptions pass
 through.""",
 }
-# What the reference does not have: it computes the plain table in one thread.
-_NOT_OF_THE_REFERENCE = ("workers", "prune", "cutoff")
+# What the reference does not have: it computes the plain table of whole curves in one thread.
+_NOT_OF_THE_REFERENCE = ("workers", "prune", "cutoff", "missing")
 
 
 def filled(**lists: str) -> Callable[[Documented], Documented]:

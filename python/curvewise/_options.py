@@ -26,6 +26,7 @@ __all__ = [
     "GroundDistance",
     "LengthScale",
     "Metric",
+    "Missing",
     "Offsets",
     "Order",
     "Preset",
@@ -44,6 +45,7 @@ Differentiable: TypeAlias = Literal[
 ]
 WarpingName: TypeAlias = Literal["dtw", "frechet"]
 Preset: TypeAlias = Literal["scaled", "paper", "raw"]
+Missing: TypeAlias = Literal["refuse", "skip"]  # points with nan
 
 CoordinateMetric: TypeAlias = Literal[
     "euclidean", "sqeuclidean", "cityblock", "chebyshev", "minkowski"
@@ -102,7 +104,7 @@ _DEFAULTS: dict[str, Any] = {
 
 
 class Default:
-    """The value of each option that is not given: the compiled library's."""
+    """The value of each option that is not given: the compiled library's, except `missing`."""
 
     metric: Final[Metric] = _DEFAULTS["metric"]
     p: Final[Order] = _DEFAULTS["p"]
@@ -122,6 +124,7 @@ class Default:
     workers: Final[SupportsIndex] = _DEFAULTS["workers"]
     prune: Final[bool] = _DEFAULTS["prune"]
     cutoff: Final[SupportsFloat | None] = _DEFAULTS["cutoff"]
+    missing: Final[Missing] = "refuse"
 
 
 def check_choice(option: str, value: object, choices: Collection[str]) -> None:

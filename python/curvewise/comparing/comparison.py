@@ -11,11 +11,12 @@ import numpy as np
 
 from .._core import is_symmetric
 from .._docstrings import filled
-from .._options import Preset, check_choice
+from .._options import Default, Missing, Preset, check_choice
 from ..curves.column_roles import is_time
 from ..curves.foreign_curves import warn
 from ..curves.inputs import Array, CurveLike, as_curves, in_columns
 from ..curves.layouts import ask_about_curves, settled_layout
+from ..curves.missing import skip_in_each
 from ..curves.named_curve import axis_names, copied, known_names
 from ..measures import normalize
 from ..measures.registry import MEASURES, PRESETS, Condition, MeasureInfo, default_measures
@@ -164,6 +165,7 @@ def compare(
     preset: Preset = "scaled",
     measures: Sequence[str] | None = None,
     options: Mapping[str, Mapping[str, Any]] | None = None,
+    missing: Missing = Default.missing,
 ) -> Comparison:
     """Compute several measures of a pair of curves.
 
@@ -185,6 +187,7 @@ def compare(
         If not given: {in_plane} in the plane, {any_dimension} in other dimensions.
     options : mapping of str to mapping, optional
         Options of measures, in the place of the preset's: {"dtw": {"window": 0.1}}.
+    {missing}
 
     Returns
     -------
@@ -219,7 +222,7 @@ def compare(
     mean 54.09 (4 %), largest 99.3 (7.3 %)
     """
     columns = known_names(P, Q)
-    curves = as_curves(P, Q)
+    curves = skip_in_each(as_curves(P, Q), ["P", "Q"], missing)
     ask_about_curves(*curves)
     P, Q = map(copied, (P, Q), curves)
     check_choice("preset", preset, PRESETS)

@@ -19,9 +19,11 @@ import numpy as np
 
 from .._bounds import Below, Bounds, Log, Tied
 from .._names import did_you_mean
+from .._options import Default, Missing
 from ..calibration import Identification, Uncertainty, identify
 from ..calibration.problem.tables import digits
 from ..curves.inputs import Array
+from ..curves.missing import named_without_gaps
 from ..curves.named_curve import NamedCurve
 from ..curves.several_curves import curve_list
 from ..curves.turns import turning_points
@@ -229,6 +231,7 @@ def fit_material(
     max_runs: int | None = None,
     units: str = "MPa",
     progress: bool = True,
+    missing: Missing = Default.missing,
 ) -> MaterialFit:
     """Fit a material to tests that are driven by strain.
 
@@ -263,6 +266,8 @@ def fit_material(
         Of the stresses, for axes, tables and cards; nothing is converted.
     progress : bool, default True
         Show a bar (tqdm).
+    missing : {"refuse", "skip"}, default "refuse"
+        Whether points with a nan are refused, or take no part; a warning then says how many.
 
     Returns
     -------
@@ -307,7 +312,7 @@ def fit_material(
     >>> {name: round(value, 1) for name, value in fit.parameters.items()}
     {'E': 200000.0, 'yield': 300.0, 'Q': -50.0, 'b': 8.0, 'C1': 80000.0, 'gamma1': 400.0}
     """
-    given = curve_list(tests)
+    given = named_without_gaps(curve_list(tests), missing)
     warn_of_units(given, units)
     driven = DrivenTests.of(material, given, cycles=cycles, points=points)
     read_off = material.bounds_from(given) if bounds is None else bounds

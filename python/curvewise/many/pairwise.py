@@ -20,11 +20,12 @@ from .._core import cdist as compiled_cdist
 from .._core import check_batch, is_symmetric
 from .._core import pdist as compiled_pdist
 from .._docstrings import filled, listed
-from .._options import Default, Metric, WarpingName, check_choice, real_number
+from .._options import Default, Metric, Missing, WarpingName, check_choice, real_number
 from .._progress import Report, reporting
 from ..curves.inputs import Array, CurveLike, as_curve_list, as_curve_lists, copy_of
 from ..curves.labels import labelled_matrix, labelled_triangle, unlabelled
 from ..curves.layouts import Layout, settled_layout
+from ..curves.missing import skip_in_list
 from ..curves.reference_systems import check_reference_systems
 from ..measures.registry import MEASURES, MeasureName
 from ..measures.step_pattern import may_be_negative
@@ -70,6 +71,7 @@ def cdist(
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
     layout: Layout | None = None,
+    missing: Missing = Default.missing,
     **options: Any,
 ) -> Array: ...
 @overload
@@ -83,6 +85,7 @@ def cdist(
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
     layout: Layout | None = None,
+    missing: Missing = Default.missing,
     **options: Any,
 ) -> Any: ...
 @filled()
@@ -96,6 +99,7 @@ def cdist(
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
     layout: Layout | None = None,
+    missing: Missing = Default.missing,
     **options: Any,
 ) -> Any:
     """Compute a measure between every curve of one list and every curve of another.
@@ -123,6 +127,7 @@ def cdist(
         twenty times a second: cells of the tables, n m for a pair, for dtw and frechet; points,
         n + m for a pair, for the others and with a callable.
     {layout}
+    {missing}
     **options
         Those of the measure's own function, or of the callable.
 
@@ -170,6 +175,8 @@ def cdist(
     XB, column_labels = (None, row_labels) if XB is None else unlabelled(XB, "XB")
     kept = not callable(measure)
     rows, columns = as_curve_lists(XA, XB, keep_float32=kept, layout=layout)
+    rows = skip_in_list(rows, "XA", missing)
+    columns = None if columns is None else skip_in_list(columns, "XB", missing)
     shape = (len(rows), len(rows if columns is None else columns))
     out = _checked_out(out, shape, "cdist")
     rows, columns = _apart(rows, out), None if columns is None else _apart(columns, out)
@@ -196,6 +203,7 @@ def pdist(
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
     layout: Layout | None = None,
+    missing: Missing = Default.missing,
     **options: Any,
 ) -> Array: ...
 @overload
@@ -208,6 +216,7 @@ def pdist(
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
     layout: Layout | None = None,
+    missing: Missing = Default.missing,
     **options: Any,
 ) -> Any: ...
 @filled(symmetric=listed(name for name, info in MEASURES.items() if info.symmetric))
@@ -220,6 +229,7 @@ def pdist(
     cutoff: SupportsFloat | None = None,
     progress: bool | Report = False,
     layout: Layout | None = None,
+    missing: Missing = Default.missing,
     **options: Any,
 ) -> Any:
     """Compute a symmetric measure between every two curves of a list.
@@ -234,7 +244,7 @@ def pdist(
         is symmetric is not looked at.
     out : ndarray of float64, shape (k (k-1) / 2,), C-contiguous, optional
         Where to write the result.
-    workers, cutoff, progress, layout, **options
+    workers, cutoff, progress, layout, missing, **options
         As for :func:`cdist`.
 
     Returns
@@ -266,6 +276,7 @@ def pdist(
     check_reference_systems(options, measure=measure, X=X)
     X, labels = unlabelled(X, "X")
     curves = as_curve_list(X, "X", keep_float32=not callable(measure), layout=layout)
+    curves = skip_in_list(curves, "X", missing)
     out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
     curves = _apart(curves, out)
     limit = checked_limit("cutoff", cutoff, measure, options)

@@ -7,13 +7,16 @@ from __future__ import annotations
 
 from .._core import area as compiled_area
 from .._core import area_quads as compiled_area_quads
-from .._options import Crossing, Default, Spacing
+from .._docstrings import filled
+from .._options import Crossing, Default, Missing, Spacing
 from ..curves.inputs import CurveLike, as_curves
+from ..curves.missing import skip_in_pair
 from .results import AreaQuads
 
 __all__ = ["area", "area_quads"]
 
 
+@filled()
 def area(
     P: CurveLike,
     Q: CurveLike,
@@ -21,6 +24,7 @@ def area(
     spacing: Spacing = Default.spacing,
     crossing: Crossing = Default.crossing,
     squared: bool = Default.squared,
+    missing: Missing = Default.missing,
 ) -> float:
     """Area between two curves in the plane.
 
@@ -59,6 +63,7 @@ def area(
         Sum the squares of the areas instead (the paper's section 4, the analogue of
         sum-of-squares); with "matched", those of the pieces. With "function" the value is the
         integral of (f - g)².
+    {missing}
 
     Returns
     -------
@@ -124,6 +129,8 @@ def area(
     >>> curvewise.area(*crossed), curvewise.area(*crossed, crossing="split")
     (2.0, 1.0)
     """
+    if missing != "refuse":
+        P, Q = skip_in_pair(P, Q, missing)
     return compiled_area(P, Q, (spacing, crossing, squared))
 
 

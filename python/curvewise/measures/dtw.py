@@ -12,8 +12,9 @@ from .._core import dtw_info as compiled_dtw_info
 from .._core import dtw_path as compiled_dtw_path
 from .._core import dtw_table as compiled_dtw_table
 from .._docstrings import filled
-from .._options import Default, GroundDistance, Order, Radius, Window
+from .._options import Default, GroundDistance, Missing, Order, Radius, Window
 from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.missing import skip_in_pair
 from ..curves.named_curve import copied
 from .results import Alignment, WarpingInfo
 from .step_pattern import Steps
@@ -38,6 +39,7 @@ def dtw(
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
     cutoff: SupportsFloat | None = Default.cutoff,
+    missing: Missing = Default.missing,
 ) -> float:
     """Dynamic time warping: the smallest sum of ground distances along a warping path.
 
@@ -69,6 +71,7 @@ def dtw(
     {workers}
     {prune}
     {cutoff}
+    {missing}
 
     Returns
     -------
@@ -141,6 +144,8 @@ def dtw(
         prune,
         cutoff,
     )
+    if missing != "refuse":
+        P, Q = skip_in_pair(P, Q, missing)
     return compiled_dtw(P, Q, options)
 
 

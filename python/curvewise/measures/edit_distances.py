@@ -17,8 +17,9 @@ from .._core import msm as compiled_msm
 from .._core import twe as compiled_twe
 from .._core import wdtw as compiled_wdtw
 from .._docstrings import filled, listed
-from .._options import Default, Metric, Order, Radius, Window, check_choice
+from .._options import Default, Metric, Missing, Order, Radius, Window, check_choice
 from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.missing import skip_in_pair
 from ..curves.named_curve import copied
 from .results import Alignment
 
@@ -50,6 +51,7 @@ def erp(
     gap: SupportsFloat = 0.0,
     window: Window = Default.window,
     cutoff: SupportsFloat | None = Default.cutoff,
+    missing: Missing = Default.missing,
 ) -> float:
     """Edit distance with real penalty: points are matched, or left out at their distance to a gap.
 
@@ -61,6 +63,7 @@ def erp(
         All coordinates of the point from which a point that is left out has its distance.
     {window}
     {cutoff}
+    {missing}
 
     Returns
     -------
@@ -85,6 +88,8 @@ def erp(
     >>> curvewise.erp([0, 1, 2, 3], [0, 2, 3])
     1.0
     """
+    if missing != "refuse":
+        P, Q = skip_in_pair(P, Q, missing)
     return compiled_erp(P, Q, (metric, p, radius, gap, window, cutoff))
 
 
@@ -99,6 +104,7 @@ def edr(
     epsilon: SupportsFloat | None = None,
     window: Window = Default.window,
     cutoff: SupportsFloat | None = Default.cutoff,
+    missing: Missing = Default.missing,
 ) -> float:
     """Edit distance on real sequences: the share of points that are changed or left out.
 
@@ -111,6 +117,7 @@ def edr(
         deviation of all coordinates of P and of Q.
     {window}
     {cutoff}
+    {missing}
 
     Returns
     -------
@@ -134,6 +141,8 @@ def edr(
     >>> curvewise.edr([0, 1, 2, 3], [0, 1, 7, 3], epsilon=0.5)
     0.25
     """
+    if missing != "refuse":
+        P, Q = skip_in_pair(P, Q, missing)
     return compiled_edr(P, Q, (metric, p, radius, epsilon, window, cutoff))
 
 
@@ -148,6 +157,7 @@ def lcss(
     epsilon: SupportsFloat = 1.0,
     window: Window = Default.window,
     cutoff: SupportsFloat | None = Default.cutoff,
+    missing: Missing = Default.missing,
 ) -> float:
     """Longest common subsequence: the share of points of the shorter curve that have no match.
 
@@ -159,6 +169,7 @@ def lcss(
         Points at most so far apart match.
     {window}
     {cutoff}
+    {missing}
 
     Returns
     -------
@@ -180,6 +191,8 @@ def lcss(
     >>> curvewise.lcss([0, 1, 2, 3], [0, 9, 2, 3], epsilon=0.5)
     0.25
     """
+    if missing != "refuse":
+        P, Q = skip_in_pair(P, Q, missing)
     return compiled_lcss(P, Q, (metric, p, radius, epsilon, window, cutoff))
 
 
@@ -191,6 +204,7 @@ def msm(
     cost: SupportsFloat = 1.0,
     window: Window = Default.window,
     cutoff: SupportsFloat | None = Default.cutoff,
+    missing: Missing = Default.missing,
 ) -> float:
     """Move-split-merge: what it costs to move numbers, to split one in two, and to merge two.
 
@@ -201,6 +215,7 @@ def msm(
         Of a split or a merge.
     {window}
     {cutoff}
+    {missing}
 
     Returns
     -------
@@ -224,6 +239,8 @@ def msm(
     >>> curvewise.msm([0, 1, 2, 3], [0, 2, 3])
     2.0
     """
+    if missing != "refuse":
+        P, Q = skip_in_pair(P, Q, missing)
     return compiled_msm(P, Q, (cost, window, cutoff))
 
 
@@ -239,6 +256,7 @@ def twe(
     penalty: SupportsFloat = 1.0,
     window: Window = Default.window,
     cutoff: SupportsFloat | None = Default.cutoff,
+    missing: Missing = Default.missing,
 ) -> float:
     """Time warp edit distance: matched segments, and deletions that cost a penalty and time.
 
@@ -252,6 +270,7 @@ def twe(
         Of each point that is deleted.
     {window}
     {cutoff}
+    {missing}
 
     Returns
     -------
@@ -274,6 +293,8 @@ def twe(
     >>> curvewise.twe([0, 1, 2, 3], [0, 2, 3], penalty=0.5)
     2.5029999999999997
     """
+    if missing != "refuse":
+        P, Q = skip_in_pair(P, Q, missing)
     return compiled_twe(P, Q, (metric, p, radius, stiffness, penalty, window, cutoff))
 
 
@@ -288,6 +309,7 @@ def wdtw(
     steepness: SupportsFloat = 0.05,
     window: Window = Default.window,
     cutoff: SupportsFloat | None = Default.cutoff,
+    missing: Missing = Default.missing,
 ) -> float:
     """Weighted dynamic time warping: a match weighs more, the farther apart its indices are.
 
@@ -299,6 +321,7 @@ def wdtw(
         How sharply the weight rises about half of the longer curve.
     {window}
     {cutoff}
+    {missing}
 
     Returns
     -------
@@ -321,6 +344,8 @@ def wdtw(
     >>> round(curvewise.wdtw([0, 1, 2, 3], [0, 2, 3]), 6)
     0.475021
     """
+    if missing != "refuse":
+        P, Q = skip_in_pair(P, Q, missing)
     return compiled_wdtw(P, Q, (metric, p, radius, steepness, window, cutoff))
 
 

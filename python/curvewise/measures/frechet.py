@@ -12,8 +12,9 @@ from .._core import frechet_info as compiled_frechet_info
 from .._core import frechet_path as compiled_frechet_path
 from .._core import frechet_table as compiled_frechet_table
 from .._docstrings import filled
-from .._options import Default, GroundDistance, Order, Radius
+from .._options import Default, GroundDistance, Missing, Order, Radius
 from ..curves.inputs import Array, CurveLike, as_curves
+from ..curves.missing import skip_in_pair
 from ..curves.named_curve import copied
 from .results import Alignment, WarpingInfo
 
@@ -31,6 +32,7 @@ def frechet(
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
     cutoff: SupportsFloat | None = Default.cutoff,
+    missing: Missing = Default.missing,
 ) -> float:
     """Discrete Fréchet distance: the shortest leash for two walks along the points.
 
@@ -41,6 +43,7 @@ def frechet(
     {workers}
     {prune}
     {cutoff}
+    {missing}
 
     Returns
     -------
@@ -72,6 +75,8 @@ def frechet(
     >>> curvewise.frechet([1, 2, 4], [1, 4], metric=[[0, 2], [1, 1], [2, 0]])
     1.0
     """
+    if missing != "refuse":
+        P, Q = skip_in_pair(P, Q, missing)
     return compiled_frechet(P, Q, (metric, p, radius, workers, prune, cutoff))
 
 

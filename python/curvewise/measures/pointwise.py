@@ -6,19 +6,24 @@ from .._core import mae as compiled_mae
 from .._core import mse as compiled_mse
 from .._core import normalize as compiled_normalize
 from .._core import sum_of_squares as compiled_sum_of_squares
+from .._docstrings import filled
+from .._options import Default, Missing
 from ..curves.inputs import Array, CurveLike, as_curve, check_column_names, column_names
 from ..curves.layouts import ask_about_curves
+from ..curves.missing import skip_in_both
 
 __all__ = ["mae", "mse", "normalize", "sum_of_squares"]
 
 
-def sum_of_squares(P: CurveLike, Q: CurveLike) -> float:
+@filled()
+def sum_of_squares(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> float:
     """Sum of squared differences of two curves of equal shape, entry by entry.
 
     Parameters
     ----------
     P, Q : array_like, both of shape (n, d) or (n,)
         The curves.
+    {missing}
 
     Returns
     -------
@@ -34,7 +39,8 @@ def sum_of_squares(P: CurveLike, Q: CurveLike) -> float:
 
     Notes
     -----
-    Eq. 1 of the paper. Time O(n d).
+    Eq. 1 of the paper. Time O(n d). With ``missing="skip"`` a point
+    that one curve lacks is left out of both.
 
     Examples
     --------
@@ -42,16 +48,20 @@ def sum_of_squares(P: CurveLike, Q: CurveLike) -> float:
     >>> curvewise.sum_of_squares([1, 2, 3], [1, 3, 5])
     5.0
     """
+    if missing != "refuse":
+        P, Q = skip_in_both(P, Q, missing)
     return compiled_sum_of_squares(P, Q)
 
 
-def mse(P: CurveLike, Q: CurveLike) -> float:
+@filled()
+def mse(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> float:
     """Mean squared difference over all n d entries of two curves of equal shape.
 
     Parameters
     ----------
     P, Q : array_like, both of shape (n, d) or (n,)
         The curves.
+    {missing}
 
     Returns
     -------
@@ -65,7 +75,8 @@ def mse(P: CurveLike, Q: CurveLike) -> float:
 
     Notes
     -----
-    :func:`sum_of_squares` over n d. Time O(n d).
+    :func:`sum_of_squares` over n d. Time O(n d). With ``missing="skip"`` a point
+    that one curve lacks is left out of both.
 
     Examples
     --------
@@ -73,16 +84,20 @@ def mse(P: CurveLike, Q: CurveLike) -> float:
     >>> curvewise.mse([1, 2, 3, 4], [1, 3, 5, 4])
     1.25
     """
+    if missing != "refuse":
+        P, Q = skip_in_both(P, Q, missing)
     return compiled_mse(P, Q)
 
 
-def mae(P: CurveLike, Q: CurveLike) -> float:
+@filled()
+def mae(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> float:
     """Mean absolute difference over all n d entries of two curves of equal shape.
 
     Parameters
     ----------
     P, Q : array_like, both of shape (n, d) or (n,)
         The curves.
+    {missing}
 
     Returns
     -------
@@ -96,7 +111,8 @@ def mae(P: CurveLike, Q: CurveLike) -> float:
 
     Notes
     -----
-    Time O(n d).
+    Time O(n d). With ``missing="skip"`` a point
+    that one curve lacks is left out of both.
 
     Examples
     --------
@@ -104,6 +120,8 @@ def mae(P: CurveLike, Q: CurveLike) -> float:
     >>> curvewise.mae([1, 2, 3, 4], [1, 3, 5, 4])
     0.75
     """
+    if missing != "refuse":
+        P, Q = skip_in_both(P, Q, missing)
     return compiled_mae(P, Q)
 
 

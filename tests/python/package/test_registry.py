@@ -52,7 +52,9 @@ OWN_DEFAULTS = {
 }
 
 # The reference computes the plain table, in one thread.
-NOT_OF_THE_REFERENCE = ("workers", "prune", "cutoff")
+NOT_OF_THE_REFERENCE = ("workers", "prune", "cutoff", "missing")
+# What Python does before the compiled library sees a curve.
+OF_PYTHON = ("missing",)
 
 
 def keyword_defaults(function: Any) -> dict[str, Any]:
@@ -71,8 +73,8 @@ def positional(function: Any) -> str:
 
 
 def without_bounds(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the options that a batch has, too: not those that change what is returned."""
-    return {key: value for key, value in options.items() if key != "bounds"}
+    """Return the options that the library has, too: not those that change what is returned."""
+    return {key: value for key, value in options.items() if key not in ("bounds", *OF_PYTHON)}
 
 
 def measure_of(function: str) -> str:
@@ -153,6 +155,8 @@ def test_every_layer_has_the_same_options_and_defaults(name: str) -> None:
 @pytest.mark.parametrize("function", families())
 def test_functions_of_a_measure_take_its_options(function: str) -> None:
     options = keyword_defaults(getattr(measures, function))
+    for option in OF_PYTHON:
+        options.pop(option, None)
     measure = measure_of(function)
     of_measure = keyword_defaults(MEASURES[measure].function) if measure else {}
     if function.startswith("soft_dtw"):  # a loss, which is no distance, and in no list of them
@@ -251,7 +255,7 @@ def test_warpings_are_what_their_alias_lists() -> None:
 
 def test_every_default_has_an_option() -> None:
     defaults = {name for name in vars(_options.Default) if not name.startswith("_")}
-    assert defaults == {
+    assert defaults == {*OF_PYTHON} | {
         option
         for name, options in _core.measures().items()
         for option in options
