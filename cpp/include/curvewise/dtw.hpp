@@ -50,7 +50,9 @@ struct DtwOptions {
     /// whole number.
     std::optional<double> window_fraction;
     /// Subsequence DTW (Müller 2007): P is matched to a part of Q, which may begin, or end,
-    /// anywhere. With symmetric1 and without a window only.
+    /// anywhere. Without a window, and with symmetric1 without a penalty or a step pattern whose
+    /// paths all have one weight: open_begin needs the weight n. The end is the one where c over
+    /// the weight of paths to it is least, as in R's dtw.
     bool open_begin = false;
     bool open_end = false;
     /// Divide the distance by the sum of the weights of any path: n + m, n or m, as the step

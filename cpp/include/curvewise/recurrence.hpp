@@ -7,9 +7,9 @@
 /// Weights may be negative. A step is infinite if one of its terms is, whatever that term's weight.
 /// A term of weight 0 takes no part.
 ///
-/// added up in this order. What a term is, CostFrom says. The value is c in the last cell, divided
-/// as Per says. Time O(n m) times the number of terms; memory O(n + m) for a value,
-/// O((n + m) log n) for a path.
+/// added up in this order. What a term is, CostFrom says. The value is c in the last cell, or
+/// where a path with free ends ends, divided as Per says. Time O(n m) times the number of terms;
+/// memory O(n + m) for a value, O((n + m) log n) for a path.
 #pragma once
 
 #include <cstddef>
@@ -84,6 +84,25 @@ enum class Per {
     matches   ///< the value is 1 + c / min(n, m), and not below 0
 };
 
+/// How many points a path may leave out at the beginning and at the end of each curve: it begins in
+/// one of the first cells of the first row or column, with the cost of the cell, and ends in one of
+/// the last cells of the last row or column. For curves of any length `all`.
+struct FreeEnds {
+    static constexpr std::ptrdiff_t all = std::numeric_limits<std::ptrdiff_t>::max();
+
+    std::ptrdiff_t p_begin = 0;
+    std::ptrdiff_t p_end = 0;
+    std::ptrdiff_t q_begin = 0;
+    std::ptrdiff_t q_end = 0;
+    /// The end is the one where c divided so is least, n and m being the points up to there; of
+    /// equal ones the first in the last row, or else in the last column.
+    Per per = Per::one;
+
+    constexpr bool are_free() const noexcept {
+        return p_begin > 0 || p_end > 0 || q_begin > 0 || q_end > 0;
+    }
+};
+
 struct Recurrence {
     const char* measure;
     std::vector<Step> steps;  ///< of equal ones the first is taken
@@ -99,6 +118,7 @@ struct Recurrence {
     std::optional<std::ptrdiff_t> window = std::nullopt;
     std::optional<double> window_fraction = std::nullopt;
     double cutoff = std::numeric_limits<double>::infinity();
+    FreeEnds ends = {};  ///< for a border of `none`
 
     /// Whether P and Q may change places.
     CURVEWISE_EXPORT bool is_symmetric() const;

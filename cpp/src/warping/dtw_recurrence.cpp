@@ -8,15 +8,42 @@
 
 namespace curvewise::warping {
 
+namespace {
+
+// Where paths may begin and end. Values of ends that differ in the weight of their paths are
+// compared by weight; where it is not known, and for beginnings, they cannot be.
+FreeEnds open_ends(const DtwOptions& options, Per per, const std::string& name) {
+    if (!options.open_begin && !options.open_end) return {};
+    if (options.window || options.window_fraction) {
+        throw std::invalid_argument("open_begin and open_end cannot be combined with window");
+    }
+    if (options.open_begin && per != Per::rows) {
+        throw std::invalid_argument(
+            "open_begin needs step_pattern='symmetric1' without a penalty, or a step pattern "
+            "normalised by N, such as 'asymmetric'; " +
+            name + " is not");
+    }
+    if (per == Per::one) {
+        throw std::invalid_argument(
+            "open_end needs step_pattern='symmetric1' without a penalty, or a step pattern whose "
+            "paths all have one weight, such as 'symmetric2' or 'asymmetric'; those of " +
+            name + " differ");
+    }
+    FreeEnds ends;
+    ends.q_begin = options.open_begin ? FreeEnds::all : 0;
+    ends.q_end = options.open_end ? FreeEnds::all : 0;
+    ends.per = per;
+    return ends;
+}
+
+}  // namespace
+
 Recurrence recurrence_of(const DtwOptions& options) {
     const auto place = static_cast<std::size_t>(options.step_pattern);
     const bool is_own = !options.own_steps.rows.empty();
     const std::string name = is_own ? "of one's own" : std::string(step_patterns[place].name);
     const StepRows rows = is_own ? options.own_steps : step_rows(step_patterns[place]);
-    if (options.open_begin || options.open_end) {
-        throw std::invalid_argument(
-            "open_begin and open_end need step_pattern='symmetric1' without a penalty");
-    }
+    const FreeEnds ends = open_ends(options, rows.per, name);
     if (options.normalize && rows.per == Per::one) {
         throw std::invalid_argument(
             "normalize needs a step pattern whose paths all have one "
@@ -36,6 +63,7 @@ Recurrence recurrence_of(const DtwOptions& options) {
     result.window = options.window;
     result.window_fraction = options.window_fraction;
     result.cutoff = options.cutoff;
+    result.ends = ends;
     return result;
 }
 

@@ -6,11 +6,13 @@
 
 namespace curvewise::warping {
 
-// Whether dtw's own sweep has the options: symmetric1 or symmetric2, without a penalty.
+// Whether dtw's own sweep has the options: symmetric1 or symmetric2, without a penalty, and with
+// open ends the first alone.
 inline bool is_swept_by_dtw(const DtwOptions& options) noexcept {
+    const bool is_open = options.open_begin || options.open_end;
     return options.own_steps.rows.empty() && options.penalty == 0.0 &&
            (options.step_pattern == StepPattern::symmetric1 ||
-            options.step_pattern == StepPattern::symmetric2);
+            (options.step_pattern == StepPattern::symmetric2 && !is_open));
 }
 
 // Throws std::invalid_argument for options that do not go together.

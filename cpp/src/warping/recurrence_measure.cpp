@@ -181,15 +181,20 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         const std::ptrdiff_t n = P.packed.size(), m = Q.packed.size();
         const double cutoff = std::min(call.cutoff, recurrence_.cutoff);
         const double found = with_curves(P, Q, call.poller, [&](const RecurrenceProblem& problem) {
-            const bool may_give_up = problem.range.is_identity() && costs_are_positive_;
-            const double give_up =
-                may_give_up ? warping::undivided(cutoff, divisor(n, m)) : infinity;
+            const bool may_give_up =
+                problem.range.is_identity() && costs_are_positive_ && paths_visit_all_rows();
+            // The most that a value is divided by.
+            const double most = warping::divisor(recurrence_.per, n, m);
+            const double give_up = may_give_up ? warping::undivided(cutoff, most) : infinity;
             double sum = 0.0;
+            std::ptrdiff_t rows = n, columns = m;
             for_each_table(problem.curves, [&](std::ptrdiff_t coordinate) {
-                sum +=
-                    RecurrenceSweep(problem, coordinate, call.poller, call.memory).value(give_up);
+                const RecurrenceSweep::End end =
+                    RecurrenceSweep(problem, coordinate, call.poller, call.memory).end(give_up);
+                sum += end.value;
+                if (recurrence_.ends.are_free()) rows = end.row + 1, columns = end.column + 1;
             });
-            return finished(restored(sum, problem.range), n, m);
+            return finished(restored(sum, problem.range), rows, columns);
         });
         return found > recurrence_.cutoff ? infinity : found;
     }
@@ -205,11 +210,11 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         const std::ptrdiff_t n = P.packed.size(), m = Q.packed.size();
         Alignment found;
         with_curves(P, Q, call.poller, [&](const RecurrenceProblem& problem) {
-            const double value =
-                RecurrenceSweep(problem, -1, call.poller, call.memory).value(infinity);
-            found.distance = finished(restored(value, problem.range), n, m);
-            found.path = value < infinity
-                             ? RecurrenceSweep(problem, -1, call.poller, call.memory).path()
+            const RecurrenceSweep::End end =
+                RecurrenceSweep(problem, -1, call.poller, call.memory).end(infinity);
+            found.distance = finished(restored(end.value, problem.range), n, m);
+            found.path = end.value < infinity
+                             ? RecurrenceSweep(problem, -1, call.poller, call.memory).path(end)
                              : path_of_any_cost(problem, call);
         });
         if (recurrence_.border == Border::origin &&
@@ -250,11 +255,11 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         const RecurrenceProblem reachable{recurrence, steps, problem.curves, problem.range,
                                           infinity};
         const bool was_counting = call.poller.set_counting(false);
-        const double value =
-            RecurrenceSweep(reachable, -1, call.poller, call.memory).value(infinity);
+        const RecurrenceSweep::End end =
+            RecurrenceSweep(reachable, -1, call.poller, call.memory).end(infinity);
         call.poller.set_counting(was_counting);
-        if (value == infinity) return {};
-        return RecurrenceSweep(reachable, -1, call.poller, call.memory).path();
+        if (end.value == infinity) return {};
+        return RecurrenceSweep(reachable, -1, call.poller, call.memory).path(end);
     }
 
     warping::Window window() const noexcept {
@@ -315,26 +320,15 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
         return range.restore(value, warping::degree(recurrence_.ground.metric));
     }
 
-    double divisor(std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
-        switch (recurrence_.per) {
-            case Per::one:
-            case Per::matches:
-                break;
-            case Per::rows:
-                return static_cast<double>(n);
-            case Per::columns:
-                return static_cast<double>(m);
-            case Per::both:
-                return static_cast<double>(n) + static_cast<double>(m);
-            case Per::longer:
-                return static_cast<double>(std::max(n, m));
-        }
-        return 1.0;
+    // Of a value that belongs to the first n and m points of the curves.
+    double finished(double value, std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
+        if (recurrence_.per != Per::matches) return value / warping::divisor(recurrence_.per, n, m);
+        return std::max(0.0, 1.0 + value / static_cast<double>(std::min(n, m)));
     }
 
-    double finished(double value, std::ptrdiff_t n, std::ptrdiff_t m) const noexcept {
-        if (recurrence_.per != Per::matches) return value / divisor(n, m);
-        return std::max(0.0, 1.0 + value / static_cast<double>(std::min(n, m)));
+    // Whether each path visits a row of every `reach` rows that follow each other.
+    bool paths_visit_all_rows() const noexcept {
+        return recurrence_.ends.p_begin == 0 && recurrence_.ends.p_end == 0;
     }
 
     Recurrence recurrence_;
@@ -346,6 +340,7 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
 
 bool Recurrence::is_symmetric() const {
     if (per == Per::rows || per == Per::columns) return false;
+    if (ends.p_begin != ends.q_begin || ends.p_end != ends.q_end) return false;
     // Of each kind of cost the one with P and Q in each other's place, in the order of CostFrom.
     constexpr CostFrom turned[] = {CostFrom::pair,   CostFrom::column_gap,  CostFrom::row_gap,
                                    CostFrom::offset, CostFrom::column_move, CostFrom::row_move};

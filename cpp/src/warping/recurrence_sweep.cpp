@@ -27,6 +27,23 @@ Band band_of(const Recurrence& recurrence, const PackedPair& curves) {
 
 }  // namespace
 
+double divisor(Per per, std::ptrdiff_t n, std::ptrdiff_t m) noexcept {
+    switch (per) {
+        case Per::one:
+        case Per::matches:
+            break;
+        case Per::rows:
+            return static_cast<double>(n);
+        case Per::columns:
+            return static_cast<double>(m);
+        case Per::both:
+            return static_cast<double>(n) + static_cast<double>(m);
+        case Per::longer:
+            return static_cast<double>(std::max(n, m));
+    }
+    return 1.0;
+}
+
 // The step by which each cell of a part was reached, strip by strip.
 struct RecurrenceSweep::Codes {
     Codes(const Part& part, std::ptrdiff_t reach, std::ptrdiff_t height)
@@ -190,11 +207,39 @@ RecurrenceSweep::Rows RecurrenceSweep::first_boundary() const {
     return rows;
 }
 
-double RecurrenceSweep::value(double give_up) {
+RecurrenceSweep::End RecurrenceSweep::end(double give_up) {
     Rows boundary = first_boundary();
     const Part whole{0, curves_.rows(), curves_.columns()};
+    Rows last_column;
+    if (recurrence_.ends.p_end > 0) {
+        last_column.resize(static_cast<std::size_t>(whole.end));
+        ends_ = last_column.data();
+    }
     sweep(whole, boundary.data(), whole.columns, nullptr, nullptr, give_up);
-    return boundary.back();
+    ends_ = nullptr;
+    return cheapest_end(boundary.data() + (table_.reach - 1) * whole.columns, last_column);
+}
+
+RecurrenceSweep::End RecurrenceSweep::cheapest_end(const double* last_row,
+                                                   const Rows& last_column) const {
+    const FreeEnds& ends = recurrence_.ends;
+    const std::ptrdiff_t row = curves_.rows() - 1, column = curves_.columns() - 1;
+    End found{last_row[column], row, column};
+    if (ends.q_end == 0 && ends.p_end == 0) return found;
+    double least = infinity;
+    const auto compare = [&](double value, std::ptrdiff_t i, std::ptrdiff_t j) {
+        const double divided = value / divisor(ends.per, i + 1, j + 1);
+        if (!(divided < least)) return;
+        least = divided;
+        found = {value, i, j};
+    };
+    for (std::ptrdiff_t j = column - std::min(ends.q_end, column); j <= column; ++j) {
+        compare(last_row[j], row, j);
+    }
+    for (std::ptrdiff_t i = row - std::min(ends.p_end, row); i < row; ++i) {
+        compare(last_column[static_cast<std::size_t>(i)], i, column);
+    }
+    return found;
 }
 
 void RecurrenceSweep::write_table(double* out) {
@@ -256,7 +301,15 @@ void RecurrenceSweep::aim(kernels::RecurrenceStrip& strip, const Part& part, std
     strip.ground.p += first - above;
     strip.ground.rows = rows + above;
     if (recurrence_.ground.own != nullptr) ask_for_distances(strip.ground, first - above);
-    strip.starts_here = first == 0 && left_border_ == nullptr;
+    if (left_border_ == nullptr) {
+        const auto cells = [](std::ptrdiff_t left_out, std::ptrdiff_t count) {
+            return std::min(left_out, count - 1) + 1;
+        };
+        const FreeEnds& ends = recurrence_.ends;
+        if (first == 0) strip.start_columns = cells(ends.q_begin, part.columns);
+        strip.start_rows = cells(ends.p_begin, curves_.rows()) - first;
+    }
+    if (ends_ != nullptr) strip.ends = ends_ + first - reach;
     strip.first_offset = first - reach;
     if (strip.row_gaps != nullptr) {
         strip.row_gaps += first - reach;
@@ -326,10 +379,10 @@ void RecurrenceSweep::run(kernels::RecurrenceStrip& strip, const Part& part) {
     }
 }
 
-std::vector<std::array<std::int64_t, 2>> RecurrenceSweep::path() {
+std::vector<std::array<std::int64_t, 2>> RecurrenceSweep::path(const End& end) {
     found_.clear();
     is_counting_ = false;
-    find(0, first_boundary(), {curves_.rows() - 1, curves_.columns() - 1});
+    find(0, first_boundary(), {end.row, end.column});
     std::reverse(found_.begin(), found_.end());
     return std::move(found_);
 }
@@ -364,12 +417,10 @@ RecurrenceSweep::Cell RecurrenceSweep::trace(std::ptrdiff_t first, const Rows& b
     };
     Cell at = end;
     while (at.row >= first && at.column >= 0) {
-        if (at.row == 0 && at.column == 0) {
-            found_.push_back({0, 0});
-            return {-1, -1};
-        }
-        const Step& step = recurrence_.steps[code(at)];
         found_.push_back({at.row, at.column});
+        const std::uint8_t taken = code(at);
+        if (taken == kernels::start_code || (at.row == 0 && at.column == 0)) return {-1, -1};
+        const Step& step = recurrence_.steps[taken];
         for (auto term = step.terms.rbegin(); term != step.terms.rend(); ++term) {
             if (term->from != CostFrom::pair || term->rows + term->columns == 0) continue;
             if (term->rows == step.rows && term->columns == step.columns) continue;

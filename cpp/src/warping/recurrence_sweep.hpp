@@ -22,6 +22,9 @@
 
 namespace curvewise::warping {
 
+// What a value is divided by, for curves of so many points.
+double divisor(Per per, std::ptrdiff_t n, std::ptrdiff_t m) noexcept;
+
 // What one thread keeps from one pair to the next.
 struct RecurrenceMemory {
     AlignedBuffer lanes;
@@ -45,11 +48,18 @@ class RecurrenceSweep {
     RecurrenceSweep(const RecurrenceProblem& problem, std::ptrdiff_t coordinate, Poller& poller,
                     RecurrenceMemory& memory);
 
-    // Of the last cell; infinity where all paths are found to be above `give_up`.
-    double value(double give_up);
+    // The cell in which the cheapest path ends, and its value.
+    struct End {
+        double value;
+        std::ptrdiff_t row;
+        std::ptrdiff_t column;
+    };
+
+    // Of infinity where all paths are found to be above `give_up`.
+    End end(double give_up);
     void write_table(double* out);
-    // The cells of a path from the first to the last.
-    std::vector<std::array<std::int64_t, 2>> path();
+    // The cells of a path to there from where it begins.
+    std::vector<std::array<std::int64_t, 2>> path(const End& end);
 
    private:
     struct Codes;
@@ -70,6 +80,7 @@ class RecurrenceSweep {
     void prepare_offsets(int odd, double* offsets) const;
     ColumnRange columns_of(std::ptrdiff_t row) const noexcept;
     Rows first_boundary() const;
+    End cheapest_end(const double* last_row, const Rows& last_column) const;
     void sweep(const Part& part, double* boundary, std::ptrdiff_t stride, Codes* codes,
                double* table, double give_up);
     void aim(kernels::RecurrenceStrip& strip, const Part& part, std::ptrdiff_t first,
@@ -95,6 +106,7 @@ class RecurrenceSweep {
     double sum_of_column_gaps_ = 0.0;
     double* left_border_ = nullptr;  // of the row `reach` above the first, and so on
     double reentry_;                 // the least of it
+    double* ends_ = nullptr;         // of each row the cell in the last column, where asked for
     std::vector<std::array<std::int64_t, 2>> found_;  // backwards
 };
 

@@ -31,6 +31,10 @@ std::ptrdiff_t workers_for(const GroundDistance& ground, std::ptrdiff_t asked_fo
 }  // namespace
 
 WarpingOptions checked_options(const DtwOptions& options) {
+    const bool is_open = options.open_begin || options.open_end;
+    if (is_open && options.step_pattern == StepPattern::symmetric2) {
+        throw std::invalid_argument("open_begin and open_end need step_pattern='symmetric1'");
+    }
     if (!is_swept_by_dtw(options)) {
         throw std::invalid_argument(
             "this needs step_pattern='symmetric1' or 'symmetric2' and no penalty");
@@ -40,13 +44,8 @@ WarpingOptions checked_options(const DtwOptions& options) {
     const Window window{options.window, options.window_fraction};
     window.check();
     const bool is_symmetric1 = options.step_pattern == StepPattern::symmetric1;
-    if (options.open_begin || options.open_end) {
-        if (!is_symmetric1) {
-            throw std::invalid_argument("open_begin and open_end need step_pattern='symmetric1'");
-        }
-        if (options.window || options.window_fraction) {
-            throw std::invalid_argument("open_begin and open_end cannot be combined with window");
-        }
+    if (is_open && (options.window || options.window_fraction)) {
+        throw std::invalid_argument("open_begin and open_end cannot be combined with window");
     }
     if (options.normalize && is_symmetric1) {
         throw std::invalid_argument(

@@ -61,8 +61,11 @@ def dtw(
         abs(i - j) <= window where n = m. No limit where n = 1 or m = 1. A fraction is one of
         max(n, m), cut to a whole number.
     open_begin, open_end : bool
-        Subsequence DTW: P is matched to a part of Q, which may begin, or end, anywhere. Not
-        normalised by length. With "symmetric1" and without a window only.
+        Subsequence DTW: P is matched to a part of Q, which may begin, or end, anywhere. Without a
+        window. With "symmetric1" without a penalty, the cheapest part counts, not normalised by
+        length. `open_end` also works with every step pattern that `normalize` accepts. The end is
+        then where the cost divided by the weight of paths to it is least, as in R's dtw.
+        `open_begin` needs a pattern normalised by N, such as "asymmetric".
     normalize : bool
         Divide by the sum of the step weights, where all paths have the same: n + m with
         "symmetric2", else what the pattern says (``StepPattern.normalization``). A distance
@@ -92,11 +95,11 @@ def dtw(
     Notes
     -----
     Sakoe & Chiba (1978): c[i, j] = min(min(c[i-1, j], c[i, j-1]) + d, c[i-1, j-1] + w d), with
-    w = 1 for "symmetric1" and 2 for "symmetric2"; open ends: Müller (2007). Exact. Time O(n m),
-    or the cells of the band; memory O(n + m). With another pattern or a penalty, in one thread
-    and without pruning, O(n m) times the number of weights: c[i, j] is the least, over the steps
-    of the pattern, of c where the step begins, plus the penalty, plus the weighted distances of
-    the cells that it visits, added in this order.
+    w = 1 for "symmetric1" and 2 for "symmetric2"; open ends: Müller (2007), Tormene et al. (2009).
+    Exact. Time O(n m), or the cells of the band; memory O(n + m). With another pattern or a
+    penalty, in one thread and without pruning, O(n m) times the number of weights: c[i, j] is the
+    least, over the steps of the pattern, of c where the step begins, plus the penalty, plus the
+    weighted distances of the cells that it visits, added in this order.
 
     {own_distances}
 

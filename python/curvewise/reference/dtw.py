@@ -26,7 +26,7 @@ from ..measures.results import Alignment
 from ..measures.step_pattern import StepPattern, Steps
 from .checks import check_pair
 from .ground import Ground
-from .recurrence import Recurrence, filled, found_path, pattern_steps
+from .recurrence import Recurrence, filled, found_path, last_cell, pattern_steps
 from .warping_table import filled_table, traced_path
 
 __all__ = ["checked_radius", "dtw", "dtw_path", "dtw_table", "sakoe_chiba_band"]
@@ -51,12 +51,12 @@ def dtw(
     Step patterns: Sakoe & Chiba (1978); open ends: Müller, "Information Retrieval for Music and
     Motion" (2007), chapter 4.
     """
-    steps = _Steps.checked(step_pattern, penalty)
+    steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
     if normalize:
         steps.check_normalization()
     table = _accumulate(P, Q, metric, p, radius, steps, window, open_begin, open_end)
     distance = float(table.restored(table.costs[-1, table.end]))
-    n, m = table.costs.shape
+    n, m = len(table.costs), table.end + 1
     return distance / {"N": n, "M": m, "N+M": n + m}[steps.per] if normalize else distance
 
 
@@ -74,7 +74,7 @@ def dtw_path(
     open_end: bool = Default.open_end,
 ) -> Alignment:
     """As for :func:`dtw`."""
-    steps = _Steps.checked(step_pattern, penalty)
+    steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
     table = _accumulate(P, Q, metric, p, radius, steps, window, open_begin, open_end)
     distance = float(table.restored(table.costs[-1, table.end]))
     if table.path is not None:
@@ -101,7 +101,7 @@ def dtw_table(
     open_end: bool = Default.open_end,
 ) -> Array:
     """As for :func:`dtw`."""
-    steps = _Steps.checked(step_pattern, penalty)
+    steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
     table = _accumulate(P, Q, metric, p, radius, steps, window, open_begin, open_end)
     return np.array(table.restored(table.costs))
 
@@ -143,10 +143,13 @@ def _accumulate(
     if weight is None:
         penalty = float(times_power_of_two(np.array(steps.penalty), -exponent))
         cells = pattern_steps(steps.pattern.steps(), penalty, ground)
-        recurrence = Recurrence(cells, first=float(ground[0, 0]))
+        begun = len(Q) if open_begin else 1
+        starts = {(0, j): float(d) for j, d in enumerate(ground[0, :begun])}
+        recurrence = Recurrence(cells, starts)
         costs, taken = filled(recurrence, inside)
-        path = partial(found_path, recurrence, inside, costs, taken)
-        return _Table(costs, ground, len(Q) - 1, exponent, path)
+        end_of = partial(_cheapest_end, steps.per) if open_end else last_cell
+        path = partial(found_path, recurrence, inside, costs, taken, end_of)
+        return _Table(costs, ground, end_of(costs)[1], exponent, path)
     ground[~inside] = np.inf
     costs = filled_table(
         ground,
@@ -157,20 +160,30 @@ def _accumulate(
     return _Table(costs, ground, end, exponent)
 
 
+def _cheapest_end(per: str, table: Array) -> tuple[int, int]:
+    """Return the first cell of the last row whose cost over the weight of paths to it is least."""
+    n, m = table.shape
+    columns = np.arange(1.0, m + 1.0)
+    costs = table[-1] / {"N": float(n), "M": columns, "N+M": n + columns}[per]
+    end = int(np.argmin(costs))
+    return n - 1, end if costs[end] < np.inf else m - 1
+
+
 class _Steps(NamedTuple):
-    """A step pattern with its penalty."""
+    """A step pattern with its penalty, and whether an end is open."""
 
     pattern: StepPattern
     name: str
     penalty: float
+    is_open: bool
 
     @classmethod
-    def checked(cls, given: Steps, penalty: SupportsFloat) -> _Steps:
+    def checked(cls, given: Steps, penalty: SupportsFloat, is_open: bool) -> _Steps:
         """Check both."""
         cost = real_number("penalty", penalty, 0.0, "give a number >= 0")
         if isinstance(given, StepPattern):
-            return cls(given, "of one's own", cost)
-        return cls(StepPattern.named(given), given, cost)
+            return cls(given, "of one's own", cost, is_open)
+        return cls(StepPattern.named(given), given, cost, is_open)
 
     @property
     def per(self) -> str:
@@ -179,8 +192,8 @@ class _Steps(NamedTuple):
 
     @property
     def diagonal_weight(self) -> float | None:
-        """That of "symmetric1" and "symmetric2" without a penalty, None otherwise."""
-        weights = {"symmetric1": 1.0, "symmetric2": 2.0}
+        """That of "symmetric1" without a penalty, and "symmetric2" with closed ends; else None."""
+        weights = {"symmetric1": 1.0, "symmetric2": None if self.is_open else 2.0}
         return None if self.penalty else weights.get(self.name)
 
     def check_normalization(self) -> None:
@@ -199,15 +212,23 @@ class _Steps(NamedTuple):
 def _check_steps(steps: _Steps, window: Any, open_begin: bool, open_end: bool) -> None:
     """Check the options that shape the path."""
     _check_window(window)
-    if open_begin or open_end:
-        if steps.diagonal_weight is None:
-            raise ValueError(
-                "open_begin and open_end need step_pattern='symmetric1' without a penalty"
-            )
-        if steps.diagonal_weight != 1.0:
-            raise ValueError("open_begin and open_end need step_pattern='symmetric1'")
-        if window is not None:
-            raise ValueError("open_begin and open_end cannot be combined with window")
+    if not steps.is_open:
+        return
+    if window is not None:
+        raise ValueError("open_begin and open_end cannot be combined with window")
+    if steps.diagonal_weight is not None:
+        return
+    if open_begin and steps.per != "N":
+        raise ValueError(
+            "open_begin needs step_pattern='symmetric1' without a penalty, or a step pattern "
+            f"normalised by N, such as 'asymmetric'; {steps.name} is not"
+        )
+    if steps.per == "NA":
+        raise ValueError(
+            "open_end needs step_pattern='symmetric1' without a penalty, or a step pattern whose "
+            "paths all have one weight, such as 'symmetric2' or 'asymmetric'; those of "
+            f"{steps.name} differ"
+        )
 
 
 def _check_window(window: Any) -> Any:

@@ -255,7 +255,7 @@ def _msm_of_one(pair: _Pair, coordinate: int, cost: float) -> _Found:
         lambda i, j: outside(x[i], x[i - 1], y[j]),
         lambda i, j: outside(y[j], y[j - 1], x[i]),
     )
-    return pair.found(Recurrence(steps, first=abs(float(x[0] - y[0]))))
+    return pair.found(Recurrence(steps, starts={(0, 0): abs(float(x[0] - y[0]))}))
 
 
 @_value
@@ -313,4 +313,4 @@ def wdtw(
     ground = pair.ground() * (1.0 / (1.0 + np.exp(-steep * (apart - max(n, m) / 2.0))))
     cost = _cell(ground)
     steps = [Step(i, j, 0.0, [(1.0, cost)]) for i, j in ((1, 1), (1, 0), (0, 1))]
-    return pair.found(Recurrence(steps, first=float(ground[0, 0])))
+    return pair.found(Recurrence(steps, starts={(0, 0): float(ground[0, 0])}))

@@ -12,17 +12,19 @@ R's dtw by a test.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias
+from collections.abc import Callable, Mapping, Sequence
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from ..curves.inputs import Array
 
-__all__ = ["Recurrence", "Step", "filled", "found_path", "pattern_steps"]
+__all__ = ["EndOf", "Recurrence", "Step", "filled", "found_path", "last_cell", "pattern_steps"]
 
 CellCost: TypeAlias = Callable[[int, int], float]
+EndOf: TypeAlias = Callable[[Array], tuple[int, int]]
+START: Final = -1
 
 
 class Step(NamedTuple):
@@ -39,14 +41,16 @@ class Recurrence(NamedTuple):
     """Steps, and what lies before the first row and the first column."""
 
     steps: Sequence[Step]
-    first: float | None = None  # c[0, 0] where paths start there; None where they start before it
+    # Cells in which paths may start, with their costs; None if paths start before the first cell.
+    starts: Mapping[tuple[int, int], float] | None = None
     above: Array | float = np.inf  # c[-1, j]
     before: Array | float = np.inf  # c[i, -1]
 
     def without_costs(self) -> Recurrence:
         """Return the same steps, which cost nothing: c is 0 where a path leads."""
         free = [step._replace(constant=0.0, costs=()) for step in self.steps]
-        return self._replace(steps=free, first=None if self.first is None else 0.0)
+        starts = None if self.starts is None else dict.fromkeys(self.starts, 0.0)
+        return self._replace(steps=free, starts=starts)
 
 
 def pattern_steps(
@@ -68,18 +72,19 @@ def pattern_steps(
 def filled(
     recurrence: Recurrence, inside: npt.NDArray[np.bool_]
 ) -> tuple[Array, npt.NDArray[np.int64]]:
-    """Return c in the cells that are inside of the window, and by which step each was reached."""
+    """Return c in the cells inside the window, and the step by which each was reached, or `START`.
+
+    A path starts in a cell if no path that comes from elsewhere is cheaper.
+    """
     n, m = inside.shape
     # table[i + 1, j + 1] is c[i, j].
     table = np.full((n + 1, m + 1), np.inf)
     table[0, 1:], table[1:, 0] = recurrence.above, recurrence.before
-    if recurrence.first is None:
+    if recurrence.starts is None:
         table[0, 0] = 0.0
+    starts = recurrence.starts or {}
     taken = np.zeros((n, m), dtype=np.int64)
     for i, j in np.argwhere(inside):
-        if i == j == 0 and recurrence.first is not None:
-            table[1, 1] = recurrence.first
-            continue
         for number, step in enumerate(recurrence.steps):
             row, column = i + 1 - step.rows, j + 1 - step.columns
             if row < 0 or column < 0 or table[row, column] == np.inf:
@@ -91,7 +96,14 @@ def filled(
                 value = value + (weight * added if added < np.inf else added)
             if value < table[i + 1, j + 1]:  # which nan is not: a sum that overflows both ways
                 table[i + 1, j + 1], taken[i, j] = value, number
+        if starts.get((i, j), np.nan) <= table[i + 1, j + 1]:
+            table[i + 1, j + 1], taken[i, j] = starts[i, j], START
     return table[1:, 1:], taken
+
+
+def last_cell(table: Array) -> tuple[int, int]:
+    """Return where a path ends that leaves nothing out."""
+    return table.shape[0] - 1, table.shape[1] - 1
 
 
 def found_path(
@@ -99,23 +111,26 @@ def found_path(
     inside: npt.NDArray[np.bool_],
     table: Array,
     taken: npt.NDArray[np.int64],
+    end_of: EndOf = last_cell,
 ) -> npt.NDArray[np.int64]:
     """Return the path of a filled table: one that steps admit where all are infinite, or none."""
-    if table[-1, -1] == np.inf:
+    if table[end_of(table)] == np.inf:
         recurrence = recurrence.without_costs()
         table, taken = filled(recurrence, inside)
-    if table[-1, -1] == np.inf:
+    if table[end_of(table)] == np.inf:
         return np.empty((0, 2), dtype=np.int64)
-    return _path_through(recurrence, taken)
+    return _path_through(recurrence, taken, end_of(table))
 
 
-def _path_through(recurrence: Recurrence, taken: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
-    """Trace the path back from the last cell to the first, or to the border."""
-    i, j = taken.shape[0] - 1, taken.shape[1] - 1
+def _path_through(
+    recurrence: Recurrence, taken: npt.NDArray[np.int64], end: tuple[int, int]
+) -> npt.NDArray[np.int64]:
+    """Trace the path back from its end to where it starts, or to the border."""
+    i, j = end
     path = []
     while i >= 0 and j >= 0:
         path.append((i, j))
-        if i == j == 0:
+        if i == j == 0 or taken[i, j] == START:
             break
         step = recurrence.steps[taken[i, j]]
         path += [(i - rows, j - columns) for rows, columns in reversed(step.visited)]

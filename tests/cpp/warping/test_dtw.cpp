@@ -290,8 +290,16 @@ void messages_about_options() {
     options.window = 3;
     refuses(options, "open_begin and open_end cannot be combined with window");
     options = with_open_ends(false, true);
+    options.step_pattern = StepPattern::typeIa;
+    refuses(options,
+            "open_end needs step_pattern='symmetric1' without a penalty, or a step pattern whose "
+            "paths all have one weight, such as 'symmetric2' or 'asymmetric'; those of typeIa "
+            "differ");
+    options = with_open_ends(true, true);
     options.step_pattern = StepPattern::symmetric2;
-    refuses(options, "open_begin and open_end need step_pattern='symmetric1'");
+    refuses(options,
+            "open_begin needs step_pattern='symmetric1' without a penalty, or a step pattern "
+            "normalised by N, such as 'asymmetric'; symmetric2 is not");
     for (const double fraction : {0.0, 1.0, -0.5, std::nan("")}) {
         refuses(with_fraction(fraction),
                 "window is " + std::to_string(fraction) +

@@ -193,7 +193,7 @@ def test_planar_options(call) -> None:
         ("frechet", Frechet(0, 2.0, 1, 1, -1.0), "cutoff is -1"),
         ("dtw", Dtw(), "workers is 0"),
         ("dtw", Dtw(0, 2.0, 27, 0, 0, -1, 1), "unknown step_pattern 27; choose from 0 to 26"),
-        ("dtw", Dtw(0, 2.0, 1, 1, 0, -1, 1), "open_begin and open_end need step_pattern="),
+        ("dtw", Dtw(0, 2.0, 1, 1, 0, -1, 1), "open_begin needs step_pattern="),
         ("dtw", per_step_or_fraction(pattern=0, normalize=1), "normalize needs step_pattern="),
         ("dtw", per_step_or_fraction(fraction=1.5), "window is 1.5"),
         (

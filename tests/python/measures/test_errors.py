@@ -221,9 +221,15 @@ def warping_cases() -> Iterator[tuple[str, Case]]:
     yield "window=0", Case(good(), good(4), {"window": 0}, message)
     yield "window=0.1", Case(good(), good(4), {"window": 0.1}, message)
     for ends in ({"open_begin": True}, {"open_end": True}, {"open_begin": True, "open_end": True}):
-        options = {**ends, "step_pattern": "symmetric2"}
-        message = "open_begin and open_end need step_pattern='symmetric1'"
-        yield f"{'-'.join(ends)}-symmetric2", Case(good(), good(4), options, message)
+        options = {**ends, "step_pattern": "typeIa"}
+        needs = "needs step_pattern='symmetric1' without a penalty, or a step pattern"
+        message = (
+            f"open_begin {needs} normalised by N, such as 'asymmetric'; typeIa is not"
+            if "open_begin" in ends
+            else f"open_end {needs} whose paths all have one weight, such as 'symmetric2' or "
+            "'asymmetric'; those of typeIa differ"
+        )
+        yield f"{'-'.join(ends)}-typeIa", Case(good(), good(4), options, message)
         message = "open_begin and open_end cannot be combined with window"
         yield f"{'-'.join(ends)}-window", Case(good(), good(4), {**ends, "window": 3}, message)
 

@@ -200,7 +200,27 @@ ERRORS = [
     ({"penalty": "x"}, "penalty is 'x'; give a number >= 0"),
     (
         {"step_pattern": "typeIa", "open_end": True},
-        "open_begin and open_end need step_pattern='symmetric1' without a penalty",
+        "open_end needs step_pattern='symmetric1' without a penalty, or a step pattern whose paths "
+        "all have one weight, such as 'symmetric2' or 'asymmetric'; those of typeIa differ",
+    ),
+    (
+        {"penalty": 1, "open_end": True},
+        "open_end needs step_pattern='symmetric1' without a penalty, or a step pattern whose paths "
+        "all have one weight, such as 'symmetric2' or 'asymmetric'; those of symmetric1 differ",
+    ),
+    (
+        {"step_pattern": "symmetric2", "open_begin": True, "open_end": True},
+        "open_begin needs step_pattern='symmetric1' without a penalty, or a step pattern "
+        "normalised by N, such as 'asymmetric'; symmetric2 is not",
+    ),
+    (
+        {"step_pattern": StepPattern([(1, 1, 1, -1), (1, 0, 0, 1)]), "open_begin": True},
+        "open_begin needs step_pattern='symmetric1' without a penalty, or a step pattern "
+        "normalised by N, such as 'asymmetric'; of one's own is not",
+    ),
+    (
+        {"step_pattern": "asymmetric", "open_end": True, "window": 3},
+        "open_begin and open_end cannot be combined with window",
     ),
     (
         {"step_pattern": "typeIa", "normalize": True},

@@ -14,6 +14,7 @@ namespace curvewise::kernels {
 inline constexpr int max_reach = 8;
 inline constexpr int max_steps = 64;
 inline constexpr int max_terms = 256;
+inline constexpr int start_code = 255;  // of a cell in which the path begins, in place of a step
 
 enum class Source : std::uint8_t { pair, row_gap, column_gap, offset, row_move, column_move };
 enum class PairRule : std::uint8_t { distance, apart, together, weighted };
@@ -52,7 +53,10 @@ struct RecurrenceStrip {
     double* boundary;
     std::ptrdiff_t boundary_stride;
     const double* left_border;  // of each lane the cell before column 0; null: infinity
-    bool starts_here;           // the path begins in the strip's first cell
+    // A path may begin in so many cells of the strip's first row, and of its first column.
+    std::ptrdiff_t start_columns;
+    std::ptrdiff_t start_rows;
+    double* ends;  // of each lane the cell in the last column, where not null
 
     // The diagonals of values and of costs, the last one first.
     double* values[2 * max_reach + 1];

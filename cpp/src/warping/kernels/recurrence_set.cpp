@@ -228,6 +228,27 @@ void keep(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
     }
 }
 
+// A path begins in a cell unless one that comes from elsewhere is cheaper.
+void begin_path(const RecurrenceStrip& strip, std::ptrdiff_t k) noexcept {
+    if (!(strip.pairs[0][k] <= strip.values[0][k])) return;
+    strip.values[0][k] = strip.pairs[0][k];
+    if (strip.codes != nullptr) strip.code_lanes[k] = start_code;
+}
+
+void begin_paths(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
+    const std::ptrdiff_t first = strip.reach;
+    if (strip.low_lane == first && t - first < strip.start_columns) begin_path(strip, first);
+    const bool is_in_first_column = strip.low_lane <= t && t <= strip.high_lane;
+    if (is_in_first_column && t - first < strip.start_rows) begin_path(strip, t);
+}
+
+void keep_end(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
+    const std::ptrdiff_t k = t - strip.columns + 1;
+    if (strip.ends == nullptr || k < strip.reach || k >= strip.lanes) return;
+    const bool is_known = k >= strip.low_lane && k <= strip.high_lane;
+    strip.ends[k] = is_known ? strip.values[0][k] : infinity;
+}
+
 void rotate(double** diagonals, std::ptrdiff_t count) noexcept {
     double* const oldest = diagonals[count - 1];
     for (std::ptrdiff_t i = count - 1; i > 0; --i) diagonals[i] = diagonals[i - 1];
@@ -253,11 +274,10 @@ void advance(RecurrenceStrip& strip, std::ptrdiff_t end, CostFunction fill) noex
             } else {
                 Steps::cells(strip, t);
             }
-            if (strip.starts_here && t == strip.reach && low == strip.reach) {
-                strip.values[0][low] = strip.pairs[0][low];
-            }
+            begin_paths(strip, t);
         }
         close_sides(strip, t);
+        keep_end(strip, t);
         if (strip.codes != nullptr || strip.table != nullptr) keep(strip, t);
         leave_below(strip, t);
     }
