@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bind_topics.hpp"
+#include "curvewise/closed_curves.hpp"
 #include "curvewise/gradient.hpp"
 #include "curvewise/soft_dtw.hpp"
 #include "interruptible.hpp"
@@ -103,6 +104,13 @@ template <class Options, auto compute>
 py::tuple found(const CurveArray& P, const CurveArray& Q, const py::dict& options) {
     OwnDistances own(P, Q);
     return as_tuple(computed(P, Q, read_options<Options>(options, OptionsOf::pair, &own), compute));
+}
+
+// The number that compute(P, Q, options, control) finds.
+template <class Options, auto compute>
+double found_number(const CurveArray& P, const CurveArray& Q, const py::dict& options) {
+    OwnDistances own(P, Q);
+    return computed(P, Q, read_options<Options>(options, OptionsOf::pair, &own), compute);
 }
 
 py::array_t<double> allocate_table(const CurveArray& P, const CurveArray& Q) {
@@ -315,6 +323,10 @@ void bind_measures(py::module_& module) {
     });
     module.def("area_quads", found<AreaOptions, area_quads>);
     module.def("pcm_match", found<PcmOptions, pcm_match>);
+    module.def("closed_dtw", found_number<ClosedOptions, closed_dtw>);
+    module.def("closed_dtw_path", found<ClosedOptions, closed_dtw_path>);
+    module.def("closed_frechet", found_number<ClosedOptions, closed_frechet>);
+    module.def("closed_frechet_path", found<ClosedOptions, closed_frechet_path>);
     module.def("frechet_path", found<FrechetOptions, frechet_path>);
     module.def("dtw_path", found<DtwOptions, dtw_path>);
     module.def("frechet_info", found<FrechetOptions, frechet_info>);

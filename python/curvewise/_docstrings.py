@@ -65,6 +65,14 @@ cutoff : float >= 0, optional
     "missing": """\
 missing : {"refuse", "skip"}
     Whether points with a nan are refused, or take no part; a warning then says how many.""",
+    "closed": """\
+closed : bool
+    Whether both curves are closed: where they begin does not matter. See Notes.""",
+    "closed_notes": """\
+``closed=True``: a closed curve begins nowhere, and a point at its end that equals its first one
+only closes it. A walk goes once around both curves by steps of one point of either or of both,
+and returns to its first pair, which counts once. The value is that of the best walk:
+the least of all values for P from any of its points on, and Q from any of its points on.""",
     "invalid": """\
 ValueError
     A curve is not finite or empty; the curves differ in d; an option is unknown or out of

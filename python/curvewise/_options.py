@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, Final, Literal, SupportsFloat, SupportsIndex, TypeAlias
 
 import numpy as np
@@ -36,6 +36,7 @@ __all__ = [
     "WarpingName",
     "Window",
     "check_choice",
+    "check_closed",
     "real_number",
     "whole_number",
 ]
@@ -104,7 +105,7 @@ _DEFAULTS: dict[str, Any] = {
 
 
 class Default:
-    """The value of each option that is not given: the compiled library's, except `missing`."""
+    """The value of each option that is not given: the compiled library's, or Python's own."""
 
     metric: Final[Metric] = _DEFAULTS["metric"]
     p: Final[Order] = _DEFAULTS["p"]
@@ -125,12 +126,21 @@ class Default:
     prune: Final[bool] = _DEFAULTS["prune"]
     cutoff: Final[SupportsFloat | None] = _DEFAULTS["cutoff"]
     missing: Final[Missing] = "refuse"
+    closed: Final[bool] = False
 
 
 def check_choice(option: str, value: object, choices: Collection[str]) -> None:
     """Refuse a `value` that is not one of the strings in `choices`."""
     if not (isinstance(value, str) and value in choices):
         raise ValueError(f"unknown {option} {value!r}; choose from {', '.join(choices)}")
+
+
+def check_closed(options: Mapping[str, object]) -> None:
+    """Refuse options that closed curves do not have, unless they are the defaults."""
+    for option, value in options.items():
+        default = getattr(Default, option)
+        if value is not default and value != default:
+            raise ValueError(f"closed=True has no {option}; leave out {option}={value!r}")
 
 
 def real_number(option: str, value: Any, least: float, advice: str) -> float:

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "curvewise/build_info.hpp"
+#include "curvewise/closed_curves.hpp"
 #include "curvewise/compare.hpp"
 #include "curvewise/control.hpp"
 #include "curvewise/curve.hpp"

@@ -115,7 +115,7 @@ def cdist(
         A measure by its name (see :func:`available_measures`), or a function of two curves that
         returns a float. A callable runs in this thread, holding the interpreter's lock, pair by
         pair: `workers` is of no use to it, and all pairs are computed. So are those of dtw and
-        frechet with a callable `metric` (a matrix is of one pair, and refused).
+        frechet with ``closed=True`` or a callable `metric` (a matrix is of one pair, and refused).
     out : ndarray of float64, shape (k, l), C-contiguous, optional
         Where to write the result.
     {workers}
@@ -181,7 +181,7 @@ def cdist(
     out = _checked_out(out, shape, "cdist")
     rows, columns = _apart(rows, out), None if columns is None else _apart(columns, out)
     limit = checked_limit("cutoff", cutoff, measure, options)
-    if callable(measure) or callable(options.get("metric")):
+    if _is_called_by_pairs(measure, options):
         function = _called_by_pairs(measure, options, limit, rows, columns)
         others = rows if columns is None else columns
         points = _points(rows) * len(others) + len(rows) * _points(others)
@@ -280,10 +280,11 @@ def pdist(
     out = _checked_out(out, (len(curves) * (len(curves) - 1) // 2,), "pdist")
     curves = _apart(curves, out)
     limit = checked_limit("cutoff", cutoff, measure, options)
-    if callable(measure) or callable(options.get("metric")):
+    if _is_called_by_pairs(measure, options):
         function = _called_by_pairs(measure, options, limit, curves, None)
         if not callable(measure):
-            _check_symmetric(measure, {o: v for o, v in options.items() if o != "metric"})
+            apart = ("metric", "closed") if callable(options.get("metric")) else ("closed",)
+            _check_symmetric(measure, {o: v for o, v in options.items() if o not in apart})
         points = (len(curves) - 1) * _points(curves)
         _fill(out, combinations(curves, 2), points, function, limit, progress)
     else:
@@ -292,6 +293,11 @@ def pdist(
         with reporting(progress) as report:
             compiled_pdist(curves, name, options, out, workers, limit, report)
     return labelled_triangle(out, labels)
+
+
+def _is_called_by_pairs(measure: Measure, options: Mapping[str, Any]) -> bool:
+    """Say whether the library has no batches of a measure: a callable, or of closed curves."""
+    return callable(measure) or callable(options.get("metric")) or bool(options.get("closed"))
 
 
 def _called_by_pairs(
@@ -306,7 +312,7 @@ def _called_by_pairs(
         return partial(measure, **options)
     name = _check_names(measure, options)
     # What takes no metric of one's own refuses it here, as all do their curves.
-    of_pair = ("metric", "p", "radius") if name in get_args(WarpingName) else ()
+    of_pair = ("metric", "p", "radius", "closed") if name in get_args(WarpingName) else ()
     check_batch(rows, columns, name, {o: v for o, v in options.items() if o not in of_pair})
     return partial(MEASURES[name].function, **options, cutoff=limit)
 

@@ -12,10 +12,11 @@ from .._core import dtw_info as compiled_dtw_info
 from .._core import dtw_path as compiled_dtw_path
 from .._core import dtw_table as compiled_dtw_table
 from .._docstrings import filled
-from .._options import Default, GroundDistance, Missing, Order, Radius, Window
+from .._options import Default, GroundDistance, Missing, Order, Radius, Window, check_closed
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.missing import skip_in_pair
 from ..curves.named_curve import copied
+from .closed import closed_alignment, closed_value
 from .results import Alignment, WarpingInfo
 from .step_pattern import Steps
 
@@ -40,6 +41,7 @@ def dtw(
     prune: bool = Default.prune,
     cutoff: SupportsFloat | None = Default.cutoff,
     missing: Missing = Default.missing,
+    closed: bool = Default.closed,
 ) -> float:
     """Dynamic time warping: the smallest sum of ground distances along a warping path.
 
@@ -75,6 +77,7 @@ def dtw(
     {prune}
     {cutoff}
     {missing}
+    {closed}
 
     Returns
     -------
@@ -100,6 +103,10 @@ def dtw(
     penalty, in one thread and without pruning, O(n m) times the number of weights: c[i, j] is the
     least, over the steps of the pattern, of c where the step begins, plus the penalty, plus the
     weighted distances of the cells that it visits, added in this order.
+
+    {closed_notes} By divide and conquer over where Q begins (Maes, "On a cyclic string-to-string
+    correction problem", 1990): time O(n m log m), memory n m bytes; the value is exact but for the
+    order in which distances are added. Only the metric, missing and cutoff apply.
 
     {own_distances}
 
@@ -149,6 +156,10 @@ def dtw(
     )
     if missing != "refuse":
         P, Q = skip_in_pair(P, Q, missing)
+    if closed:
+        check_closed(_steps_of(step_pattern, penalty, window, open_begin, open_end, normalize))
+        ground = {"metric": metric, "p": p, "radius": radius}
+        return closed_value("dtw", P, Q, ground, cutoff)
     return compiled_dtw(P, Q, options)
 
 
@@ -202,6 +213,7 @@ def dtw_info(
     return WarpingInfo(*compiled_dtw_info(P, Q, options))
 
 
+@filled()
 def dtw_path(
     P: CurveLike,
     Q: CurveLike,
@@ -216,6 +228,7 @@ def dtw_path(
     open_end: bool = Default.open_end,
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
+    closed: bool = Default.closed,
 ) -> Alignment:
     """Dynamic time warping with a warping path that attains it.
 
@@ -223,6 +236,7 @@ def dtw_path(
     ----------
     P, Q, metric, p, radius, step_pattern, penalty, window, open_begin, open_end, workers, prune
         As for :func:`dtw`.
+    {closed}
 
     Returns
     -------
@@ -252,6 +266,9 @@ def dtw_path(
     """
     A, B = as_curves(P, Q)
     steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end)
+    if closed:
+        check_closed(_steps_of(step_pattern, penalty, window, open_begin, open_end))
+        return closed_alignment("dtw", P, Q, {"metric": metric, "p": p, "radius": radius})
     options = steps | {"workers": workers, "prune": prune}
     return Alignment(*compiled_dtw_path(A, B, options), (copied(P, A), copied(Q, B)))
 
@@ -302,6 +319,18 @@ def dtw_table(
     P, Q = as_curves(P, Q)
     steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end)
     return compiled_dtw_table(P, Q, steps)
+
+
+def _steps_of(
+    step_pattern: object,
+    penalty: object,
+    window: object,
+    open_begin: object,
+    open_end: object,
+    normalize: object = Default.normalize,
+) -> dict[str, object]:
+    """Return by name what closed curves do not have."""
+    return locals()
 
 
 def _options(

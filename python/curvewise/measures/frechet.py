@@ -16,6 +16,7 @@ from .._options import Default, GroundDistance, Missing, Order, Radius
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.missing import skip_in_pair
 from ..curves.named_curve import copied
+from .closed import closed_alignment, closed_value
 from .results import Alignment, WarpingInfo
 
 __all__ = ["frechet", "frechet_info", "frechet_path", "frechet_table"]
@@ -33,6 +34,7 @@ def frechet(
     prune: bool = Default.prune,
     cutoff: SupportsFloat | None = Default.cutoff,
     missing: Missing = Default.missing,
+    closed: bool = Default.closed,
 ) -> float:
     """Discrete Fréchet distance: the shortest leash for two walks along the points.
 
@@ -44,6 +46,7 @@ def frechet(
     {prune}
     {cutoff}
     {missing}
+    {closed}
 
     Returns
     -------
@@ -65,6 +68,9 @@ def frechet(
     Eiter & Mannila (1994): c[i, j] = max(d(P[i], Q[j]), min(c[i-1, j], c[i, j-1],
     c[i-1, j-1])). Exact. Time O(n m), memory O(n + m).
 
+    {closed_notes} By bisection among distances, each decided in O(n m) by the points of Q from
+    which a pair can be reached; less where curves are alike, and memory O(n + m). Exact.
+
     {own_distances}
 
     Examples
@@ -77,6 +83,9 @@ def frechet(
     """
     if missing != "refuse":
         P, Q = skip_in_pair(P, Q, missing)
+    if closed:
+        ground = {"metric": metric, "p": p, "radius": radius}
+        return closed_value("frechet", P, Q, ground, cutoff)
     return compiled_frechet(P, Q, (metric, p, radius, workers, prune, cutoff))
 
 
@@ -133,12 +142,13 @@ def frechet_path(
     radius: Radius = Default.radius,
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
+    closed: bool = Default.closed,
 ) -> Alignment:
     """Discrete Fréchet distance with a coupling that attains it.
 
     Parameters
     ----------
-    P, Q, metric, p, radius, workers, prune
+    P, Q, metric, p, radius, closed, workers, prune
         As for :func:`frechet`.
 
     Returns
@@ -164,6 +174,8 @@ def frechet_path(
     >>> curvewise.frechet_path([(0, 0), (1, 0), (2, 0)], [(0, 1), (2, 3)]).path.tolist()
     [[0, 0], [1, 0], [2, 1]]
     """
+    if closed:
+        return closed_alignment("frechet", P, Q, {"metric": metric, "p": p, "radius": radius})
     A, B = as_curves(P, Q)
     how = {"metric": metric, "p": p, "radius": radius, "workers": workers, "prune": prune}
     return Alignment(*compiled_frechet_path(A, B, how), (copied(P, A), copied(Q, B)))

@@ -19,12 +19,22 @@ from typing import Any, NamedTuple, SupportsFloat
 import numpy as np
 import numpy.typing as npt
 
-from .._options import Default, GroundDistance, Order, Radius, Window, real_number, whole_number
+from .._options import (
+    Default,
+    GroundDistance,
+    Order,
+    Radius,
+    Window,
+    check_closed,
+    real_number,
+    whole_number,
+)
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
 from ..measures.step_pattern import StepPattern, Steps
 from .checks import check_pair
+from .closed import closed_dtw
 from .ground import Ground
 from .recurrence import Recurrence, filled, found_path, last_cell, pattern_steps
 from .warping_table import filled_table, traced_path
@@ -45,12 +55,25 @@ def dtw(
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
     normalize: bool = Default.normalize,
+    closed: bool = Default.closed,
 ) -> float:
     """Time and memory O(n m).
 
     Step patterns: Sakoe & Chiba (1978); open ends: Müller, "Information Retrieval for Music and
-    Motion" (2007), chapter 4.
+    Motion" (2007), chapter 4. Closed curves: a table for each point at which Q may begin, O(n m²).
     """
+    if closed:
+        check_closed(
+            {
+                "step_pattern": step_pattern,
+                "penalty": penalty,
+                "window": window,
+                "open_begin": open_begin,
+                "open_end": open_end,
+                "normalize": normalize,
+            }
+        )
+        return closed_dtw(P, Q, metric, p, radius).distance
     steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
     if normalize:
         steps.check_normalization()
@@ -72,8 +95,20 @@ def dtw_path(
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
+    closed: bool = Default.closed,
 ) -> Alignment:
     """As for :func:`dtw`."""
+    if closed:
+        check_closed(
+            {
+                "step_pattern": step_pattern,
+                "penalty": penalty,
+                "window": window,
+                "open_begin": open_begin,
+                "open_end": open_end,
+            }
+        )
+        return closed_dtw(P, Q, metric, p, radius)
     steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
     table = _accumulate(P, Q, metric, p, radius, steps, window, open_begin, open_end)
     distance = float(table.restored(table.costs[-1, table.end]))

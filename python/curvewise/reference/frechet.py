@@ -23,6 +23,7 @@ from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.scaling import times_power_of_two
 from ..measures.results import Alignment
 from .checks import check_pair
+from .closed import closed_frechet
 from .ground import Ground
 from .warping_table import filled_table, traced_path
 
@@ -36,8 +37,14 @@ def frechet(
     metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
+    closed: bool = Default.closed,
 ) -> float:
-    """Time and memory O(n m). Eiter & Mannila, "Computing discrete Fréchet distance" (1994)."""
+    """Time and memory O(n m). Eiter & Mannila, "Computing discrete Fréchet distance" (1994).
+
+    Closed curves: a table for each point at which Q may begin, O(n m²).
+    """
+    if closed:
+        return closed_frechet(P, Q, metric, p, radius).distance
     table = _accumulate(P, Q, metric, p, radius)
     return float(table.restored(table.leashes[-1, -1]))
 
@@ -49,8 +56,11 @@ def frechet_path(
     metric: GroundDistance = Default.metric,
     p: Order = Default.p,
     radius: Radius = Default.radius,
+    closed: bool = Default.closed,
 ) -> Alignment:
     """As for :func:`frechet`."""
+    if closed:
+        return closed_frechet(P, Q, metric, p, radius)
     table = _accumulate(P, Q, metric, p, radius)
     c = table.leashes
 

@@ -54,7 +54,7 @@ OWN_DEFAULTS = {
 # The reference computes the plain table, in one thread.
 NOT_OF_THE_REFERENCE = ("workers", "prune", "cutoff", "missing")
 # What Python does before the compiled library sees a curve.
-OF_PYTHON = ("missing",)
+OF_PYTHON = ("missing", "closed")
 
 
 def keyword_defaults(function: Any) -> dict[str, Any]:
@@ -163,7 +163,8 @@ def test_functions_of_a_measure_take_its_options(function: str) -> None:
         of_measure = keyword_defaults(measures.soft_dtw)
     assert options.items() <= of_measure.items()
     plain = {key: value for key, value in options.items() if key not in NOT_OF_THE_REFERENCE}
-    assert keyword_defaults(getattr(reference, function)) == plain
+    of_reference = keyword_defaults(getattr(reference, function))
+    assert {o: v for o, v in of_reference.items() if o not in OF_PYTHON} == plain
     options = without_bounds(options)
     if not measure or function == measure:
         return
@@ -212,8 +213,11 @@ def test_the_stub_has_what_the_module_has() -> None:
     functions = [node for node in stub.body if isinstance(node, ast.FunctionDef)]
     with_options = {node.name for node in functions if takes_a_pair_and_options(node)}
     bounds = {"frechet_continuous_bounds"}  # in Python an option of frechet_continuous
+    # Options of dtw, frechet and their paths.
+    closed = {f"closed_{name}" for name in ("dtw", "dtw_path", "frechet", "frechet_path")}
     takes_options = {name for name in measures.__all__ if measure_of(name)} - {"frechet_within"}
-    assert with_options == (takes_options | bounds | {"soft_dtw"}) - MEASURES.keys()
+    others = bounds | closed | {"soft_dtw"}
+    assert with_options == (takes_options | others) - MEASURES.keys()
 
 
 def test_presets_have_a_condition_for_every_measure() -> None:
