@@ -51,8 +51,6 @@ METHODS = {
     "sdrm": ("sdrm", "#0072B2"),
     "trust-region, 1 start": (TrustRegion(starts=1), "#56B4E9"),
     "trust-region": ("trust-region", "#D55E00"),
-    "gauss-newton, 1 start": (TrustRegion(starts=1, slopes="fresh"), "#009E73"),
-    "gauss-newton": (TrustRegion(slopes="fresh"), "#1B4D3E"),
     "nelder-mead": ("nelder-mead", "#CC79A7"),
     "de": ("de", "#E69F00"),
     "sdrm+de": ("sdrm+de", "#000000"),

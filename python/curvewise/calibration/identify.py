@@ -67,7 +67,7 @@ def identify(
         What is minimised: see :class:`Criterion`, which has the preset, weights and what else
         there is to say.
     method : str or method, default "auto"
-        "trust-region" (:class:`TrustRegion`: local, from three to six starts, for expensive
+        "trust-region" (:class:`TrustRegion`: several starts on a surrogate, for expensive
         models), "least-squares" (:class:`LeastSquares`: the same for sums of squares), "auto": the
         second for "sum_of_squares", else the first; "global" (:class:`Global`, for models of
         milliseconds); "sdrm" (:class:`SDRM`), "de" (:class:`DifferentialEvolution`), "sdrm+de" (the
@@ -86,8 +86,10 @@ def identify(
         Runs the model in the place of processes of this machine: ``MPIPoolExecutor()``, or
         ``Client(...).get_executor()`` of dask. It is not shut down.
     seed : int, default 0
-        Of all random numbers. The same seed gives the same result, bit for bit, with any number
-        of workers and after any interruption (and the same versions of numpy and scipy).
+        Of all random numbers. The same seed gives the same result, bit for bit, after any
+        interruption, and with any number of workers above one (and the same versions of numpy and
+        scipy). One worker makes starts one after the other: see `starts_at_once` of
+        :class:`TrustRegion`.
     start : mapping of str to float, optional
         Where the search starts: the middle of the bounds if not given.
     max_runs : int, optional

@@ -134,7 +134,7 @@ def plot_farthest_of_lines(
     >>> ax = Figure().subplots()
     >>> artists = plot_farthest_of_lines([(0, 0), (4, 0)], [(0, 0), (0, 3), (4, 3), (4, 0)], ax)
     >>> artists.accent.get_xydata().tolist()
-    [[2.0, 0.0], [2.0, 3.0]]
+    [[0.0, 0.0], [0.0, 3.0]]
     """
     refused = "plot_farthest_of_lines draws 1 or 2 coordinates"
     measured, drawn, labels = measured_and_drawn(P, Q, normalized, names, refused)

@@ -32,14 +32,14 @@ def bent(p):
 
 TEST = bent({"a": 4.0, "b": 0.3, "fixed": 3.0})
 EVERY = [
-    TrustRegion(),
-    TrustRegion(slopes="fresh", starts=2),
+    TrustRegion(starts_at_once=3),
+    TrustRegion(starts_at_once=1),
     SDRM(maxiter=6),
     DifferentialEvolution(popsize=3, maxiter=4),
     DifferentialEvolution(popsize=3, maxiter=2, after=SDRM(maxiter=2)),
     Global(popsize=4, rounds=1),
     NelderMead(restarts=0, options={"maxfev": 30}),
-    LeastSquares(),
+    LeastSquares(starts_at_once=3),
 ]
 
 
@@ -76,7 +76,6 @@ def test_a_start_goes_on_while_others_wait_for_their_runs():
 
 
 @pytest.mark.parametrize("method", EVERY, ids=repr)
-@pytest.mark.nightly("slopes='fresh'")
 def test_asked_and_told_is_what_identify_finds(method):
     """Bit for bit, in whatever order runs are told."""
     measure = "sum_of_squares" if method.needs_squares else "area"

@@ -18,7 +18,11 @@ from curvewise.calibration.models.pool import ModelPool, Outcome
 from curvewise.calibration.problem.simulator import Dispatch, Simulator
 
 KEYWORDS = {"method": SDRM(maxiter=3), "progress": False}
-STARTS = {"method": TrustRegion(most_starts=4), "measure": "curve_length", "progress": False}
+STARTS = {
+    "method": TrustRegion(most_starts=4, starts_at_once=3),
+    "measure": "curve_length",
+    "progress": False,
+}
 
 
 def deadly(parameters):
@@ -26,8 +30,14 @@ def deadly(parameters):
 
 
 def deadly_line(parameters):
-    if parameters["a"] > 8.0:
+    if parameters["a"] > 7.0:
         deadly(parameters)
+    return line(parameters)
+
+
+def refused_line(parameters):
+    if parameters["a"] > 7.0:
+        raise ValueError("too steep")
     return line(parameters)
 
 
@@ -141,7 +151,7 @@ def test_starts_give_the_same_bits_on_any_number_of_workers(most):
 
 def test_a_run_that_kills_its_process_is_one_failure_among_starts():
     found = identify(deadly_line, EXPERIMENT, BOUNDS, workers=2, **STARTS)
-    without = identify(fragile_line, EXPERIMENT, BOUNDS, **STARTS)
+    without = identify(refused_line, EXPERIMENT, BOUNDS, **STARTS)
     assert found.history.failed.any()
     for name in ("a", "b", "value", "failed"):
         assert np.array_equal(found.history[name], without.history[name])

@@ -14,8 +14,10 @@ import curvewise
 from curvewise.calibration import (
     Criterion,
     DifferentialEvolution,
+    LeastSquares,
     Log,
     SimulationStore,
+    TrustRegion,
     identify,
 )
 
@@ -147,7 +149,17 @@ def test_same_seed_same_result_and_another_seed_another():
     assert not np.array_equal(found[0].history.a, found[2].history.a)
 
 
-@pytest.mark.parametrize("method", ["sdrm+de", "trust-region", "nelder-mead", "least-squares"])
+@pytest.mark.parametrize(
+    "method",
+    [
+        "sdrm+de",
+        "nelder-mead",
+        TrustRegion(starts_at_once=3),
+        TrustRegion(starts_at_once=1),
+        LeastSquares(starts_at_once=3),
+    ],
+    ids=repr,
+)
 def test_result_does_not_depend_on_the_number_of_processes(method):
     keywords = {"measure": "curve_length", "method": method, "progress": False}
     if method == "sdrm+de":
@@ -190,9 +202,9 @@ def test_callback_is_told_and_can_stop():
 @pytest.mark.parametrize("method", ["sdrm+de", "de", "trust-region", "nelder-mead"])
 def test_max_runs(method):
     counted = Counted()
-    found = identify(counted, EXPERIMENT, BOUNDS, method=method, max_runs=17, progress=False)
-    assert found.evaluations == len(counted.calls) == 17
-    assert found.message == "max_runs = 17 reached"
+    found = identify(counted, EXPERIMENT, BOUNDS, method=method, max_runs=12, progress=False)
+    assert found.evaluations == len(counted.calls) == 12
+    assert found.message == "max_runs = 12 reached"
 
 
 def test_no_point_is_run_twice():

@@ -38,7 +38,7 @@ def found():
 
 def test_the_trust_region_needs_no_runs_for_slopes(found) -> None:
     for name, value in MADE_OF.items():
-        assert found.parameters[name] == pytest.approx(value, rel=1e-3), name
+        assert found.parameters[name] == pytest.approx(value, rel=2e-3), name
     blind = identify(
         WithoutSlopes(MODEL),
         LOOP,
@@ -68,7 +68,7 @@ def test_known_slopes_give_the_errors_that_differences_give(found) -> None:
         progress=False,
     ).uncertainty(sigma=1.0)
     for name in problem.space.names:
-        assert exact.standard_errors[name] == pytest.approx(blind.standard_errors[name], rel=0.1)
+        assert exact.standard_errors[name] == pytest.approx(blind.standard_errors[name], rel=0.15)
 
 
 SPACE = Space(

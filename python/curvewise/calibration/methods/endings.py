@@ -2,26 +2,17 @@
 
 A method knows its starts and its surfaces. That a bound has stopped it, or that points decide by
 the discrete Fréchet distance (`objective.sampling`), is the same for all methods.
-Cost: by that distance an evaluation of the objective, and where no step of the tests decides one of
-finer simulations; otherwise nothing.
+Cost: by that distance an evaluation of the objective; otherwise nothing.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from ..objective.sampling import (
-    FinerSimulations,
-    Sampling,
-    finer_simulations,
-    is_leash,
-    sampling_of_tests,
-)
+from ..objective.sampling import Sampling, sampling_of_tests
 from ..problem.ledger import Finish, Ledger
 
 __all__ = ["judged_end"]
-
-_GAIN = 0.01  # of the value, from which on more points are worth a word
 
 
 def judged_end(finish: Finish, ledger: Ledger, simulations: Any) -> Finish:
@@ -37,15 +28,13 @@ def judged_end(finish: Finish, ledger: Ledger, simulations: Any) -> Finish:
         At its best run; None where they are not known.
     """
     finish = _within_bounds(finish, ledger)
-    if simulations is None or not is_leash(ledger.objective):
+    if simulations is None or not ledger.objective.is_largest_distance:
         return finish
     distances = ledger.objective.predicted(simulations).terms
     tests = sampling_of_tests(ledger.objective, distances)
-    if any(test.deciding > 0 for test in tests):
-        advice = _of_tests(tests)
-    else:
-        advice = _of_simulations(finer_simulations(ledger.objective, simulations, distances))
-    return finish._replace(message="; ".join(filter(None, (finish.message, advice))))
+    if all(test.deciding == 0 for test in tests):
+        return finish
+    return Finish(False, f"{finish.message}; {_of_tests(tests)}")
 
 
 def _of_tests(tests: list[Sampling]) -> str:
@@ -55,19 +44,8 @@ def _of_tests(tests: list[Sampling]) -> str:
     points = " and ".join(str(test.enough) for test in tests)
     return (
         f"{steps} of the {name} {verb} longer than a third of the distance, so that points decide "
-        f"which valley is lowest: resample {them} evenly to {points} points "
+        f"which minimum is lowest: resample {them} evenly to {points} points "
         "(curvewise.curves.resample), and let the model return as many"
-    )
-
-
-def _of_simulations(finer: FinerSimulations) -> str:
-    """Return what to do about simulations of few points; nothing where more would not help."""
-    if finer.gain <= _GAIN:
-        return ""
-    points = " and ".join(map(str, finer.enough))
-    return (
-        f"with points between those of the simulation the value is {100.0 * finer.gain:.0f} % "
-        f"lower, so that points decide: let the model return {points} points at even steps"
     )
 
 

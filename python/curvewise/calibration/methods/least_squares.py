@@ -1,17 +1,9 @@
 """A search for the smallest sum of squares of an expensive model, without derivatives.
 
-Gauss and Newton's method needs the residuals as a function of the parameters; here a surface
-through the runs near the best one stands in their place (`surfaces.kriged_surface`): the plane
-through the k + 1 runs that the search begins with, bent as later runs ask for. Where the squares of
-the surface add up to least, in a region of trust around the best run and within the bounds, is run
-next (`surfaces.bounded_squares`). The region grows and shrinks with what a step gains of what was
-promised. Where the surface promises no more, the directions in which it knows least are run, one by
-one, until it promises something or knows them all; then the search has converged.
-
-A plane that learns from each run forgets how the residuals bend; this surface keeps it, and takes a
-quarter fewer runs than planes through the latest k + 1 (benchmarks/validation/README.md). Cost: k +
-1 runs to begin with, and one for every step: 10 to 20 for 3 parameters, 20 to 60 for 8 until the
-value is within 1 % of the smallest, and some 20 more until that is known.
+Gauss and Newton's method needs the residuals as a function of the parameters. A kriging surrogate
+through the runs near the best one stands in their place: `trust_region` has the parts of the
+search, `surfaces.sums_of_squares` the inner search. Cost: k + 1 runs to begin with, and one for
+every step: 10 to 20 for 3 parameters, 20 to 60 for 8 until the value is within 1 % of the smallest.
 
 C. Cartis, J. Fiala, B. Marteau, L. Roberts, "Improving the flexibility and robustness of
 model-based derivative-free optimization solvers", ACM Trans. Math. Softw. 45 (2019) 32; S. M. Wild,
@@ -23,22 +15,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from ...curves.inputs import Array
 from ..problem.ledger import Course, Ledger
+from ..surfaces.robust_losses import Loss, bend_of, check_loss
+from ..surfaces.sums_of_squares import SumOfSquares
+from .descent import Rules
 from .method import Method, with_other_defaults
-from .robust_losses import Loss, bend_of, check_loss
-from .side_by_side import Part, side_by_side
-from .squares_descent import SquaresDescent, SquaresRules, SquaresRuns
-from .starts import End, are_alike, check_regions, finish_of, hop, places
+from .multistart import searched
+from .runs import Runs
+from .starts import check_regions
 
 __all__ = ["LeastSquares"]
 
-# Starts that come down one valley end within a ten-thousandth of each other, since each goes on
-# until it would gain a hundred-thousandth. Those that end further apart are in several valleys, and
-# where there are several, there may be a lower one.
-_SAME_VALLEY = 1e-3
+_STEPS = 500  # the most, of each start
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -52,13 +41,12 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
     Parameters
     ----------
     starts : int, default 3
-        From how many places to search where no start is given: from the middle of the bounds, and
-        then, side by side, evenly over them. They share their runs, so that one that comes to where
-        another has ended takes few.
-    most_starts : int, default 6
-        As long as starts end more than 1 % apart others follow, up to so many in all, unless
-        `starts` of them have come within 1 % of the best. It has converged where all have ended
-        within 0.1 %, in one valley.
+        How many starts have to agree, as for :class:`TrustRegion`.
+    most_starts : int, default 10
+        The most starts.
+    starts_at_once : int, optional
+        How many are made side by side: by default one with one worker, and three with several. A
+        number gives the same result, bit for bit, with any number of workers.
     initial_range : float, optional
         Half the size of the first region of trust, as a fraction of the bounds' range; the first
         differences are over half of that. By default 0.2, and 0.1 where :func:`identify_each`
@@ -93,7 +81,8 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
     """
 
     starts: int = 3
-    most_starts: int = 6
+    most_starts: int = 10
+    starts_at_once: int | None = None
     initial_range: float | None = None
     diff_step: float = 0.02
     tol: float = 1e-3
@@ -103,7 +92,9 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
 
     def __post_init__(self) -> None:
         check_loss(self.loss)
-        check_regions(self.first_radius, self.diff_step, self.starts, self.most_starts)
+        check_regions(
+            self.first_radius, self.diff_step, self.starts, self.most_starts, self.starts_at_once
+        )
         if not self.f_scale > 0.0:
             raise ValueError(f"f_scale is {self.f_scale}; it must be above 0")
 
@@ -121,72 +112,26 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
         return with_other_defaults(self, initial_range=0.1)
 
     @property
-    def rules(self) -> SquaresRules:
+    def rules(self) -> Rules:
         """How each start goes on."""
-        bend = bend_of(self.loss, self.f_scale)
-        return SquaresRules(self.first_radius, self.diff_step, self.tol, self.gain, bend=bend)
+        return Rules(self.first_radius, self.diff_step, self.tol, self.gain, _STEPS)
 
     def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
-        """Minimise from a start; where none is given from the middle, and then from elsewhere."""
-        starts = _Starts(self, ledger, start, seed)
+        """Minimise the sum of squares on surrogates of the residuals, from several starts."""
+        inner = SumOfSquares(ledger.objective, bend_of(self.loss, self.f_scale))
+        runs = Runs(ledger, inner)
         try:
-            yield from side_by_side(starts.first(), starts.more, ledger.expect)
-        finally:
-            if self.loss != "linear" and starts.runs.values:  # the smallest sum is not wanted
-                ledger.settle(starts.best)
-        if not starts.ends:
-            raise RuntimeError(
-                "simulations fail all around the start; give identify another start=, or closer "
-                "bounds"
+            finish = yield from searched(
+                ledger,
+                runs,
+                self.rules,
+                start=start,
+                seed=seed,
+                starts=self.starts,
+                most_starts=self.most_starts,
+                at_once=self.starts_at_once or ledger.starts_at_once,
             )
-        return finish_of(starts.ends, starts.begun, starts.runs.negligible, within=_SAME_VALLEY)
-
-
-class _Starts:
-    """Begins with one start; when it has ended with others, and with more where they disagree."""
-
-    def __init__(
-        self, options: LeastSquares, ledger: Ledger, start: Array | None, seed: int
-    ) -> None:
-        self._options, self._given, self._seed = options, start, seed
-        self._random = np.random.default_rng(seed)
-        self._places = places(ledger.dimensions, self._random)
-        self.runs = SquaresRuns(ledger, options.rules)
-        self.begun = self._running = 0
-        self.ends: list[End] = []
-
-    @property
-    def best(self) -> Array:
-        """Where the smallest sum is."""
-        place: Array = self.runs.points[int(np.argmin(self.runs.values))]
-        return place
-
-    def first(self) -> list[Part[None]]:
-        """Return the start with which a search begins."""
-        return [self._descent(next(self._places) if self._given is None else self._given)]
-
-    def more(self) -> list[Part[None]]:
-        """Return those to begin after some have ended."""
-        options, ends = self._options, self.ends
-        if self._given is not None or self._running:
-            return []
-        if self.begun < options.starts:
-            return [self._descent(next(self._places)) for _ in range(options.starts - self.begun)]
-        alike = are_alike(ends, self.runs.negligible) if ends else 0
-        if alike in (0, len(ends)) or alike >= options.starts or self.begun >= options.most_starts:
-            return []
-        if (self.begun - options.starts) % 2:
-            return [self._descent(next(self._places))]
-        return [self._descent(hop(self.best, self._random))]
-
-    def _descent(self, place: Array) -> Part[None]:
-        random = np.random.default_rng((self._seed, self.begun))
-        self.begun += 1
-        self._running += 1
-        return self._ended(SquaresDescent(random, self._options.rules, self.runs).course(place))
-
-    def _ended(self, course: Part[End | None]) -> Part[None]:
-        end = yield from course
-        self._running -= 1
-        if end is not None:
-            self.ends.append(end)
+        finally:
+            if self.loss != "linear" and runs.values:  # the smallest sum is not wanted
+                ledger.settle(runs.points[runs.best])
+        return finish

@@ -1,4 +1,4 @@
-"""Local search by Nelder and Mead's simplex, restarted: `surfaces.nelder_mead` on the model itself.
+"""Local search by Nelder and Mead's simplex, restarted: `restarted_simplex` on the model itself.
 
 Its tolerance on the value is what is negligible: the smallest value is 0 for a perfect model, so
 that one relative to the value alone would never be met. Cost: 250 to 500 runs for 3 parameters.
@@ -18,9 +18,9 @@ import numpy as np
 
 from ...curves.inputs import Array
 from ..problem.ledger import Course, Finish, Ledger
-from ..surfaces.nelder_mead import nelder_mead
 from .called_back import Evaluate, course_of
 from .method import Method, check_passed_on
+from .restarted_simplex import nelder_mead
 
 __all__ = ["NelderMead"]
 

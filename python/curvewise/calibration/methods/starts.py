@@ -1,19 +1,11 @@
-"""Where a search begins, how often, and what it may say of where its starts have ended.
+"""Where a search begins, and what it may say of where its starts have ended.
 
 The first start is the middle of the bounds, the others are Latin hypercubes of four points: of four
 in a row each has a quarter of every axis to itself. (A sequence of low discrepancy is no better
-for so few points in so many dimensions, and scipy's takes half a second to import.) As long as
-starts end more than 1 % apart others follow, and every second of these begins where the runs so far
-promise most, or beside the best of them, in a smaller region, with a surface of the runs that are
-there, which costs one run in the place of k + 1: a hop out of a valley into the next. By dtw,
-whose valleys have long floors, these are near the best run; by frechet, which has many valleys
-beside each other, `valleys` says where they are if the model knows its slopes, and otherwise
-`single_runs` goes on.
+for so few points in so many dimensions, and scipy's takes half a second to import.)
 
 M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
-input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245;
-D. J. Wales, J. P. K. Doye, "Global optimization by basin-hopping", J. Phys. Chem. A 101 (1997)
-5111-5116.
+input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245.
 """
 
 from __future__ import annotations
@@ -27,21 +19,22 @@ from ...curves.inputs import Array
 from ..problem.ledger import Finish
 
 __all__ = [
-    "HOP",
+    "NOISIEST",
     "End",
     "are_alike",
     "check_regions",
     "finish_of",
-    "hop",
+    "is_enough",
     "is_flat",
+    "nothing_beside",
     "places",
     "simplex_around",
 ]
 
-HOP = 0.25  # how far from the best run a hop leads, along each axis, as a fraction of the bounds
 _QUARTERS = 4
 _DRAWN = (0.1, 0.9)  # where starts are, between the bounds
 _ALIKE = 0.01  # ends that are above the best by this fraction at most are alike
+NOISIEST = 0.05  # and by this one where the model's own noise moves values so far
 # And so are those whose difference is negligible, or next to nothing beside what was gained, that
 # fraction squared: fits to curves of the model itself.
 _PERFECT = 1e3
@@ -51,16 +44,36 @@ _TRY = 'is flat or stepped here; try another method ("de"), measure or start ('
 
 
 class End(NamedTuple):
-    """How one start ended: from which value, at which and where, and what is said of it.
+    """How one start ended.
 
-    One that stayed near the best run mostly comes back to it, which says nothing of other places.
+    Attributes
+    ----------
+    first, value : float
+        The value that it began with, and the one it ended at.
+    place : ndarray, shape (k,)
+        Where.
+    finish : Finish
+        What is said of it.
+    is_independent : bool
+        Whether it began at a place that owes nothing to other starts.
+    noise : float
+        By how much the model's own noise moves the value there, one standard deviation.
+    is_misled : bool
+        Whether it went on by the value alone, since the surrogate of curves misled it.
     """
 
     first: float
     value: float
     place: Array
     finish: Finish
-    stayed_near: bool = False
+    is_independent: bool = True
+    noise: float = 0.0
+    is_misled: bool = False
+
+    @property
+    def tells(self) -> bool:
+        """Whether it agrees with other starts, or disagrees."""
+        return self.is_independent and self.finish.converged
 
 
 def places(k: int, random: np.random.Generator) -> Iterator[Array]:
@@ -81,29 +94,36 @@ def simplex_around(centre: Array, step: float, random: np.random.Generator) -> A
     return points
 
 
-def hop(best: Array, random: np.random.Generator) -> Array:
-    """Return a place beside the best run."""
-    return np.clip(best + random.uniform(-HOP, HOP, best.size), 0.0, 1.0)
+def are_alike(ends: Sequence[End], negligible: float, among: Sequence[End]) -> int:
+    """Return how many of some starts have ended as low as the best of all."""
+    best = min(ends, key=lambda end: end.value)
+    noise = min(2.0 * best.noise, NOISIEST * best.value)
+    most = best.value + max(_ALIKE * best.value, noise) + _nothing(ends, negligible)
+    return sum(end.value <= most for end in among)
 
 
-def are_alike(
-    ends: Sequence[End],
-    negligible: float,
-    among: Sequence[End] | None = None,
-    within: float = _ALIKE,
-) -> int:
-    """Return how many of some starts, or among a part of them, have ended as low as the best."""
-    most = (1.0 + within) * min(end.value for end in ends) + _nothing(ends, negligible, within)
-    return sum(end.value <= most for end in (ends if among is None else among))
+def is_enough(ends: Sequence[End], negligible: float, starts: int) -> bool:
+    """Return whether so many independent starts agree that the best is likely that of all.
+
+    `starts` of them where all agree; where some have ended higher, one more and two thirds of all.
+    """
+    telling = [end for end in ends if end.tells]
+    alike = are_alike(ends, negligible, telling)
+    if alike == len(telling):
+        return alike >= starts
+    return alike > starts and 3 * alike >= 2 * len(telling)
 
 
-def check_regions(first_radius: float, diff_step: float, starts: int, most_starts: int) -> None:
+def check_regions(
+    first_radius: float, diff_step: float, starts: int, most_starts: int, at_once: int | None
+) -> None:
     """Refuse regions that are no fractions of the bounds, and fewer starts than one."""
     for name, value in (("initial_range", first_radius), ("diff_step", diff_step)):
         if not 0.0 < value <= 1.0:
             raise ValueError(f"{name} is {value}; give a fraction of the bounds, such as 0.02")
-    for name, count in (("starts", starts), ("most_starts", most_starts)):
-        if count < 1:
+    counts = (("starts", starts), ("most_starts", most_starts), ("starts_at_once", at_once))
+    for name, count in counts:
+        if count is not None and count < 1:
             raise ValueError(f"{name} is {count}; give at least 1")
 
 
@@ -119,26 +139,41 @@ def is_flat(ends: Sequence[End], negligible: float) -> bool:
     return bool(max(np.abs(place - best.place).max() for place in same) > _SAME_PLACE)
 
 
-def finish_of(
-    ends: Sequence[End], begun: int, negligible: float, *, within: float = _ALIKE
-) -> Finish:
-    """Return what may be said of starts that have ended, of all that were begun."""
+def finish_of(ends: Sequence[End], negligible: float, starts: int) -> Finish:
+    """Return what may be said of starts that have ended.
+
+    Parameters
+    ----------
+    ends : sequence of End
+    negligible : float
+        Differences of the value below this do not count.
+    starts : int
+        How many have to agree; 1 where a start was given.
+    """
     best = min(ends, key=lambda end: end.value)
     converged, message = best.finish
-    alike = are_alike(ends, negligible, within=within)
-    if begun > 1:
-        others = "" if alike == len(ends) else f", others{_above(ends, best.value)}"
-        part = f"{100.0 * within:g} %"
-        message = f"{alike} of {begun} starts within {part} of the best{others}; {message}"
+    telling = [end for end in ends if end.is_independent]
+    alike = are_alike(ends, negligible, telling)
+    if len(ends) > 1:
+        others = "" if alike == len(telling) else f", others{_above(telling, best.value)}"
+        message = f"{alike} of {len(telling)} starts within 1 % of the best{others}; {message}"
     if is_flat(ends, negligible):
         return Finish(False, f"several places have the best value: the measure {_TRY}{message})")
     if best.value == best.first and best.value > _nothing(ends, negligible):
         return Finish(False, f"no step gained anything: {_MAYBE}the measure {_TRY}{message})")
-    return Finish(converged and alike == begun, message)
+    if any(end.is_misled for end in ends):
+        message = f"the surrogate of curves misleads, and steps went by the value alone ({message})"
+        return Finish(False, message)
+    return Finish(converged and is_enough(ends, negligible, starts), message)
 
 
-def _nothing(ends: Sequence[End], negligible: float, within: float = _ALIKE) -> float:
-    return max(_PERFECT * negligible, within**2 * min(end.first for end in ends))
+def nothing_beside(first: float) -> float:
+    """Return which differences are next to nothing beside what a start may gain."""
+    return _ALIKE**2 * first
+
+
+def _nothing(ends: Sequence[End], negligible: float) -> float:
+    return max(_PERFECT * negligible, nothing_beside(min(end.first for end in ends)))
 
 
 def _above(ends: Sequence[End], best: float) -> str:

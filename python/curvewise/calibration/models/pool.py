@@ -89,6 +89,11 @@ class ModelPool:
         self._processes: list[Any] = []
         self._out: dict[Future[Outcome], dict[str, Any]] = {}  # what is under way
 
+    @property
+    def is_parallel(self) -> bool:
+        """Whether several calls may run at the same time."""
+        return self._executor is not None or self._workers > 1
+
     def __enter__(self) -> ModelPool:
         if self._workers > 1:
             self._start(self._workers)

@@ -87,6 +87,8 @@ class Objective:
         Whether the value is a weighted sum of squares of `residuals`.
     is_area_of_pieces : bool
         Whether it adds up absolute areas of pieces: "area" with ``spacing="matched"``.
+    is_largest_distance : bool
+        Whether it is a discrete Fréchet distance, or a mean of several.
     has_function : bool
         Whether a measure is a function of the user's, which cannot be written down.
     has_gradient : bool
@@ -169,6 +171,9 @@ class Objective:
         self.residual_factors: Array = np.sqrt(self.weights) / heights
         self.is_least_squares = all(term.is_least_squares for term in terms)
         self.is_area_of_pieces = all(term.is_area_of_pieces for term in terms)
+        self.is_largest_distance = (
+            self.condition is not None and self.measure == "frechet" and not self.condition.options
+        )
         self.has_function = any(callable(term.criterion.measure) for term in terms)
         self.has_gradient = all(term.has_gradient for term in terms)
         self.can_be_thinned = all(term.can_be_thinned for term in terms)

@@ -3,9 +3,8 @@
 A simulated point that passes from one end of a test's step to the other is half of it away from
 both on its way, so that either side is a valley of its own. Steps of up to a third of the distance
 make shallow ones, and searches from different seeds end alike (benchmarks/validation/README.md);
-over steps of more than four distances no point passes. Points of a test are as far from steps of
-the simulation; what that does shows with points between its own. Cost: O(n), and of simulations
-that of a Fréchet distance of up to twelve times as many points, once.
+over steps of more than four distances no point passes. Where the distance is that of the test's
+noise, no step decides. Cost: O(n).
 
 T. Eiter, H. Mannila, "Computing discrete Fréchet distance", CD-TR 94/64, TU Wien (1994): the
 discrete distance is up to the longest step of the curves longer than the continuous one.
@@ -14,19 +13,20 @@ discrete distance is up to the longest step of the curves longer than the contin
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...curves.inputs import Array
 from ...curves.scaling import box
-from ...curves.several_curves import as_points, curve_list
+from .noisy_tests import estimated_noise
 from .objective import Objective
 
-__all__ = ["FinerSimulations", "Sampling", "finer_simulations", "is_leash", "sampling_of_tests"]
+__all__ = ["Sampling", "sampling_of_tests"]
 
 _SHORTEST, _LONGEST = 1.0 / 3.0, 4.0  # of steps that decide, in distances
+_OF_NOISE = 4.0  # standard deviations: the largest of some hundred points
 _ROUND = 100  # to which the points are rounded up that would be enough
 
 
@@ -45,59 +45,21 @@ class Sampling(NamedTuple):
     enough: int
 
 
-def is_leash(objective: Objective) -> bool:
-    """Return whether an objective is a Fréchet distance, or a mean of several."""
-    condition = objective.condition
-    return condition is not None and objective.measure == "frechet" and not condition.options
-
-
-class FinerSimulations(NamedTuple):
-    """What points between those of the simulations would do.
-
-    Attributes
-    ----------
-    gain : float
-        By how much the value would be lower, as a share of it; below 0 where it would be higher.
-    enough : list of int
-        Of how many even points each would have no step above a third of its new distance.
-    """
-
-    gain: float
-    enough: list[int]
-
-
 def sampling_of_tests(objective: Objective, distances: Array) -> list[Sampling]:
-    """Return how the tests of such an objective are sampled, at distances from them."""
-    return [
-        _sampling(_lengths(test, sides), float(distance))
-        for test, sides, distance in zip(
-            objective.experiments, _sides(objective), distances, strict=True
-        )
-    ]
+    """Return how the tests of such an objective are sampled, at distances from them.
 
-
-def finer_simulations(objective: Objective, simulations: Any, distances: Array) -> FinerSimulations:
-    """Return what points between those of simulations do that are at distances from the tests."""
-    curves = [as_points(simulation, "Q") for simulation in curve_list(simulations)]
-    steps = [_lengths(curve, one) for curve, one in zip(curves, _sides(objective), strict=True)]
-    of_all = zip(curves, steps, distances, strict=True)
-    finer = objective.predicted([_refined(*of_one) for of_one in of_all])
-    value = float(objective.weights @ distances)
-    gain = 1.0 - finer.value / value if value > 0.0 else 0.0
-    pairs = zip(steps, finer.terms, strict=True)
-    return FinerSimulations(gain, [_enough(of_one, float(d)) for of_one, d in pairs])
-
-
-def _sides(objective: Objective) -> list[Array]:
-    """Return the lengths that count as 1 along each axis, for each test."""
+    Of a test whose distance is that of its noise no step decides: more points would not help.
+    """
     assert objective.condition is not None
-    is_scaled = objective.condition.scaled
-    return [box(test)[1] if is_scaled else np.ones(1) for test in objective.experiments]
-
-
-def _lengths(curve: Array, sides: Array) -> Array:
-    steps: Array = np.linalg.norm(np.diff(curve / sides, axis=0), axis=1)
-    return steps
+    of_all = zip(objective.experiments, objective.y_columns, distances, strict=True)
+    found = []
+    for test, y, distance in of_all:
+        sides = box(test)[1] if objective.condition.scaled else np.ones(test.shape[1])
+        noise = estimated_noise(test, y) / sides[y]
+        steps = np.linalg.norm(np.diff(test / sides, axis=0), axis=1)
+        is_of_noise = distance <= _OF_NOISE * noise
+        found.append(Sampling(0, len(test)) if is_of_noise else _sampling(steps, float(distance)))
+    return found
 
 
 def _deciding(steps: Array, distance: float) -> NDArray[np.bool_]:
@@ -115,15 +77,3 @@ def _enough(steps: Array, distance: float) -> int:
         return len(steps) + 1
     points = float(steps.sum()) / longest + 1.0
     return _ROUND * math.ceil(points / _ROUND)
-
-
-def _refined(curve: Array, steps: Array, distance: float) -> Array:
-    """Return a curve with points between the ends of the steps that decide."""
-    decides = _deciding(steps, distance)
-    parts = np.ones(len(steps), dtype=int)
-    parts[decides] = np.ceil(steps[decides] / (_SHORTEST * distance))
-    first = np.cumsum(parts) - parts
-    along = (np.arange(parts.sum()) - np.repeat(first, parts)) / np.repeat(parts, parts)
-    places = np.append(np.repeat(np.arange(len(steps)), parts) + along, len(steps))
-    rows = np.arange(len(curve))
-    return np.column_stack([np.interp(places, rows, column) for column in curve.T])

@@ -19,7 +19,7 @@ from ...curves.inputs import Array
 from ..records.evaluation import Evaluation, Point
 from ..records.recorder import Recorder
 from ..surfaces.nearby_runs import Run
-from .ledger import Course, Finish, Ledger, SearchEndedError
+from .ledger import STARTS_AT_ONCE, Course, Finish, Ledger, SearchEndedError
 from .problem import Problem
 from .simulator import Simulator
 
@@ -78,6 +78,11 @@ class Evaluations(Ledger):
         self._simulator, self._recorder = simulator, recorder
         self._callback, self._bar = callback, bar
         self._shown, self._slowest = -np.inf, 0.0
+
+    @property
+    def starts_at_once(self) -> int:
+        """How many starts a search makes side by side: three where there are several workers."""
+        return STARTS_AT_ONCE if self._simulator.is_parallel else 1
 
     def begin_stage(self, name: str, *, keeps_curves: bool) -> None:
         """Begin a stage of the search, under its name."""

@@ -21,7 +21,9 @@ from ..records.evaluation import Evaluation, Point
 from ..surfaces.nearby_runs import Run
 from .problem import Problem
 
-__all__ = ["Course", "Finish", "Ledger", "SearchEndedError"]
+__all__ = ["STARTS_AT_ONCE", "Course", "Finish", "Ledger", "SearchEndedError"]
+
+STARTS_AT_ONCE = 3  # with several workers, whatever their number, so that it changes no bits
 
 _log = logging.getLogger("curvewise.calibration")
 
@@ -79,6 +81,11 @@ class Ledger:
     def dimensions(self) -> int:
         """How many parameters there are."""
         return len(self.space.names)
+
+    @property
+    def starts_at_once(self) -> int:
+        """How many starts a search makes side by side: three, of which whoever asks may run all."""
+        return STARTS_AT_ONCE
 
     @property
     def negligible(self) -> float:

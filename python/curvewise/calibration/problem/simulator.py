@@ -71,6 +71,11 @@ class Simulator:
         self.runs = self.looked_up = 0
         self._early: dict[_Run, Outcome] = {}  # of what has been begun: known, and not asked for
 
+    @property
+    def is_parallel(self) -> bool:
+        """Whether several runs may be made at the same time."""
+        return self._pool.is_parallel
+
     def begin(self, parameters: Sequence[dict[str, float]]) -> None:
         """Start runs that will be asked for, where something can make them meanwhile."""
         for values in parameters:

@@ -22,7 +22,7 @@ from ...curves.inputs import Array
 
 __all__ = ["evolved"]
 
-_SETTLED = 1e-4  # the width of the cloud, as a fraction of the cube, at which it has settled
+_SETTLED = 5e-3  # the width of the cloud, as a fraction of the cube, at which it has settled
 
 
 def evolved(

@@ -1,15 +1,20 @@
-"""A surface of curves, or of residuals, through runs: linear, and bent as the runs ask for.
+"""Universal kriging of curves: a surrogate of each coordinate of each point, through runs.
 
-Universal kriging, all coordinates at once: a linear trend, and a Matérn kernel (5/2) whose length
-is a few times the bounds' range, so that the surface is the least bent of those that pass through
-the runs: of k + 1 the plane, of more one with the curvature that a plane cannot have. Residuals may
-enter as their coordinates in the span of the runs, n numbers in the place of m, so that what a
-surface costs at a point does not grow with the number of residuals. Cost: O(n^3 + n^2 m) for n
-runs of m coordinates, O(n m) for a point, and O(n^2) of reduced residuals.
+A linear trend, and a Matérn kernel (5/2) whose length is a few times the distance of the farthest
+run. Through k + 1 runs it is a plane; through more it is the least bent surface of those that pass
+through them. Coordinates enter as they are, or as the inverse hyperbolic sine of their distance
+from the run at the centre, in units of a fifth of the test's box, whichever is likelier. By the
+second a run that leaves the box by far bends the surface near the centre little.
+
+The nugget is the variance of the model's own noise, as a fraction of the kernel's. Restricted
+maximum likelihood (REML) estimates it from the runs. Of a smooth model it is the smallest.
+
+Cost: O(n^3 + n^2 m) for n runs of m coordinates, and O(n m) for a point.
 
 J. Sacks, W. J. Welch, T. J. Mitchell, H. P. Wynn, "Design and analysis of computer experiments",
-Statistical Science 4 (1989) 409-423; for interpolation in a region of trust S. M. Wild, R. G.
-Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in
+Statistical Science 4 (1989) 409-423; H. D. Patterson, R. Thompson, "Recovery of inter-block
+information when block sizes are unequal", Biometrika 58 (1971) 545-554, for REML; S. M. Wild, R.
+G. Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in
 trust-regions", SIAM J. Sci. Comput. 30 (2008) 3197-3219.
 """
 
@@ -28,100 +33,171 @@ __all__ = ["KrigedSurface"]
 
 _ROOT = math.sqrt(5.0)
 _LENGTH = 4.0  # of the kernel, in distances of the farthest run from the centre
-_NUGGET = 1e-8  # of the kernel: what a solver that prints few digits may be off
+_NUGGETS = 10.0 ** np.arange(-8.0, 0.5, 0.5)
 _LEVEL = 1e-8  # the inverse of the variance of the trend's coefficients: none are unlikely
+_FEWEST = 4  # degrees of freedom that tell of noise
+_EVIDENCE = 2.0  # and the gain in likelihood, its logarithm by coordinate
+_UNIT = 0.2  # of a side of the box, from which on coordinates count by their logarithm
+_LARGEST = 100.0  # a transformed coordinate whose hyperbolic sine is still finite
 
 
 class KrigedSurface:
-    """Residuals as a function of a point of the unit cube, through runs.
+    """Curves, or residuals, as a function of a point of the unit cube, through runs.
 
     Parameters
     ----------
     points : ndarray, shape (n, k)
         Where the runs are.
-    residuals : ndarray, shape (n, m)
+    vectors : ndarray, shape (n, m)
     centre : ndarray, shape (k,)
-        About which the trend is written.
-    reduced : bool
-        Whether to return residuals as coordinates that keep lengths and angles alone, in the place
-        of the residuals themselves.
-    length : float, optional
-        Of the kernel, in distances of the farthest run from the centre.
+        The point of one of the runs. Of a model without noise the surface passes through it.
+    sides : ndarray, shape (m,), optional
+        The side of the box along each coordinate. None for coordinates without transformation.
+
+    Attributes
+    ----------
+    noise : float
+        The standard deviation of the model's noise: in sides of the box, or of the coordinates
+        where these have none. 0 where the runs show none.
     """
 
     def __init__(
-        self,
-        points: Array,
-        residuals: Array,
-        centre: Array,
-        *,
-        reduced: bool,
-        length: float = _LENGTH,
+        self, points: Array, vectors: Array, centre: Array, sides: Array | None = None
     ) -> None:
         count, k = points.shape
-        if reduced and count < residuals.shape[1]:
-            residuals = np.asarray(np.linalg.qr(residuals.T, mode="r")).T
         away = points - centre
-        self._centre, self._length = centre, length
+        self._centre = centre
         self._extent = float(_lengths(away).max()) or 1.0
         self._places = away / self._extent
-        kernel, _ = _kernel(_lengths(self._places[:, np.newaxis] - self._places), length)
-        # The surface passes through the run at the centre exactly: gains are counted from it.
-        kernel.ravel()[:: count + 1] += np.where(self._places.any(axis=1), _NUGGET, 0.0)
+        kernel, _ = _kernel(_lengths(self._places[:, np.newaxis] - self._places))
+        trend = np.column_stack((np.ones(count), self._places))
+        contrasts = _Contrasts(kernel, trend)
+        nugget, deviation, likelihood = contrasts.nugget(vectors)
+        self.noise, self._unit = deviation, None
+        if sides is not None:
+            self._base = vectors[int(np.argmin(np.add.reduce(away * away, axis=1)))]
+            scaled = (vectors - self._base) / (_UNIT * sides)
+            self.noise = deviation / float(sides.mean())
+            transformed = np.arcsinh(scaled)
+            found = contrasts.nugget(transformed)
+            jacobian = -0.5 * float(np.log1p(scaled * scaled).sum()) - count * float(
+                np.log(_UNIT * sides).sum()
+            )
+            if found[2] + jacobian > likelihood:
+                vectors, (nugget, deviation, _) = transformed, found
+                self._unit, self.noise = _UNIT * sides, _UNIT * deviation
+        kernel.ravel()[:: count + 1] += nugget
+        if deviation == 0.0:  # gains are counted from the run at the centre
+            kernel.ravel()[:: count + 1] -= np.where(self._places.any(axis=1), 0.0, nugget)
         system = np.zeros((count + k + 1, count + k + 1))
         system[:count, :count] = kernel
-        system[:count, count] = system[count, :count] = 1.0
-        system[:count, count + 1 :] = self._places
-        system[count + 1 :, :count] = self._places.T
+        system[:count, count:], system[count:, :count] = trend, trend.T
         system.ravel()[count * (count + k + 2) :: count + k + 2] = -_LEVEL
-        known = np.zeros((count + k + 1, residuals.shape[1]))
-        known[:count] = residuals
+        known = np.zeros((count + k + 1, vectors.shape[1]))
+        known[:count] = vectors
         solved = np.linalg.solve(system, known)
-        self._weights, self._level, self._slopes = (
-            solved[:count],
-            solved[count : count + 1],
-            solved[count + 1 :],
-        )
+        self._weights, self._trend = solved[:count], solved[count:]
 
     def at(self, point: Array) -> Array:
-        """Return the residuals at a point, shape (m,), or at several, shape (points, m)."""
+        """Return the coordinates at a point, shape (m,), or at several, shape (points, m)."""
         place = (point - self._centre) / self._extent
-        kernel, _ = _kernel(_lengths(place[..., np.newaxis, :] - self._places), self._length)
-        return self._residuals(place, kernel)
+        kernel, _ = _kernel(_lengths(place[..., np.newaxis, :] - self._places))
+        return self._restored(self._transformed(place, kernel))
 
     def with_slopes(self, point: Array) -> tuple[Array, Array]:
-        """Return the residuals at a point, and their slopes, shape (m, k)."""
+        """Return the coordinates at a point, and their slopes, shape (m, k)."""
         place = (point - self._centre) / self._extent
         away = place - self._places
-        kernel, by_distance = _kernel(_lengths(away), self._length)
-        slopes = self._slopes + (by_distance[:, np.newaxis] * away).T @ self._weights
-        return self._residuals(place, kernel), slopes.T / self._extent
+        kernel, by_distance = _kernel(_lengths(away))
+        vector = self._transformed(place, kernel)
+        slopes = self._trend[1:] + (by_distance[:, np.newaxis] * away).T @ self._weights
+        rates = self._rates(vector)
+        return self._restored(vector), (
+            slopes if rates is None else slopes * rates
+        ).T / self._extent
 
     def with_chain_rule(self, point: Array) -> tuple[Array, ChainRule]:
-        """Return the residuals at a point, and what turns a gradient by them into one by it."""
+        """Return the coordinates at a point, and what turns a gradient by them into one by it."""
         place = (point - self._centre) / self._extent
         away = place - self._places
-        kernel, by_distance = _kernel(_lengths(away), self._length)
+        kernel, by_distance = _kernel(_lengths(away))
+        vector = self._transformed(place, kernel)
+        rates = self._rates(vector)
 
         def chain_rule(gradient: Array) -> Array:
-            bent: Array = (by_distance * (self._weights @ gradient)) @ away
-            return (self._slopes @ gradient + bent) / self._extent
+            by_vector = gradient if rates is None else gradient * rates
+            bent: Array = (by_distance * (self._weights @ by_vector)) @ away
+            return (self._trend[1:] @ by_vector + bent) / self._extent
 
-        return self._residuals(place, kernel), chain_rule
+        return self._restored(vector), chain_rule
 
     def of_places(self, places: Rows | None) -> KrigedSurface:
-        """Return the surface of some of the residuals, or of all where `places` is None."""
+        """Return the surface of some of the coordinates, or of all where `places` is None."""
         if places is None:
             return self
         some = copy(self)
-        some._weights, some._level, some._slopes = (
-            part[:, places] for part in (self._weights, self._level, self._slopes)
-        )
+        some._weights, some._trend = self._weights[:, places], self._trend[:, places]
+        if self._unit is not None:
+            some._base, some._unit = self._base[places], self._unit[places]
         return some
 
-    def _residuals(self, place: Array, kernel: Array) -> Array:
-        residuals: Array = self._level[0] + place @ self._slopes + kernel @ self._weights
-        return residuals
+    def _transformed(self, place: Array, kernel: Array) -> Array:
+        vector: Array = self._trend[0] + place @ self._trend[1:] + kernel @ self._weights
+        return vector if self._unit is None else np.clip(vector, -_LARGEST, _LARGEST)
+
+    def _restored(self, vector: Array) -> Array:
+        if self._unit is None:
+            return vector
+        restored: Array = self._base + self._unit * np.sinh(vector)
+        return restored
+
+    def _rates(self, vector: Array) -> Array | None:
+        """Return the derivatives of the coordinates by the transformed ones."""
+        return None if self._unit is None else self._unit * np.cosh(vector)
+
+
+class _Contrasts:
+    """What is left of coordinates when a trend is taken out: their restricted likelihood.
+
+    Parameters
+    ----------
+    kernel : ndarray, shape (n, n)
+    trend : ndarray, shape (n, columns)
+    """
+
+    def __init__(self, kernel: Array, trend: Array) -> None:
+        count, columns = trend.shape
+        self._free = count - columns
+        if self._free >= _FEWEST:
+            contrasts = np.linalg.qr(trend, mode="complete")[0][:, columns:]
+            variances, axes = np.linalg.eigh(contrasts.T @ kernel @ contrasts)
+            self._seen = (contrasts @ axes).T
+            self._sums = np.maximum(variances, 0.0) + _NUGGETS[:, np.newaxis]
+
+    def nugget(self, vectors: Array) -> tuple[float, float, float]:
+        """Return the nugget by REML, the noise's deviation, and the logarithm of the likelihood.
+
+        The deviation is 0 of the smallest nugget; the logarithm is infinite where the runs are too
+        few for any.
+        """
+        smallest = float(_NUGGETS[0])
+        if self._free < _FEWEST:
+            return smallest, 0.0, np.inf
+        seen = self._seen @ vectors
+        squares = np.add.reduce(seen * seen, axis=1)
+        count = self._free * vectors.shape[1]
+        scale = (squares / self._sums).sum(axis=1) / count
+        if not scale.all():
+            return smallest, 0.0, np.inf
+        likelihoods = -0.5 * (
+            vectors.shape[1] * np.log(self._sums).sum(axis=1) + count * np.log(scale)
+        )
+        best = int(np.argmax(likelihoods))
+        if likelihoods[best] - likelihoods[0] < _EVIDENCE * vectors.shape[1]:
+            best = 0
+        nugget = float(_NUGGETS[best])
+        deviation = math.sqrt(nugget * float(scale[best])) if best > 0 else 0.0
+        return nugget, deviation, float(likelihoods[best])
 
 
 def _lengths(vectors: Array) -> Array:
@@ -130,9 +206,9 @@ def _lengths(vectors: Array) -> Array:
     return lengths
 
 
-def _kernel(distance: Array, length: float) -> tuple[Array, Array]:
+def _kernel(distance: Array) -> tuple[Array, Array]:
     """Return the kernel at distances, and its derivative divided by the distance."""
-    scaled = _ROOT / length * distance
+    scaled = _ROOT / _LENGTH * distance
     decay = np.exp(-scaled)
     linear = 1.0 + scaled
-    return (linear + scaled * scaled / 3.0) * decay, -5.0 / (3.0 * length**2) * linear * decay
+    return (linear + scaled * scaled / 3.0) * decay, -5.0 / (3.0 * _LENGTH**2) * linear * decay

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Protocol, TypeAlias
 
 import numpy as np
@@ -38,7 +39,8 @@ class Responses:
         self._first = tuple(simulations)
         self.shapes = [curve.shape for curve in simulations]
         self._extents = [np.ptp(curve, axis=0) for curve in simulations]
-        self._ends = np.cumsum([curve.size for curve in simulations])[:-1]
+        ends = np.cumsum([0, *(curve.size for curve in simulations)]).tolist()
+        self._parts = [slice(*pair) for pair in pairwise(ends)]
         self._warned = False
 
     def vector(self, simulations: Sequence[Array]) -> Array:
@@ -61,8 +63,8 @@ class Responses:
 
     def curves(self, vector: Array) -> list[Array]:
         """Return the curves that a vector stands for."""
-        parts = np.split(vector, self._ends)
-        return [part.reshape(shape) for part, shape in zip(parts, self.shapes, strict=True)]
+        pairs = zip(self._parts, self.shapes, strict=True)
+        return [vector[part].reshape(shape) for part, shape in pairs]
 
     def thinned_rows(self, most: int) -> list[Rows] | None:
         """Return which points of each curve stand for it, or None where all have to.
@@ -116,8 +118,13 @@ def resampled(curve: Array, count: int, extent: Array) -> Array:
 class Surface(Protocol):
     """Curves, each as one vector, as a function of a point of the unit cube."""
 
+    noise: float  # of the model, one standard deviation, in sides of the box
+
     def at(self, point: Array) -> Array:
-        """Return the response at a point, shape (coordinates,)."""
+        """Return the response at a point, shape (coordinates,), or at several, one a row."""
+
+    def with_slopes(self, point: Array) -> tuple[Array, Array]:
+        """Return it, and its derivatives, shape (coordinates, k)."""
 
     def with_chain_rule(self, point: Array) -> tuple[Array, ChainRule]:
         """Return it, and what turns a gradient by the coordinates into one by the point."""
@@ -139,13 +146,19 @@ class Surfaces:
         Its derivatives.
     """
 
+    noise = 0.0
+
     def __init__(self, centre: Array, base: Array, slopes: Array) -> None:
         self.centre, self.base, self.slopes = centre, base, slopes
 
     def at(self, point: Array) -> Array:
-        """Return the response at a point."""
-        response: Array = self.base + self.slopes @ (point - self.centre)
+        """Return the response at a point, or at several."""
+        response: Array = self.base + (point - self.centre) @ self.slopes.T
         return response
+
+    def with_slopes(self, point: Array) -> tuple[Array, Array]:
+        """Return it, and its derivatives."""
+        return self.at(point), self.slopes
 
     def with_chain_rule(self, point: Array) -> tuple[Array, ChainRule]:
         """Return it, and what turns a gradient by the coordinates into one by the point."""

@@ -1,4 +1,4 @@
-"""The smallest sum of squares in a box: of linear residuals exactly, of others step by step.
+"""Sums of squares: what a search on a surrogate of the residuals asks, and their minimum in a box.
 
 A bounded linear least squares problem in a handful of unknowns is solved by an active set: a
 coordinate that meets its bound is held there, and let go again where the gradient points inwards.
@@ -13,13 +13,17 @@ A. Björck, "Numerical methods for least squares problems", SIAM (1996), section
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import ClassVar, TypeAlias
 
 import numpy as np
 
 from ...curves.inputs import Array
+from ..objective.objective import Objective
+from ..records.evaluation import Evaluation
+from .robust_losses import Bend
+from .surfaces import Surface
 
-__all__ = ["ResidualsAndSlopes", "linear_minimum", "squares_minimum"]
+__all__ = ["ResidualsAndSlopes", "SumOfSquares", "linear_minimum", "squares_minimum"]
 
 ResidualsAndSlopes: TypeAlias = Callable[[Array], tuple[Array, Array]]
 """Residuals at a point, shape (m,), and their derivatives, shape (m, k)."""
@@ -29,6 +33,71 @@ _ROUNDING = 1e-12  # of the gradient at the start, and of the mean of the diagon
 _STEPS = 12  # of Gauss and Newton
 _POOR, _GOOD = 0.1, 0.7  # of what linear residuals promise: cut back below, go further above
 _SMALL = 1e-4  # gains smaller than this fraction of the sum, and smaller steps, end it
+# Of what is negligible elsewhere: near a perfect fit squares are smaller than distances.
+_OF_SQUARES = 1e-3
+
+
+class SumOfSquares:
+    """Sums of squares of residuals, as `inner_search.InnerSearch` has it.
+
+    Parameters
+    ----------
+    objective : Objective
+        Of the tests.
+    bend : callable, optional
+        Of a robust sum.
+    """
+
+    is_smooth: ClassVar[bool] = True
+    sides = None
+
+    def __init__(self, objective: Objective, bend: Bend | None) -> None:
+        self._objective, self._bend = objective, bend
+
+    @property
+    def negligible(self) -> float:
+        """Differences of the sum below this do not count; curve_length is the root of one."""
+        if not self._objective.is_least_squares:
+            return self._objective.negligible**2
+        return _OF_SQUARES * self._objective.negligible
+
+    def taken(self, run: Evaluation) -> tuple[Array, float]:
+        """Return the residuals of a run, and what is minimised."""
+        residuals = self._objective.residuals(run.simulations)
+        return residuals, float(self._sums(residuals))
+
+    def slopes(self, run: Evaluation, by_curve: list[Array]) -> Array:
+        """Residuals are differentiated along the slopes of the curves, which takes no runs."""
+        return self._objective.residual_slopes(run.simulations, by_curve)
+
+    def values(self, surface: Surface, points: Array) -> Array:
+        """Return the sums of predicted residuals."""
+        return self._sums(surface.at(points))
+
+    estimates = values
+
+    def lowest(self, surface: Surface, start: Array, low: Array, high: Array) -> Array:
+        """Return where the sum is smallest in a box."""
+        return squares_minimum(self._bent(surface.with_slopes), start, low, high)[0]
+
+    def _sums(self, residuals: Array) -> Array:
+        if self._bend is not None:
+            residuals, _ = self._bend(residuals)
+        sums: Array = np.add.reduce(residuals * residuals, axis=-1)
+        return sums
+
+    def _bent(self, surface: ResidualsAndSlopes) -> ResidualsAndSlopes:
+        """Return a surface of what is squared and added up."""
+        bend = self._bend
+        if bend is None:
+            return surface
+
+        def bent_surface(point: Array) -> tuple[Array, Array]:
+            plain, slopes = surface(point)
+            bent, derivatives = bend(plain)
+            return bent, derivatives[:, np.newaxis] * slopes
+
+        return bent_surface
 
 
 def linear_minimum(residuals: Array, slopes: Array, low: Array, high: Array) -> Array:

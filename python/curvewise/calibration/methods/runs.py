@@ -1,0 +1,159 @@
+"""The runs of a search, each as one vector: what its surrogates go through.
+
+Starts share them, so that one that comes to where another has been takes few runs of its own. Cost:
+O(n k) for the nearest of n runs in k parameters.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...curves.inputs import Array
+from ...curves.thinning import Rows
+from ..problem.ledger import Ledger
+from ..records.evaluation import Evaluation
+from ..surfaces.inner_search import InnerSearch
+from ..surfaces.kriged_surface import KrigedSurface
+from ..surfaces.surfaces import Surface, Surfaces
+
+__all__ = ["Noise", "Runs"]
+
+_NEAREST = 30  # runs that make a surrogate, at most; 3 k + 3 where that is more
+# Directions around a point are known if in each of them the runs within _AROUND times a reach are
+# spread by this much, in squares of the reach.
+_AROUND, _SPREAD = 3.0, 0.3
+_NOISY = 1e-3  # of the box: less noise is none
+
+
+class Noise(NamedTuple):
+    """The model's own noise, one standard deviation.
+
+    Attributes
+    ----------
+    of_curves : float
+        Of a coordinate, in sides of the test's box; 0 where the runs show none.
+    of_value : float
+        Of what is minimised.
+    """
+
+    of_curves: float
+    of_value: float
+
+
+class Runs:
+    """Runs that have succeeded: where they are, their vectors and values.
+
+    Parameters
+    ----------
+    ledger : Ledger
+        Whose earlier runs are the first.
+    inner : InnerSearch
+        What is minimised.
+
+    Attributes
+    ----------
+    points : ndarray, shape (n, k)
+        In the unit cube.
+    values : list of float
+        What is minimised.
+    has_slopes : bool
+        Whether the model knows the derivatives of its curves.
+    """
+
+    def __init__(self, ledger: Ledger, inner: InnerSearch) -> None:
+        self._ledger, self.inner = ledger, inner
+        self.has_slopes = ledger.has_slopes
+        self._rows: dict[tuple[float, ...], int] = {}
+        self.points = np.empty((0, ledger.dimensions))
+        self.values: list[float] = []
+        self._vectors: list[Array] = []
+        self._evaluations: list[Evaluation] = []
+        self._slopes: dict[int, Array | None] = {}
+        for point, run in ledger.earlier_runs:
+            self.add(point, run)
+
+    @property
+    def best(self) -> int:
+        """The number of the run with the smallest value."""
+        return int(np.argmin(self.values))
+
+    def number(self, point: Array) -> int | None:
+        """Return the number here of the run at a point; None where there is none."""
+        return self._rows.get(tuple(point))
+
+    def add(self, point: Array, run: Evaluation) -> int | None:
+        """Take a run in; return its number here, or None of one that has failed."""
+        if run.failed:
+            return None
+        place = tuple(point)
+        if place not in self._rows:
+            self._rows[place] = len(self.values)
+            vector, value = self.inner.taken(run)
+            self.points = np.vstack((self.points, point))
+            self._vectors.append(vector)
+            self.values.append(value)
+            self._evaluations.append(run)
+        return self._rows[place]
+
+    def _slopes_of(self, number: int) -> Array | None:
+        """Return the derivatives of a run's vector where the model knows those of its curves."""
+        if self.has_slopes and number not in self._slopes:
+            by_curve = self._ledger.slopes(self.points[number])
+            run = self._evaluations[number]
+            known = None if by_curve is None else self.inner.slopes(run, by_curve)
+            self.has_slopes &= known is not None
+            self._slopes[number] = known
+        return self._slopes.get(number)
+
+    def least_known(self, centre: Array, reach: float) -> list[Array]:
+        """Return the directions in which the runs around a point are spread too little, if any.
+
+        As unit vectors, that in which they are spread least first.
+        """
+        offsets = (self.points - centre) / reach
+        offsets = offsets[np.abs(offsets).max(axis=1) <= _AROUND]
+        spread, directions = np.linalg.eigh(offsets.T @ offsets)
+        return list(directions.T[spread < _SPREAD])
+
+    def surrogate(self, number: int, within: float) -> Surface:
+        """Return the plane of a run's derivatives, or the surface through the runs around it.
+
+        Through the 2 k + 1 nearest, and through more as long as they are within a distance.
+        """
+        slopes = self._slopes_of(number)
+        if slopes is not None:
+            return Surfaces(self.points[number], self._vectors[number], slopes)
+        return self.surface(number, within)
+
+    def surface(self, number: int, within: float) -> KrigedSurface:
+        """Return the surface through the runs around one."""
+        distances = np.abs(self.points - self.points[number]).max(axis=1)
+        k = self._ledger.dimensions
+        near = np.argsort(distances, kind="stable")[: max(_NEAREST, 3 * k + 3)]
+        return self._through(number, near[: max(2 * k + 1, int(np.sum(distances[near] <= within)))])
+
+    def surface_through_best(self, most: int) -> KrigedSurface:
+        """Return the surface through so many of the best runs, about the best."""
+        chosen = np.argsort(self.values, kind="stable")[:most]
+        return self._through(int(chosen[0]), chosen)
+
+    def noise(self, number: int, reach: float) -> Noise:
+        """Return the model's own noise around a run, by the runs within a few reaches."""
+        surface = self.surface(number, _AROUND * reach)
+        if surface.noise <= _NOISY:
+            return Noise(0.0, 0.0)
+        is_near = np.abs(self.points - self.points[number]).max(axis=1) <= _AROUND * reach
+        smoothed = self.inner.values(surface, self.points[is_near])
+        return Noise(surface.noise, float(np.std(np.array(self.values)[is_near] - smoothed)))
+
+    def values_near(self, number: int, most: int) -> tuple[Array, Array]:
+        """Return the points and values of so many runs, those nearest to one."""
+        distances = np.abs(self.points - self.points[number]).max(axis=1)
+        near = np.argsort(distances, kind="stable")[:most]
+        return self.points[near], np.array(self.values)[near]
+
+    def _through(self, number: int, chosen: Rows) -> KrigedSurface:
+        vectors = np.array([self._vectors[i] for i in chosen])
+        return KrigedSurface(self.points[chosen], vectors, self.points[number], self.inner.sides)
