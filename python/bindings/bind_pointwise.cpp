@@ -1,6 +1,7 @@
-// Measures of curves of equal shape, and the scaling by P's box.
+// Measures without options, and the scaling by P's box.
 #include "bind_topics.hpp"
 #include "curvewise/pointwise.hpp"
+#include "curvewise/symmetric_difference.hpp"
 #include "interruptible.hpp"
 #include "numpy_view.hpp"
 
@@ -24,6 +25,7 @@ void bind_pointwise(py::module_& module) {
     bind("sum_of_squares", sum_of_squares);
     bind("mse", mse);
     bind("mae", mae);
+    bind("symmetric_difference", symmetric_difference);
     module.def("normalize", [](const CurveArray& P, const CurveArray& C, const char* name) {
         py::array_t<double> out(std::vector<py::ssize_t>(C.shape(), C.shape() + C.ndim()));
         const CurveView p = view(P), c = view(C);

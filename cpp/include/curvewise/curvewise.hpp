@@ -17,4 +17,5 @@
 #include "curvewise/pointwise.hpp"
 #include "curvewise/soft_dtw.hpp"
 #include "curvewise/subsequence.hpp"
+#include "curvewise/symmetric_difference.hpp"
 #include "curvewise/version.hpp"

@@ -27,6 +27,7 @@ from .pcm import pcm, pcm_match
 from .pointwise import mae, mse, normalize, sum_of_squares
 from .soft_dtw import soft_dtw, soft_dtw_divergence
 from .step_pattern import StepPattern
+from .symmetric_difference import symmetric_difference
 
 __all__ = [
     *edit_distances.__all__,
@@ -57,6 +58,7 @@ __all__ = [
     "soft_dtw",
     "soft_dtw_divergence",
     "sum_of_squares",
+    "symmetric_difference",
     "value_and_gradient",
     "values_and_gradients",
 ]
