@@ -16,6 +16,7 @@ from . import _environment as _environment  # looks before the compiled module i
 from . import curves, datasets, measures
 from ._core import build_info as _build_info
 from .comparing.comparison import Comparison, compare
+from .comparing.tube import tube
 from .curves.layouts import LayoutWarning
 from .files.curve_files import read_curve
 from .many.averages import dtw_mean, medoid, soft_dtw_mean
@@ -63,6 +64,7 @@ __all__ = [
     "reference",
     "soft_dtw_mean",
     "subsequence",
+    "tube",
 ]
 
 _LAZY = (

@@ -1,9 +1,9 @@
 """The command line: a parser made of the commands, and what becomes of their errors.
 
-Exit status: 0; 1 for data that cannot be compared, a file that cannot be read or written, and a
-failed self-check, with one line on standard error; 2 for wrong usage; 130 after Ctrl-C and 141
-after a closed pipe, quietly. What only some commands need (matplotlib first of all) is imported
-by them, so that the others start fast and run without it.
+Exit status: 0; 1 for data that cannot be compared, a file that cannot be read or written, curves
+outside their limits, and a failed self-check, with one line on standard error; 2 for wrong usage;
+130 after Ctrl-C and 141 after a closed pipe, quietly. What only some commands need (matplotlib
+first of all) is imported by them, so that the others start fast and run without it.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="curvewise",
         description="How alike two curves are: area, partial curve mapping, Fréchet, DTW and "
         "curve length.",
-        epilog="Exit status: 0, 1 (bad data or files), 2 (usage).",
+        epilog="Exit status: 0, 1 (bad data or files, outside limits), 2 (usage).",
     )
     parser.add_argument(
         "--version", action="version", version=f"%(prog)s {build_info()['version']}"

@@ -13,8 +13,10 @@ from typing import Any, get_args
 
 from .._options import Crossing, Preset, Spacing, Window
 from ..comparing.comparison import Comparison, compare
+from ..curves.common_span import common_span
 from ..measures import curve_length_residuals, normalize
 from ..measures.registry import MEASURES, PRESETS
+from .passing import add_limits, checked, measures_with_limits
 from .reading import add_for_two, read_file, said_of_two, warnings_printed
 from .shown import print_table, require_matplotlib, write_picture
 
@@ -55,6 +57,7 @@ def add_compare(commands: Any) -> None:
         metavar="R",
         help="of dtw: how many points the path may leave the diagonal, or which fraction of them",
     )
+    add_limits(command)
     command.add_argument("--json", action="store_true", help="print one JSON object")
     command.add_argument("--plot", metavar="FILE", help="write a picture, e.g. out.png or out.pdf")
     command.add_argument(
@@ -89,15 +92,19 @@ def _compare(arguments: argparse.Namespace) -> int:
     factors = [one.numbers() for one in said]
     with warnings_printed():
         curves, names = zip(*map(read_file, files, said), strict=True)
+    measures = measures_with_limits(arguments)
     options: dict[str, dict[str, Any]] = {}
     for measure, option in (("area", "spacing"), ("area", "crossing"), ("dtw", "window")):
         if (value := getattr(arguments, option)) is not None:
             options.setdefault(measure, {})[option] = value
     try:
         with warnings_printed():
+            if arguments.common_span:
+                curves = common_span(*curves)
             comparison = compare(
-                *curves, preset=arguments.preset, measures=arguments.measures, options=options
+                *curves, preset=arguments.preset, measures=measures, options=options
             )
+        outcome = checked(arguments, comparison)
     except ValueError as error:
         raise ValueError(f"{error} (P is {files[0]}, Q is {files[1]})") from error
     if arguments.output:
@@ -107,19 +114,20 @@ def _compare(arguments: argparse.Namespace) -> int:
         Path(arguments.output).write_text(lines, encoding="ascii")
     if arguments.json:
         read = {"files": files, "columns": names, "factors": factors}
-        print(json.dumps(read | _in_json(comparison), indent=2))
+        print(json.dumps(read | _in_json(comparison) | outcome.in_json(), indent=2))
     else:
         print_table(
             comparison, files, [_columns_in_words(*one) for one in zip(names, factors, strict=True)]
         )
+        outcome.print_text()
     if arguments.plot:
         write_picture(comparison, arguments.plot)
         if not arguments.json:
             print(f"\npicture: {arguments.plot}")
-    missing = _refusals(comparison, files) if arguments.measures else []
+    missing = _refusals(comparison, files) if measures else []
     for words in missing:
         print(f"curvewise: {words}", file=sys.stderr)
-    return 1 if missing else 0
+    return max(outcome.status(files[1]), 1 if missing else 0)
 
 
 def _refusals(comparison: Comparison, files: list[str]) -> list[str]:

@@ -22,6 +22,7 @@ from ..measures import normalize
 from ..measures.registry import MEASURES, PRESETS, Condition, MeasureInfo, default_measures
 from ..showing.result import Result, Table
 from .deviations import Deviations, cells, deviation
+from .limits import Verdict, check_limits
 from .units import other_units
 
 if TYPE_CHECKING:
@@ -113,6 +114,41 @@ class Comparison(Result):
     def to_dict(self) -> dict[str, float]:
         """Return the values by name, as a new dict of Python floats; nan where there is none."""
         return dict(self.values)
+
+    def within(self, limits: Mapping[str, float | str]) -> Verdict:
+        """Check the measures against limits, for a test that passes or fails.
+
+        Parameters
+        ----------
+        limits : mapping of str to float or str
+            The largest value of each measure, or a percentage of P's height such as "2%": of the
+            mean deviation for area, pcm and dtw, of the largest for the Fréchet distances.
+
+        Returns
+        -------
+        Verdict
+            True if no measure is above its limit. It prints each measure with its limit and, if it
+            is above, where the deviation is largest. A measure without a value is not within.
+
+        Raises
+        ------
+        ValueError
+            If a measure is not among the values, a limit is not a number from 0, or a percentage is
+            given for a measure without a deviation.
+
+        Notes
+        -----
+        The time of :attr:`deviations` for percentages and for measures above their limits.
+
+        Examples
+        --------
+        >>> import curvewise
+        >>> compared = curvewise.compare(*curvewise.datasets.hysteresis_pair())
+        >>> compared.within({"area": "5%", "frechet": 0.08})
+        area 3.996 %, within its limit 5 %
+        frechet 0.07264, within its limit 0.08
+        """
+        return check_limits(limits, self.values, self.conditions, self.P, self.Q)
 
     def plot(self, *, names: Sequence[str] | None = None) -> Picture:
         """Return a matplotlib Figure of the curves and of what each measure saw.

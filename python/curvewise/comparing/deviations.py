@@ -8,19 +8,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from .._options import Crossing
 from ..curves.arc_length import points_at
-from ..curves.inputs import Array
+from ..curves.inputs import Array, in_columns
+from ..curves.scaling import box
 from ..curves.travel import travel
 from ..measures import area, area_quads, frechet_continuous_path, normalize, pcm_match
 from ..measures.registry import MEASURES, Condition
 from ..showing.result import Table, Tabular
 
-__all__ = ["Deviation", "Deviations", "cells", "deviation"]
+__all__ = ["Deviation", "Deviations", "cells", "deviation", "largest_places"]
+
+# Mean and largest distance, and the points of P and Q that are farthest apart, if there are any.
+_Distances: TypeAlias = tuple[float, float, tuple[Array, Array] | None]
 
 
 class Deviation(NamedTuple):
@@ -126,40 +130,67 @@ def deviation(
     """
     if (distances := _DISTANCES.get(measure)) is None:
         return None
-    is_scaled = condition.scaled or MEASURES[measure].scales_itself
+    is_scaled = _is_scaled(measure, condition)
     compared = normalize(P, Q) if is_scaled else [P, Q]
     if part == "simulation":
         compared.reverse()
     with np.errstate(over="ignore", invalid="ignore"):  # beyond the range of a double: inf
         height = float(np.ptp(P[:, -1] if P.ndim == 2 else P))
-        mean, largest = distances(measure, condition.options, *compared)
+        mean, largest, _ = distances(measure, condition.options, *compared)
         unit = height if is_scaled and height > 0 else 1.0
         if not mean <= largest:  # rounded, of equal distances; or lengths beyond a double
             mean = largest
         return Deviation(mean * unit, largest * unit, height)
 
 
-def _along_path(
-    measure: str, options: Mapping[str, Any], P: Array, Q: Array
-) -> tuple[float, float]:
+def largest_places(
+    measure: str, condition: Condition, P: Array, Q: Array
+) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
+    """Return the points of P and of Q with the largest deviation; None if a measure pairs none.
+
+    Parameters
+    ----------
+    measure, condition, P, Q
+        As for :func:`deviation`. Cost and errors are those of :func:`deviation`.
+    """
+    if (distances := _DISTANCES.get(measure)) is None:
+        return None
+    is_scaled = _is_scaled(measure, condition)
+    *_, ends = distances(measure, condition.options, *(normalize(P, Q) if is_scaled else (P, Q)))
+    if ends is None:
+        return None
+    low, extent = box(in_columns(P)) if is_scaled else (np.zeros(1), np.ones(1))
+    places = (low + np.atleast_1d(end) * extent for end in ends)
+    # A coordinate that is a rounding error of the scaling is 0.
+    least = 1e-14 * extent if is_scaled else 0.0
+    in_p, in_q = (tuple(np.where(abs(one) < least, 0.0, one).tolist()) for one in places)
+    return in_p, in_q
+
+
+def _is_scaled(measure: str, condition: Condition) -> bool:
+    return condition.scaled or MEASURES[measure].scales_itself
+
+
+def _along_path(measure: str, options: Mapping[str, Any], P: Array, Q: Array) -> _Distances:
     warping = MEASURES[measure].warping
     assert warping is not None
     of_path = {key: value for key, value in options.items() if key not in ("normalize", "cutoff")}
     i, j = warping.path(P, Q, **of_path).path.T
     if len(i) == 0:  # the steps admit no path
-        return math.inf, math.inf
+        return math.inf, math.inf, None
     between = np.abs(P[i] - Q[j]).reshape(len(i), -1)
     distances = np.hypot.reduce(between, axis=1)  # whose squares do not overflow
-    return float(distances.mean()), float(distances.max())
+    worst = int(distances.argmax())
+    return float(distances.mean()), float(distances[worst]), (P[i[worst]], Q[j[worst]])
 
 
-def _along_matching(
-    measure: str, options: Mapping[str, Any], P: Array, Q: Array
-) -> tuple[float, float]:
+def _along_matching(measure: str, options: Mapping[str, Any], P: Array, Q: Array) -> _Distances:
     match = frechet_continuous_path(P, Q)  # whose options, workers and bounds, do not change it
     ends = [points_at(curve, at) for curve, at in zip((P, Q), match.parameters.T, strict=True)]
     leashes = np.hypot.reduce(np.abs(ends[0] - ends[1]), axis=1)
-    return _mean_leash(leashes, *(np.diff(end, axis=0) for end in ends)), match.distance
+    worst = int(leashes.argmax())
+    mean = _mean_leash(leashes, *(np.diff(end, axis=0) for end in ends))
+    return mean, match.distance, (ends[0][worst], ends[1][worst])
 
 
 def _mean_leash(leashes: Array, *edges: Array) -> float:
@@ -170,32 +201,34 @@ def _mean_leash(leashes: Array, *edges: Array) -> float:
     return float(np.average((leashes[:-1] + leashes[1:]) / 2, weights=walked))
 
 
-def _between_facing(
-    measure: str, options: Mapping[str, Any], P: Array, Q: Array
-) -> tuple[float, float]:
+def _between_facing(measure: str, options: Mapping[str, Any], P: Array, Q: Array) -> _Distances:
     plain = {key: value for key, value in options.items() if key != "squared"}
     # A quadrilateral that was rearranged has lost the order in which vertices face each other.
     in_order: dict[str, Crossing] = {"crossing": "split"}
     quads, _ = area_quads(P, Q, **{**plain, **in_order})
     A, B = (np.concatenate([quads[:, k], quads[-1:, m]]) for k, m in ((0, 1), (3, 2)))
     leashes = np.hypot(*(A - B).T)
+    worst = int(leashes.argmax())
     is_of_x = options.get("spacing") == "function"  # over the x that both curves span
-    length, largest = travel(A[:, 0] if is_of_x else P[:, 0]), float(leashes.max())
+    length, largest = travel(A[:, 0] if is_of_x else P[:, 0]), float(leashes[worst])
     mean = area(P, Q, **plain) / length if length > 0 else math.inf
     if not mean <= largest:
         mean = _mean_leash(leashes, np.diff(A, axis=0), np.diff(B, axis=0))
-    return mean, largest
+    return mean, largest, (A[worst], B[worst])
 
 
-def _of_mapped(measure: str, options: Mapping[str, Any], P: Array, Q: Array) -> tuple[float, float]:
+def _of_mapped(measure: str, options: Mapping[str, Any], P: Array, Q: Array) -> _Distances:
     match = pcm_match(P, Q, **options)
     mapped = P if match.mapped == "P" else Q
     length = float(np.hypot(*np.diff(mapped, axis=0).T).sum())
-    largest = float(np.hypot(*(mapped - match.points).T).max())
-    return match.value / length if length > 0 else math.inf, largest
+    distances = np.hypot(*(mapped - match.points).T)
+    worst = int(distances.argmax())
+    ends = mapped[worst], match.points[worst]
+    mean = match.value / length if length > 0 else math.inf
+    return mean, float(distances[worst]), ends if match.mapped == "P" else ends[::-1]
 
 
-_DISTANCES: Mapping[str, Callable[..., tuple[float, float]]] = {
+_DISTANCES: Mapping[str, Callable[..., _Distances]] = {
     "area": _between_facing,
     "pcm": _of_mapped,
     "frechet": _along_path,

@@ -9,6 +9,7 @@ docs/hysteresis_loops.md show them on tests.
 from __future__ import annotations
 
 from .backbone import backbone
+from .common_span import common_span
 from .cycles import loop_energy, loops, peaks_and_valleys
 from .resampling import resample, trim
 from .reversals import reversals
@@ -20,6 +21,7 @@ from .z_normalization import z_normalized
 
 __all__ = [
     "backbone",
+    "common_span",
     "damping",
     "engineering_to_true",
     "last_cycle",
