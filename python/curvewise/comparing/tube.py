@@ -127,8 +127,8 @@ def tube(P: CurveLike, Q: CurveLike, dx: float, dy: float) -> Tube:
     >>> P, Q = [(0, 0), (1, 1), (2, 0)], [(0, 0), (1.1, 1), (2, 0.3)]
     >>> bool(curvewise.tube(P, Q, 0.2, 0.3))
     True
-    >>> print(curvewise.tube(P, Q, 0.05, 0.05))
-    points outside the tube of ±0.05, ±0.05: 1 of Q, 1 of P; first at (2, 0.3), largest ...
+    >>> curvewise.tube(P, Q, 0.05, 0.05).first  # the point of Q that is outside
+    (2.0, 0.3)
     """
     reference, other = as_curves(P, Q)
     if reference.ndim != 2 or reference.shape[1] != 2:
