@@ -74,11 +74,11 @@ def test_bilinear_damping_is_that_of_atc_40(ductility, hardening, points):
         assert math.isnan(back[1])  # the record ends with the valley
 
 
-def test_perfectly_plastic_damping_has_the_printed_values():
-    # 2 (1 - 1 / mu) / pi in per cent, as every table of ATC-40's formula has it.
-    for ductility, printed in ((2.0, 31.8), (4.0, 47.7), (6.0, 53.1)):
+def test_perfectly_plastic_damping_by_the_formula_of_atc_40():
+    # 2 (1 - 1 / mu) / pi in per cent, to three digits.
+    for ductility, expected in ((2.0, 31.8), (4.0, 47.7), (6.0, 53.1)):
         record = bilinear(driven([0, ductility, -ductility, ductility], 480), 1.0, 1.0, 0.0)
-        assert 100.0 * damping(record)[0] == pytest.approx(printed, abs=0.05)
+        assert 100.0 * damping(record)[0] == pytest.approx(expected, abs=0.05)
 
 
 @pytest.mark.parametrize("stress", [300.0, 500.0])
