@@ -170,7 +170,7 @@ class Descent:
         elif ratio >= _GOOD:
             self._failed = max(0, self._failed - 1)
         if self._failed == _MISLED and not self._by_value and not self._runs.has_slopes:
-            self._by_value = True
+            self._by_value = self._runs.is_misled = True
             return self._rules.first_radius / 2.0
         if ratio >= _GOOD:
             return min(1.0, max(radius, 2.0 * length))
@@ -212,6 +212,8 @@ class Descent:
     def _is_behind(self, promised: float) -> bool:
         """Return whether the best run of all starts is too far ahead for what is promised."""
         above = self.value - min(self._runs.values)
+        if self._runs.is_misled:
+            return False
         is_far = self._rules.is_abandoned and above > _CLOSE * (self.value - above) + self._nothing
         return is_far and max(promised, 0.0) < _LEFT_BEHIND * above
 

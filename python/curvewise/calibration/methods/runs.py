@@ -65,6 +65,7 @@ class Runs:
     def __init__(self, ledger: Ledger, inner: InnerSearch) -> None:
         self._ledger, self.inner = ledger, inner
         self.has_slopes = ledger.has_slopes
+        self.is_misled = False
         self._rows: dict[tuple[float, ...], int] = {}
         self.points = np.empty((0, ledger.dimensions))
         self.values: list[float] = []
