@@ -265,7 +265,9 @@ class Descent:
         if self._runs.has_slopes and self._runs.inner.is_smooth:
             return False
         assert self._best is not None
-        before = self.value
+        before, centre = self.value, self.centre
+        if self._runs.is_exhausted(centre):
+            return False
         for reach in _REACHES:
             for _ in range(_TRIES):
                 if self.value > (1.0 + _CLOSE) * min(self._runs.values):
@@ -277,6 +279,7 @@ class Descent:
                 self._sides = self._drawn_sides()
                 if before - self.value > least:
                     return True
+        self._runs.exhausted.append(centre)
         return False
 
     def _end(self, radius: float, promised: float, least: float) -> Finish:

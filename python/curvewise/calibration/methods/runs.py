@@ -24,6 +24,7 @@ _NEAREST = 30  # runs that make a surrogate, at most; 3 k + 3 where that is more
 # Directions around a point are known if in each of them the runs within _AROUND times a reach are
 # spread by this much, in squares of the reach.
 _AROUND, _SPREAD = 3.0, 0.3
+_BESIDE = 0.01  # places that are nearer to each other, along each axis, have the same hops
 _NOISY = 1e-3  # of the box: less noise is none
 
 
@@ -60,12 +61,17 @@ class Runs:
         What is minimised.
     has_slopes : bool
         Whether the model knows the derivatives of its curves.
+    is_misled : bool
+        Whether a start has gone on by the value alone.
+    exhausted : list of ndarray, shape (k,)
+        Where the global stage has found nothing.
     """
 
     def __init__(self, ledger: Ledger, inner: InnerSearch) -> None:
         self._ledger, self.inner = ledger, inner
         self.has_slopes = ledger.has_slopes
         self.is_misled = False
+        self.exhausted: list[Array] = []
         self._rows: dict[tuple[float, ...], int] = {}
         self.points = np.empty((0, ledger.dimensions))
         self.values: list[float] = []
@@ -107,6 +113,10 @@ class Runs:
             self.has_slopes &= known is not None
             self._slopes[number] = known
         return self._slopes.get(number)
+
+    def is_exhausted(self, point: Array) -> bool:
+        """Return whether hops from beside a point have found nothing before."""
+        return any(np.abs(point - place).max() <= _BESIDE for place in self.exhausted)
 
     def least_known(self, centre: Array, reach: float) -> list[Array]:
         """Return the directions in which the runs around a point are spread too little, if any.
