@@ -31,7 +31,7 @@ __all__ = ["CurveSearch", "InnerSearch"]
 # Of thinned curves; those of up to half as many again are taken as they are. The minimum of thinned
 # curves is that of all points to some 1e-3 of the value: for less they have more points.
 _MOST_POINTS, _MORE_POINTS, _LESS = 400, 1600, 1e-3
-_EVALUATIONS, _POLISHING = 120, 8  # and those after thinned curves
+_EVALUATIONS, _POLISHING = 60, 8  # and those after thinned curves
 
 
 class InnerSearch(Protocol):
