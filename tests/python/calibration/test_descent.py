@@ -37,6 +37,7 @@ class Scripted(Descent):
         runs: Any = SimpleNamespace(
             inner=inner,
             has_slopes=False,
+            is_misled=False,
             values=[10.0],
             points=np.zeros((1, 2)),
             noise=lambda number, reach: Noise(0.0, 0.0),

@@ -38,7 +38,7 @@ def found():
 
 def test_the_trust_region_needs_no_runs_for_slopes(found) -> None:
     for name, value in MADE_OF.items():
-        assert found.parameters[name] == pytest.approx(value, rel=2e-3), name
+        assert found.parameters[name] == pytest.approx(value, rel=5e-3), name
     blind = identify(
         WithoutSlopes(MODEL),
         LOOP,

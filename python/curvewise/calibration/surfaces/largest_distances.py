@@ -33,7 +33,7 @@ from .surfaces import Surface
 
 __all__ = ["minimised"]
 
-_STEPS_OF = 5  # evaluations with a gradient take the time of a step
+_STEPS_OF = 3  # evaluations with a gradient take the time of a step
 _DECIDING = 0.5  # of the distance: pairs that are nearer to each other are left out
 _SMALL = 1e-4  # of the value: a promise that is less is none
 _POOR, _GOOD = 0.25, 0.7  # of what was promised
