@@ -23,7 +23,7 @@ from .descent import Rules
 from .method import Method, with_other_defaults
 from .multistart import searched
 from .runs import Runs
-from .starts import check_regions
+from .starts import check_regions, starts_that_agree
 
 __all__ = ["LeastSquares"]
 
@@ -40,7 +40,7 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
 
     Parameters
     ----------
-    starts : int, default 3
+    starts : int, optional
         How many starts have to agree, as for :class:`TrustRegion`.
     most_starts : int, default 10
         The most starts.
@@ -80,7 +80,7 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
     LeastSquares(loss='soft_l1', f_scale=0.01)
     """
 
-    starts: int = 3
+    starts: int | None = None
     most_starts: int = 10
     starts_at_once: int | None = None
     initial_range: float | None = None
@@ -105,7 +105,9 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
 
     def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
         """Return the runs of the first simplex, of one step and of the look around at the end."""
-        return (1 if has_start else self.starts) * (2 * parameters + 2)
+        return (1 if has_start else starts_that_agree(self.starts, parameters)) * (
+            2 * parameters + 2
+        )
 
     def near_optimum(self) -> LeastSquares:
         """Return the same with a small first region."""
@@ -127,7 +129,7 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
                 self.rules,
                 start=start,
                 seed=seed,
-                starts=self.starts,
+                starts=starts_that_agree(self.starts, ledger.dimensions),
                 most_starts=self.most_starts,
                 at_once=self.starts_at_once or ledger.starts_at_once,
             )

@@ -10,6 +10,7 @@ input variables in the analysis of output from a computer code", Technometrics 2
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
@@ -29,10 +30,12 @@ __all__ = [
     "nothing_beside",
     "places",
     "simplex_around",
+    "starts_that_agree",
 ]
 
 _QUARTERS = 4
 _DRAWN = (0.1, 0.9)  # where starts are, between the bounds
+_FEWEST = 3  # starts that have to agree
 _ALIKE = 0.01  # ends that are above the best by this fraction at most are alike
 NOISIEST = 0.05  # and by this one where the model's own noise moves values so far
 # And so are those whose difference is negligible, or next to nothing beside what was gained, that
@@ -98,24 +101,34 @@ def are_alike(ends: Sequence[End], negligible: float, among: Sequence[End]) -> i
     """Return how many of some starts have ended as low as the best of all."""
     best = min(ends, key=lambda end: end.value)
     noise = min(2.0 * best.noise, NOISIEST * best.value)
-    most = best.value + max(_ALIKE * best.value, noise) + _nothing(ends, negligible)
+    most = best.value + max(_ALIKE * best.value, noise)
+    most = max(most, _nothing(ends, negligible))
     return sum(end.value <= most for end in among)
 
 
 def is_enough(ends: Sequence[End], negligible: float, starts: int) -> bool:
     """Return whether so many independent starts agree that the best is likely that of all.
 
-    `starts` of them where all agree; where some have ended higher, one more and two thirds of all.
+    `starts` of them where all agree; where some have ended higher, one more and half of all.
     """
     telling = [end for end in ends if end.tells]
     alike = are_alike(ends, negligible, telling)
     if alike == len(telling):
         return alike >= starts
-    return alike > starts and 3 * alike >= 2 * len(telling)
+    return alike > starts and 2 * alike >= len(telling)
+
+
+def starts_that_agree(starts: int | None, parameters: int) -> int:
+    """Return how many starts have to agree: as many as given, else half of the parameters."""
+    return max(_FEWEST, math.ceil(parameters / 2)) if starts is None else starts
 
 
 def check_regions(
-    first_radius: float, diff_step: float, starts: int, most_starts: int, at_once: int | None
+    first_radius: float,
+    diff_step: float,
+    starts: int | None,
+    most_starts: int,
+    at_once: int | None,
 ) -> None:
     """Refuse regions that are no fractions of the bounds, and fewer starts than one."""
     for name, value in (("initial_range", first_radius), ("diff_step", diff_step)):

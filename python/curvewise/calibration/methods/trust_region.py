@@ -24,7 +24,7 @@ from .descent import Rules
 from .method import Method, with_other_defaults
 from .multistart import searched
 from .runs import Runs
-from .starts import check_regions
+from .starts import check_regions, starts_that_agree
 
 __all__ = ["TrustRegion"]
 
@@ -42,9 +42,10 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
 
     Parameters
     ----------
-    starts : int, default 3
+    starts : int, optional
         How many starts have to agree, where no start is given: from the middle of the bounds, and
-        evenly over them. Where some have ended higher, one more has to, and two thirds of all.
+        evenly over them. By default half of the number of parameters, and at least 3. Where some
+        have ended higher, one more has to, and half of all.
     most_starts : int, default 30
         The most starts.
     starts_at_once : int, optional
@@ -80,7 +81,7 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
     TrustRegion(starts=5)
     """
 
-    starts: int = 3
+    starts: int | None = None
     most_starts: int = 30
     starts_at_once: int | None = None
     initial_range: float | None = None
@@ -106,7 +107,9 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
 
     def fewest_runs(self, parameters: int, *, has_start: bool) -> int:
         """Return the runs of the first simplex, of one step and of the directions at the end."""
-        return (1 if has_start else self.starts) * (2 * parameters + 2)
+        return (1 if has_start else starts_that_agree(self.starts, parameters)) * (
+            2 * parameters + 2
+        )
 
     def near_optimum(self) -> TrustRegion:
         """Return the same with a small first region."""
@@ -125,7 +128,7 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
             self.rules,
             start=start,
             seed=seed,
-            starts=self.starts,
+            starts=starts_that_agree(self.starts, ledger.dimensions),
             most_starts=self.most_starts,
             at_once=self.starts_at_once or ledger.starts_at_once,
         )
