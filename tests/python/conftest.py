@@ -1,7 +1,7 @@
 """What the tests share: the golden data, who runs what, and what is said before it begins.
 
 Tests that are marked nightly are left out, unless `-m` names the mark or the command names the test
-("file.py::test"): they take long and seldom find what the others do not (CONTRIBUTING.md lists
+("file.py::test"): they take long and seldom find what the others do not (tests/README.md lists
 them). The mark takes patterns for the ids of cases; without any it is for all of them. Where they
 are left out, the tests of properties have fewer examples, and those of random curves fewer rounds.
 
