@@ -55,7 +55,7 @@ def main() -> None:
     seed = random.randrange(10**6) if options.seed is None else options.seed
     quiet()
     tasks = all_tasks()
-    stored = {store: read(HERE / "optima" / f"{store}.json") for store in tasks}
+    stored = {store: read(HERE / "optima" / f"{store}.json.xz") for store in tasks}
     say_what_is_old(tasks, stored)
     print(f"{options.sample} stored results, drawn with --seed {seed}", flush=True)
     drawn = draw(tasks, stored, options.sample, seed)

@@ -45,7 +45,7 @@ class Run:
 
     def store(self, name: str) -> Path:
         """Return the file where the results of a study are stored, from which all is drawn."""
-        return self.output / "optima" / f"{name}.json"
+        return self.output / "optima" / f"{name}.json.xz"
 
     def section(self, name: str, text: str) -> None:
         """Print a section and put it into results.md, in the place of the one of that name."""

@@ -1,15 +1,17 @@
 """Identifications by the dozen: each in a process of its own, stored, with a progress bar.
 
 The models here take a millisecond, so whole identifications run side by side, not the simulations
-of one. What every stage found is stored as JSON, and tables and pictures are drawn from that: a run
-that was interrupted is started again, and repeats nothing that is stored for the same task and the
-same code (digests.py). What is of another task or other code is stale: it is said, and made anew.
+of one. What every stage found is stored as JSON, compressed (xzcat shows it). Tables and pictures
+are drawn from that: a run that was interrupted is started again, and repeats nothing that is stored
+for the same task and the same code (digests.py). What is of another task or other code is stale: it
+is said, and made anew.
 """
 
 from __future__ import annotations
 
 import json
 import logging
+import lzma
 import warnings
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -48,7 +50,9 @@ def cross_validate_all(
 
 def read(store: Path) -> dict[str, Stored]:
     """Return all that is stored in a file, by the tasks' names; nothing where there is none."""
-    results: dict[str, Stored] = json.loads(store.read_text()) if store.exists() else {}
+    results: dict[str, Stored] = (
+        json.loads(lzma.decompress(store.read_bytes())) if store.exists() else {}
+    )
     return results
 
 
@@ -81,12 +85,12 @@ def _all(tasks: Sequence[Task], store: Path, workers: int) -> dict[str, Stored]:
     stale = {t.name: parts for t in tasks if (parts := stale_parts(t, stored.get(t.name, {})))}
     known = {name: parts for name, parts in stale.items() if name in stored}
     if known:
-        say_stale(store.stem, known, len(tasks))
+        say_stale(store.name.partition(".")[0], known, len(tasks))
     missing = [task for task in tasks if task.name in stale]
     if missing:
         with (
             ProcessPoolExecutor(workers, initializer=quiet) as pool,
-            tqdm(total=len(missing), unit="task", desc=store.stem) as bar,
+            tqdm(total=len(missing), unit="task", desc=store.name) as bar,
         ):
             running = {pool.submit(make, task): task.name for task in missing}
             try:
@@ -105,7 +109,8 @@ def _write(store: Path, stored: Mapping[str, Stored]) -> None:
     lines = (f"{json.dumps(name)}: {json.dumps(stored[name])}" for name in sorted(stored))
     store.parent.mkdir(parents=True, exist_ok=True)
     unfinished = store.with_suffix(".part")
-    unfinished.write_text("{\n" + ",\n".join(lines) + "\n}\n")
+    text = "{\n" + ",\n".join(lines) + "\n}\n"
+    unfinished.write_bytes(lzma.compress(text.encode(), preset=9))
     unfinished.replace(store)
 
 

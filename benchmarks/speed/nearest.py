@@ -12,12 +12,12 @@ small random queries, with many equal distances, on one to three threads.
 from __future__ import annotations
 
 import timing  # before numpy: it sets the number of threads
+from stored import read_json, write_json
 
 # isort: split
 import argparse
 import importlib
 import importlib.util
-import json
 import os
 import pickle
 import resource
@@ -380,11 +380,11 @@ def main() -> None:
         else:
             SECTIONS[section]()
     if given.output:
-        known = json.loads(given.output.read_text())["rows"] if given.output.is_file() else []
+        known = read_json(given.output).get("rows", [])
         kept = [row for row in known if row["section"] not in {r["section"] for r in results}]
         packages = ["curvewise", "numpy", "tslearn", "aeon", "dtaidistance", "scikit-learn"]
         content = {"machine": timing.machine(packages), "rows": kept + results}
-        timing.write_json(given.output, content)
+        write_json(given.output, content)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ For each batch of batches.py the values are compared first; then every package a
 threads is timed in alternation, each in a process of its own. Then what concerns curvewise alone:
 ragged curves per cell, the discrete Fréchet distance of 2,000 curves against a single pair timed in
 C++ (bench_kernels), the memory beyond input and output, what progress costs, and whether it is
-steady. Prints tables; writes pairwise.json.
+steady. Prints tables; writes pairwise.json.xz.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from typing import Any
 import batches
 import numpy as np
 from batches import BATCHES, FRECHET_LARGE, Batch, BatchProcess, Contender
+from stored import write_json
 from timing import Array
 
 import curvewise
@@ -72,7 +73,7 @@ def main() -> None:
         "progress_rate": progress_rate(batches.ragged(2 * count, 20, 500)),
     }
     print_own(content)
-    timing.write_json(arguments.output / "pairwise.json", content)
+    write_json(arguments.output / "pairwise.json.xz", content)
 
 
 def measure_batch(batch: Batch) -> list[dict[str, Any]]:

@@ -4,7 +4,7 @@ For each workload of workloads.py, values are compared first, on the timed curve
 random pairs. Then all are timed in alternation in this process, on one thread; curvewise's other
 instruction-set levels take their samples in the same turn, in processes of their own. A peer too
 slow for an n is quoted at the largest n that it is fast enough for. Last, the n up to which exact
-curvewise is faster than approximate fastdtw. Prints tables; writes peers.json and peers.png.
+curvewise is faster than approximate fastdtw. Prints tables; writes peers.json.xz and peers.png.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from stored import save_picture, write_json
 from timing import Array
 from workloads import DTW, FASTDTW, FRECHET, WORKLOADS, Peer, Workload
 
@@ -119,7 +120,7 @@ def main() -> None:
         fastdtw = measure_fastdtw(modules[FASTDTW.module], effort.fastdtw_seconds)
         print_fastdtw(fastdtw)
         content["fastdtw"] = fastdtw
-    timing.write_json(arguments.output / "peers.json", content)
+    write_json(arguments.output / "peers.json.xz", content)
     drawn = [work for work in (DTW, FRECHET) if work.name in arguments.workloads]
     if drawn:
         draw(drawn, results, machine, arguments.output / "peers.png")
@@ -371,7 +372,7 @@ def draw(
     panels[0].set_ylabel("seconds per call from Python, one thread")
     figure.suptitle(str(machine["cpu"]), fontsize=9)
     file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=130)
+    save_picture(figure, file, dpi=130)
     print(f"written: {file}")
 
 

@@ -8,7 +8,7 @@ and resampled along their index. Also both paths, the time and memory of a milli
 process of its own), files of tests as they are, and other packages at the largest n that they do
 in a given time. Full sweeps of more than 20,000 points are extrapolated by n m, except for one.
 
-Each part is measured in one run, most of them in less than a minute, and put into pruning.json
+Each part is measured in one run, most of them in less than a minute, and put into pruning.json.xz
 beside the parts that are there; pruning.png is drawn from all that is there.
 """
 
@@ -20,7 +20,6 @@ import timing  # before numpy: it sets the number of threads
 import argparse
 import functools
 import itertools
-import json
 import multiprocessing
 import time
 from collections.abc import Sequence
@@ -30,6 +29,7 @@ from typing import Any
 
 from pruning_curves import LOOPS, MATERIALS, MODERATE, NOISE, WALKS, data_dir, pair, read
 from pruning_peers import peers
+from stored import read_json, save_picture, write_json
 from timing import Array
 
 import curvewise
@@ -78,15 +78,15 @@ def main() -> None:
     if arguments.peer_seconds is not None:
         effort = Effort(peer_seconds=arguments.peer_seconds)
 
-    file = arguments.output / "pruning.json"
-    content: dict[str, Any] = json.loads(file.read_text("utf-8")) if file.exists() else {}
+    file = arguments.output / "pruning.json.xz"
+    content: dict[str, Any] = read_json(file)
     for part in arguments.part:
         start = time.perf_counter()
         results = PARTS[part](effort)
         took = time.perf_counter() - start
         content[part] = {"machine": timing.machine(PACKAGES), "took": took, "results": results}
         print_results(f"{part} ({took:.0f} s)", results)
-        timing.write_json(file, content)
+        write_json(file, content)
     draw(content, arguments.output / "pruning.png")
 
 
@@ -335,7 +335,7 @@ def draw(content: dict[str, Any], file: Path) -> None:
     machine = next(iter(content.values()))["machine"]
     figure.suptitle(machine["cpu"], fontsize=9)
     file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=130)
+    save_picture(figure, file, dpi=130)
     print(f"written: {file}")
 
 

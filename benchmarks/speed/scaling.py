@@ -3,7 +3,7 @@
 dtw, frechet and their paths on two curves of n points each, n from 10^2 to 10^5 (paths to 5·10^4).
 Each combination of level and threads has a fresh process, whose peak memory is reported beside
 that of a process which only imports curvewise; the processes of one n take their samples in turn.
-Writes scaling.json and scaling.png.
+Writes scaling.json.xz and scaling.png.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import timing
+from stored import save_picture, write_json
 
 SIZES = [100, 200, 500, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000]
 QUICK_SIZES = [100, 1000, 5000]
@@ -47,7 +48,7 @@ def main() -> None:
     for measure in MEASURES:
         print_measure(measure, results)
     content = {"machine": machine, "import_megabytes": baseline, "results": results}
-    timing.write_json(arguments.output / "scaling.json", content)
+    write_json(arguments.output / "scaling.json.xz", content)
     draw(results, machine, arguments.output / "scaling.png")
 
 
@@ -154,7 +155,7 @@ def draw(results: list[dict[str, Any]], machine: dict[str, object], file: Path) 
         panel.set_ylabel("cells of the table per second")
     panels[0, 0].legend(fontsize=8)
     figure.suptitle(str(machine["cpu"]), fontsize=9)
-    figure.savefig(file, dpi=130)
+    save_picture(figure, file, dpi=130)
     print(f"written: {file}")
 
 

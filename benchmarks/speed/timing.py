@@ -299,12 +299,5 @@ def duration(seconds: float) -> str:
     return f"{seconds * 1e6:.3g} µs"
 
 
-def write_json(file: Path, content: Mapping[str, object]) -> None:
-    """Write results, and make the folder for them."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    print(f"\nwritten: {file}")
-
-
 if __name__ == "__main__":
     _serve(json.loads(sys.argv[1]))

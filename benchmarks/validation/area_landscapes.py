@@ -13,7 +13,7 @@ mean square difference of the identified curve from the true one, in per cent of
 points": the simulation has 64 points of its own, the test 150.
 Everything on curves scaled by the test's box.
 
-Reads the golden data; writes area_landscapes.json. Half an hour or more.
+Reads the golden data; writes area_landscapes.json.xz. Half an hour or more.
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ import numpy as np
 from places import RESULTS
 from problems import HardeningModel, hardening_bounds, paper_parameters
 from scipy.optimize import minimize
-from timing import Array, machine, print_table, write_json
+from stored import write_json
+from timing import Array, machine, print_table
 
 import curvewise
 
@@ -80,7 +81,7 @@ def main() -> None:
         cells = [(name, *(f"{summary(row[case])}" for case in cases)) for name, row in rows.items()]
         print_table(f"{kind}: mean; median (worst)", ("", *cases), cells)
     content = {"machine": machine(("numpy", "scipy")), **results}
-    write_json(options.output / "area_landscapes.json", content)
+    write_json(options.output / "area_landscapes.json.xz", content)
 
 
 def summary(found: object) -> str:

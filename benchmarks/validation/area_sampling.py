@@ -6,16 +6,15 @@ cent of what moving up alone gives. Ideally a thinned loop gives 0, or what its 
 really enclose ("true": each vertex matched with the one it is); and a loop that is moved up gives
 100, whatever else was done to it. Curves are scaled by the loop's box. Then the time of a call.
 
-Reads the golden data; writes area_sampling.json and, of the loops, area_sampling.png. Loops take a
-few minutes, the times, which want a quiet machine, half a minute; a part is put beside the one that
-is there.
+Reads the golden data; writes area_sampling.json.xz and, of the loops, area_sampling.png. Loops take
+a few minutes, the times, which want a quiet machine, half a minute; a part is put beside the one
+that is there.
 """
 
 from __future__ import annotations
 
 import argparse
 import itertools
-import json
 import statistics
 import time
 from collections.abc import Callable, Mapping
@@ -26,7 +25,8 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 from places import DATA, RESULTS
-from timing import Array, curve_pair, duration, machine, print_table, write_json
+from stored import read_json, save_picture, write_json
+from timing import Array, curve_pair, duration, machine, print_table
 
 import curvewise
 
@@ -56,15 +56,15 @@ def main() -> None:
     parser.add_argument("--part", nargs="+", choices=("loops", "times"), default=["loops", "times"])
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
-    file = options.output / "area_sampling.json"
-    content = json.loads(file.read_text()) if file.exists() else {}
+    file = options.output / "area_sampling.json.xz"
+    content = read_json(file)
     for part in options.part:
         measured_on = machine(("numpy", "similaritymeasures"))
         results = measure_loops() if part == "loops" else times()
         content[part] = {"machine": measured_on, "results": results}
     write_json(file, content)
     if "loops" in options.part:
-        draw(content["loops"]["results"], file.with_suffix(".png"))
+        draw(content["loops"]["results"], options.output / "area_sampling.png")
 
 
 def measure_loops() -> dict[str, dict[str, dict[str, tuple[float, float]]]]:
@@ -266,7 +266,7 @@ def draw(results: dict[str, dict[str, dict[str, tuple[float, float]]]], file: Pa
     axes[0].plot([], [], "x", color="#D55E00", label="from 100, moved up by 5 %")
     figure.legend(loc="outside lower center", ncols=2, frameon=False)
     figure.suptitle("Distance from the ideal, in % of a shift by 5 % of the height: every loop")
-    figure.savefig(file, dpi=110)
+    save_picture(figure, file, dpi=110)
     print(f"written: {file}")
 
 

@@ -22,6 +22,7 @@ from calculix_cube import Array
 from matplotlib.figure import Figure
 from places import BUILD, LOOPS, RESULTS
 from scipy.optimize import least_squares
+from stored import save_picture
 
 from curvewise import read_curve
 from curvewise.curves import turning_points
@@ -81,7 +82,7 @@ def main() -> None:
         row["card_of_the_first_percent"] = difference(curve[:, 1], point)
         print("{test:26}{card_of_the_first_percent:8.2f} with the first card".format(**row))
     (output / "calculix_card.json").write_text(json.dumps(rows, indent=1) + "\n")
-    draw(panels, rows).savefig(output / "calculix_card.png", dpi=90)
+    save_picture(draw(panels, rows), output / "calculix_card.png", dpi=90)
 
 
 def path_of(strain: Array) -> Array:

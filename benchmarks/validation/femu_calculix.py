@@ -30,6 +30,7 @@ import numpy as np
 from calculix_cube import Array, CubeModel
 from matplotlib.figure import Figure
 from places import BUILD, LOOPS, RESULTS
+from stored import save_picture
 
 from curvewise import read_curve
 from curvewise.calibration import (
@@ -100,7 +101,8 @@ def main() -> None:
         "failures": failures,
     }
     (output / "femu_calculix.json").write_text(json.dumps(results, indent=1) + "\n")
-    draw(found, [file.stem for file in files]).savefig(output / "femu_calculix.png", dpi=90)
+    figure = draw(found, [file.stem for file in files])
+    save_picture(figure, output / "femu_calculix.png", dpi=90)
     print(table(results["measures"]))
     print(f"written: {output / 'femu_calculix.json'}, {output / 'femu_calculix.png'}")
 

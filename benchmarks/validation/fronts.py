@@ -18,6 +18,7 @@ from pathlib import Path
 
 import numpy as np
 from places import BUILD, LOOPS, RESULTS
+from stored import save_picture
 from wrong_models import BOUNDS
 
 import curvewise
@@ -46,7 +47,7 @@ def main() -> None:
         identify_each(model, test, BOUNDS, measures=measures, store=store, progress=False)
         found = front(store, test, measures)
         print(f"{name}\n\n{found}\n", flush=True)
-        found.plot().savefig(options.output / f"front_{name}.png", dpi=90)
+        save_picture(found.plot(), options.output / f"front_{name}.png", dpi=90)
 
 
 if __name__ == "__main__":

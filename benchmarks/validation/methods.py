@@ -15,13 +15,12 @@ was interrupted goes on where it was.
 
     python benchmarks/validation/methods.py --seeds 10
 
-Adds the searches that methods.json does not have to it, and writes methods.md and methods.png.
+Adds the searches that methods.json.xz does not have to it, and writes methods.md and methods.png.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import logging
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
@@ -41,6 +40,7 @@ from material_points import (
 from matplotlib.figure import Figure
 from places import BUILD, LOOPS, RESULTS
 from problems import HardeningModel, hardening_bounds, test_loops
+from stored import read_json, save_picture, write_json
 
 from curvewise import read_curve
 from curvewise.calibration import TrustRegion, identify
@@ -145,8 +145,8 @@ def main() -> None:
     options = parser.parse_args()
     options.output.mkdir(exist_ok=True)
     options.stores.mkdir(parents=True, exist_ok=True)
-    path = options.output / "methods.json"
-    found: dict = json.loads(path.read_text()) if path.exists() else {}
+    path = options.output / "methods.json.xz"
+    found: dict = read_json(path)
     tasks = [
         (name, method, seed, options.stores)
         for name in options.problems
@@ -157,12 +157,12 @@ def main() -> None:
     with ProcessPoolExecutor(options.workers) as pool:
         for (name, method, seed, _), ended in zip(tasks, pool.map(trace, tasks), strict=True):
             found.setdefault(name, {}).setdefault(method, {})[str(seed)] = ended
-            path.write_text(json.dumps(found) + "\n")
+            write_json(path, found)
     results = {name: judged(name, found[name]) for name in TITLES if name in found}
     text = "\n\n".join([*(table(name, rows) for name, rows in results.items()), defaults(results)])
     print(text)
     (options.output / "methods.md").write_text(text + "\n")
-    draw(results).savefig(options.output / "methods.png", dpi=90)
+    save_picture(draw(results), options.output / "methods.png", dpi=90)
 
 
 def judged(name: str, found: dict) -> dict:

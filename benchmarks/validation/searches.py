@@ -20,13 +20,12 @@ that take a thousand runs and more (REFERENCES), which are made once.
     python benchmarks/validation/searches.py --tests eddq-5 --measures area --methods trust-region
     python benchmarks/validation/searches.py --tests "dp780 fine" --measures frechet
 
-Adds what searches.json does not have to it, and writes searches.md.
+Adds what searches.json.xz does not have to it, and writes searches.md.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import logging
 import time
 import warnings
@@ -36,6 +35,7 @@ from typing import Any
 
 import numpy as np
 from places import DATA, RESULTS
+from stored import read_json, write_json
 
 from curvewise import read_curve
 from curvewise.calibration import DifferentialEvolution, Log, TrustRegion, identify
@@ -236,12 +236,6 @@ def row(found: list[dict[str, Any]], best: float) -> str:
     )
 
 
-def as_lines(results: dict[str, dict[str, Any]]) -> str:
-    """Return JSON with a search a line."""
-    lines = [f"{json.dumps(key)}: {json.dumps(results[key])}" for key in sorted(results)]
-    return "{\n" + ",\n".join(lines) + "\n}\n"
-
-
 def main() -> None:
     """Search, print, write."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
@@ -251,8 +245,8 @@ def main() -> None:
     parser.add_argument("--methods", nargs="+", help="of METHODS and REFERENCES; all if not given")
     parser.add_argument("--workers", type=int, default=2)
     options = parser.parse_args()
-    path = RESULTS / "searches.json"
-    results = json.loads(path.read_text()) if path.exists() else {}
+    path = RESULTS / "searches.json.xz"
+    results = read_json(path)
     with ProcessPoolExecutor(options.workers) as pool:
         asked = {" | ".join(map(str, task)): task for task in tasks(options)}
         futures = {
@@ -261,7 +255,7 @@ def main() -> None:
         for future in as_completed(futures):
             key, result = futures[future], future.result()
             results[key] = result
-            path.write_text(as_lines(results))
+            write_json(path, results)
             print(key, result["steps"][-1], result["message"], flush=True)
     (RESULTS / "searches.md").write_text(table(results))
     print(table(results))

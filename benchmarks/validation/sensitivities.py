@@ -24,6 +24,7 @@ from typing import Any
 
 import numpy as np
 from places import LOOPS, RESULTS
+from stored import save_picture
 from wrong_models import BOUNDS
 
 import curvewise
@@ -70,7 +71,7 @@ def main() -> None:
                 rise = 100.0 * (value / found.value - 1.0)
                 print(f"{key} held at {held:g}: the sum of squares is {rise:.3g} % higher")
         print()
-        effects.plot().savefig(options.output / f"sensitivities_{name}.png", dpi=90)
+        save_picture(effects.plot(), options.output / f"sensitivities_{name}.png", dpi=90)
 
 
 if __name__ == "__main__":

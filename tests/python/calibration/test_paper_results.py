@@ -71,14 +71,14 @@ def test_what_is_stored_is_not_searched_for_again(
     problems: ModuleType, stores: ModuleType, tmp_path: Path
 ) -> None:
     task = cycle_task(problems, traced=True)
-    store = tmp_path / "optima" / "store.json"
+    store = tmp_path / "optima" / "store.json.xz"
     found = stores.identify_all([task], store)["one"]
     assert [stage.method for stage in found.stages] == ["de"]
     assert len(found.stages[0].trace) == 5
     assert found.stages[0].value == pytest.approx(found.stages[0].trace[-1], rel=1e-5)
-    written = store.read_text()
+    written = store.read_bytes()
     assert stores.identify_all([task], store)["one"] == found
-    assert store.read_text() == written
+    assert store.read_bytes() == written
     assert stores.identify_all([cycle_task(problems, seed=1)], store)["one"] != found
 
 
@@ -89,7 +89,7 @@ def test_a_result_of_other_code_is_said_and_made_again(
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    task, store = cycle_task(problems), tmp_path / "store.json"
+    task, store = cycle_task(problems), tmp_path / "store.json.xz"
     stores.identify_all([task], store)
     assert capsys.readouterr().out == ""
     kernels = tmp_path / "kernels.cpp"
@@ -209,10 +209,10 @@ def test_every_stored_result_is_of_a_task(stores: ModuleType) -> None:
     check = importlib.import_module("check")
     tasks = check.all_tasks()
     for store, known in tasks.items():
-        stored = stores.read(SCRIPTS / "optima" / f"{store}.json")
+        stored = stores.read(SCRIPTS / "optima" / f"{store}.json.xz")
         assert stored
         assert set(stored) <= set(known)
-    stored = {store: stores.read(SCRIPTS / "optima" / f"{store}.json") for store in tasks}
+    stored = {store: stores.read(SCRIPTS / "optima" / f"{store}.json.xz") for store in tasks}
     drawn = check.draw(tasks, stored, 4, seed=0)
     assert [check.begins_with_sdrm(tasks, *one) for one in drawn] == [True, False, True, False]
 
