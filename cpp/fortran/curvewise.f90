@@ -68,6 +68,10 @@ module curvewise
         integer(c_int) :: normalize = 0         ! not 0: divide by the weight of all paths
         real(c_double) :: penalty = 0           ! of each step that leaves the diagonal
         real(c_double) :: radius = 6371008.8_c_double
+        integer(c_ptrdiff_t) :: relax_p_begin = 0  ! how many first points of P may be left out
+        integer(c_ptrdiff_t) :: relax_p_end = 0    ! how many last points of P may be left out
+        integer(c_ptrdiff_t) :: relax_q_begin = 0  ! the same of Q
+        integer(c_ptrdiff_t) :: relax_q_end = 0
     end type
 
     type, bind(C), public :: curve_length_options

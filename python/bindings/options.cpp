@@ -103,6 +103,22 @@ std::ptrdiff_t whole_number(const char* option, const py::object& given,
     throw py::value_error(std::string(option) + " is " + repr(given) + "; " + range.advice);
 }
 
+std::array<std::ptrdiff_t, 4> four_whole_numbers(const char* option, const py::object& given,
+                                                 const WholeNumberRange& range) {
+    std::array<std::ptrdiff_t, 4> result = {};
+    if (given.is_none()) return result;
+    const bool is_list = py::isinstance<py::sequence>(given) && !py::isinstance<py::str>(given) &&
+                         !py::isinstance<py::bytes>(given);
+    if (!is_list || py::len(given) != result.size()) {
+        throw py::value_error(std::string(option) + " is " + repr(given) + "; " + range.advice);
+    }
+    std::size_t next = 0;
+    for (const py::handle number : given) {
+        result[next++] = whole_number(option, py::reinterpret_borrow<py::object>(number), range);
+    }
+    return result;
+}
+
 std::optional<double> proper_fraction(const py::object& given) {
     if (!PyFloat_Check(given.ptr())) return std::nullopt;
     const double value = PyFloat_AS_DOUBLE(given.ptr());

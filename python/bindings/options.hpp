@@ -5,6 +5,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <limits>
@@ -28,6 +29,10 @@ bool is_text(const py::object& given, const char* text);
 // A whole number within the range, one beyond ptrdiff_t cut to its largest value.
 std::ptrdiff_t whole_number(const char* option, const py::object& given,
                             const WholeNumberRange& range);
+
+// Four whole numbers within the range; zeros for None.
+std::array<std::ptrdiff_t, 4> four_whole_numbers(const char* option, const py::object& given,
+                                                 const WholeNumberRange& range);
 
 // A float between 0 and 1; none for any other object.
 std::optional<double> proper_fraction(const py::object& given);
@@ -75,6 +80,10 @@ class OptionReader {
     void operator()(const char* name, std::ptrdiff_t& value, const WholeNumberRange& range) {
         if (what_ == OptionsOf::batch) return;
         if (const py::object object = take(name)) value = whole_number(name, object, range);
+    }
+    void operator()(const char* name, std::array<std::ptrdiff_t, 4>& value,
+                    const WholeNumberRange& range) {
+        if (const py::object object = take(name)) value = four_whole_numbers(name, object, range);
     }
     void operator()(const char* name, std::optional<std::ptrdiff_t>& value,
                     std::optional<double>& fraction, const WholeNumberRange& range) {
@@ -168,6 +177,13 @@ class OptionWriter {
     void operator()(const char* name, bool value) { options_[name] = value; }
     void operator()(const char* name, std::ptrdiff_t value, const WholeNumberRange& /*range*/) {
         options_[name] = value;
+    }
+    void operator()(const char* name, const std::array<std::ptrdiff_t, 4>& value,
+                    const WholeNumberRange& /*range*/) {
+        const bool is_none = value == std::array<std::ptrdiff_t, 4>{};
+        options_[name] = is_none
+                             ? py::object(py::none())
+                             : py::object(py::make_tuple(value[0], value[1], value[2], value[3]));
     }
     void operator()(const char* name, const std::optional<std::ptrdiff_t>& value,
                     const std::optional<double>& fraction, const WholeNumberRange& /*range*/) {

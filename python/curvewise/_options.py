@@ -31,6 +31,7 @@ __all__ = [
     "Order",
     "Preset",
     "Radius",
+    "Relax",
     "Spacing",
     "StepPatternName",
     "WarpingName",
@@ -89,6 +90,7 @@ StepPatternName: TypeAlias = Literal[
     "mori2006",
 ]
 Window: TypeAlias = SupportsIndex | float | None
+Relax: TypeAlias = Sequence[SupportsIndex] | None  # ends of P, then of Q
 Spacing: TypeAlias = Literal["distance", "x", "arc_length", "matched", "function"]
 Crossing: TypeAlias = Literal["rearrange", "split"]
 Offsets: TypeAlias = SupportsIndex | Literal["continuous"]
@@ -115,6 +117,7 @@ class Default:
     window: Final[Window] = _DEFAULTS["window"]
     open_begin: Final[bool] = _DEFAULTS["open_begin"]
     open_end: Final[bool] = _DEFAULTS["open_end"]
+    relax: Final[Relax] = _DEFAULTS["relax"]
     normalize: Final[bool] = _DEFAULTS["normalize"]
     spacing: Final[Spacing] = _DEFAULTS["spacing"]
     crossing: Final[Crossing] = _DEFAULTS["crossing"]

@@ -59,6 +59,7 @@ farthest: curvewise.FarthestPoints = curvewise.hausdorff_continuous_points(P, Q)
 alignment = curvewise.edit_path(P, Q, "erp", gap=1)
 table = curvewise.edit_table(P, Q, "lcss")
 number = curvewise.dtw(P[:, 0], Q[:, 0], open_begin=True, open_end=True)
+number = curvewise.dtw(P[:, 0], Q[:, 0], relax=(0, 1, 0, 2))
 alignment = curvewise.dtw_path(P, Q, window=np.int32(3), workers=2)
 table = curvewise.dtw_table(P, Q, metric="minkowski", p=np.inf)
 

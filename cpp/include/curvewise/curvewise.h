@@ -150,6 +150,10 @@ typedef struct curvewise_dtw_options {
     int normalize;          /**< not 0: divide by the weight of all paths, e.g. n + m */
     double penalty;         /**< of each step that leaves the diagonal */
     double radius;
+    ptrdiff_t relax_p_begin; /**< how many first points of P may be left out */
+    ptrdiff_t relax_p_end;   /**< how many last points of P may be left out */
+    ptrdiff_t relax_q_begin; /**< the same of Q */
+    ptrdiff_t relax_q_end;
 } curvewise_dtw_options;
 /** As the window: no band. */
 #define CURVEWISE_NO_WINDOW (-1)
@@ -157,7 +161,7 @@ typedef struct curvewise_dtw_options {
 #define CURVEWISE_DTW_DEFAULTS                                                                     \
     {                                                                                              \
         CURVEWISE_EUCLIDEAN, 2.0, CURVEWISE_SYMMETRIC1, 0, 0, CURVEWISE_NO_WINDOW, 1, 1, HUGE_VAL, \
-            0.0, 0, 0.0, 6371008.8                                                                 \
+            0.0, 0, 0.0, 6371008.8, 0, 0, 0, 0                                                     \
     }
 
 /** Options of curvewise_curve_length(), as in curve_length.hpp. */

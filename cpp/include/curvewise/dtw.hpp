@@ -17,6 +17,7 @@
 ///     const double distance = curvewise::dtw(experiment, simulation, options);
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -55,6 +56,10 @@ struct DtwOptions {
     /// the weight of paths to it is least, as in R's dtw.
     bool open_begin = false;
     bool open_end = false;
+    /// How many points may be left out at the beginning and the end of P, then of Q, as with psi of
+    /// dtaidistance. The least sum over all such paths. With symmetric1 alone, with or without a
+    /// penalty, and without a window, open ends and normalize.
+    std::array<std::ptrdiff_t, 4> relax = {};
     /// Divide the distance by the sum of the weights of any path: n + m, n or m, as the step
     /// pattern has it; not with patterns whose paths differ in it. Paths and tables do not look at
     /// it.
@@ -84,6 +89,7 @@ void visit_options(DtwOptions& options, Visit&& visit) {
     visit("window", options.window, options.window_fraction, window_range);
     visit("open_begin", options.open_begin);
     visit("open_end", options.open_end);
+    visit("relax", options.relax, relax_range);
     visit("normalize", options.normalize);
     visit("workers", options.workers, workers_range);
     visit("prune", options.prune);

@@ -11,6 +11,7 @@
 ///                                            a whole number, a fraction between 0 and 1, or none
 ///     visit(name, number, switch, range)     a whole number, or "continuous", which sets the
 ///     switch visit(name, real_number, range)        a number; infinity stands for none
+///     visit(name, four_numbers, range)       four whole numbers; four zeros stand for none
 ///
 /// An example: python/bindings/options.hpp, which reads all of them from a dict.
 #pragma once
@@ -39,6 +40,8 @@ inline constexpr WholeNumberRange workers_range{
 /// Of the half-width of a band.
 inline constexpr WholeNumberRange window_range{
     0, "give a whole number >= 0, a fraction between 0 and 1, or None"};
+/// Of the points that may be left out at each end.
+inline constexpr WholeNumberRange relax_range{0, "give four whole numbers >= 0, or None"};
 /// Of the offsets of pcm.
 inline constexpr WholeNumberRange offsets_range{1, "give a whole number >= 1, or 'continuous'"};
 /// Of a distance from which on it does not matter.

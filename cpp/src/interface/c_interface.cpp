@@ -96,6 +96,8 @@ curvewise::DtwOptions translate(const curvewise_dtw_options& given) {
     options.normalize = given.normalize != 0;
     options.open_begin = given.open_begin != 0;
     options.open_end = given.open_end != 0;
+    options.relax = {given.relax_p_begin, given.relax_p_end, given.relax_q_begin,
+                     given.relax_q_end};
     options.workers = given.workers;
     options.prune = given.prune != 0;
     options.cutoff = given.cutoff;

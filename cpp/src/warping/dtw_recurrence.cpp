@@ -1,5 +1,6 @@
 #include "warping/dtw_recurrence.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -9,6 +10,28 @@
 namespace curvewise::warping {
 
 namespace {
+
+// Where paths may begin and end that leave out some points. Their costs are compared undivided.
+FreeEnds relaxed_ends(const DtwOptions& options) {
+    const auto& [p_begin, p_end, q_begin, q_end] = options.relax;
+    if (*std::min_element(options.relax.begin(), options.relax.end()) < relax_range.least) {
+        throw std::invalid_argument("relax is (" + std::to_string(p_begin) + ", " +
+                                    std::to_string(p_end) + ", " + std::to_string(q_begin) + ", " +
+                                    std::to_string(q_end) + "); " + relax_range.advice);
+    }
+    if (!options.own_steps.rows.empty() || options.step_pattern != StepPattern::symmetric1) {
+        throw std::invalid_argument("relax needs step_pattern='symmetric1'");
+    }
+    const auto refuse_beside = [](bool is_given, const char* option) {
+        if (is_given) {
+            throw std::invalid_argument(std::string("relax cannot be combined with ") + option);
+        }
+    };
+    refuse_beside(options.window || options.window_fraction, "window");
+    refuse_beside(options.open_begin || options.open_end, "open_begin and open_end");
+    refuse_beside(options.normalize, "normalize");
+    return {p_begin, p_end, q_begin, q_end};
+}
 
 // Where paths may begin and end. Values of ends that differ in the weight of their paths are
 // compared by weight; where it is not known, and for beginnings, they cannot be.
@@ -43,7 +66,8 @@ Recurrence recurrence_of(const DtwOptions& options) {
     const bool is_own = !options.own_steps.rows.empty();
     const std::string name = is_own ? "of one's own" : std::string(step_patterns[place].name);
     const StepRows rows = is_own ? options.own_steps : step_rows(step_patterns[place]);
-    const FreeEnds ends = open_ends(options, rows.per, name);
+    const FreeEnds ends =
+        is_relaxed(options) ? relaxed_ends(options) : open_ends(options, rows.per, name);
     if (options.normalize && rows.per == Per::one) {
         throw std::invalid_argument(
             "normalize needs a step pattern whose paths all have one "

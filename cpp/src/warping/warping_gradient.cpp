@@ -118,7 +118,9 @@ class Sums {
 
 double value_and_gradients(const DtwOptions& options, const CurveView& P, const CurveView& Q,
                            const Gradients& out, Control* control) {
-    if (!warping::is_swept_by_dtw(options)) {
+    DtwOptions strict = options;
+    strict.relax = {};  // the steps of a relaxed path are the same
+    if (!warping::is_swept_by_dtw(strict)) {
         throw std::invalid_argument(
             "a gradient needs step_pattern='symmetric1' or 'symmetric2' and no penalty");
     }

@@ -37,7 +37,7 @@ WarpingOptions checked_options(const DtwOptions& options) {
     }
     if (!is_swept_by_dtw(options)) {
         throw std::invalid_argument(
-            "this needs step_pattern='symmetric1' or 'symmetric2' and no penalty");
+            "this needs step_pattern='symmetric1' or 'symmetric2', no penalty and no relax");
     }
     check_ground_distance(options.ground);
     curves::check_limit("cutoff", options.cutoff, false);

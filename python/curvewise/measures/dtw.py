@@ -12,7 +12,7 @@ from .._core import dtw_info as compiled_dtw_info
 from .._core import dtw_path as compiled_dtw_path
 from .._core import dtw_table as compiled_dtw_table
 from .._docstrings import filled
-from .._options import Default, GroundDistance, Missing, Order, Radius, Window, check_closed
+from .._options import Default, GroundDistance, Missing, Order, Radius, Relax, Window, check_closed
 from ..curves.inputs import Array, CurveLike, as_curves
 from ..curves.missing import skip_in_pair
 from ..curves.named_curve import copied
@@ -36,6 +36,7 @@ def dtw(
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
+    relax: Relax = Default.relax,
     normalize: bool = Default.normalize,
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
@@ -68,6 +69,11 @@ def dtw(
         length. `open_end` also works with every step pattern that `normalize` accepts. The end is
         then where the cost divided by the weight of paths to it is least, as in R's dtw.
         `open_begin` needs a pattern normalised by N, such as "asymmetric".
+    relax : sequence of four int >= 0, optional
+        Numbers of points that may be left out: at the beginning of P, the end of P, the beginning
+        of Q and the end of Q. The cheapest path counts, not normalised by length. At least one
+        pair of points is matched. Needs "symmetric1", with or without a penalty, and excludes
+        `window`, open ends and `normalize`.
     normalize : bool
         Divide by the sum of the step weights, where all paths have the same: n + m with
         "symmetric2", else what the pattern says (``StepPattern.normalization``). A distance
@@ -118,6 +124,7 @@ def dtw(
     dtaidistance, tslearn: ``distance``, ``dtw``   ``sqrt(dtw(metric="sqeuclidean"))``
     aeon: ``dtw_distance``                         ``metric="sqeuclidean"``
     dtaidistance's ``window=w``                    ``window=w - 1``
+    dtaidistance's ``psi=(a, b, c, d)``            ``relax=(a, b, c, d)``
     tslearn's ``sakoe_chiba_radius=r``             ``window=r``
     aeon's ``window=f``, of n = m points           ``window=f``
     aeon's ``adtw_distance(warp_penalty=w)``       ``metric="sqeuclidean", penalty=w``
@@ -132,6 +139,8 @@ def dtw(
     0.14285714285714285
     >>> curvewise.dtw([1, 2], [9, 1, 2, 9], open_begin=True, open_end=True)
     0.0
+    >>> curvewise.dtw([2, 2, 2], [2, 5, 5, 5, 5], relax=(0, 0, 0, 1))
+    9.0
     >>> curvewise.dtw([0, 1, 2, 3], [0, 2, 3], step_pattern="typeIIa", penalty=0.5)
     0.5
     >>> import numpy as np
@@ -149,6 +158,7 @@ def dtw(
         window,
         open_begin,
         open_end,
+        relax,
         normalize,
         workers,
         prune,
@@ -157,7 +167,9 @@ def dtw(
     if missing != "refuse":
         P, Q = skip_in_pair(P, Q, missing)
     if closed:
-        check_closed(_steps_of(step_pattern, penalty, window, open_begin, open_end, normalize))
+        check_closed(
+            _steps_of(step_pattern, penalty, window, open_begin, open_end, relax, normalize)
+        )
         ground = {"metric": metric, "p": p, "radius": radius}
         return closed_value("dtw", P, Q, ground, cutoff)
     return compiled_dtw(P, Q, options)
@@ -175,6 +187,7 @@ def dtw_info(
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
+    relax: Relax = Default.relax,
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
 ) -> WarpingInfo:
@@ -182,7 +195,9 @@ def dtw_info(
 
     Parameters
     ----------
-    P, Q, metric, p, radius, step_pattern, penalty, window, open_begin, open_end, workers, prune
+    P, Q
+        As for :func:`dtw`.
+    metric, p, radius, step_pattern, penalty, window, open_begin, open_end, relax, workers, prune
         As for :func:`dtw`.
 
     Returns
@@ -208,7 +223,7 @@ def dtw_info(
     (1.0, 12, 1.0)
     """
     P, Q = as_curves(P, Q)
-    steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end)
+    steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end, relax)
     options = steps | {"workers": workers, "prune": prune}
     return WarpingInfo(*compiled_dtw_info(P, Q, options))
 
@@ -226,6 +241,7 @@ def dtw_path(
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
+    relax: Relax = Default.relax,
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
     closed: bool = Default.closed,
@@ -234,7 +250,9 @@ def dtw_path(
 
     Parameters
     ----------
-    P, Q, metric, p, radius, step_pattern, penalty, window, open_begin, open_end, workers, prune
+    P, Q
+        As for :func:`dtw`.
+    metric, p, radius, step_pattern, penalty, window, open_begin, open_end, relax, workers, prune
         As for :func:`dtw`.
     {closed}
 
@@ -265,9 +283,9 @@ def dtw_path(
     [[0, 0], [1, 0], [2, 1], [3, 2]]
     """
     A, B = as_curves(P, Q)
-    steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end)
+    steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end, relax)
     if closed:
-        check_closed(_steps_of(step_pattern, penalty, window, open_begin, open_end))
+        check_closed(_steps_of(step_pattern, penalty, window, open_begin, open_end, relax))
         return closed_alignment("dtw", P, Q, {"metric": metric, "p": p, "radius": radius})
     options = steps | {"workers": workers, "prune": prune}
     return Alignment(*compiled_dtw_path(A, B, options), (copied(P, A), copied(Q, B)))
@@ -285,14 +303,15 @@ def dtw_table(
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
+    relax: Relax = Default.relax,
 ) -> Array:
     """Return the cumulative table of dynamic time warping.
 
     Parameters
     ----------
-    P, Q, metric, p, radius, step_pattern, penalty, window, open_begin, open_end
+    P, Q, metric, p, radius, step_pattern, penalty, window, open_begin, open_end, relax
         As for :func:`dtw`. An open end does not change the table: the value is then the smallest
-        entry of its last row.
+        entry of its last row; with `relax`, of the ends of its last row and last column.
 
     Returns
     -------
@@ -317,7 +336,7 @@ def dtw_table(
     [[0.0, 2.0, 5.0], [1.0, 1.0, 3.0]]
     """
     P, Q = as_curves(P, Q)
-    steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end)
+    steps = _options(metric, p, radius, step_pattern, penalty, window, open_begin, open_end, relax)
     return compiled_dtw_table(P, Q, steps)
 
 
@@ -327,6 +346,7 @@ def _steps_of(
     window: object,
     open_begin: object,
     open_end: object,
+    relax: object,
     normalize: object = Default.normalize,
 ) -> dict[str, object]:
     """Return by name what closed curves do not have."""
@@ -342,6 +362,7 @@ def _options(
     window: object,
     open_begin: object,
     open_end: object,
+    relax: object,
 ) -> dict[str, object]:
     """Return by name what a path and a table depend on."""
     return locals()

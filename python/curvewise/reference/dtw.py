@@ -12,7 +12,7 @@ O(n m).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any, NamedTuple, SupportsFloat
 
@@ -24,6 +24,7 @@ from .._options import (
     GroundDistance,
     Order,
     Radius,
+    Relax,
     Window,
     check_closed,
     real_number,
@@ -36,7 +37,7 @@ from ..measures.step_pattern import StepPattern, Steps
 from .checks import check_pair
 from .closed import closed_dtw
 from .ground import Ground
-from .recurrence import Recurrence, filled, found_path, last_cell, pattern_steps
+from .recurrence import EndOf, Recurrence, filled, found_path, last_cell, pattern_steps
 from .warping_table import filled_table, traced_path
 
 __all__ = ["checked_radius", "dtw", "dtw_path", "dtw_table", "sakoe_chiba_band"]
@@ -54,6 +55,7 @@ def dtw(
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
+    relax: Relax = Default.relax,
     normalize: bool = Default.normalize,
     closed: bool = Default.closed,
 ) -> float:
@@ -70,16 +72,18 @@ def dtw(
                 "window": window,
                 "open_begin": open_begin,
                 "open_end": open_end,
+                "relax": relax,
                 "normalize": normalize,
             }
         )
         return closed_dtw(P, Q, metric, p, radius).distance
     steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
-    if normalize:
+    ends = _Ends.checked(open_begin, open_end, relax, normalize)
+    if normalize and not any(ends.relax):
         steps.check_normalization()
-    table = _accumulate(P, Q, metric, p, radius, steps, window, open_begin, open_end)
-    distance = float(table.restored(table.costs[-1, table.end]))
-    n, m = len(table.costs), table.end + 1
+    table = _accumulate(P, Q, metric, p, radius, steps, window, ends)
+    distance = float(table.restored(table.costs[table.end]))
+    n, m = len(table.costs), table.end[1] + 1
     return distance / {"N": n, "M": m, "N+M": n + m}[steps.per] if normalize else distance
 
 
@@ -95,6 +99,7 @@ def dtw_path(
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
+    relax: Relax = Default.relax,
     closed: bool = Default.closed,
 ) -> Alignment:
     """As for :func:`dtw`."""
@@ -106,12 +111,14 @@ def dtw_path(
                 "window": window,
                 "open_begin": open_begin,
                 "open_end": open_end,
+                "relax": relax,
             }
         )
         return closed_dtw(P, Q, metric, p, radius)
     steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
-    table = _accumulate(P, Q, metric, p, radius, steps, window, open_begin, open_end)
-    distance = float(table.restored(table.costs[-1, table.end]))
+    ends = _Ends.checked(open_begin, open_end, relax)
+    table = _accumulate(P, Q, metric, p, radius, steps, window, ends)
+    distance = float(table.restored(table.costs[table.end]))
     if table.path is not None:
         return Alignment(distance, table.path())
     c, d, w = table.costs, table.ground, steps.diagonal_weight
@@ -119,7 +126,7 @@ def dtw_path(
     def is_diagonal(i: int, j: int) -> bool:
         return bool(c[i - 1, j - 1] + w * d[i, j] <= min(c[i - 1, j], c[i, j - 1]) + d[i, j])
 
-    return Alignment(distance, traced_path(c, table.end, is_diagonal, open_begin=open_begin))
+    return Alignment(distance, traced_path(c, table.end[1], is_diagonal, open_begin=open_begin))
 
 
 def dtw_table(
@@ -134,10 +141,12 @@ def dtw_table(
     window: Window = Default.window,
     open_begin: bool = Default.open_begin,
     open_end: bool = Default.open_end,
+    relax: Relax = Default.relax,
 ) -> Array:
     """As for :func:`dtw`."""
     steps = _Steps.checked(step_pattern, penalty, open_begin or open_end)
-    table = _accumulate(P, Q, metric, p, radius, steps, window, open_begin, open_end)
+    ends = _Ends.checked(open_begin, open_end, relax)
+    table = _accumulate(P, Q, metric, p, radius, steps, window, ends)
     return np.array(table.restored(table.costs))
 
 
@@ -146,7 +155,7 @@ class _Table(NamedTuple):
 
     costs: Array  # c[i, j], in units of 2**exponent
     ground: Array  # d(P[i], Q[j]), in the same units; inf outside the window
-    end: int  # the column in which the path ends
+    end: tuple[int, int]  # the cell in which the path ends
     exponent: int
     path: Callable[[], npt.NDArray[np.int64]] | None = None  # where the steps have one of their own
 
@@ -163,36 +172,33 @@ def _accumulate(
     radius: Radius,
     steps: _Steps,
     window: Window,
-    open_begin: bool,
-    open_end: bool,
+    ends: _Ends,
 ) -> _Table:
     """Check everything and fill the table."""
     P, Q = as_curves(P, Q)
     distance = Ground.checked(P, Q, metric, p, radius)
-    _check_steps(steps, window, open_begin, open_end)
+    _check_steps(steps, window, ends)
     P, Q = check_pair(P, Q, "dtw", on_sphere=distance.is_on_sphere)
     reach = checked_radius(window, len(P), len(Q))
     ground, exponent = distance.distances(P, Q, steps.penalty)
     inside = sakoe_chiba_band(len(P), len(Q), reach)
-    weight = steps.diagonal_weight
+    weight = None if any(ends.relax) else steps.diagonal_weight
     if weight is None:
         penalty = float(times_power_of_two(np.array(steps.penalty), -exponent))
         cells = pattern_steps(steps.pattern.steps(), penalty, ground)
-        begun = len(Q) if open_begin else 1
-        starts = {(0, j): float(d) for j, d in enumerate(ground[0, :begun])}
-        recurrence = Recurrence(cells, starts)
+        recurrence = Recurrence(cells, ends.starts(ground))
         costs, taken = filled(recurrence, inside)
-        end_of = partial(_cheapest_end, steps.per) if open_end else last_cell
+        end_of = ends.end_of(steps.per)
         path = partial(found_path, recurrence, inside, costs, taken, end_of)
-        return _Table(costs, ground, end_of(costs)[1], exponent, path)
+        return _Table(costs, ground, end_of(costs), exponent, path)
     ground[~inside] = np.inf
     costs = filled_table(
         ground,
         lambda d, up, left, diagonal: np.minimum(np.minimum(up, left) + d, diagonal + weight * d),
-        open_begin=open_begin,
+        open_begin=ends.open_begin,
     )
-    end = int(np.argmin(costs[-1])) if open_end else len(Q) - 1
-    return _Table(costs, ground, end, exponent)
+    end = int(np.argmin(costs[-1])) if ends.open_end else len(Q) - 1
+    return _Table(costs, ground, (len(P) - 1, end), exponent)
 
 
 def _cheapest_end(per: str, table: Array) -> tuple[int, int]:
@@ -202,6 +208,51 @@ def _cheapest_end(per: str, table: Array) -> tuple[int, int]:
     costs = table[-1] / {"N": float(n), "M": columns, "N+M": n + columns}[per]
     end = int(np.argmin(costs))
     return n - 1, end if costs[end] < np.inf else m - 1
+
+
+def _relaxed_end(relax: Sequence[int], table: Array) -> tuple[int, int]:
+    """Return the cheapest end, the first one in the last row, then in the last column."""
+    row, column = last_cell(table)
+    cells = [(row, j) for j in range(max(0, column - relax[3]), column + 1)]
+    cells += [(i, column) for i in range(max(0, row - relax[1]), row)]
+    end = min(cells, key=lambda cell: float(table[cell]))
+    return end if table[end] < np.inf else (row, column)
+
+
+class _Ends(NamedTuple):
+    """Where paths may begin and end."""
+
+    open_begin: bool
+    open_end: bool
+    relax: tuple[int, ...]
+    normalize: bool
+
+    @classmethod
+    def checked(
+        cls, open_begin: bool, open_end: bool, relax: Relax, normalize: bool = Default.normalize
+    ) -> _Ends:
+        """Check the numbers of points that may be left out."""
+        if relax is None:
+            return cls(open_begin, open_end, (0, 0, 0, 0), normalize)
+        advice = "give four whole numbers >= 0, or None"
+        if isinstance(relax, str | bytes) or not hasattr(relax, "__len__") or len(relax) != 4:
+            raise ValueError(f"relax is {relax!r}; {advice}")
+        numbers = tuple(whole_number("relax", number, 0, advice) for number in relax)
+        return cls(open_begin, open_end, numbers, normalize)
+
+    def starts(self, ground: Array) -> dict[tuple[int, int], float]:
+        """Return the cells in which a path may begin, with their costs."""
+        n, m = ground.shape
+        columns = m if self.open_begin else min(m, self.relax[2] + 1)
+        cells = [(0, j) for j in range(columns)]
+        cells += [(i, 0) for i in range(1, min(n, self.relax[0] + 1))]
+        return {cell: float(ground[cell]) for cell in cells}
+
+    def end_of(self, per: str) -> EndOf:
+        """Return what finds the cell in which a path ends."""
+        if any(self.relax):
+            return partial(_relaxed_end, self.relax)
+        return partial(_cheapest_end, per) if self.open_end else last_cell
 
 
 class _Steps(NamedTuple):
@@ -244,16 +295,32 @@ class _Steps(NamedTuple):
             )
 
 
-def _check_steps(steps: _Steps, window: Any, open_begin: bool, open_end: bool) -> None:
+def _check_relax(steps: _Steps, window: Any, ends: _Ends) -> None:
+    """Refuse options whose paths cannot be compared by their plain sums."""
+    if steps.name != "symmetric1":
+        raise ValueError("relax needs step_pattern='symmetric1'")
+    given = {
+        "window": window is not None,
+        "open_begin and open_end": steps.is_open,
+        "normalize": ends.normalize,
+    }
+    for option, is_given in given.items():
+        if is_given:
+            raise ValueError(f"relax cannot be combined with {option}")
+
+
+def _check_steps(steps: _Steps, window: Any, ends: _Ends) -> None:
     """Check the options that shape the path."""
     _check_window(window)
+    if any(ends.relax):
+        _check_relax(steps, window, ends)
     if not steps.is_open:
         return
     if window is not None:
         raise ValueError("open_begin and open_end cannot be combined with window")
     if steps.diagonal_weight is not None:
         return
-    if open_begin and steps.per != "N":
+    if ends.open_begin and steps.per != "N":
         raise ValueError(
             "open_begin needs step_pattern='symmetric1' without a penalty, or a step pattern "
             f"normalised by N, such as 'asymmetric'; {steps.name} is not"

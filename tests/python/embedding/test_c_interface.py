@@ -57,6 +57,7 @@ Dtw = structure(
     ("normalize", c_int),
     ("penalty", c_double),
     ("radius", c_double),
+    *((f"relax_{end}", c_ssize_t) for end in ("p_begin", "p_end", "q_begin", "q_end")),
 )
 CurveLength = structure("CurveLength", ("scale", c_int))
 Chaboche = structure("Chaboche", ("backstresses", c_int), ("modulus", c_int))
@@ -152,6 +153,17 @@ def test_distance_per_step_and_window_as_a_fraction(call) -> None:
     assert call("dtw", P, Q, per_step_or_fraction(fraction=0.2)) == expected
 
 
+def relaxed(*relax: int) -> Structure:
+    return Dtw(0, 2.0, 0, 0, 0, -1, 1, 1, math.inf, 0.0, 0, 0.0, 6371008.8, *relax)
+
+
+def test_points_left_out_at_the_ends(call) -> None:
+    for relax in ((9, 0, 0, 0), (0, 8, 0, 0), (0, 0, 7, 0), (0, 0, 0, 6), (1, 2, 3, 4)):
+        expected = curvewise.dtw(P, Q, relax=relax)
+        assert expected != curvewise.dtw(P, Q)
+        assert call("dtw", P, Q, relaxed(*relax)) == expected
+
+
 def test_cutoff(call) -> None:
     for name, options in (("frechet", Frechet(0, 2.0, 1, 1)), ("dtw", Dtw(0, 2.0, 0, 0, 0, -1, 1))):
         distance = getattr(curvewise, name)(P, Q)
@@ -196,6 +208,7 @@ def test_planar_options(call) -> None:
         ("dtw", Dtw(0, 2.0, 1, 1, 0, -1, 1), "open_begin needs step_pattern="),
         ("dtw", per_step_or_fraction(pattern=0, normalize=1), "normalize needs step_pattern="),
         ("dtw", per_step_or_fraction(fraction=1.5), "window is 1.5"),
+        ("dtw", relaxed(0, 0, -1, 0), "relax is (0, 0, -1, 0); give four whole numbers >= 0"),
         (
             "dtw",
             per_step_or_fraction(window=3, fraction=0.5),
