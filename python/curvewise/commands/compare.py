@@ -7,11 +7,11 @@ import contextlib
 import json
 import math
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
-from .._options import Crossing, Preset, Spacing, Window
+from .._options import Crossing, Preset, Spacing, WarpingName, Window
 from ..comparing.comparison import Comparison, compare
 from ..curves.common_span import common_span
 from ..measures import curve_length_residuals, normalize
@@ -57,6 +57,11 @@ def add_compare(commands: Any) -> None:
         metavar="R",
         help="of dtw: how many points the path may leave the diagonal, or which fraction of them",
     )
+    command.add_argument(
+        "--closed",
+        action="store_true",
+        help="of frechet and dtw: compare loops, whose beginnings are free",
+    )
     add_limits(command)
     command.add_argument("--json", action="store_true", help="print one JSON object")
     command.add_argument("--plot", metavar="FILE", help="write a picture, e.g. out.png or out.pdf")
@@ -82,6 +87,25 @@ def _window(text: str) -> Window:
     raise argparse.ArgumentTypeError(f"{text} is no whole number, and not between 0 and 1")
 
 
+def _options(
+    arguments: argparse.Namespace, measures: Sequence[str] | None
+) -> dict[str, dict[str, Any]]:
+    """Return the options of each measure that are given."""
+    options: dict[str, dict[str, Any]] = {}
+    for measure, option in (("area", "spacing"), ("area", "crossing"), ("dtw", "window")):
+        if (value := getattr(arguments, option)) is not None:
+            options.setdefault(measure, {})[option] = value
+    if not arguments.closed:
+        return options
+    loops = get_args(WarpingName)
+    chosen = loops if measures is None else [name for name in measures if name in loops]
+    if not chosen:
+        raise ValueError(f"--closed applies to {' and '.join(loops)}; add one to --measures")
+    for measure in chosen:
+        options.setdefault(measure, {})["closed"] = True
+    return options
+
+
 def _compare(arguments: argparse.Namespace) -> int:
     if arguments.residuals and not arguments.output:
         arguments.usage_error("--residuals needs --output FILE, where to write them")
@@ -93,16 +117,15 @@ def _compare(arguments: argparse.Namespace) -> int:
     with warnings_printed():
         curves, names = zip(*map(read_file, files, said), strict=True)
     measures = measures_with_limits(arguments)
-    options: dict[str, dict[str, Any]] = {}
-    for measure, option in (("area", "spacing"), ("area", "crossing"), ("dtw", "window")):
-        if (value := getattr(arguments, option)) is not None:
-            options.setdefault(measure, {})[option] = value
     try:
         with warnings_printed():
             if arguments.common_span:
                 curves = common_span(*curves)
             comparison = compare(
-                *curves, preset=arguments.preset, measures=measures, options=options
+                *curves,
+                preset=arguments.preset,
+                measures=measures,
+                options=_options(arguments, measures),
             )
         outcome = checked(arguments, comparison)
     except ValueError as error:

@@ -43,6 +43,44 @@ def test_weighted_sum_over_loops(measure):
     assert objective([SIMULATION, OTHER]) == 2.0 * terms[0] + 0.5 * terms[1]
 
 
+def with_gaps(curve, rows):
+    given = curve.copy()
+    given[rows, [0, 1, 1]] = np.nan
+    return given
+
+
+@pytest.mark.parametrize("measure", [*FIVE, "sum_of_squares"])
+def test_gaps_of_experiments_are_left_out(measure):
+    rows = [3, 17, 40]
+    simulation = BRANCH * [1.0, 1.1]
+    given, kept = with_gaps(BRANCH, rows), np.delete(BRANCH, rows, axis=0)
+    with pytest.raises(ValueError, match=r"^P\[3, 0\] is nan"):
+        Objective(given, measure)
+    with pytest.warns(UserWarning, match=r"^P: 3 of 60 points left out, nan; .* is point 3$"):
+        objective = Objective(given, Criterion(measure, missing="skip"))
+    plain = Objective(kept, measure)
+    np.testing.assert_array_equal(objective.experiments[0], kept)
+    assert objective(simulation) == plain(simulation)
+    assert objective.scales == plain.scales
+    assert objective(with_gaps(simulation, rows)) == objective.failure_value[0]
+    assert objective.failures == 1
+    with pytest.warns(UserWarning, match=r"^experiments\[1\]: 3 of 60 points left out"):
+        two = Objective([BRANCH, given], Criterion(measure, missing="skip"))
+    assert two([simulation] * 2) == Objective([BRANCH, kept], measure)([simulation] * 2)
+
+
+def test_an_unknown_treatment_of_gaps():
+    with pytest.raises(ValueError, match="unknown missing 'drop'; choose from refuse, skip"):
+        Criterion("area", missing="drop")
+    criterion = Criterion("area", missing="skip")
+    assert criterion == Criterion(**criterion.settings)
+    assert repr(criterion) == "Criterion('area', missing='skip')"
+    assert criterion.weighing([2.0]).missing == "skip"
+    found = r"use measure=Criterion\('area', missing=\.\.\.\)"
+    with pytest.raises(TypeError, match=found):
+        Objective(BRANCH, "area", missing="skip")
+
+
 def test_options_override_those_of_the_preset():
     objective = Objective(EXPERIMENT, Criterion("dtw", preset="paper", step_pattern="symmetric1"))
     assert objective(SIMULATION) == curvewise.compare(EXPERIMENT, SIMULATION)["dtw"]

@@ -76,6 +76,24 @@ def test_options_of_area_and_dtw_replace_those_of_the_preset(run, compared, file
     assert_failed(run("compare", *files, *of_area), "options are given for 'dtw'")
 
 
+def test_loops_may_begin_elsewhere(run, compared, files):
+    turn = np.linspace(0.0, 2.0 * np.pi, 40, endpoint=False)
+    loop = np.column_stack([np.cos(turn), np.sin(turn)])
+    np.savetxt("A.csv", loop, delimiter=",")
+    np.savetxt("B.csv", np.roll(loop, 11, axis=0), delimiter=",")
+    for preset in ("raw", "scaled"):
+        values = compared(*files, "--closed", "--preset", preset)["values"]
+        assert list(values) == MEASURES
+        assert values["frechet"] == values["dtw"] == 0.0
+        assert values["area"] == compared(*files, "--preset", preset)["values"]["area"] > 0.1
+    values = compared(*files, "--closed", "--measures", "pcm", "frechet")["values"]
+    assert values["frechet"] == 0.0
+    of_area = ("--closed", "--measures", "area")
+    assert_failed(run("compare", *files, *of_area), "--closed applies to dtw and frechet; add one")
+    given = ("--closed", "--window", "3")
+    assert_failed(run("compare", *files, *given), "closed=True has no window; leave out window=3")
+
+
 def test_measures_are_those_asked_for(compared, files):
     assert list(compared(*files, "--measures", "dtw", "area")["values"]) == ["dtw", "area"]
 

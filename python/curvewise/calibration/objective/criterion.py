@@ -10,13 +10,13 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from inspect import signature
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
 from ..._docstrings import filled, listed
 from ..._names import did_you_mean
-from ..._options import Preset
+from ..._options import Default, Missing, Preset
 from ...measures import registry
 from ...measures.registry import PRESETS, Condition
 
@@ -78,14 +78,17 @@ class Criterion:
         The term of an experiment whose simulation failed, finite and positive. By default 10⁶
         times what the measure gives for a simulation that is its experiment moved up by its own
         height, which fits every measure and unit.
+    missing : {"refuse", "skip"}, default "refuse"
+        What happens to points of experiments with nan in any coordinate. "refuse" is an error,
+        "skip" leaves them out and warns how many. A simulation with nan has failed in both cases.
     **options
         Options of the measure, which override the preset's.
 
     Raises
     ------
     ValueError
-        An unknown measure, preset or part; a part for a measure of whole curves; numbers out of
-        their range.
+        An unknown measure, preset, part or `missing`; a part for a measure of whole curves;
+        numbers out of their range.
     TypeError
         An option that the measure does not have.
 
@@ -105,6 +108,7 @@ class Criterion:
     min_coverage: float
     weights: tuple[float, ...] | None
     failure_value: float | None
+    missing: Missing
     options: dict[str, Any] = field(hash=False)
 
     def __init__(
@@ -116,12 +120,14 @@ class Criterion:
         min_coverage: float = 0.5,
         weights: Sequence[float] | None = None,
         failure_value: float | None = None,
+        missing: Missing = Default.missing,
         **options: Any,
     ) -> None:
         if not callable(measure):
             _check_choice("measure", measure, MEASURES)
         _check_choice("preset", preset, tuple(PRESETS))
         _check_choice("part", part, ("experiment", "simulation"))
+        _check_choice("missing", missing, get_args(Missing))
         _check_options(measure, options, _SETTINGS)
         if not 0.0 <= min_coverage <= 1.0:
             raise ValueError(f"min_coverage is {min_coverage}; it must be from 0 to 1")
@@ -134,6 +140,7 @@ class Criterion:
             "min_coverage": min_coverage,
             "weights": None if weights is None else _checked_weights(weights),
             "failure_value": None if failure_value is None else float(failure_value),
+            "missing": missing,
             "options": options,
         }.items():
             object.__setattr__(self, name, value)

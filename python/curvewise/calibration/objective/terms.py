@@ -15,6 +15,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from ...curves.inputs import Array, check_column_names, column_names
+from ...curves.missing import skip_in_each
 from ...curves.named_curve import axis_names, known_names
 from ...curves.scaling import box
 from ...curves.several_curves import as_points
@@ -220,7 +221,9 @@ class CurveTerm(Term):
 
     def _prepare(self, experiment: Any) -> None:
         argument = self.label.argument
-        self.experiment = as_points(experiment, argument).copy()
+        given = as_points(experiment, argument)
+        (kept,) = skip_in_each([given], [argument], self.criterion.missing)
+        self.experiment = kept.copy()
         self._columns = column_names(experiment)
         self.names = tuple(known_names(experiment))
         self._name = "the experiment" if argument == "P" else argument
