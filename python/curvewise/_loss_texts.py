@@ -63,14 +63,23 @@ value and of its matching; memory O(n + m) for each pair and thread.""",
 Cuturi & Blondel (2017). Time O(n m); memory O(n sqrt(m)) for each pair and thread, never the
 table: pairs of 10 000 points take 40 MB.""",
     ),
+    "soft_dtw_divergence": _Text(
+        "Those of :func:`curvewise.soft_dtw_divergence`: ``gamma`` and ``window``.",
+        """\
+Blondel, Mensch & Vert (2021). 0 for equal curves, where its derivative is 0, too. Three times the
+time of :func:`soft_dtw` for curves of the same length, and its memory.""",
+    ),
 }
 _SECTIONS = """\
 Parameters
 ----------
-P, Q : {array}, shapes (n, d) and (m, d), or (b, n, d) and (b, m, d)
+P, Q : {array}, shapes (n, d) and (m, d), or (b, n, d) and (b, m, d), or lists of {array}
     A pair of curves, or b pairs. Of real numbers; one of them may be a single curve that is
     compared with b. Two dimensions are always one curve: b series of shape (b, n) are
-    ``P[..., None]``.
+    ``P[..., None]``. A list has one curve of shape (n, d) for each pair, of any n{nested}.
+lengths : pair of (b,) integers or None, optional
+    How many points of each curve of P, and of Q, count in batches that are padded, from the first.
+    The others may be nan; derivatives by them are 0. None counts all.
 **options
     {text.options}
 
@@ -83,7 +92,8 @@ Returns
 Raises
 ------
 ValueError, TypeError
-    As for :func:`curvewise.{name}`; shapes that do not make pairs; complex numbers.
+    As for :func:`curvewise.{name}`; shapes that do not make pairs; complex numbers; lengths
+    that are not from 1 to the points of the batch; padding with nan without lengths.
 
 Warns
 -----
@@ -100,7 +110,8 @@ def documented_loss(array: str) -> Callable[[Loss], Loss]:
 
     def fill(loss: Loss) -> Loss:
         name = loss.__name__
-        sections = _SECTIONS.format(array=array, name=name, text=_TEXTS[name])
+        nested = "; a nested tensor is such a list" if array == "Tensor" else ""
+        sections = _SECTIONS.format(array=array, name=name, text=_TEXTS[name], nested=nested)
         doc = inspect.getdoc(loss)
         loss.__doc__ = doc and doc.replace("{loss}", sections)
         return loss
