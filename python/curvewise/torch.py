@@ -301,7 +301,7 @@ def _along_diagonals(
     if P.shape[-1] != Q.shape[-1] or batch != Q.shape[:-2] or 0 in (*P.shape, *Q.shape):
         return None
     counts = [
-        np.full(batch.numel(), C.shape[-2]) if of is None else of.reshape(-1)
+        np.full(batch.numel(), C.shape[-2]) if of is None else np.array(of).reshape(-1)
         for of, C in zip(lengths, (P, Q), strict=True)
     ]
     curves = []
