@@ -17,8 +17,8 @@ from curvewise.calibration.uncertainty.area_pieces import (
     sums_of_pieces,
 )
 from curvewise.calibration.uncertainty.estimate import estimate_of
-from curvewise.calibration.uncertainty.moves import moves_of
 from curvewise.calibration.uncertainty.noise import noise_of
+from curvewise.calibration.uncertainty.sensitivity import moves_of
 from curvewise.reference.matched_curves import matched_curves
 
 

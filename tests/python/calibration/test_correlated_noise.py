@@ -18,9 +18,8 @@ from curvewise.calibration.uncertainty.correlation import (
     given_noise,
 )
 from curvewise.calibration.uncertainty.estimate import Estimate
-from curvewise.calibration.uncertainty.moves import moves_of
 from curvewise.calibration.uncertainty.noise import noise_of
-from curvewise.calibration.uncertainty.sensitivity import Optimum
+from curvewise.calibration.uncertainty.sensitivity import Optimum, moves_of
 from curvewise.calibration.uncertainty.spread import linear_spread
 
 X = np.linspace(0.0, 1.0, 40)

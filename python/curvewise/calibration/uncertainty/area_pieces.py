@@ -25,7 +25,7 @@ from ..._extras import required
 from ...curves.arc_length import box_scaled_arc_lengths
 from ...curves.inputs import Array
 from ...curves.travel import travel
-from .moves import moves_of
+from .sensitivity import moves_of
 
 __all__ = ["NoisyCurve", "area_scatter", "sums_of_pieces"]
 

@@ -8,10 +8,8 @@ value. Cost: that of an estimate.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
-
-import numpy as np
 
 from ..problem.space import Space
 from ..problem.tables import per_cent
@@ -19,7 +17,7 @@ from .noise import noise_of
 from .sensitivity import Optimum
 from .spread import linear_spread
 
-__all__ = ["THE_RULE", "Verdict", "determined", "half_widths", "verdict_on"]
+__all__ = ["THE_RULE", "Verdict", "determined", "verdict_on"]
 
 _OF_VALUE, _OF_RANGE, _SMALL = 0.25, 0.25, 0.02
 
@@ -68,7 +66,7 @@ class Verdict(NamedTuple):
 def verdict_on(optimum: Optimum) -> Verdict:
     """Return which parameters are determined, by the intervals of the linear theory."""
     space = optimum.problem.space
-    halves = half_widths(linear_spread(optimum, noise_of(optimum, None), 0.95).intervals)
+    halves = linear_spread(optimum, noise_of(optimum, None), 0.95).halves
     parameters = space.dictionary(space.point(optimum.unit))
     good = determined(space, parameters, halves)
     at_bounds = space.at_bounds(parameters)
@@ -78,12 +76,6 @@ def verdict_on(optimum: Optimum) -> Verdict:
         if not good[name] and name not in at_bounds
     ]
     return Verdict(good, ", ".join(loose))
-
-
-def half_widths(intervals: Sequence[tuple[float, float]]) -> list[float]:
-    """Return half the width of each interval."""
-    halves: list[float] = (np.ptp(intervals, axis=1) / 2.0).tolist()
-    return halves
 
 
 def _share(space: Space, name: str, value: float, change: float) -> str:

@@ -19,7 +19,7 @@ from ...curves.inputs import Array
 from ..objective.objective import Objective
 from .fitted_points import fitted_points, matched_places, reach_of
 
-__all__ = ["Directions", "at_all_points", "at_places", "directions_of", "fitted_tests"]
+__all__ = ["Directions", "at_places", "directions_along", "directions_of", "fitted_tests"]
 
 Places: TypeAlias = npt.NDArray[np.intp]
 
@@ -72,9 +72,14 @@ def directions_of(objective: Objective, index: int, curve: Array, places: Array)
     return Directions(normals, scale)
 
 
-def at_all_points(objective: Objective, index: int, curve: Array) -> Directions:
-    """Return the directions at the points of a curve that belongs to a test."""
-    return directions_of(objective, index, curve, np.arange(len(curve), dtype=np.float64))
+def directions_along(
+    objective: Objective, curves: Sequence[Array], counts: Sequence[int]
+) -> list[Directions]:
+    """Return for each test the directions at evenly spaced places along its curve."""
+    return [
+        directions_of(objective, i, curve, np.linspace(0.0, len(curve) - 1.0, count))
+        for i, (curve, count) in enumerate(zip(curves, counts, strict=True))
+    ]
 
 
 def fitted_tests(

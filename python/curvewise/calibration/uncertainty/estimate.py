@@ -15,7 +15,7 @@ Berkeley Symp. Math. Stat. Prob. 1 (1967) 221-233.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -24,12 +24,11 @@ from ..._extras import required
 from ...curves.inputs import Array
 from .area_pieces import NoisyCurve, area_scatter
 from .correlation import Correlation, correlation_of, given_noise
-from .directions import Directions, at_all_points, at_places, directions_of
-from .moves import moves_of
+from .directions import Directions, at_places, directions_along
 from .noise import Noise
-from .sensitivity import Optimum
+from .sensitivity import Optimum, moves_of
 
-__all__ = ["Estimate", "estimate_of", "point_slopes", "points_of_tests"]
+__all__ = ["Estimate", "estimate_of"]
 
 
 class Estimate(NamedTuple):
@@ -65,6 +64,11 @@ class Estimate(NamedTuple):
     covariance: Array
     directions: list[Directions]
 
+    def compared(self, curves: Sequence[Array]) -> Array:
+        """Return what is squared and added up: how far points of curves are, times factors."""
+        sizes: Array = self.factors * _points(curves, self.directions)
+        return sizes
+
     def quantiles(self, level: float) -> Array:
         """Return how many standard errors half an interval of each parameter has, shape (k,)."""
         special, upper = required("scipy.special"), (1.0 + level) / 2.0
@@ -84,17 +88,15 @@ def estimate_of(optimum: Optimum, noise: Noise) -> Estimate:
     objective, noise = optimum.problem.objective, noise.to_divide_by()
     counts = [len(fitted) for fitted in noise.fitted]
     curves = optimum.curves(optimum.unit)
-    directions = [
-        directions_of(objective, i, curve, np.linspace(0.0, len(curve) - 1.0, count))
-        for i, (curve, count) in enumerate(zip(curves, counts, strict=True))
-    ]
+    directions = directions_along(objective, curves, counts)
     deviations = np.concatenate(noise.deviations(directions))
     if objective.is_least_squares:
         weights = np.repeat(objective.residual_factors, counts) * deviations
         slopes = _residual_slopes(optimum) / weights[:, np.newaxis]
     else:
         weights = np.sqrt(_weights(optimum, noise, counts))
-        slopes = point_slopes(optimum, directions) / deviations[:, np.newaxis]
+        by_parameter = [_points(one, directions) for one in optimum.slopes]
+        slopes = np.column_stack(by_parameter) / deviations[:, np.newaxis]
     moves, inverse = moves_of(weights, slopes)
     if noise.residuals is None:
         correlation, freedom = given_noise(counts), math.inf
@@ -104,30 +106,20 @@ def estimate_of(optimum: Optimum, noise: Noise) -> Estimate:
         correlation, freedom = correlation_of(residuals, slopes, moves), float(noise.freedom)
     covariance = None
     if objective.is_area_of_pieces and correlation.is_white:
-        curves_of_tests = _noisy_curves(optimum, slopes, weights**2, noise.moves(directions))
-        of_pieces = area_scatter(curves_of_tests)
+        ends = np.cumsum(counts)[:-1]
+        by_place, costs = np.split(slopes, ends), np.split(weights**2, ends)
+        parts = zip(
+            objective.experiments, curves, noise.moves(directions), by_place, costs, strict=True
+        )
+        of_pieces = area_scatter(
+            NoisyCurve(test, _at_points(curve, len(move)), move, slope, float(cost.sum()))
+            for test, curve, move, slope, cost in parts
+        )
         covariance = None if of_pieces is None else correlation.variance * of_pieces
     if covariance is None:
         covariance = correlation.scatter(moves, of_median=not objective.is_least_squares)
     factors = weights / deviations
     return Estimate(moves, slopes, factors, inverse, correlation, freedom, covariance, directions)
-
-
-def _noisy_curves(
-    optimum: Optimum, slopes: Array, costs: Array, moves: Sequence[Array]
-) -> Iterator[NoisyCurve]:
-    """Yield each test with what is fitted to it, at as many points as were measured."""
-    ends = np.cumsum(list(map(len, moves)))[:-1]
-    parts = zip(
-        optimum.problem.objective.experiments,
-        optimum.curves(optimum.unit),
-        moves,
-        np.split(slopes, ends),
-        np.split(costs, ends),
-        strict=True,
-    )
-    for test, curve, move, by_place, cost in parts:
-        yield NoisyCurve(test, _at_points(curve, len(move)), move, by_place, float(cost.sum()))
 
 
 def _residual_slopes(optimum: Optimum) -> Array:
@@ -142,15 +134,10 @@ def _residual_slopes(optimum: Optimum) -> Array:
     ) / (2.0 * step)
 
 
-def points_of_tests(curves: Sequence[Array], directions: Sequence[Directions]) -> Array:
+def _points(curves: Sequence[Array], directions: Sequence[Directions]) -> Array:
     """Return how far curves, or their slopes, go in directions at as many points."""
     pairs = zip(curves, directions, strict=True)
     return np.concatenate([one.across(_at_points(curve, len(one.unit))) for curve, one in pairs])
-
-
-def point_slopes(optimum: Optimum, directions: Sequence[Directions]) -> Array:
-    """Return the slopes of the simulated points in these directions."""
-    return np.column_stack([points_of_tests(one, directions) for one in optimum.slopes])
 
 
 def _at_points(curve: Array, count: int) -> Array:
@@ -166,8 +153,7 @@ def _weights(optimum: Optimum, noise: Noise, counts: Sequence[int]) -> Array:
     total = sum(counts)
     if not objective.has_gradient:
         return np.ones(total)
-    directions = [at_all_points(objective, i, curve) for i, curve in enumerate(curves)]
-    moves = noise.moves(directions)
+    moves = noise.moves(directions_along(objective, curves, list(map(len, curves))))
     tests = [curve + move for curve, move in zip(curves, moves, strict=True)]
     _, gradients = objective.of_other_tests(tests).value_and_gradient(curves)
     costs = [

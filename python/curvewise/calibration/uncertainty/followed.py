@@ -29,7 +29,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -37,8 +36,7 @@ from ...curves.inputs import Array
 from ...curves.several_curves import points_of
 from ..problem.simulator import Simulator
 from ..surfaces.surfaces import Surfaces
-from .directions import Directions
-from .estimate import estimate_of, point_slopes, points_of_tests
+from .estimate import Estimate, estimate_of
 from .noise import Noise
 from .sensitivity import Optimum
 from .spread import Spread, spread_of
@@ -59,14 +57,13 @@ def followed_spread(optimum: Optimum, noise: Noise, level: float) -> tuple[Sprea
     spread = spread_of(estimate, optimum, level)
     widths = estimate.quantiles(level) * np.sqrt(np.diag(estimate.covariance))
     squares = widths**2 / np.diag(estimate.inverse)
-    compared = Compared(estimate.factors, estimate.directions)
-    slopes = compared.slopes(optimum)
+    slopes = _compared_slopes(estimate, optimum)
     ends = [
         End(optimum.unit, slopes, index, way, float(square))
         for index, square in enumerate(squares)
         for way in (-1.0, 1.0)
     ]
-    runs = _follow(ends, optimum, compared)
+    runs = _follow(ends, optimum, estimate)
     places = np.array([space.point(end.furthest) for end in ends])
     own = np.stack((places[::2].diagonal(), places[1::2].diagonal()))
     counted = places if space.at_bounds(space.dictionary(space.point(optimum.unit))) else own
@@ -76,26 +73,13 @@ def followed_spread(optimum: Optimum, noise: Noise, level: float) -> tuple[Sprea
     return spread._replace(intervals=intervals), runs
 
 
-class Compared(NamedTuple):
-    """What is compared of curves: how far each point is in its direction, times its factor."""
-
-    factors: Array
-    directions: list[Directions]
-
-    def points(self, optimum: Optimum) -> Array:
-        """Return it of the curves at the place of an optimum, shape (points,)."""
-        sizes = points_of_tests(optimum.curves(optimum.unit), self.directions)
-        compared: Array = self.factors * sizes
-        return compared
-
-    def slopes(self, optimum: Optimum) -> Array:
-        """Return its slopes there, shape (points, k)."""
-        return self.factors[:, np.newaxis] * point_slopes(optimum, self.directions)
+def _compared_slopes(estimate: Estimate, optimum: Optimum) -> Array:
+    return np.column_stack([estimate.compared(one) for one in optimum.slopes])
 
 
-def _follow(ends: Sequence[End], optimum: Optimum, compared: Compared) -> int:
+def _follow(ends: Sequence[End], optimum: Optimum, estimate: Estimate) -> int:
     """Let all ends arrive, side by side, and return in how many runs, made now or before."""
-    fitted = compared.points(optimum)
+    fitted = estimate.compared(optimum.curves(optimum.unit))
     with optimum.execution.simulator(optimum.problem.model) as simulator:
         while steps := [(end, place) for end in ends if (place := end.next_place()) is not None]:
             places = [place for _, place in steps]
@@ -103,7 +87,8 @@ def _follow(ends: Sequence[End], optimum: Optimum, compared: Compared) -> int:
                 if there is None:
                     end.tell(place, None, None)
                 else:
-                    end.tell(place, compared.points(there) - fitted, compared.slopes(there))
+                    moved = estimate.compared(there.curves(there.unit)) - fitted
+                    end.tell(place, moved, _compared_slopes(estimate, there))
         return simulator.runs + simulator.looked_up
 
 

@@ -1,11 +1,9 @@
-"""The noise of a test: its residuals from the fitted curve, or a given deviation; draws of it.
+"""The noise of a test: its residuals from the fitted curve, or a given deviation.
 
 Residuals are taken in the directions of the deviations (`directions`). How much noise each
 coordinate has is fitted to their squares: by non-negative least squares, first with equal weights
 and then with those of the first fit. If that is hardly more likely, the noise is where the model
-answers. Residuals that go on alike from point to point (a model that
-is wrong rather than noise) are drawn so that they keep to that (`correlation`). Cost: that of a
-dynamic time warping path for every loop; a draw is O(n).
+answers. Cost: that of a dynamic time warping path for every loop.
 
 C. L. Lawson, R. J. Hanson, "Solving least squares problems", Prentice-Hall (1974), chapter 23.
 """
@@ -20,11 +18,10 @@ import numpy as np
 
 from ..._extras import required
 from ...curves.inputs import Array
-from .correlation import Correlation
 from .directions import Directions, fitted_tests
 from .sensitivity import Optimum
 
-__all__ = ["Noise", "draw_noise", "noise_of"]
+__all__ = ["Noise", "noise_of"]
 
 # The least deviation of a point in parts of its test's, and that of a test in parts of its height:
 # a test that is fitted to the last digit has no noise that could be divided by.
@@ -82,7 +79,8 @@ class Noise(NamedTuple):
         found = []
         for at, components in zip(directions, self.components, strict=True):
             sizes = np.sqrt(at.unit**2 @ components**2)
-            found.append(np.maximum(sizes, max(_LEAST_OF_TEST * _deviation(sizes), _LEAST)))
+            least = _LEAST_OF_TEST * math.sqrt(float(np.mean(sizes**2)))
+            found.append(np.maximum(sizes, max(least, _LEAST)))
         return found
 
     def moves(self, directions: Sequence[Directions]) -> list[Array]:
@@ -169,13 +167,3 @@ def _logarithm(squares: Array, variances: Array) -> float:
 
 def _size(components: Array) -> float:
     return math.sqrt(float(components @ components))
-
-
-def _deviation(residuals: Array) -> float:
-    return math.sqrt(float(np.mean(residuals**2)))
-
-
-def draw_noise(noise: Noise, correlation: Correlation, random: np.random.Generator) -> list[Array]:
-    """Return noise of every test, drawn again: moves of its points."""
-    drawn, moves = correlation.draw(random), noise.moves(noise.directions)
-    return [part[:, np.newaxis] * move for part, move in zip(drawn, moves, strict=True)]

@@ -2,7 +2,9 @@
 
 Slopes come from the runs that a search has made nearby, weighted by nearness, or from two runs a
 parameter if there are too few of these. Their singular values say to which combinations of
-parameters the loops are sensitive. Cost: no runs, or 2 k.
+parameters the loops are sensitive, and how far an estimate moves. Cost: no runs, or 2 k.
+
+P. R. Bevington, "Data reduction and error analysis for the physical sciences", McGraw-Hill (1969).
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ from ..problem.problem import Problem
 from ..surfaces.nearby_runs import NearbyRuns, Run, narrowest, runs_near
 from ..surfaces.surfaces import Responses, Surfaces
 
-__all__ = ["Optimum", "design_runs", "optimum_surfaces", "sensitivity_of"]
+__all__ = ["Optimum", "design_runs", "moves_of", "optimum_surfaces", "sensitivity_of"]
 
 _NEAR = 0.1  # runs further away than this fraction of the bounds' range are not looked at
 _STEP = 0.02  # runs nearer than this count alike; the step of fresh runs
@@ -155,3 +157,26 @@ def sensitivity_of(optimum: Optimum) -> tuple[Array, Array]:
     slopes = np.concatenate(optimum.scaled_slopes())
     _, values, directions = np.linalg.svd(slopes, full_matrices=False)
     return values, directions
+
+
+def moves_of(weights: Array, slopes: Array) -> tuple[Array, Array]:
+    """Return how far an estimate by weighted least squares moves, and the inverse normal matrix.
+
+    A direction in which nothing moves is as uncertain as the bounds are wide. Time O(n k²).
+
+    Parameters
+    ----------
+    weights : ndarray, shape (n,)
+        The roots of the factors of the squares.
+    slopes : ndarray, shape (n, k)
+        By the place in the unit cube, of what is squared.
+
+    Returns
+    -------
+    moves : ndarray, shape (n, k)
+        By the deviation of each point.
+    inverse : ndarray, shape (k, k)
+    """
+    left, values, right = np.linalg.svd(weights[:, np.newaxis] * slopes, full_matrices=False)
+    noticed = np.maximum(values, float(np.sqrt(np.mean(weights**2))))
+    return weights[:, np.newaxis] * (left / noticed) @ right, (right.T / noticed**2) @ right

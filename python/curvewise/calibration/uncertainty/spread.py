@@ -21,8 +21,8 @@ from ...curves.inputs import Array
 from ..problem.space import Space
 from ..surfaces.quasi_newton import quasi_newton
 from .estimate import Estimate, estimate_of
-from .noise import Noise, draw_noise
-from .sensitivity import Optimum
+from .noise import Noise
+from .sensitivity import Optimum, sensitivity_of
 
 __all__ = ["ADDED_UP", "Spread", "bootstrapped_spread", "linear_spread", "rise_at", "spread_of"]
 
@@ -43,6 +43,12 @@ class Spread(NamedTuple):
     intervals: list[tuple[float, float]]
     correlations: Array
 
+    @property
+    def halves(self) -> list[float]:
+        """Half the width of each interval."""
+        halves: list[float] = (np.ptp(self.intervals, axis=1) / 2.0).tolist()
+        return halves
+
 
 def linear_spread(optimum: Optimum, noise: Noise, level: float) -> Spread:
     """Return what the sensitivities give."""
@@ -62,18 +68,9 @@ def spread_of(estimate: Estimate, optimum: Optimum, level: float) -> Spread:
 
 
 def rise_at(optimum: Optimum, noise: Noise, index: int, change: float) -> float:
-    """Return by how much the objective rises on the surfaces where one parameter has changed.
+    """Return by how much the objective rises on the surfaces where one place has a change.
 
-    The others follow as least squares would have them, either way; the mean of both.
-
-    Parameters
-    ----------
-    optimum, noise
-        As for `linear_spread`.
-    index : int
-        Of the parameter.
-    change : float
-        Of its place in the unit cube.
+    The other parameters follow as least squares has them. The mean of both ways.
     """
     moves = estimate_of(optimum, noise).moves
     together = moves.T @ moves
@@ -98,11 +95,11 @@ def bootstrapped_spread(
     random = np.random.default_rng(seed)
     space = optimum.problem.space
     correlation = estimate_of(optimum, noise).correlation
-    steps = _natural_steps(optimum, noise.sigma)
+    moves, steps = noise.moves(noise.directions), _natural_steps(optimum, noise)
     units = np.empty((samples, optimum.unit.size))
     for i in range(samples):
-        drawn = draw_noise(noise, correlation, random)
-        tests = [fitted + moves for fitted, moves in zip(noise.fitted, drawn, strict=True)]
+        drawn = zip(noise.fitted, correlation.draw(random), moves, strict=True)
+        tests = [fitted + part[:, np.newaxis] * move for fitted, part, move in drawn]
         units[i] = _reminimised(optimum, tests, steps)
     points = np.array([space.point(unit) for unit in units])
     covariance = np.atleast_2d(np.cov(points.T))
@@ -117,19 +114,8 @@ def _basic_interval(
 ) -> tuple[Array, Array]:
     """Return the mirror image of the percentiles about the optimum, which allows for a bias.
 
-    Doing it all again from the optimum less the bias was tried with curve_length, where it matters:
-    the intervals held the truth less often. Where draws end at a bound nobody knows how far they
-    would have gone, and their mirror image would be a limit that is made up: there the percentile
-    itself is taken if it is further away. The optimum is inside in any case.
-
-    Parameters
-    ----------
-    units, points : ndarray, shape (samples, k)
-        The draws, in the unit cube and in the parameters' own units.
-    point : ndarray, shape (k,)
-        The optimum.
-    missed : float
-        The probability that is left out.
+    A bound cuts draws off, so that their mirror image has no meaning. The percentile itself is
+    taken there if it is further away. The optimum is inside in any case.
     """
     low, high = np.quantile(points, [missed / 2.0, 1.0 - missed / 2.0], axis=0)
     at_low, at_high = ((units == bound).mean(axis=0) > missed / 2.0 for bound in (0.0, 1.0))
@@ -171,15 +157,11 @@ def _reminimised(optimum: Optimum, tests: list[Array], steps: Array) -> Array:
     return place(best)
 
 
-def _natural_steps(optimum: Optimum, sigma: Array) -> Array:
+def _natural_steps(optimum: Optimum, noise: Noise) -> Array:
     """Return steps, as columns, that the loops notice alike: about one standard error each."""
-    slopes = np.concatenate(optimum.scaled_slopes())
-    _, values, directions = np.linalg.svd(slopes, full_matrices=False)
-    objective = optimum.problem.objective
-    columns = zip(objective.extents, objective.y_columns, strict=True)
-    heights = np.array([extent[y] for extent, y in columns])
-    count = sum(map(len, objective.experiments))
-    noise = max(float(np.mean(sigma / heights)), 1e-9) / math.sqrt(count)
-    sizes = noise / np.maximum(values, _FLATTEST * values[0])
+    values, directions = sensitivity_of(optimum)
+    count = sum(map(len, optimum.problem.objective.experiments))
+    error = max(float(np.mean(noise.sigma / noise.heights)), 1e-9) / math.sqrt(count)
+    sizes = error / np.maximum(values, _FLATTEST * values[0])
     steps: Array = directions.T * np.minimum(sizes, 0.25)
     return steps

@@ -24,7 +24,7 @@ from ...showing.result import Result, Table
 from ..objective.noisy_tests import advice_against_noise
 from ..problem.space import Space
 from ..problem.tables import digits, parameter_table, per_cent
-from .determined import determined, half_widths
+from .determined import determined
 from .followed import followed_spread
 from .noise import noise_of
 from .sensitivity import Optimum, sensitivity_of
@@ -244,10 +244,9 @@ def uncertainty_of(
         spread = linear_spread(optimum, noise, level)
     else:
         spread = bootstrapped_spread(optimum, noise, level, samples, seed)
-    halves = half_widths(spread.intervals)
+    halves = spread.halves
     if samples:  # draws that begin at the optimum stay there along a flat direction
-        by_theory = half_widths(linear_spread(optimum, noise, level).intervals)
-        halves = list(map(max, halves, by_theory))
+        halves = list(map(max, halves, linear_spread(optimum, noise, level).halves))
     values, directions = sensitivity_of(optimum)
     point = space.point(optimum.unit)
     parameters = space.dictionary(point)
