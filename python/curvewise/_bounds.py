@@ -6,10 +6,25 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-__all__ = ["DECADE", "Below", "Bounds", "Log", "Tied", "on_its_scale"]
+__all__ = ["DECADE", "Below", "Bounds", "Log", "OutsideModelError", "Tied", "on_its_scale"]
 
 # Bounds that go further than this, the upper by the lower, are better searched as logarithms.
 DECADE = 10.0
+
+
+class OutsideModelError(ValueError):
+    """A model has no answer for these parameters: a bound of the model, not a failed run.
+
+    A search does not go there, does not log it and does not count it among its failures.
+
+    Examples
+    --------
+    >>> from curvewise.calibration import OutsideModelError
+    >>> def model(p):
+    ...     if p["a"] >= p["b"]:
+    ...         raise OutsideModelError("a must be below b")
+    ...     return [(0.0, 0.0), (1.0, p["b"] - p["a"])]
+    """
 
 
 @dataclass(frozen=True)

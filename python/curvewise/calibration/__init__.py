@@ -8,7 +8,7 @@ hysteresis loops using inverse analysis", Int. J. Material Forming (2018). scipy
 needed: ``pip install "curvewise[calibration]"``.
 """
 
-from .._bounds import Below, Log, Tied
+from .._bounds import Below, Log, OutsideModelError, Tied
 from . import methods
 from .answers.identification import Identification
 from .answers.several_measures import SeveralMeasures
@@ -49,6 +49,7 @@ __all__ = [
     "Identification",
     "LinePlot",
     "Log",
+    "OutsideModelError",
     "NoisyTestWarning",
     "Objective",
     "OpenSearch",

@@ -134,7 +134,7 @@ def rescore(
         lowest,
         tuple(as_points(curve, "Q") for curve in curve_list(best.simulations)),
         as_records(evaluations, names),
-        tuple((e.number, e.message) for e in evaluations if e.failed),
+        tuple((e.number, e.message) for e in evaluations if e.failed and not e.outside),
         objective.measure,
         objective.preset,
     )

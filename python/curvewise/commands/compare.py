@@ -17,7 +17,7 @@ from ..curves.common_span import common_span
 from ..measures import curve_length_residuals, normalize
 from ..measures.registry import MEASURES, PRESETS
 from .passing import add_limits, checked, measures_with_limits
-from .reading import add_for_two, read_file, said_of_two, warnings_printed
+from .reading import add_for_two, prepared_file, said_of_two, warnings_printed
 from .shown import print_table, require_matplotlib, write_picture
 
 __all__ = ["add_compare"]
@@ -115,12 +115,11 @@ def _compare(arguments: argparse.Namespace) -> int:
     said = said_of_two(arguments)
     factors = [one.numbers() for one in said]
     with warnings_printed():
-        curves, names = zip(*map(read_file, files, said), strict=True)
+        tests, names = zip(*map(prepared_file, files, said), strict=True)
     measures = measures_with_limits(arguments)
     try:
         with warnings_printed():
-            if arguments.common_span:
-                curves = common_span(*curves)
+            curves = common_span(*tests) if arguments.common_span else tests
             comparison = compare(
                 *curves,
                 preset=arguments.preset,
@@ -136,12 +135,11 @@ def _compare(arguments: argparse.Namespace) -> int:
         lines = "".join(f"{number:.17g}\n" for number in numbers)
         Path(arguments.output).write_text(lines, encoding="ascii")
     if arguments.json:
-        read = {"files": files, "columns": names, "factors": factors}
+        steps = [list(getattr(test, "steps", ())) for test in tests]
+        read = {"files": files, "columns": names, "factors": factors, "prepared": steps}
         print(json.dumps(read | _in_json(comparison) | outcome.in_json(), indent=2))
     else:
-        print_table(
-            comparison, files, [_columns_in_words(*one) for one in zip(names, factors, strict=True)]
-        )
+        print_table(comparison, files, list(map(_columns_in_words, names, factors, tests)))
         outcome.print_text()
     if arguments.plot:
         write_picture(comparison, arguments.plot)
@@ -166,11 +164,13 @@ def _all_values(comparison: Comparison, files: list[str]) -> list[float]:
     return list(comparison.values.values())
 
 
-def _columns_in_words(names: list[str], factors: list[float] | None) -> str:
-    if factors is None:
-        return f", columns {', '.join(names)}"
-    scaled = (f"{name} × {factor:g}" for name, factor in zip(names, factors, strict=True))
-    return f", columns {', '.join(scaled)}"
+def _columns_in_words(names: list[str], factors: list[float] | None, curve: Any) -> str:
+    """Return which columns were read and how they were prepared."""
+    scaled = names
+    if factors is not None:
+        scaled = [f"{name} × {factor:g}" for name, factor in zip(names, factors, strict=True)]
+    steps = "".join(f"\n   {step}" for step in getattr(curve, "steps", ()))
+    return f", columns {', '.join(scaled)}{steps}"
 
 
 def _in_json(comparison: Comparison) -> dict[str, Any]:

@@ -3,19 +3,27 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 import warnings
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from .._bounds import on_its_scale
 from ..curves.inputs import Array
+from ..files.column_units import factor_of, in_mpa
 from ..materials import MATERIALS
 from ..solvers.cards import FORMATS
-from .reading import Said, add_repeated, read_file, said_of_each, warnings_printed
+from .reading import Said, add_repeated, prepared_file, said_of_each, warnings_printed
 from .shown import failures_unlogged, require_matplotlib
 
+if TYPE_CHECKING:
+    from ..fitting import PreparedTest
+
 __all__ = ["add_fit"]
+
+_NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\d\s].*)?")
 
 
 def add_fit(commands: Any) -> None:
@@ -48,14 +56,7 @@ def add_fit(commands: Any) -> None:
         default="constant",
         help="whether Young's modulus decays with the plastic strain",
     )
-    command.add_argument(
-        "--fix",
-        nargs="+",
-        type=_known,
-        default=[],
-        metavar="NAME=VALUE",
-        help="parameters that are known, such as E=206e3",
-    )
+    _add_known(command)
     command.add_argument(
         "--measure", default="sum_of_squares", help="what is minimised; sum_of_squares by default"
     )
@@ -66,19 +67,36 @@ def add_fit(commands: Any) -> None:
         help="last: compare the last complete cycle of each test alone, the stabilised one",
     )
     command.add_argument(
-        "--zero",
-        action=argparse.BooleanOptionalAction,
-        help="make the first point of each test the origin, if strain or stress was not zeroed; "
-        "--no-zero: fit tests that do not begin at zero as they are",
+        "--no-zero",
+        action="store_true",
+        help="fit tests that do not begin at zero strain and stress as they are",
+    )
+    _add_output(command)
+
+
+def _add_known(command: argparse.ArgumentParser) -> None:
+    """Add the options that say what is known of parameters."""
+    command.add_argument(
+        "--fix",
+        nargs="+",
+        type=_known,
+        default=[],
+        metavar="NAME=VALUE",
+        help="parameters that are known, with a unit of stress or in that of --units: E=206e3, "
+        "E=206GPa",
     )
     command.add_argument(
-        "--toe",
-        nargs="*",
-        type=float,
-        metavar="STRESS",
-        help="cut the toe of each test: its straight part, between two stresses (default: read off "
-        "the test), goes through the origin",
+        "--bounds",
+        nargs="+",
+        type=_bounded,
+        default=[],
+        metavar="NAME=LOW:HIGH",
+        help="bounds of parameters (default: read off the tests):  Q=0:200 E=180GPa:230GPa",
     )
+
+
+def _add_output(command: argparse.ArgumentParser) -> None:
+    """Add the options that say what is written."""
     command.add_argument(
         "--card",
         nargs="+",
@@ -99,13 +117,50 @@ def add_fit(commands: Any) -> None:
     )
 
 
-def _known(text: str) -> tuple[str, float]:
+class Quantity(NamedTuple):
+    """A number, with a unit of stress if it was written with one."""
+
+    number: float
+    unit: str
+
+    def within(self, units: str) -> float:
+        """Return the number in a unit of stress."""
+        return self.number * (factor_of(self.unit, units) if self.unit else 1.0)
+
+
+def _known(text: str) -> tuple[str, Quantity]:
     """Read a name and a number."""
     name, _, number = text.partition("=")
-    try:
-        return name, float(number)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text} is no NAME=VALUE, such as E=206e3") from None
+    return name, _quantity(number, text, "NAME=VALUE, for example E=206e3 or E=206GPa")
+
+
+def _bounded(text: str) -> tuple[str, tuple[Quantity, Quantity]]:
+    """Read a name and two numbers."""
+    wanted = "NAME=LOW:HIGH, for example Q=0:200"
+    name, _, both = text.partition("=")
+    low, _, high = both.partition(":")
+    return name, (_quantity(low, text, wanted), _quantity(high, text, wanted))
+
+
+def _quantity(written: str, text: str, wanted: str) -> Quantity:
+    """Read a number with or without a unit of stress."""
+    found = _NUMBER.fullmatch(written.strip())
+    if found is None or (found[2] and in_mpa(found[2]) is None):
+        raise argparse.ArgumentTypeError(f"expected {wanted}; got {text!r}")
+    return Quantity(float(found[1]), found[2] or "")
+
+
+def _in_units(arguments: argparse.Namespace) -> tuple[dict[str, float], dict[str, Any]]:
+    """Return what is fixed and what is bounded, in the unit of stresses."""
+    units = arguments.units
+    fixed = {name: quantity.within(units) for name, quantity in arguments.fix}
+    bounds = {}
+    for name, (low, high) in arguments.bounds:
+        ends = low.within(units), high.within(units)
+        if not ends[0] < ends[1]:
+            raise ValueError(f"--bounds {name} is {ends[0]:g}:{ends[1]:g}; give low below high")
+        bounds[name] = on_its_scale(*ends) if ends[0] > 0.0 else ends
+    return fixed, bounds
 
 
 def _fit(arguments: argparse.Namespace) -> int:
@@ -115,12 +170,12 @@ def _fit(arguments: argparse.Namespace) -> int:
     kind = MATERIALS[arguments.material]
     given = vars(arguments)
     material = kind(**{one.name: given[one.name] for one in fields(kind) if one.name in given})
+    fixed, bounds = _in_units(arguments)
     files = arguments.tests
     with warnings_printed():
         each = zip(files, said_of_each(arguments, len(files)), strict=True)
         tests = [_test(file, said, arguments.units) for file, said in each]
-    tests = [_from_zero(test, arguments) for test in tests]
-    if arguments.zero is not False and arguments.cycles == "all":
+    if not arguments.no_zero and arguments.cycles == "all":
         _ask_about_beginnings(tests, arguments.units)
     with failures_unlogged(), warnings.catch_warnings():
         for asked in (BeginningWarning, UnitsWarning):
@@ -129,7 +184,8 @@ def _fit(arguments: argparse.Namespace) -> int:
             tests,
             material,
             measure=arguments.measure,
-            fixed=dict(arguments.fix),
+            fixed=fixed,
+            bounds=bounds,
             cycles=arguments.cycles,
             seed=arguments.seed,
             units=arguments.units,
@@ -143,23 +199,7 @@ def _fit(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _from_zero(test: Array, arguments: argparse.Namespace) -> Array:
-    """Correct where a test begins, as --zero and --toe ask for."""
-    from ..curves import shift_to_origin
-    from ..fitting.beginnings import cut_toe
-
-    if arguments.zero:
-        test = shift_to_origin(test)
-    if arguments.toe is None:
-        return test
-    if len(arguments.toe) not in (0, 2):
-        raise ValueError(
-            f"--toe has {len(arguments.toe)} stresses; give two, low and high, or none"
-        )
-    return cut_toe(test, arguments.toe)
-
-
-def _ask_about_beginnings(tests: list[Array], units: str) -> None:
+def _ask_about_beginnings(tests: list[Any], units: str) -> None:
     """Refuse tests that do not begin at zero, with what to write if they are right."""
     from ..fitting.beginnings import BeginningError, check_beginnings
 
@@ -169,11 +209,15 @@ def _ask_about_beginnings(tests: list[Array], units: str) -> None:
         raise ValueError(f"{error}; or fit the tests as they are (--no-zero)") from None
 
 
-def _test(file: str, said: Said, units: str) -> Array:
-    """Read a test; ask about units that it seems to have, where no factors are given."""
+def _test(file: str, said: Said, units: str) -> Array | PreparedTest:
+    """Read and prepare a test; if no factors are given, ask about units that it seems to have."""
     from ..fitting.units_of_tests import doubt_of
 
-    test, _ = read_file(file, said, units)
-    if said.factors is None and (doubt := doubt_of(test, units)):
-        raise ValueError(f"{file}: {doubt.asked('command')}")
-    return test
+    def ask(test: Any) -> None:
+        if doubt := doubt_of(test, units):
+            raise ValueError(doubt.asked("command"))
+
+    try:
+        return prepared_file(file, said, units, ask if said.factors is None else None)[0]
+    except ValueError as error:
+        raise ValueError(f"{error}" if file in str(error) else f"{file}: {error}") from None

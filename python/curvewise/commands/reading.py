@@ -1,4 +1,4 @@
-"""What the commands say of the files that they read: columns, units, decimal signs, sheets.
+"""What the commands are told of their files: columns, units, sheets, how tests are prepared.
 
 The options are made from their declarations (`files.file_options`). A command that reads several
 files of one kind takes each option once for all files, or once for each, in their order
@@ -13,20 +13,24 @@ import contextlib
 import shlex
 import sys
 import warnings
-from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..curves.inputs import Array
 from ..files.column_choice import TimeColumnWarning
 from ..files.column_units import factor_of
 from ..files.curve_files import read_named_columns
-from ..files.file_options import READING, FileOption, Reading
+from ..files.file_options import CYCLE_COLUMN, PREPARATION, READING, FileOption, Reading
 from ..files.number_texts import SIGNS
+
+if TYPE_CHECKING:
+    from ..fitting import PreparedTest
 
 __all__ = [
     "Said",
     "add_for_two",
     "add_repeated",
+    "prepared_file",
     "read_file",
     "said_of_each",
     "said_of_two",
@@ -57,12 +61,16 @@ _FACTORS = FileOption(
     "fractions, MPa, N and mm: 0.01 1, or %% psi",
     "F",
 )
-_OPTIONS = (_COLUMNS, _FACTORS, *READING)
+_OPTIONS = (_COLUMNS, _FACTORS, *READING, *PREPARATION)
+_OPTIONS_OF_TESTS = (*_OPTIONS, CYCLE_COLUMN)
+_SIZES = ("area", "gauge_length")
 _SETTINGS: dict[str, dict[str, Any]] = {
     "names": {"nargs": "+"},
     "factors": {"nargs": "+", "type": _factor},
     "row": {"type": int},
     "sign": {"choices": list(SIGNS)},
+    "size": {"type": float},
+    "stresses": {"nargs": "*", "type": float},
 }
 
 
@@ -71,15 +79,20 @@ class Said(NamedTuple):
 
     Attributes
     ----------
-    columns : list of str, or None
-    factors : list of str, or None
+    columns : list of str or int, or None
+    factors : list of str or float, or None
         Numbers and units, as they were written.
     reading : Reading
+    preparation : dict
+        Keywords of `curvewise.fitting.prepare`.
+    cycle_column : str, or None
     """
 
-    columns: list[str] | None
-    factors: list[str] | None
+    columns: Sequence[str | int] | None
+    factors: Sequence[str | float] | None
     reading: Reading
+    preparation: dict[str, Any]
+    cycle_column: str | None
 
     def numbers(self, units: str = "MPa") -> list[float] | None:
         """Return the factors as numbers, those of stresses for a unit of stress."""
@@ -93,7 +106,7 @@ def add_repeated(command: argparse.ArgumentParser) -> None:
     group = command.add_argument_group(
         "files", "Give an option once for all files, or once for each file, in their order."
     )
-    for option in _OPTIONS:
+    for option in _OPTIONS_OF_TESTS:
         _add(group, option, option.flag, repeated=True)
 
 
@@ -128,7 +141,7 @@ def said_of_each(arguments: argparse.Namespace, count: int) -> list[Said]:
     """Return what is said of each of so many files by the options of `add_repeated`."""
     given = vars(arguments)
     each: list[dict[str, Any]] = [{} for _ in range(count)]
-    for option in _OPTIONS:
+    for option in _OPTIONS_OF_TESTS:
         values = given[option.word]
         if values is None:
             continue
@@ -157,8 +170,12 @@ def said_of_two(arguments: argparse.Namespace) -> list[Said]:
 
 def _said(values: Mapping[str, Any]) -> Said:
     given = {name: value for name, value in values.items() if value is not None}
-    columns, factors = given.pop("columns", None), given.pop("factors", None)
-    return Said(columns, factors, Reading(**given))
+    if "toe" in given:
+        given["toe"] = given["toe"] or True
+    reading = {one.name: given[one.name] for one in READING if one.name in given}
+    preparation = {one.name: given[one.name] for one in PREPARATION if one.name in given}
+    columns, factors, cycle_column = map(given.get, ("columns", "factors", "cycle_column"))
+    return Said(columns, factors, Reading(**reading), preparation, cycle_column)
 
 
 @contextlib.contextmanager
@@ -169,6 +186,48 @@ def warnings_printed() -> Iterator[None]:
         yield
     for words in dict.fromkeys(str(warning.message) for warning in said):
         print("curvewise:", words, file=sys.stderr)
+
+
+def prepared_file(
+    file: str, said: Said, units: str = "MPa", asked: Callable[[Any], None] | None = None
+) -> tuple[Array | PreparedTest, list[str]]:
+    """Read the columns of a file and prepare the test; return as well what the columns are called.
+
+    A file of which nothing is said of its preparation is a curve as it was read.
+
+    Parameters
+    ----------
+    file : str
+    said : Said
+    units : str
+        Unit of stresses.
+    asked : callable, optional
+        Called with strain and stress before their zero is corrected; it may raise ValueError.
+    """
+    curve, names = read_file(file, said, units)
+    if not said.preparation and said.cycle_column is None:
+        if asked is not None:
+            asked(curve)
+        return curve, names
+    from ..fitting import prepare
+
+    sizes = {name: said.preparation[name] for name in _SIZES if name in said.preparation}
+    try:
+        if asked is not None:
+            asked(prepare(curve, units=units, **sizes))
+        numbers = None if said.cycle_column is None else _cycle_numbers(file, said, curve)
+        return prepare(curve, cycle_numbers=numbers, units=units, **said.preparation), names
+    except ValueError as error:
+        raise ValueError(f"{file}: {error}") from None
+
+
+def _cycle_numbers(file: str, said: Said, curve: Array) -> Array:
+    """Return the cycle of each point of a curve that was read from the same file."""
+    assert said.cycle_column is not None
+    columns = [*(said.columns or range(1, curve.shape[1] + 1)), said.cycle_column]
+    with_cycles = said._replace(columns=columns, factors=None)
+    numbers: Array = read_file(file, with_cycles)[0][:, -1]
+    return numbers
 
 
 def read_file(file: str, said: Said, units: str = "MPa") -> tuple[Array, list[str]]:

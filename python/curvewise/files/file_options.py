@@ -1,8 +1,8 @@
-"""The options that say how a file is read: each is declared once, here.
+"""How a file is read and its test is prepared: each option of it is declared once, here.
 
-`curvewise.read_curve` takes them as keywords, the commands as ``--options``, a study as keys of a
-test. What an option is called, which values it takes and what it does stands in one row of
-`READING`; commands and studies are made from it.
+`curvewise.read_curve` and `curvewise.fitting.prepare` take them as keywords, the commands as
+``--options``, a study as keys of a test. What an option is called, which values it takes and what
+it does stands in one row of `READING` or `PREPARATION`; commands and studies are made from these.
 """
 
 from __future__ import annotations
@@ -13,9 +13,11 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 
 from .number_texts import SIGNS
 
-__all__ = ["READING", "FileOption", "Kind", "Reading"]
+__all__ = ["CYCLE_COLUMN", "PREPARATION", "READING", "FileOption", "Kind", "Reading"]
 
-Kind: TypeAlias = Literal["text", "name", "row", "flag", "sign"]
+Kind: TypeAlias = Literal[
+    "text", "name", "names", "row", "flag", "sign", "factors", "size", "stresses"
+]
 
 
 class FileOption(NamedTuple):
@@ -26,8 +28,8 @@ class FileOption(NamedTuple):
     name : str
         The keyword in Python; ``from_`` is ``from`` elsewhere.
     kind : str
-        Its values: a text, a name or a number from 1, the number of a row, a flag, or a decimal
-        sign.
+        Its values: a text, a name or a number from 1 or several such, the number of a row, a flag,
+        a decimal sign, numbers or units, a number above 0, two stresses or none.
     help : str
         What it does, for the command line.
     metavar : str
@@ -35,7 +37,7 @@ class FileOption(NamedTuple):
     """
 
     name: str
-    kind: str
+    kind: Kind
     help: str
     metavar: str = ""
 
@@ -76,6 +78,39 @@ READING = (
         "encoding of a text file, such as gbk or cp1251 (default: read off its bytes)",
         "NAME",
     ),
+)
+
+PREPARATION = (
+    FileOption(
+        "area",
+        "size",
+        "divide the force by this cross section, in mm² if the column names a unit of force",
+        "A",
+    ),
+    FileOption(
+        "gauge_length",
+        "size",
+        "divide the extension by this length, in mm if the column names a unit of length",
+        "L",
+    ),
+    FileOption(
+        "zero", "flag", "make the first point the origin, if strain or stress was not zeroed"
+    ),
+    FileOption(
+        "toe",
+        "stresses",
+        "cut the toe: the straight part, between two stresses (default: read off the test), goes "
+        "through the origin",
+        "STRESS",
+    ),
+    FileOption("true", "flag", "turn engineering strain and stress into true ones"),
+)
+CYCLE_COLUMN = FileOption(
+    "cycle_column",
+    "name",
+    "column with the number of the cycle, of a record that leaves out cycles: the material runs "
+    "through these",
+    "COLUMN",
 )
 
 

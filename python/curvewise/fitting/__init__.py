@@ -1,12 +1,20 @@
 """From measured loops to the parameters of a material: read, searched, and written down.
 
-What ``curvewise fit`` does, as a function: :func:`fit_material`.
+What ``curvewise fit`` does, as functions: :func:`prepare`, :func:`fit_material`.
 """
 
 from __future__ import annotations
 
 from .beginnings import BeginningWarning
 from .material_fit import MaterialFit, fit_material
+from .preparation import PreparedTest, prepare
 from .units_of_tests import UnitsWarning
 
-__all__ = ["BeginningWarning", "MaterialFit", "UnitsWarning", "fit_material"]
+__all__ = [
+    "BeginningWarning",
+    "MaterialFit",
+    "PreparedTest",
+    "UnitsWarning",
+    "fit_material",
+    "prepare",
+]

@@ -2,7 +2,8 @@
 
 A test of thousands of points says no more of a material than some hundreds, its turns among them.
 A dense, noisy test is averaged first (`curves.averaging`).
-With the last cycle alone, what comes before it is driven by its turns. Cost: linear in the tests.
+With the last cycle alone, what comes before it is driven by its turns, and so are cycles that a
+record leaves out (`recorded_cycles`). Cost: linear in the tests.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from ..calibration import Criterion, LeastSquares
 from ..calibration.methods.method import Method
 from ..curves.inputs import Array
 from ..materials import DrivenModel, Material
-from ..materials.readings import thinned, thinned_cycle
+from .recorded_cycles import driven_test
 
 __all__ = ["CYCLES", "Cycles", "DrivenTests", "fit_criterion", "fit_method"]
 
@@ -48,12 +49,11 @@ class DrivenTests(NamedTuple):
         """Return them thinned to about so many points; see `fit_material`."""
         if cycles not in CYCLES:
             raise ValueError(f"cycles is {cycles!r}; give {' or '.join(map(repr, CYCLES))}")
-        named = [(test, f"tests[{i}]", points) for i, test in enumerate(tests)]
-        if cycles == "all":
-            whole = tuple(thinned(*one) for one in named)
-            return cls(material.driven_by(whole), whole)
-        paths, parts = zip(*(thinned_cycle(*one) for one in named), strict=True)
-        model = material.driven_by(paths, parts=parts)
+        driven = [driven_test(test, f"tests[{i}]", cycles, points) for i, test in enumerate(tests)]
+        paths = tuple(one.path for one in driven)
+        parts = [one.compared for one in driven]
+        is_whole = all(isinstance(part, slice) and part == slice(None) for part in parts)
+        model = material.driven_by(paths, parts=None if is_whole else parts)
         return cls(model, tuple(path[part] for path, part in zip(paths, parts, strict=True)))
 
 

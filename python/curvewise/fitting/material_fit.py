@@ -17,20 +17,22 @@ from typing import Any
 
 import numpy as np
 
-from .._bounds import Below, Bounds, Log, Tied
-from .._names import did_you_mean
+from .._bounds import Bounds
 from .._options import Default, Missing
 from ..calibration import Identification, Uncertainty, identify
 from ..calibration.problem.tables import digits
+from ..calibration.report.notes import Note
 from ..curves.inputs import Array
 from ..curves.missing import named_without_gaps
-from ..curves.named_curve import NamedCurve
+from ..curves.named_curve import NamedCurve, known_file
 from ..curves.several_curves import curve_list
 from ..curves.turns import turning_points
 from ..materials import DrivenModel, Material
-from ..materials.readings import reading_of
 from .beginnings import warn_of_beginnings
 from .driven_tests import Cycles, DrivenTests, fit_criterion, fit_method
+from .moduli import check_units, checked_names, modulus_of
+from .preparation import PreparedTest
+from .recorded_cycles import whole_record
 from .units_of_tests import warn_of_units
 from .wider_bounds import Beyond, search_within
 
@@ -40,8 +42,6 @@ _COLUMNS = ("parameter", "unit", "value", "interval_low", "interval_high", "dete
 
 # Beyond it a fitted modulus is no longer the slope with which a test unloads.
 _SAME_MODULUS = 0.1
-# A factor by which no modulus is off in the same unit; kN/mm2 and psi are 1000 and 145 MPa's.
-_OTHER_UNIT = 30.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +67,10 @@ class MaterialFit:
         The parameters at bounds that were read off the tests, and what wider ones would gain.
     beginning : str, default ""
         Sentences about tests that begin a little beside zero strain and stress.
+    prepared : tuple of PreparedTest
+        Those of the tests that `prepare` has made, with what it did.
+    cycles : {"all", "last"}
+        Which cycles were compared.
     """
 
     model: DrivenModel = field(repr=False)
@@ -77,6 +81,8 @@ class MaterialFit:
     units: str = "MPa"
     beyond: Beyond | None = None
     beginning: str = ""
+    prepared: tuple[PreparedTest, ...] = field(default=(), repr=False)
+    cycles: Cycles = "all"
 
     @property
     def material(self) -> Material:
@@ -89,8 +95,16 @@ class MaterialFit:
         return self.found.parameters
 
     def __str__(self) -> str:
-        said = (self.uncertainty, self.beyond, self.beginning, self.one_way, self.remark)
-        parts = [str(self.found), *(str(one) for one in said if one)]
+        said = (
+            self.uncertainty,
+            self.beyond,
+            self.beginning,
+            self.one_way,
+            self.one_cycle,
+            self.remark,
+        )
+        prepared = (f"{_title(one)}\n{one}" for one in self.prepared)
+        parts = [*prepared, str(self.found), *(str(one) for one in said if one)]
         if failures := self.found.failures:
             parts.append(
                 f"{len(failures)} of {self.found.evaluations} runs failed, the first: "
@@ -112,6 +126,21 @@ class MaterialFit:
             "No test turns back: they do not tell hardening that grows the yield surface from "
             "hardening that moves it, whatever the intervals are. Do not use these parameters "
             "under reversed load, or add a test that turns"
+        )
+
+    @property
+    def one_cycle(self) -> str:
+        """A sentence where a stabilised cycle alone has to tell yield from Q, or ""."""
+        if (
+            self.cycles != "last"
+            or "Q" not in self.found.bounds
+            or "yield" not in self.found.bounds
+        ):
+            return ""
+        return (
+            "The last cycle alone does not tell yield from Q, whatever the intervals are: it shows "
+            "their sum. Fit its size as one yield stress (curvewise fit: --fix Q=0 b=1; "
+            "fit_material: fixed={'Q': 0, 'b': 1}), or compare all cycles"
         )
 
     @property
@@ -196,7 +225,11 @@ class MaterialFit:
             writer = csv.DictWriter(file, _COLUMNS, lineterminator="\n")
             writer.writeheader()
             writer.writerows(self._rows())
-        self.found.report(report, uncertainty=self.uncertainty)
+        notes = [
+            Note(_title(one), one.steps, one.beginnings(), one.column_names)
+            for one in self.prepared
+        ]
+        self.found.report(report, uncertainty=self.uncertainty, notes=notes)
         figure = self.found.plot()
         for i, ax in enumerate(figure.axes[: len(self.tests)]):  # the loops come first
             ax.set_title(names[i] if names else "")
@@ -239,7 +272,7 @@ def fit_material(
     ----------
     tests : array_like of shape (n, 2), or sequence of such
         Strain [-] and stress of each test, from zero strain and stress on: loops, single tension
-        tests, raw records of a machine.
+        tests, raw records of a machine; what :func:`prepare` makes of one.
     material : Material
         Such as ``ChabocheVoce(backstresses=2)``.
     measure : str, default "sum_of_squares"
@@ -248,8 +281,9 @@ def fit_material(
     fixed : mapping of str to float, optional
         Parameters that are known and not searched for, such as ``{"E": 206e3}``.
     bounds : mapping, optional
-        As for `identify`; by default what ``material.bounds_from(tests)`` reads off the tests, and
-        wider where a parameter ends at one of them.
+        Bounds of some parameters or of all, as for `identify`. All others have those that
+        ``material.bounds_from(tests)`` reads off the tests, and wider ones where a parameter ends
+        at one of these; bounds that are given are kept.
     cycles : {"all", "last"}
         "last": of each test its last complete cycle alone is compared
         (:func:`curvewise.curves.last_cycle`), the stabilised one of a test of many; the material
@@ -278,9 +312,9 @@ def fit_material(
     ------
     ValueError
         A test is none of strain and stress, has strains in per cent, is elastic, or has no
-        complete cycle for ``cycles="last"``; `fixed` has a name that is no parameter. `fixed` or
-        `bounds` have a modulus far from the one of the tests, or leave no parameter that moves the
-        stress.
+        complete cycle for ``cycles="last"``; `fixed` or `bounds` has a name that is no parameter,
+        a modulus or a yield stress in another unit than the tests, or leaves no parameter that
+        moves the stress.
     ImportError
         scipy or tqdm is missing: ``pip install "curvewise[calibration]"``.
 
@@ -312,19 +346,19 @@ def fit_material(
     >>> {name: round(value, 1) for name, value in fit.parameters.items()}
     {'E': 200000.0, 'yield': 300.0, 'Q': -50.0, 'b': 8.0, 'C1': 80000.0, 'gamma1': 400.0}
     """
-    given = named_without_gaps(curve_list(tests), missing)
+    given = curve_list(tests)
+    prepared = tuple(test for test in given if isinstance(test, PreparedTest) and test.steps)
+    kept = named_without_gaps(given, missing)
+    given = [a if isinstance(a, PreparedTest) else b for a, b in zip(given, kept, strict=True)]
     warn_of_units(given, units)
+    whole = list(map(whole_record, given))
     driven = DrivenTests.of(material, given, cycles=cycles, points=points)
-    read_off = material.bounds_from(given) if bounds is None else bounds
-    known = dict(fixed or {})
-    if unknown := [name for name in known if name not in material.names]:
-        raise ValueError(
-            f"fixed has no parameter of the material: {unknown[0]!r}"
-            f"{did_you_mean(unknown, material.names)} ({', '.join(material.names)})"
-        )
+    known, own = checked_names(material.names, fixed, bounds)
+    is_whole = set(own) >= set(material.names)
+    read_off = {} if is_whole else material.bounds_from(whole)
     beginning = warn_of_beginnings(given, units, level=2) if cycles == "all" else ""
     modulus = modulus_of(given)
-    check_moduli({**read_off, **known}, modulus, units)
+    check_units({**own, **known}, given, units)
     search = partial(
         identify,
         driven.model,
@@ -334,10 +368,8 @@ def fit_material(
         seed=seed,
         progress=progress,
     )
-    if bounds is None:
-        found, beyond = search_within(search, {**read_off, **known}, max_runs)
-    else:
-        found, beyond = search({**read_off, **known}, max_runs=max_runs), None
+    searched = {name: {**read_off, **own, **known}[name] for name in material.names}
+    found, beyond = search_within(search, searched, max_runs, kept=own)
     uncertainty = found.uncertainty()
     if not np.any(uncertainty.sensitivities):
         raise ValueError(
@@ -346,35 +378,20 @@ def fit_material(
             f"{', '.join(known) or 'bounds'}"
         )
     return MaterialFit(
-        driven.model, driven.compared, found, uncertainty, modulus, units, beyond, beginning
+        driven.model,
+        driven.compared,
+        found,
+        uncertainty,
+        modulus,
+        units,
+        beyond,
+        beginning,
+        prepared,
+        cycles,
     )
 
 
-def check_moduli(bounds: Bounds, read: float, units: str) -> None:
-    """Refuse a modulus far from the one that tests show: in another unit than their stresses."""
-    for name in ("E", "Ea"):
-        if name not in bounds:
-            continue
-        given = bounds[name]
-        if isinstance(given, Tied):
-            continue
-        if isinstance(given, (Log, Below)):
-            low, high = given.low, given.high
-        else:
-            low, high = np.ravel(given)[[0, -1]].tolist()  # a pair, or one number
-        near = min(max(read, low), high)
-        if not low > 0.0 or read / _OTHER_UNIT <= near <= read * _OTHER_UNIT:
-            continue
-        factor = max(read / near, near / read)
-        raise ValueError(
-            f"{name} is {near:.6g} {units}, and the tests show a modulus of {digits(read, 4)}: a "
-            f"factor of {factor:.4g}; give it in the unit of their stresses "
-            f"({'GPa for MPa' if 300.0 < factor < 3000.0 else 'other units'}?)"
-        )
-
-
-def modulus_of(tests: Sequence[Any]) -> float:
-    """Return the slope with which tests unload, or that of first loading: the middle one."""
-    moduli = [reading_of(test, f"tests[{i}]").moduli for i, test in enumerate(tests)]
-    unloading = [slope for one in moduli for slope in one[1:]]
-    return float(np.median(unloading or [one[0] for one in moduli]))
+def _title(test: PreparedTest) -> str:
+    """Return what heads the steps of a test."""
+    name = known_file(test.curve)
+    return f"Preparation of {name}" if name else "Preparation of the test"

@@ -45,6 +45,24 @@ _STRESS_UNITS = {
 }
 
 
+# How each way out is written, on the command line, in a study and in Python.
+_OPTIONS = {
+    "factors": "give --factors {}{}",
+    "gauge_length": "give --gauge-length, in mm",
+    "area": "give --area, in mm²",
+}
+_KEYS = {
+    "factors": "give factors = [{}]{}",
+    "gauge_length": "give gauge_length, in mm",
+    "area": "give area, in mm²",
+}
+_KEYWORDS = {
+    "factors": "multiply its columns (read_curve: factors=[{}]{})",
+    "gauge_length": "give the gauge length in mm (prepare: gauge_length=)",
+    "area": "give the area in mm² (prepare: area=)",
+}
+
+
 class UnitsWarning(UserWarning):
     """A test seems to have other units than a fit takes."""
 
@@ -62,12 +80,15 @@ class Doubt(NamedTuple):
         What the letters are, or nothing.
     is_other : bool
         Whether a column is neither strain nor stress, in any unit.
+    sizes : tuple of str
+        What has to be known of the specimen: its area, its gauge length.
     """
 
     found: str
     factors: tuple[str, str]
     where: str
     is_other: bool = False
+    sizes: tuple[str, ...] = ()
 
     def asked(self, by: Asking) -> str:
         """Return what seems to be, and what to write if so and if not.
@@ -79,20 +100,24 @@ class Doubt(NamedTuple):
         """
         right = "they are strain and stress" if self.is_other else "its units are right"
         if by == "command":
-            way = f"give --factors {' '.join(self.factors)}{self.where}"
-            way = "name others: --columns STRAIN STRESS" if self.is_other else way
+            way = "name others: --columns STRAIN STRESS" if self.is_other else self._way(_OPTIONS)
             return f"{self.found}; {way}, or --factors 1 1 if {right}"
         if by == "study":
-            way = f"give factors = [{', '.join(self.factors)}]{self.where}"
-            way = 'name others: columns = ["STRAIN", "STRESS"]' if self.is_other else way
+            other = 'name others: columns = ["STRAIN", "STRESS"]'
+            way = other if self.is_other else self._way(_KEYS)
             return f"{self.found}; {way}, or factors = [1, 1] if {right}"
         if self.is_other:
             return f"{self.found}; if so, read others (read_curve: columns=[...])"
-        factors = ", ".join(self.factors)
-        return (
-            f"{self.found}; if so, multiply its columns (read_curve: factors=[{factors}]"
-            f"{self.where})"
-        )
+        return f"{self.found}; if so, {self._way(_KEYWORDS)}"
+
+    def _way(self, words: dict[str, str]) -> str:
+        """Return what to give, in the words of options, keys or keywords."""
+        ways = []
+        if set(self.factors) != {"1"}:
+            listed = (" " if words is _OPTIONS else ", ").join(self.factors)
+            ways.append(words["factors"].format(listed, self.where))
+        ways += [words[size] for size in self.sizes]
+        return " and ".join(ways)
 
 
 def doubt_of(test: Any, units: str) -> Doubt | None:
@@ -120,7 +145,7 @@ def warn_of_units(tests: Sequence[Any], units: str) -> None:
 
 def _by_names(names: Sequence[str], units: str) -> Doubt | None:
     """Return what the names of two columns, or a row of units, say of them."""
-    found, factors, where = [], ["1", "1"], []
+    found, factors, where, sizes = [], ["1", "1"], [], []
     strain, stress = map(unit_of, names)
     is_volts = stress in VOLTAGES or "volt" in names[1].casefold()
     if is_time(names[0]) or strain in TIMES:
@@ -132,16 +157,14 @@ def _by_names(names: Sequence[str], units: str) -> Doubt | None:
         factors[0] = f"{STRAINS[strain]:g}"
         found.append(_seems("strain", names[0], f"in {_EXPLAINING[STRAINS[strain]]}"))
     elif strain in LENGTHS:
-        factors[0] = "F1"
-        where.append("F1 = 1 / gauge length")
+        sizes.append("gauge_length")
         found.append(_seems("strain", names[0], "a length"))
     target = in_mpa(units)
     if target is not None and STRESSES.get(stress, target) != target:
         factors[1] = f"{STRESSES[stress] / target:.7g}"
         found.append(_seems("stress", names[1], f"in other units than {units}"))
     elif target is not None and stress in FORCES:
-        factors[1] = "F2"
-        where.append(f"F2 = {FORCES[stress] / target:.7g} / area in mm²")
+        sizes.append("area")
         found.append(_seems("stress", names[1], "a force"))
     elif is_volts:
         factors[1] = "F2"
@@ -150,7 +173,7 @@ def _by_names(names: Sequence[str], units: str) -> Doubt | None:
     if not found:
         return None
     letters = f" with {' and '.join(where)}" if where else ""
-    return Doubt(", and ".join(found), (factors[0], factors[1]), letters)
+    return Doubt(", and ".join(found), (factors[0], factors[1]), letters, sizes=tuple(sizes))
 
 
 def _seems(what: str, name: str, unit: str) -> str:

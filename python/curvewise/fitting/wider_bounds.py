@@ -10,7 +10,7 @@ runs a widening, where a parameter is at a bound. A limit of runs is one for all
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -67,7 +67,11 @@ class Beyond:
 
 
 def search_within(
-    search: Callable[..., Identification], bounds: Bounds, most_runs: int | None
+    search: Callable[..., Identification],
+    bounds: Bounds,
+    most_runs: int | None,
+    *,
+    kept: Collection[str] = (),
 ) -> tuple[Identification, Beyond | None]:
     """Search within assumed bounds, and within wider ones where that ends at one.
 
@@ -79,6 +83,8 @@ def search_within(
         As read off the tests.
     most_runs : int, optional
         Of the model, in all searches.
+    kept : collection of str
+        Parameters whose bounds are not assumed, and stay.
 
     Returns
     -------
@@ -88,7 +94,7 @@ def search_within(
         What wider bounds have given; None if no bound was widened.
     """
     first = search(bounds, max_runs=most_runs)
-    sides = _assumed(first)
+    sides = _assumed(first, kept)
     if not sides:
         return first, None
     searches = [first]
@@ -103,7 +109,7 @@ def search_within(
 
     end = first
     for _ in range(_MOST_WIDENINGS):
-        at = _assumed(end)
+        at = _assumed(end, kept)
         if not at:
             break
         bounds = {**bounds, **{name: _further(bounds[name], side) for name, side in at.items()}}
@@ -111,9 +117,9 @@ def search_within(
         end = search_on(start) or end
     whole = search_on(None) or end
     is_good = whole.value <= (1.0 + _ALIKE) * end.value
-    found = whole if is_good and len(_assumed(whole)) <= len(_assumed(end)) else end
+    found = whole if is_good and len(_assumed(whole, kept)) <= len(_assumed(end, kept)) else end
     gain = 1.0 - found.value / first.value if first.value else 0.0
-    beyond = Beyond(sides, max(gain, 0.0), _assumed(found), _runs(searches))
+    beyond = Beyond(sides, max(gain, 0.0), _assumed(found, kept), _runs(searches))
     return joined(searches, found), beyond
 
 
@@ -126,12 +132,12 @@ def _said(sides: dict[str, str]) -> str:
     return ", ".join(f"{name} at its {side} bound" for name, side in sides.items())
 
 
-def _assumed(found: Identification) -> dict[str, str]:
-    """Return the parameters at a bound that is no limit, with the side."""
+def _assumed(found: Identification, kept: Collection[str]) -> dict[str, str]:
+    """Return the parameters at a bound that was assumed and is no limit, with the side."""
     space = found.problem.space
     limits = space.at_limits(found.parameters)
     at_bounds = space.at_bounds(found.parameters)
-    return {name: side for name, side in at_bounds.items() if name not in limits}
+    return {n: side for n, side in at_bounds.items() if n not in limits and n not in kept}
 
 
 def _further(given: Any, side: str) -> Any:

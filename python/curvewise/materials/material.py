@@ -13,12 +13,12 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from .._bounds import Bounds, Log, on_its_scale
+from .._bounds import Bounds, Log, OutsideModelError, on_its_scale
 from .._names import did_you_mean
 from ..curves.inputs import Array, as_curve
 from ..curves.several_curves import curve_list
@@ -26,7 +26,9 @@ from ..installation import build_info
 from ..solvers.cards import CardContent, card_text
 from .readings import Reading, Span, reading_of, strain_and_stress
 
-__all__ = ["DrivenModel", "Material", "Parameter"]
+__all__ = ["DrivenModel", "Material", "Parameter", "Part"]
+
+Part: TypeAlias = "slice | npt.NDArray[np.int64]"
 
 # Cycles that a card of CalculiX follows where nobody says which: they grow to 3 %.
 _CYCLES = (np.array([0.005, -0.005, 0.01, -0.01, 0.02, -0.02, 0.03, -0.03]),)
@@ -111,14 +113,14 @@ class Material(ABC):
         stress, slopes = self._call(strain, parameters, True)
         return stress, slopes
 
-    def driven_by(self, experiments: Any, *, parts: Sequence[slice] | None = None) -> DrivenModel:
+    def driven_by(self, experiments: Any, *, parts: Sequence[Part] | None = None) -> DrivenModel:
         """Return a model for `identify`: this material along the strains of measured loops.
 
         Parameters
         ----------
         experiments : array_like of shape (n, 2), or sequence of such
             Strain and stress of each test.
-        parts : sequence of slice, optional
+        parts : sequence of slice or ndarray of int, optional
             For each test the points that its curve shall have, such as
             :func:`curvewise.curves.last_cycle`; the whole test drives the material all the same.
 
@@ -324,27 +326,36 @@ class DrivenModel:
     material : Material
     strains : tuple of ndarray
         The path of each test.
-    parts : tuple of slice, or None
+    parts : tuple of slice or ndarray of int, or None
         Which of its points the curve of each test has; None for all.
     """
 
     material: Material
     strains: Sequence[Array]
-    parts: Sequence[slice] | None = None
+    parts: Sequence[Part] | None = None
 
     def __call__(self, parameters: Mapping[str, float]) -> list[Array]:
-        """Return the curve of each test, shape (n, 2): strain and stress."""
-        return [
-            np.column_stack((strain, self.material.stress(strain, parameters)))[part]
-            for strain, part in self._paths()
-        ]
+        """Return the curve of each test, shape (n, 2): strain and stress.
+
+        Raises
+        ------
+        OutsideModelError
+            The material has no stress with these parameters, such as Q below -yield.
+        """
+        try:
+            return [
+                np.column_stack((strain, self.material.stress(strain, parameters)))[part]
+                for strain, part in self._paths()
+            ]
+        except ValueError as error:
+            raise OutsideModelError(str(error)) from None
 
     @property
     def identity(self) -> str:
         """What a store knows its runs by: material, paths, and the version that computes them."""
         digest = hashlib.sha256(repr(self.parts).encode())
-        for strain in self.strains:
-            digest.update(strain.tobytes())
+        for path in (*self.strains, *self._indices()):
+            digest.update(path.tobytes())
         version = build_info()["version"]
         return f"{self.material!r}, strains {digest.hexdigest()[:16]}, curvewise {version}"
 
@@ -358,11 +369,15 @@ class DrivenModel:
         ]
         found = []
         for strain, part in self._paths():
-            slopes = self.material.stress_and_slopes(strain, parameters)[1][part, order]
+            slopes = self.material.stress_and_slopes(strain, parameters)[1][part][:, order]
             found.append(np.stack((np.zeros_like(slopes), slopes), axis=1))
         return found
 
-    def _paths(self) -> Iterator[tuple[Array, slice]]:
+    def _indices(self) -> list[npt.NDArray[np.int64]]:
+        """Return the parts that are arrays, which their repr shortens."""
+        return [part for part in self.parts or () if not isinstance(part, slice)]
+
+    def _paths(self) -> Iterator[tuple[Array, Part]]:
         parts = self.parts or [slice(None)] * len(self.strains)
         return zip(self.strains, parts, strict=True)
 

@@ -13,8 +13,9 @@ from typing import Any, TypeVar, get_args, get_type_hints
 from .._names import did_you_mean
 from ..calibration.problem.space import Space
 from ..fitting.beginnings import warn_of_beginnings
-from ..fitting.driven_tests import CYCLES, DrivenTests
-from ..fitting.material_fit import modulus_of
+from ..fitting.driven_tests import CYCLES, Cycles, DrivenTests
+from ..fitting.moduli import check_units, modulus_of
+from ..fitting.recorded_cycles import whole_record
 from ..fitting.units_of_tests import doubt_of
 from ..materials import MATERIALS, DrivenModel, Material
 from ..solvers.cards import FORMATS
@@ -54,12 +55,13 @@ class MaterialModel:
     backstresses: int | None = key(keys.at_least(0))
     modulus: str | None = key(_one_of_its_own("modulus"))
     growth: str | None = key(_one_of_its_own("growth"))
-    cycles: str = key(keys.choice(CYCLES), "all")
+    cycles: Cycles = key(keys.choice(CYCLES), "all")
     cards: tuple[str, ...] = key(_cards, ())
     name: str = key(keys.text, "material")
     units: str = key(keys.text, "MPa")
     driven: DrivenModel | None = None
     modulus_read: float = 0.0
+    beginning: str = ""
 
     def made(self) -> Material:
         """Return the material with its options."""
@@ -113,35 +115,38 @@ def drive(
                 f"is no parameter of {model.material}{hint} (they are {', '.join(material.names)})",
             )
 
+    given_tests = [test.prepared or test.experiment for test in tests]
     for i, test in enumerate(tests):
         told = test.factors or test.x is not None
-        if not told and (doubt := doubt_of(test.experiment, model.units)):
+        if not told and (doubt := doubt_of(given_tests[i], model.units)):
             source.problem(("tests", i), doubt.asked("study"))
     source.raise_problems()
 
     def each(what: Callable[[list[Any]], T]) -> None:
-        for i, test in enumerate(tests):
+        for i, test in enumerate(given_tests):
             try:
-                what([test.experiment])
+                what([test])
             except ValueError as error:
                 said = str(error).removeprefix("experiments[0] ").removeprefix("tests[0]: ")
                 source.problem(("tests", i), f"cannot drive a material: {said}")
 
-    each(material.bounds_from)
+    each(lambda one: material.bounds_from(list(map(whole_record, one))))
     source.raise_problems()
     each(lambda one: DrivenTests.of(material, one, cycles=model.cycles))
     source.raise_problems()
-    measured = [test.experiment for test in tests]
+    beginning = ""
     if model.cycles == "all":
-        warn_of_beginnings(measured, model.units, level=2)
-    bounds = {**material.bounds_from(measured), **given}
+        beginning = warn_of_beginnings(given_tests, model.units, level=2)
+    bounds = {**material.bounds_from(list(map(whole_record, given_tests))), **given}
     try:
         Space(bounds)
+        check_units(given, given_tests, model.units)
     except ValueError as error:
         source.problem(("parameters",), f"{error} (the others are read off the tests)")
     source.raise_problems()
-    driven = DrivenTests.of(material, measured, cycles=model.cycles)
-    made = replace(model, driven=driven.model, modulus_read=modulus_of(measured))
+    driven = DrivenTests.of(material, given_tests, cycles=model.cycles)
+    modulus = modulus_of(given_tests)
+    made = replace(model, driven=driven.model, modulus_read=modulus, beginning=beginning)
     compared = zip(tests, driven.compared, strict=True)
     return made, tuple(replace(test, experiment=curve) for test, curve in compared), bounds
 

@@ -11,7 +11,8 @@ import numpy as np
 
 from ..curves.inputs import Array
 from ..files.column_units import factor_of
-from ..files.file_options import READING, Reading
+from ..files.file_options import CYCLE_COLUMN, PREPARATION, READING, Reading
+from ..fitting import PreparedTest, prepare
 from . import keys
 from .curve_sources import FORMATS, CurveSource, Quantity, format_of
 from .file_keys import said as said_of_file
@@ -41,6 +42,9 @@ def _factors(value: Any) -> tuple[float, ...]:
     except ValueError as error:
         raise ValueError(f"cannot be used: {error}") from None
 
+
+_PREPARATION = tuple(option.name for option in PREPARATION)
+_PLAIN = CurveSource("", "columns")
 
 _column = keys.name_or_number("the name of a column")
 
@@ -101,11 +105,19 @@ class MeasuredTest(Comparison, Columns):
         The measured curve, or a number.
     output : CurveSource
         Where its simulation is in a run's folder.
+    prepared : PreparedTest, or None
+        The measured curve with what was done to it, if anything was.
     """
 
     file: Path | None = key_at(keys.path)
     number: float | None = key(keys.number)
     name: str = key(keys.text, "")
+    area: float | None = said_of_file("area")
+    gauge_length: float | None = said_of_file("gauge_length")
+    zero: bool = said_of_file("zero")
+    toe: bool | tuple[float, float] = said_of_file("toe")
+    true: bool = said_of_file("true")
+    cycle_column: str | int | None = said_of_file("cycle_column")
     every: int = key(keys.at_least(1), 1)
     axes: tuple[str, ...] = key(keys.texts, ())
     weight: float = key(keys.not_negative, 1.0)
@@ -113,6 +125,7 @@ class MeasuredTest(Comparison, Columns):
     model: str = key(keys.as_it_is, "")
     output: CurveSource = table(_output)
     experiment: Array | float = 0.0
+    prepared: PreparedTest | None = None
 
     @property
     def is_number(self) -> bool:
@@ -139,9 +152,10 @@ def read_test(
     test = table.read(MeasuredTest)
     if ("file" in table.given) == ("number" in table.given):
         table.problem("", "needs a file with a curve, or a number, and not both")
-    curve: tuple[Array | float, tuple[str, ...]] | None
+    curve: tuple[Array | float | PreparedTest, tuple[str, ...]] | None
     curve = _read_curve(table, test) if test.number is None else (test.number, ("number",))
-    for name in described(Columns) if test.is_number else ():
+    about_files = {*described(Columns), *_PREPARATION, CYCLE_COLUMN.word}
+    for name in about_files if test.is_number else ():
         if name in table.given:
             table.problem(name, "is about a file, and the test is a number")
     if models is None:
@@ -169,7 +183,8 @@ def read_test(
         name=test.name or (test.file.stem if test.file else f"test {index + 1}"),
         axes=test.axes or curve[1],
         model=test.model or next(iter(models or ()), ""),
-        experiment=curve[0],
+        experiment=np.asarray(curve[0]) if isinstance(curve[0], PreparedTest) else curve[0],
+        prepared=curve[0] if isinstance(curve[0], PreparedTest) else None,
     )
 
 
@@ -184,6 +199,25 @@ def _check_for_material(table: Table) -> None:
             table.problem(name, why)
 
 
+def _prepared(table: Table, test: MeasuredTest, curve: Array) -> Array | PreparedTest:
+    """Return a measured curve as its keys have it prepared; as it is where they say nothing."""
+    given = {name: getattr(test, name) for name in _PREPARATION}
+    if test.cycle_column is None and not any(given.values()):
+        return curve
+    numbers = None
+    if test.cycle_column is not None:
+        column = replace(_PLAIN, file=str(test.file), columns=(test.cycle_column,))
+        numbers = replace(column, reading=_reading_of(test)).read(Path())[:, 0]
+    return prepare(curve, cycle_numbers=numbers, units=_units_of(table.source), **given)
+
+
+def _units_of(source: Source) -> str:
+    """Return the unit of stresses that a material of the study has."""
+    model = source.values.get("model")
+    units = model.get("units") if isinstance(model, Mapping) else None
+    return units if isinstance(units, str) else "MPa"
+
+
 def _check_model(table: Table, models: Mapping[str, SolverModel]) -> None:
     if "model" in table.given:
         try:
@@ -194,15 +228,17 @@ def _check_model(table: Table, models: Mapping[str, SolverModel]) -> None:
         table.problem("", f"needs a model: one of {', '.join(models)}")
 
 
-def _read_curve(table: Table, test: MeasuredTest) -> tuple[Array, tuple[str, ...]] | None:
+def _read_curve(
+    table: Table, test: MeasuredTest
+) -> tuple[Array | PreparedTest, tuple[str, ...]] | None:
     """Return the measured curve and its axes; its file's faults are those of a key."""
     problems = len(table.source.problems)
     measured = _source(table, test, str(test.file), "columns")
-    wrong = table.wrong.intersection({*described(Columns), "every"})
+    wrong = table.wrong.intersection({*described(MeasuredTest)} - {"model", "output"})
     if wrong or test.file is None or len(table.source.problems) > problems:
         return None
     try:
-        curve = measured.read(Path())
+        curve = _prepared(table, test, measured.read(Path()))
         kept = np.unique([*range(0, len(curve), test.every), len(curve) - 1])  # the last one, too
         return curve[kept], measured.axes(Path())
     except OSError as error:
@@ -238,11 +274,15 @@ def _source(table: Table, said: Columns, file: str, format: str) -> CurveSource:
     if first and len(first) != (len(formulas) or width):
         table.problem("first_point", f"is {list(first)}; give a number for each coordinate")
     try:
-        reading = Reading(**{option.name: getattr(said, option.name) for option in READING})
+        reading = _reading_of(said)
     except ValueError as error:
         table.problem("", f"cannot be read: {error}")
         reading = Reading()
     return CurveSource(file, format, names, columns, said.factors, formulas, first, reading)
+
+
+def _reading_of(said: Columns) -> Reading:
+    return Reading(**{option.name: getattr(said, option.name) for option in READING})
 
 
 def _formulas(table: Table, said: Columns, names: tuple[str, ...]) -> tuple[Formula, ...]:

@@ -110,6 +110,7 @@ def _contents(study: Contents, found: StudyResult) -> dict[str, Any]:
         "curvewise": build_info()["version"],
         "numpy": np.__version__,
         "tests": [test.name for test in study.tests],
+        "prepared": {t.name: t.prepared.steps for t in study.tests if t.prepared is not None},
         "found": {
             measure: _one(one, found.uncertainties.get(measure))
             for measure, one in found.identifications.items()

@@ -210,8 +210,17 @@ class Study(Contents):
             return None
         ((measure, one),) = found.items()
         tests = tuple(np.asarray(test.experiment) for test in self.tests)
-        uncertainty = uncertainties.get(measure)
-        return MaterialFit(model.driven, tests, one, uncertainty, model.modulus_read, model.units)
+        return MaterialFit(
+            model.driven,
+            tests,
+            one,
+            uncertainties.get(measure),
+            model.modulus_read,
+            model.units,
+            beginning=model.beginning,
+            cycles=model.cycles,
+            prepared=tuple(test.prepared for test in self.tests if test.prepared is not None),
+        )
 
     def _searched(
         self, progress: bool, callback: Callable[[Progress], Any] | None

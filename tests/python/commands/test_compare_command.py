@@ -39,6 +39,7 @@ def test_compare_json_is_one_object(compared, files, preset):
         "files": ["A.csv", "B.csv"],
         "columns": [["strain", "stress"], ["1", "2"]],
         "factors": [None, None],
+        "prepared": [[], []],
         "preset": preset,
         "n": [40, 30],
         "values": expected.to_dict(),

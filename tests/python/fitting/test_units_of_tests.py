@@ -129,10 +129,8 @@ def test_a_force_needs_an_area_and_an_extension_a_length(tmp_path: Path, capsys)
     assert main(["fit", str(file), "--output", str(tmp_path / "out")]) == 1
     said = capsys.readouterr().err
     assert "'Extension [mm]', which seems to be a length, and the stress is in column" in said
-    assert (
-        "'Force [kN]', which seems to be a force; give --factors F1 F2 with F1 = 1 / gauge" in said
-    )
-    assert "and F2 = 1000 / area in mm²" in said
+    assert "'Force [kN]', which seems to be a force; give --gauge-length, in mm and give" in said
+    assert "--area, in mm², or --factors 1 1 if its units are right" in said
 
 
 def test_a_soft_material_is_fitted_if_its_units_are_said_to_be_right(

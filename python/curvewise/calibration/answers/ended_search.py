@@ -31,7 +31,7 @@ def identification_of(
         simulations=points_of(ended.simulations),
         experiments=objective.experiments,
         history=as_records(done, problem.space.names),
-        failures=tuple((e.number, e.message) for e in done if e.failed),
+        failures=tuple((e.number, e.message) for e in done if e.failed and not e.outside),
         converged=ended.finish.converged,
         message=ended.finish.message,
         method=str(plan.method),

@@ -26,6 +26,7 @@ from ..problem.tables import measure_table, parameter_table
 from ..records.evaluation import Evaluation
 from ..records.recorder import Recorder
 from ..records.search_record import Ending, SearchRecord
+from ..report.notes import Note
 from ..report.page import write_report
 from ..report.uncertainty_summary import summary_of
 from ..uncertainty.determined import Verdict, verdict_on
@@ -125,6 +126,11 @@ class Identification(Result):
 
     picture_shows = "The loops at the optimum, and the convergence"
 
+    @property
+    def outside(self) -> int:
+        """How many parameter sets were outside of the model's own bounds (OutsideModelError)."""
+        return int(self.history.failed.sum()) - len(self.failures)
+
     def parts(self) -> Sequence[Table | str]:
         """Return the parameters, the measures, the deviations, and how the search went."""
         deviations = [
@@ -133,6 +139,8 @@ class Identification(Result):
         if deviations:
             deviations.insert(0, f"deviation of {self.measure}, in units of y")
         failed = f", {len(self.failures)} failed" if self.failures else ""
+        if outside := self.outside:
+            failed += f", {outside} outside of the model's own bounds"
         went = f"{self.method}, seed {self.seed}: {self.evaluations} evaluations{failed}"
         return [
             parameter_table(self.problem.space, self.parameters),
@@ -257,7 +265,11 @@ class Identification(Result):
         return computed
 
     def report(
-        self, path: str | os.PathLike[str], *, uncertainty: Uncertainty | None = None
+        self,
+        path: str | os.PathLike[str],
+        *,
+        uncertainty: Uncertainty | None = None,
+        notes: Sequence[Note] = (),
     ) -> None:
         """Write the identification down as one page of HTML, which opens without a network.
 
@@ -274,6 +286,8 @@ class Identification(Result):
             What the page says of the parameters. By default what :meth:`uncertainty` has given
             last; or would give, where it was not called and slopes take no runs of the model
             (`uncertainty_runs`): if they do, the page is without intervals.
+        notes : sequence of Note
+            What the page says of the tests before the search: how they were prepared.
 
         Raises
         ------
@@ -304,7 +318,7 @@ class Identification(Result):
         ...     Path(folder, "report.html").stat().st_size < 5e6
         True
         """
-        write_report(path, [self.record(uncertainty)])
+        write_report(path, [self.record(uncertainty)], notes)
 
     def record(self, uncertainty: Uncertainty | None = None) -> SearchRecord:
         """Take down what is known of the uncertainty, and return all that a report is made of.

@@ -17,7 +17,7 @@ import numpy as np
 from ...curves.inputs import Array
 from ...curves.several_curves import as_points, curve_list
 from ..models.pool import Outcome
-from ..records.evaluation import Evaluation, Point
+from ..records.evaluation import Evaluation, Point, is_outside
 from ..surfaces.nearby_runs import Run
 from .problem import Problem
 
@@ -167,7 +167,7 @@ class Ledger:
         simulations = None if outcome.message else outcome.simulations
         score = self.objective.score(simulations)
         message = outcome.message or "; ".join(score.failures)
-        if message:
+        if message and not is_outside(message):
             _log.log(self._log_level, "evaluation %d failed: %s", number, message)
             self._log_level = logging.DEBUG
         curves = None

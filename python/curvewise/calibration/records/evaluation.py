@@ -7,9 +7,12 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ..._bounds import OutsideModelError
 from ...curves.inputs import Array
 
-__all__ = ["Evaluation", "Point", "as_records"]
+__all__ = ["Evaluation", "Point", "as_records", "is_outside"]
+
+_OUTSIDE = f"{OutsideModelError.__name__}: "
 
 Point: TypeAlias = tuple[float, ...]
 """The parameters that are searched for, in the order of the bounds."""
@@ -26,6 +29,16 @@ class Evaluation:
     seconds: float
     message: str = ""
     simulations: tuple[Array, ...] | None = None
+
+    @property
+    def outside(self) -> bool:
+        """Whether the parameters are outside of the model's own bounds; `failed` is then true."""
+        return is_outside(self.message)
+
+
+def is_outside(message: str) -> bool:
+    """Say whether a run has the message of an `OutsideModelError`."""
+    return message.startswith(_OUTSIDE)
 
 
 def as_records(evaluations: list[Evaluation], names: tuple[str, ...]) -> np.recarray[Any, Any]:

@@ -31,6 +31,7 @@ from .shown_search import Loop
 
 __all__ = [
     "Figure",
+    "before_and_after",
     "convergence",
     "correlations",
     "intervals",
@@ -53,6 +54,17 @@ def loop(shown: Loop, most: int) -> Figure:
     if shown.simulation is not None:
         traces.append(_line(shown.simulation, "simulation", Q_COLOUR, most, width=2.0))
     return _figure(traces, *xy_labels(shown.axes), shown.title)
+
+
+def before_and_after(curves: Sequence[Array], axes: Sequence[str], most: int) -> Figure:
+    """Return the beginning of a test before and after it was prepared."""
+    traces = [
+        _line(curve, name, colour, most, mode="lines+markers", width=1.0)
+        for curve, name, colour in zip(
+            curves, ("before", "after"), (P_COLOUR, Q_COLOUR), strict=True
+        )
+    ]
+    return _figure(traces, *xy_labels(axes), "The first per cent of strain")
 
 
 def residuals(shown: Loop, most: int) -> Figure:

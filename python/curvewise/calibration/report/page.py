@@ -20,6 +20,7 @@ from pathlib import Path
 from ..._extras import extra
 from ..records.search_record import SearchRecord
 from .figures import Figure
+from .notes import Note, note_section
 from .sections import most_points, overview, sections_of
 from .shown_search import ShownSearch
 from .verdict import footnote, verdict
@@ -30,7 +31,9 @@ _POINTS = 120_000  # of all curves together: some 2 MB
 _LEAST_SIDE = 240
 
 
-def write_report(path: str | os.PathLike[str], records: Sequence[SearchRecord]) -> None:
+def write_report(
+    path: str | os.PathLike[str], records: Sequence[SearchRecord], notes: Sequence[Note] = ()
+) -> None:
     """Write the page of one search or several.
 
     Parameters
@@ -39,6 +42,8 @@ def write_report(path: str | os.PathLike[str], records: Sequence[SearchRecord]) 
         The file; what is there is replaced.
     records : sequence of SearchRecord
         In the order in which the page has them.
+    notes : sequence of Note
+        What the page says of the tests before the searches.
 
     Raises
     ------
@@ -47,10 +52,10 @@ def write_report(path: str | os.PathLike[str], records: Sequence[SearchRecord]) 
     OSError
         The file cannot be written.
     """
-    Path(path).write_text(page(records), encoding="utf-8", newline="\n")
+    Path(path).write_text(page(records, notes), encoding="utf-8", newline="\n")
 
 
-def page(records: Sequence[SearchRecord]) -> str:
+def page(records: Sequence[SearchRecord], notes: Sequence[Note] = ()) -> str:
     """Return the page of one search or several, as HTML."""
     script = _plotly()
     figures: list[Figure] = []
@@ -67,6 +72,7 @@ def page(records: Sequence[SearchRecord]) -> str:
     searches = list(map(ShownSearch, records))
     title = f"Identification of {', '.join(records[0].names)}"
     body = [f"<h1>{html.escape(title)}</h1>"]
+    body += [note_section(note, add, most) for note in notes]
     if len(searches) > 1:
         body.append(overview(searches))
     for number, search in enumerate(searches, 1):

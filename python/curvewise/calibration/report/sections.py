@@ -201,9 +201,17 @@ def _weakest(search: ShownSearch, add: AddFigure, most: int) -> str:
 
 def _failures(search: ShownSearch) -> str:
     record = search.record
-    failed = [one for one in record.evaluations if one.failed]
+    failed = [one for one in record.evaluations if one.failed and not one.outside]
+    outside = [one for one in record.evaluations if one.outside]
+    said = ""
+    if outside:
+        why = outside[0].message.partition(": ")[2]
+        said = paragraph(
+            f"{len(outside)} parameter sets were outside of the model's own bounds, the first: "
+            f"{why}."
+        )
     if not failed:
-        return paragraph("No evaluation has failed.")
+        return paragraph("No evaluation has failed.") + said
     rows = []
     for one in failed[:_MOST_FAILURES]:
         values = zip(record.names, one.point, strict=True)
@@ -211,7 +219,7 @@ def _failures(search: ShownSearch) -> str:
         rows.append([f"{one.number}", parameters, one.message])
     made = Table(rows, ["evaluation", "parameters", "why"]).html()
     more = len(failed) - len(rows)
-    return made + (paragraph(f"And {more} more.") if more else "")
+    return made + (paragraph(f"And {more} more.") if more else "") + said
 
 
 def _settings(search: ShownSearch) -> str:

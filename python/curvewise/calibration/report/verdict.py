@@ -127,8 +127,10 @@ def _distance(loop: Loop) -> str:
 
 def _runs(search: ShownSearch) -> str:
     evaluations = search.record.evaluations
-    failed, count = sum(one.failed for one in evaluations), len(evaluations)
-    return f"{count} evaluations, of which {failed} failed." if failed else f"{count} evaluations."
+    outside, count = sum(one.outside for one in evaluations), len(evaluations)
+    failed = sum(one.failed for one in evaluations) - outside
+    said = f"{count} evaluations, of which {failed} failed." if failed else f"{count} evaluations."
+    return f"{said} {outside} were outside of the model's own bounds." if outside else said
 
 
 def _listed(parts: Sequence[str]) -> str:
