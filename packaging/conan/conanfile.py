@@ -22,7 +22,7 @@ class Curvewise(ConanFile):
 
     name = "curvewise"
     license = "MIT"
-    description = "How alike two curves are: area, pcm, Fréchet, DTW, curve length"
+    description = "Similarity of two curves: area, pcm, Fréchet, DTW, curve length"
     topics = ("curves", "frechet-distance", "dynamic-time-warping", "calibration")
     package_type = "library"
     settings = "os", "arch", "compiler", "build_type"

@@ -1,4 +1,4 @@
-"""How alike two curves are: area, partial curve mapping, Fréchet, DTW and curve length.
+"""Similarity of two curves: area, partial curve mapping, Fréchet, DTW and curve length.
 
 >>> import curvewise
 >>> experiment, simulation = curvewise.datasets.hysteresis_pair()

@@ -108,8 +108,8 @@ class _Print(argparse.Action):
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="curvewise",
-        description="How alike two curves are: area, partial curve mapping, Fréchet, DTW and "
-        "curve length.",
+        description="Measure how similar two curves are, and identify material parameters from "
+        "measured curves.",
         epilog="Exit status: 0, 1 (bad data or files, outside limits), 2 (usage).",
     )
     parser.add_argument(

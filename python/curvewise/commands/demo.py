@@ -14,7 +14,7 @@ __all__ = ["add_demo"]
 
 def add_demo(commands: Any) -> None:
     """Add the command to those of argparse."""
-    command = commands.add_parser("demo", help="compare the built-in hysteresis loops")
+    command = commands.add_parser("demo", help="compare two generated hysteresis loops")
     command.set_defaults(run=_demo)
     command.add_argument("--output", metavar="FILE", default="curvewise_demo.png")
 
@@ -22,7 +22,7 @@ def add_demo(commands: Any) -> None:
 def _demo(arguments: argparse.Namespace) -> int:
     require_matplotlib()
     comparison = compare(*hysteresis_pair())
-    names = ["experiment (made by curvewise)", "simulation (likewise)"]
+    names = ["experiment (generated)", "simulation (generated)"]
     print_table(comparison, names, ["", ""])
     write_picture(comparison, arguments.output)
     print(f"\npicture: {arguments.output}")

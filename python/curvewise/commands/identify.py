@@ -27,7 +27,7 @@ def add_identify(commands: Any) -> None:
     """Add the command to a parser's commands."""
     command = commands.add_parser(
         "identify",
-        help="find the parameters of a solver's model: a study in a TOML file",
+        help="identify the parameters of a solver's model, from a study file (TOML)",
         description="Find the parameters with which a solver's curves are most like the measured "
         "ones, as a study file says (docs/study.md has its keys). Ctrl-C ends it; the same command "
         "again goes on where it was.",

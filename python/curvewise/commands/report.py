@@ -13,7 +13,7 @@ def add_report(commands: Any) -> None:
     """Add the command to those of argparse."""
     command = commands.add_parser(
         "report",
-        help="write a search down as a page of HTML, or as a table",
+        help="write a search as an HTML page or as a table",
         description="Write what a store holds down as one page of HTML, which opens without a "
         "network: tests and simulations, residuals, convergence, parameters with intervals, and "
         "the settings to repeat it. Nothing is run.",

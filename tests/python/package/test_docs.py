@@ -134,23 +134,34 @@ def test_nothing_is_installed_by_name_that_is_not_there() -> None:
     assert [one for one in commands if re.search(r"install [^&#]*curvewise\b", one[1])] == []
 
 
-def test_pages_agree_on_what_is_symmetric() -> None:
-    """The last column of two tables, and the measures themselves with each of their options."""
-    columns = []
-    for page in (ROOT / "README.md", DOCS / "measures/index.md"):
-        table = (
-            page.read_text(encoding="utf-8").partition(" | symmetric |\n")[2].partition("\n\n")[0]
-        )
-        rows = re.findall(r"^\| (?:\[|`)(\w+).* \| ([^|]+) \|$", table, flags=re.MULTILINE)
-        columns.append(dict(rows))
-    assert columns[0] == columns[1]
-    assert set(columns[0]) == set(curvewise.available_measures())
-    for measure, says in columns[0].items():
-        assert is_symmetric(measure, {}) == says.startswith("yes")
-    unless = {choice for choice in get_args(Spacing) if f'"{choice}"' in columns[0]["area"]}
+def test_the_table_of_measures_says_what_is_symmetric() -> None:
+    """Its last column, and the measures themselves with each of their options."""
+    page = (DOCS / "measures/index.md").read_text(encoding="utf-8")
+    table = page.partition(" | symmetric |\n")[2].partition("\n:::")[0]
+    says = dict(re.findall(r"^\| \[(\w+).* \| ([^|]+) \|$", table, flags=re.MULTILINE))
+    assert set(says) == set(curvewise.available_measures())
+    for measure, answer in says.items():
+        assert is_symmetric(measure, {}) == answer.startswith("yes")
+    unless = {choice for choice in get_args(Spacing) if f'"{choice}"' in says["area"]}
     assert unless == {
         choice for choice in get_args(Spacing) if not is_symmetric("area", {"spacing": choice})
     }
+
+
+def test_the_readme_is_short_and_names_every_measure() -> None:
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert readme.count("\n") <= 150
+    table = readme.partition("\n## Measures\n")[2].partition("\n## ")[0]
+    missing = [name for name in curvewise.available_measures() if f"`{name}`" not in table]
+    assert missing == []
+
+
+def test_the_readme_has_both_commands_of_the_set_up() -> None:
+    lines = (ROOT / "README.md").read_text(encoding="utf-8").splitlines()
+    assert [line.strip() for line in lines if line.startswith("    pip install")] == [
+        'pip install ".[all]" && curvewise demo',
+        'pip install ".[test]" && pytest',
+    ]
 
 
 def test_the_exceptions_of_ctrl_c_stand_in_one_place() -> None:
