@@ -91,7 +91,8 @@ def identify(
         scipy). One worker makes starts one after the other: see `starts_at_once` of
         :class:`TrustRegion`.
     start : mapping of str to float, optional
-        Where the search starts: the middle of the bounds if not given.
+        Begin a single local search at this point. By default the search begins at several points,
+        the first of which is the middle of the bounds.
     max_runs : int, optional
         End the search after so many parameter sets, those that are looked up included; no run is
         begun beyond them.

@@ -4,8 +4,8 @@ The covariance matrix adaptation evolution strategy draws generations of points 
 distribution whose shape it learns, so that valleys that are narrow and askew cost it little. A
 round ends where the best of its generations changes no more; the next one has twice as many points
 in a generation, since larger generations see the shape of the landscape rather than its dents
-(IPOP). The search has converged where two rounds end alike. Cost: some 1,000 to 3,000 runs a round
-for 8 parameters; overhead of some 30 microseconds a run.
+(IPOP). The search has converged where two rounds end alike. Cost: some 5,000 to 20,000 runs for
+8 parameters; overhead of some 30 microseconds a run.
 
 N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772; A. Auger, N. Hansen, "A
 restart CMA evolution strategy with increasing population size", Proc. IEEE CEC (2005) 1769-1776.
@@ -60,7 +60,7 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
     Notes
     -----
     N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772; A. Auger, N. Hansen,
-    Proc. IEEE CEC (2005) 1769-1776, for the rounds. Some 6,000 to 10,000 runs for 8 parameters.
+    Proc. IEEE CEC (2005) 1769-1776, for the rounds. Some 5,000 to 20,000 runs for 8 parameters.
 
     Examples
     --------

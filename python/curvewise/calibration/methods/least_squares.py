@@ -3,7 +3,7 @@
 Gauss and Newton's method needs the residuals as a function of the parameters. A kriging surrogate
 through the runs near the best one stands in their place: `trust_region` has the parts of the
 search, `surfaces.sums_of_squares` the inner search. Cost: k + 1 runs to begin with, and one for
-every step: 10 to 20 for 3 parameters, 20 to 60 for 8 until the value is within 1 % of the smallest.
+every step: 10 to 20 a start for 3 parameters, 30 to 60 for 8.
 
 C. Cartis, J. Fiala, B. Marteau, L. Roberts, "Improving the flexibility and robustness of
 model-based derivative-free optimization solvers", ACM Trans. Math. Softw. 45 (2019) 32; S. M. Wild,
@@ -32,11 +32,11 @@ _STEPS = 500  # the most, of each start
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_squares=True):
-    """Gauss and Newton's method on a surface of the residuals, within a region of trust.
+    """Multistart Gauss-Newton search on a kriging surrogate of the residuals.
 
-    For the measures "curve_length" and "sum_of_squares"; of several loops it minimises the weighted
-    sum of squares. Local, for expensive models: 20 to 30 runs a start for 3 parameters, 40 to 90
-    for 8. It begins with k + 1 runs for k parameters, and takes one for every step.
+    For expensive models and the measures "curve_length" and "sum_of_squares": 10 to 20 runs a start
+    for 3 parameters, 30 to 60 for 8. A start begins with k + 1 runs for k parameters, and takes one
+    for every step. For several loops it minimises the weighted sum of squares.
 
     Parameters
     ----------

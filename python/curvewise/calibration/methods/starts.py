@@ -43,7 +43,7 @@ NOISIEST = 0.05  # and by this one where the model's own noise moves values so f
 _PERFECT = 1e3
 _SAME_PLACE = 0.01  # of the bounds' range
 _MAYBE = "the start is a minimum already, or "
-_TRY = 'is flat or stepped here; try another method ("de"), measure or start ('
+_TRY = 'is flat or stepped here; try another method ("global"), measure or start ('
 
 
 class End(NamedTuple):
