@@ -208,7 +208,7 @@ def test_planar_options(call) -> None:
         ("dtw", Dtw(0, 2.0, 1, 1, 0, -1, 1), "open_begin needs step_pattern="),
         ("dtw", per_step_or_fraction(pattern=0, normalize=1), "normalize needs step_pattern="),
         ("dtw", per_step_or_fraction(fraction=1.5), "window is 1.5"),
-        ("dtw", relaxed(0, 0, -1, 0), "relax is (0, 0, -1, 0); give four whole numbers >= 0"),
+        ("dtw", relaxed(0, 0, -1, 0), r"relax is \(0, 0, -1, 0\); give four whole numbers"),
         (
             "dtw",
             per_step_or_fraction(window=3, fraction=0.5),
