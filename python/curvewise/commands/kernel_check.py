@@ -210,7 +210,10 @@ def _pairs(info: MeasureInfo, seed: str) -> Iterator[tuple[Array, Array]]:
     # The curves are not centred on zero, since curve_length may divide by their mean.
     centre = 3.0 if info.planar else 0.0
     for (n, m), dim in product(shapes, dimensions):
-        yield rng.normal(centre, size=(n, dim)), rng.normal(centre, size=(m, dim))
+        P, Q = rng.normal(centre, size=(n, dim)), rng.normal(centre, size=(m, dim))
+        if "function" in seed:  # of x, which may not turn back
+            P, Q = P[np.argsort(P[:, 0])], Q[np.argsort(Q[:, 0])]
+        yield P, Q
         if not info.planar:
             P, Q = rng.integers(0, 4, (n, dim)), rng.integers(0, 4, (m, dim))
             yield P.astype(np.float64), Q.astype(np.float64)
