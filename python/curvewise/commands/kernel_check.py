@@ -215,8 +215,8 @@ def _pairs(info: MeasureInfo, seed: str) -> Iterator[tuple[Array, Array]]:
             P, Q = P[np.argsort(P[:, 0])], Q[np.argsort(Q[:, 0])]
         yield P, Q
         if not info.planar:
-            P, Q = rng.integers(0, 4, (n, dim)), rng.integers(0, 4, (m, dim))
-            yield P.astype(np.float64), Q.astype(np.float64)
+            whole = rng.integers(0, 4, (n, dim)), rng.integers(0, 4, (m, dim))
+            yield whole[0].astype(np.float64), whole[1].astype(np.float64)
 
 
 if __name__ == "__main__":
