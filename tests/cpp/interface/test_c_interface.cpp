@@ -51,7 +51,7 @@ void options_are_those_given() {
             "workers is 0; give a whole number >= 1, or -1 for all cores");
     curvewise_area_options area = CURVEWISE_AREA_DEFAULTS;
     area.spacing = 9;
-    refused(answer(curvewise_area, &area), "unknown spacing 9; choose from 0 to 3");
+    refused(answer(curvewise_area, &area), "unknown spacing 9; choose from 0 to 4");
     curvewise_dtw_options dtw = CURVEWISE_DTW_DEFAULTS;
     dtw.step_pattern = -1;
     refused(answer(curvewise_dtw, &dtw), "unknown step_pattern -1; choose from 0 to 26");
