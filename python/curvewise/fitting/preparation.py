@@ -254,7 +254,7 @@ def _of_extension(name: str, gauge_length: float) -> tuple[float, str]:
 
 def _without_toe(points: Array, toe: bool | Sequence[float], units: str) -> tuple[Array, str]:
     """Return a test without its toe, and what was done in words."""
-    limits = () if toe is True else tuple(map(float, toe))  # type: ignore[arg-type]
+    limits = () if isinstance(toe, bool) else tuple(map(float, toe))
     if len(limits) not in (0, 2):
         raise ValueError(f"toe has {len(limits)} stresses; give two, low and high, or none")
     begin = beginning_of(points, "test")

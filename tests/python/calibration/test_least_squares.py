@@ -280,7 +280,7 @@ def test_slopes_that_the_model_knows_take_the_place_of_runs():
     by_runs = identify(lambda p: decay(p), TEST, bounds, method=method, **SQUARES)
     assert found.converged
     assert found.value == pytest.approx(by_runs.value, rel=5e-5)
-    assert found.evaluations <= 6
+    assert found.evaluations <= 5
     assert found.evaluations < by_runs.evaluations
     free = identify(WithSlopes(), TEST, BOUNDS, method=method, **SQUARES)
     assert free.value == pytest.approx(2.0 * scipys().cost, rel=5e-5)

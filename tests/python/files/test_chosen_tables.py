@@ -193,8 +193,8 @@ def test_a_strict_workbook_is_read(tmp_path: Path) -> None:
             for usual, rest in names.items():
                 content = content.replace(usual, b"http://purl.oclc.org/ooxml/" + rest)
             written.writestr(name, content)
-    with pytest.raises(Exception):  # noqa: B017, PT011 - that it is needed
-        assert openpyxl.load_workbook(io.BytesIO(strict.read_bytes()))["record"]["C12"].value == 0.0
+    with pytest.warns(UserWarning, match="invalid specification"):  # openpyxl sees no sheet in it
+        assert openpyxl.load_workbook(io.BytesIO(strict.read_bytes())).sheetnames == []
     asked = ["Strain 1", "Stress"]
     read = read_curve(strict, asked, sheet="record")
     assert read.tolist() == read_curve(book, asked, sheet="record").tolist() == RECORD

@@ -30,6 +30,7 @@ __all__ = ["NEAR", "GlobalStage"]
 
 NEAR = 0.1  # how far from the best run the first hop goes, as a fraction of the bounds' range
 _MEMBERS, _GENERATIONS = 12, 30
+_SETTLED = 5e-3  # what follows is polished by the inner search
 _WIDTH = 0.3  # the first standard deviation, in reaches
 _LEAST = 0.03  # of the reach: the shortest principal axis
 _BEST, _GOOD = 100, 10  # runs in the wide surface, and those from one of which CMA-ES begins
@@ -79,7 +80,13 @@ class GlobalStage:
 
     def _evolved(self, function: Callable[[Array], Array], start: Array) -> Array:
         return evolved(
-            function, start, _WIDTH, self._random, members=_MEMBERS, generations=_GENERATIONS
+            function,
+            start,
+            _WIDTH,
+            self._random,
+            members=_MEMBERS,
+            generations=_GENERATIONS,
+            settled=_SETTLED,
         )
 
     def _promised(self, surface: Surface, number: int, found: Array) -> tuple[Array, float] | None:

@@ -22,8 +22,6 @@ from ...curves.inputs import Array
 
 __all__ = ["evolved"]
 
-_SETTLED = 5e-3  # the width of the cloud, as a fraction of the cube, at which it has settled
-
 
 def evolved(
     function: Callable[[Array], Array],
@@ -33,6 +31,7 @@ def evolved(
     *,
     members: int,
     generations: int,
+    settled: float,
 ) -> Array:
     """Return the lowest of all points that are drawn, shape (k,).
 
@@ -47,6 +46,8 @@ def evolved(
     random : numpy.random.Generator
     members, generations : int
         Points of a generation, and the most generations.
+    settled : float
+        The width of the cloud, as a fraction of the cube, at which it has settled.
     """
     k = start.size
     weights = np.log(members / 2 + 0.5) - np.log(np.arange(1.0, members // 2 + 1.0))
@@ -85,7 +86,7 @@ def evolved(
             + of_members * (steps.T * weights) @ steps
         )
         width *= math.exp(for_width / damping * (travelled - 1.0))
-        if width * math.sqrt(covariance.diagonal().max()) < _SETTLED:
+        if width * math.sqrt(covariance.diagonal().max()) < settled:
             break
     return best
 
