@@ -38,10 +38,10 @@ INTRODUCTION = """\
 # Results
 
 Written by `report.py` on {date} from `run.py --random {random}`: the cases, and that many random
-pairs of lattice points a check. Each number was compared with its exact value, to 1e-9 of it; each
-counterexample below was made as short as deleting points and coordinates made it, with the value
-of exact arithmetic. A package that differs may mean another thing: where it does, it says so. If a
-call here is not how your package wants to be called, the adapters are short: we are glad of a word.
+pairs of lattice points a check. Each number was compared with its exact value, to 1e-9 of it. Each
+counterexample below was shortened by deleting points and coordinates, with the value of exact
+arithmetic. A package that differs may have another definition; the row then gives it. If an adapter
+calls your package in a wrong way, please tell us: the adapters are short.
 """
 
 
@@ -121,7 +121,7 @@ def main() -> None:
     print("\n".join(differences(results, "usual")))
     print("\n## Ends of a double's range\n\nSquares that overflow or vanish, last bits.\n")
     print("\n".join(table(results, "extreme", cell_of_values)))
-    print("\n## What is no curve\n\nNaN, infinity, no points, other dimensions: `all` raise.\n")
+    print("\n## Invalid curves\n\nNaN, infinity, no points, other dimensions: `all` raise.\n")
     print("\n".join(table(results, "refused", cell_of_refusals)))
 
 

@@ -23,21 +23,21 @@ else:
     import tomli as tomllib
 
 VERDICTS = ("holds", "holds under a condition", "contradicted", "open")
-SHOWN = "shown"  # a method or a picture, of which nothing is claimed
+SHOWN = "shown"  # a method or a figure, without a claim
 
 HEAD = """# The paper's claims, one by one
 
-What Jekel, Venter, Venter, Stander and Haftka, "Similarity measures for identifying material
-parameters from hysteresis loops using inverse analysis", Int. J. Material Forming (2018), say, in
-their order, and what comes out here. Written by `verdicts.py` from claims.toml; the numbers are
-those of the tables in [results.md](results.md). A script is run by
-`python benchmarks/reproduction/<script>`, all of them by `regenerate.py`.
+This page lists the claims of Jekel, Venter, Venter, Stander and Haftka, "Similarity measures for
+identifying material parameters from hysteresis loops using inverse analysis", Int. J. Material
+Forming (2018), in their order, each with our result. `verdicts.py` writes it from claims.toml. The
+numbers are those of the tables in [results.md](results.md). Run a script by
+`python benchmarks/reproduction/<script>`, or all of them by `regenerate.py`.
 
-- **holds**: recomputed, and so it is.
-- **holds under a condition**: which one is said.
-- **contradicted**: by the paper's own data or tables, or by what is computed.
-- **open**: cannot be decided with what is published.
-- *shown*: a method or a picture, of which nothing is claimed.
+- **holds**: we recomputed it, and it is true.
+- **holds under a condition**: it is true under the condition that the row gives.
+- **contradicted**: the paper's own data or tables, or our results, contradict it.
+- **open**: the published data cannot decide it.
+- *shown*: a method or a figure, without a claim.
 """
 
 

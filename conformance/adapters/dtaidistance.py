@@ -34,7 +34,7 @@ CHECKS = {
     "dtw-subsequence": lambda P, Q: distance(P, Q, psi=(0, 0, len(Q) - 1, len(Q) - 1)) ** 2,
 }
 PRUNING = (
-    "series of numbers are pruned by default, by a bound that is rounded and knows no penalty; "
+    "series of numbers are pruned by default, by a bound that is rounded and ignores penalties; "
     "with use_pruning=False the value is right"
 )
 NOTES = dict.fromkeys(CHECKS, PRUNING)

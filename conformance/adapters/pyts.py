@@ -25,4 +25,4 @@ CHECKS = {
     "dtw-window": window,
     "dtw-window-scaled": window,
 }
-OTHER = {"dtw-window-scaled": "a band around the diagonal by a rule of its own"}
+OTHER = {"dtw-window-scaled": "a band around the diagonal by another rule"}

@@ -35,8 +35,8 @@ print(found)
 figure = found.plot()
 
 # %%
-# A smallest value is no answer yet. Which parameters does this test determine, and how well? The
-# noise is drawn anew many times, and the parameters identified from each draw:
+# The smallest value alone does not show which parameters this test determines, nor how well. So new
+# noise is drawn many times. The parameters identified from each draw show the scatter:
 
 uncertainty = found.uncertainty(samples=200)
 print(uncertainty)

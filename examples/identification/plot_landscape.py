@@ -2,8 +2,8 @@
 What the objective looks like
 =============================
 
-The value of three measures over two parameters of a model, with the test's noise in it. Where the
-valley is long and flat, the test says little about one direction.
+The values of three measures over two parameters of a model. The test has noise. Where a minimum is
+long and flat, the test says little about one direction.
 """
 
 import matplotlib.pyplot as plt

@@ -49,7 +49,7 @@ small = identify(model_of_small, tests[0], bounds, **search)
 both = identify(model, tests, bounds, **search)
 
 # %%
-# The intervals of 95 %, beside what the tests were made with:
+# The intervals of 95 %, next to the true parameters:
 
 intervals = {
     which: found.uncertainty(samples=30).intervals

@@ -2,8 +2,8 @@
 A forecast that keeps the shape
 ===============================
 
-When a step comes is uncertain, how high it is is not. A network trained on mean squares forecasts
-the mean over all times, a ramp; trained on soft-DTW, which forgives a shift, it forecasts a step
+The time of a step is uncertain, its height is not. A network trained on mean squares forecasts the
+mean over all times, a ramp. Trained on soft-DTW, which tolerates a shift, it forecasts a step
 (Cuturi & Blondel 2017, section 4).
 """
 
@@ -19,8 +19,8 @@ torch.set_num_threads(1)
 random = np.random.default_rng(1)
 
 # %%
-# The past shows a pulse of some height, long or short before the end; the future has a step of the
-# same height at a time of its own.
+# The past shows a pulse of some height, long or short before the end. The future has a step of the
+# same height, at a random time.
 
 PAST, FUTURE = 30, 40
 

@@ -2,10 +2,10 @@
 A differentiable material, fitted through the area to a loop
 ============================================================
 
-Springs and sliders side by side (Masing 1926, Iwan 1967), written in PyTorch, which differentiates
-them. A test with noise and increments of its own is what they are fitted to: through the area
-between the loops and through soft-DTW, by Adam, and by :func:`curvewise.calibration.identify`,
-which needs no derivatives.
+The model has springs and sliders in parallel (Masing 1926, Iwan 1967). It is written in PyTorch,
+which differentiates it. The test has noise and its own increments. The model is fitted to it
+through the area between the loops and through soft-DTW. Adam does so, and then
+:func:`curvewise.calibration.identify`, which needs no derivatives.
 """
 
 import logging
@@ -76,7 +76,7 @@ def soft_dtw(test, simulation):
 fits = {"area, by Adam": by_adam(area), "soft-DTW, by Adam": by_adam(soft_dtw)}
 
 # %%
-# The same model without its derivatives: what `identify` may not know, it finds out by more runs.
+# The same model without derivatives: `identify` uses more runs instead.
 
 names = [f"k{i}" for i in range(SLIDERS)] + [f"s{i}" for i in range(SLIDERS)]
 bounds = {name: (float(at) - 2.0, float(at) + 2.0) for name, at in zip(names, start, strict=True)}

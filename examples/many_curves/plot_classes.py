@@ -50,7 +50,7 @@ print(f"{np.mean(answers == asked):.0%} of {len(asked)} strokes are read right")
 
 # %%
 # ``CurveKNeighborsClassifier`` of :mod:`curvewise.sklearn` does the same with scikit-learn's
-# interface. Some strokes, and what they were read as:
+# interface. Some strokes, and the predicted letters:
 
 figure, axes = plt.subplots(2, 6, figsize=(9, 3.6), layout="constrained")
 for ax, line, answer, truth in zip(axes.flat, new, answers, asked, strict=False):

@@ -2,8 +2,8 @@
 The mean of curves whose features are shifted
 =============================================
 
-Fifteen recordings with the same two peaks, each at times of its own. The mean point by point has
-neither peak; the mean under dynamic time warping has both.
+Fifteen recordings have the same two peaks, at different times. The mean point by point has neither
+peak; the mean under dynamic time warping has both.
 """
 
 import matplotlib.pyplot as plt

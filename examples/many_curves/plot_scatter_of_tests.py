@@ -2,8 +2,8 @@
 Is the simulation within the scatter of the tests?
 ==================================================
 
-Eight repeated tests differ from each other. A simulation is as good as a test if it is no further
-from the tests than they are from one another.
+Eight repeated tests differ from each other. A simulation is as good as a test if it is at most as
+far from the tests as they are from one another.
 """
 
 import matplotlib.pyplot as plt

@@ -2,8 +2,8 @@
 When has a cyclic test become stable?
 =====================================
 
-A steel hardens over its first cycles, until one cycle is as the next. Each cycle of the record is
-compared with the one before it.
+A steel hardens over its first cycles, until each cycle equals the one before. The script compares
+each cycle of the record with the one before it.
 """
 
 from itertools import pairwise
@@ -29,8 +29,8 @@ turns = turning_points(record, reversal=0.5)[::2]
 cycles = [record[start : stop + 1] for start, stop in pairwise(turns)]
 
 # %%
-# By how many MPa does a cycle differ from the one before? The mean of ``area``, by matched points,
-# in units of stress, does not need the cycles to have the same points:
+# How many MPa separate a cycle from the one before? The mean of ``area``, by matched points, in
+# units of stress, tells. The cycles need not have the same points:
 
 change = [
     curvewise.compare(before, after, measures=["area"]).deviations["area"].mean

@@ -49,5 +49,5 @@ for i, curve in enumerate(tracks):
 ax.set(xlabel="x [km]", ylabel="y [km]", zlabel="height [km]", box_aspect=(2, 1.4, 0.8))
 
 # %%
-# Kilometres sideways and in height count alike here. Where they shall not, scale the columns
+# Kilometres sideways and in height have the same weight here. For other weights, scale the columns
 # first: ``curve * [1, 1, 5]``.

@@ -14,10 +14,10 @@ from curvewise.plotting import plot_area
 experiment, simulation = curvewise.datasets.hysteresis_pair()
 
 # %%
-# The paper's way refines the curve with fewer points until both have as many; point i then faces
-# point i. Raw stress and strain want ``spacing="x"``, since a length in both units at once would
-# be one of stress alone. ``spacing="matched"`` finds out what lies beside what, and adds signed
-# areas in short pieces.
+# The paper's way refines the curve with fewer points until both have the same number; point i then
+# faces point i. Raw stress and strain need ``spacing="x"``, since a length in both units at once
+# would measure stress alone. ``spacing="matched"`` matches the curves, and adds signed areas in
+# short pieces.
 
 figure, axes = plt.subplots(1, 2, figsize=(10, 4.5), sharey=True, layout="constrained")
 for ax, spacing in zip(axes, ("x", "matched"), strict=True):

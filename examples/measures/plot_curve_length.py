@@ -31,7 +31,7 @@ axes[1].legend()
 print(curvewise.curve_length(P, Q, scale="mean_abs"), np.sqrt(np.sum(residuals**2)))
 
 # %%
-# Noise is length. On a noisy curve, equal fractions of the length are no longer equal places:
+# Noise adds length. On a noisy curve, equal fractions of the length are different places:
 
 noisy = Q + np.random.default_rng(0).normal(0, 1, Q.shape) * [0.0005, 5]
 print(f"with noise of 1 %: {curvewise.curve_length(P, noisy, scale='mean_abs'):.3f}")

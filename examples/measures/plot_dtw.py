@@ -22,9 +22,9 @@ axes[0].legend(loc="upper right")
 plot_table(P, Q, axes[1], measure="dtw")
 
 # %%
-# Left: two series with the same peaks at different times, and what is matched. Right: the table of
-# the smallest sums, small where it is bright, and the path. Point by point the series are far
-# apart; warped they are not:
+# Left: two series with the same peaks at different times, and the matched points. Right: the table
+# of the smallest sums, small where it is bright, and the path. Point by point the series are far
+# apart; warped they are close:
 
 print(
     f"sum of differences point by point {np.abs(P - Q).sum():.2f}, warped {curvewise.dtw(P, Q):.2f}"

@@ -2,8 +2,8 @@
 Discrete Fréchet distance
 =========================
 
-Two walks, each along the points of its curve and never back, joined by a leash: the distance is
-the shortest leash that allows it. So it is decided by the worst place, and by that alone.
+Two walkers go along the points of their curves, never back. The distance is the shortest leash that
+joins them all the way. So the worst place alone decides it.
 """
 
 import matplotlib.pyplot as plt
@@ -21,9 +21,10 @@ axes[0].legend(loc="center")
 plot_table(experiment, simulation, axes[1], measure="frechet", normalized=True)
 
 # %%
-# Left: some of the pairs of points, with the longest leash. Right: the table of the smallest leash
-# up to each pair, small where it is bright, and the path through it. Stress and strain are scaled
-# by the test's box, since a distance in raw units would be one of stress alone:
+# Left: some of the paired points, and the pair that is furthest apart. Right: the table of the
+# smallest distance up to each pair, small where it is bright, and the path through it. Stress and
+# strain are scaled by the test's bounding box, since a distance in raw units would measure stress
+# alone:
 
 P, Q = curvewise.normalize(experiment, simulation)
 print(f"raw {curvewise.frechet(experiment, simulation):.2f}, scaled {curvewise.frechet(P, Q):.4f}")

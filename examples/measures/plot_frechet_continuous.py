@@ -22,11 +22,10 @@ axes[0].legend(loc="lower left")
 plot_free_space(fine, coarse, axes[1])
 
 # %%
-# Left: the leash at some moments of the two walks. Right: the free-space diagram at the distance;
-# both walks together are a path through its white part that never goes back.
+# Left: paired points at some moments of the two walks. Right: the free-space diagram at the
+# distance; both walks together are a path through its white part that never goes back.
 #
-# The discrete distance between the same curves is that of points, of which the coarse curve has
-# few:
+# The discrete distance between the same curves compares points, and the coarse curve has few:
 
 print(f"discrete   {curvewise.frechet(fine, coarse):.4f}")
 print(f"continuous {curvewise.frechet_continuous(fine, coarse):.4f}")

@@ -2,8 +2,9 @@
 Partial curve mapping
 =====================
 
-The shorter curve is laid onto the longer one at some offset along it, and the area between the two
-is taken; the measure is the smallest area over all offsets. Nothing outside the piece counts.
+The shorter curve is laid onto the longer one at many offsets along it. At each offset, the area
+between the two is computed; the measure is the smallest area. Nothing outside the mapped section
+counts.
 """
 
 import matplotlib.pyplot as plt
@@ -20,8 +21,8 @@ ax.set(xlabel="strain [-]", ylabel="stress [MPa]")
 ax.legend(loc="center")
 
 # %%
-# A short curve fits somewhere along a long one. Beside the value belongs the share of the longer
-# curve that was compared at all:
+# A short curve fits somewhere along a long one. So report with the value the share of the longer
+# curve that was compared:
 
 match = curvewise.pcm_match(loop, piece)
 print(f"value {match.value:.4f}, coverage {match.coverage:.2f}, mapped: {match.mapped}")

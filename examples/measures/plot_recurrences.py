@@ -33,7 +33,7 @@ alignments = {
 
 
 def draw(ax, title, alignment):
-    """Draw what is matched, and in red what an edit distance changes or leaves out."""
+    """Draw the matched points, and in red those that an edit distance changes or omits."""
     ax.plot(P + 1.2, ".-", label="P")
     ax.plot(Q, ".-", label="Q")
     steps = np.diff(alignment.path, axis=0, prepend=-1)
@@ -54,9 +54,10 @@ for ax, (title, alignment) in zip(axes.flat, alignments.items(), strict=True):
 axes[0, 0].legend(loc="upper left")
 
 # %%
-# dtw stretches, and with a window, a penalty, or steps of limited slope less so. An edit distance
-# may leave points out (red). edr and lcss count what is further apart than epsilon, so that an
-# outlier counts once, however large it is; in the others it counts by its size:
+# dtw stretches; a window, a penalty, or steps of limited slope reduce the stretching. An edit
+# distance may leave points out (red). edr and lcss count the points that are further apart than
+# epsilon, so that an outlier counts once, however large it is. In the other measures it counts by
+# its size:
 
 for name in ("erp", "edr", "lcss", "msm", "twe", "wdtw"):
     options = {"epsilon": 0.1} if name in ("edr", "lcss") else {}

@@ -43,7 +43,7 @@ right.bar(np.arange(1, len(energy) + 1), energy, color=colours)
 right.set(xlabel="cycle", title="Energy of each loop [MJ/m³]")
 
 # %%
-# The backbone curve goes through the tips of the first cycle of each amplitude:
+# The backbone curve joins the tips of the first cycle of each amplitude:
 
 skeleton = backbone(test)
 figure, axes = plt.subplots(figsize=(6.5, 4.2), layout="constrained")
@@ -79,7 +79,7 @@ axes.set(xlabel="row", ylabel="strain [%]")
 axes.legend(loc="lower left")
 
 # %%
-# Peaks and valleys of the first cycle of each amplitude, in per cent and MPa:
+# The reversals of the first cycle of each amplitude, in per cent and MPa:
 
 for peak, valley in peaks_and_valleys(test)[::2] * [100, 1]:
     print("peak {:5.2f} {:4.0f}   valley {:5.2f} {:4.0f}".format(*peak, *valley))

@@ -2,8 +2,8 @@
 A million points
 ================
 
-The table of two curves of a million points has 10¹² cells. Of curves that are alike, nearly all of
-them cannot matter, and are left out; the value stays the same to the last bit.
+The table of two curves of a million points has 10¹² cells. If the curves are similar, nearly all
+cells cannot matter, and are skipped; the values are bitwise identical.
 """
 
 import time

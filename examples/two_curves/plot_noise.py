@@ -2,8 +2,8 @@
 What noise does to each measure
 ===============================
 
-The same loop twice: once as it is, once with noise of more and more of its height. A measure that
-averages grows slowly; one that takes the worst point, or goes by arc length, does not.
+The same loop is compared twice: raw, and with more and more noise. A measure that averages grows
+slowly. A measure of the worst point, or of arc length, grows faster.
 """
 
 import matplotlib.pyplot as plt

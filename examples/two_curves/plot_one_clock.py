@@ -27,7 +27,7 @@ second = process(phase) + random.normal(0, 0.05, t.size)
 path = curvewise.dtw_path(first, second, window=0.3).path
 
 # %%
-# Each moment of the first recording gets the mean of what is matched to it:
+# Each moment of the first recording gets the mean of the points matched to it:
 
 count = np.bincount(path[:, 0])
 aligned = np.bincount(path[:, 0], second[path[:, 1]]) / count

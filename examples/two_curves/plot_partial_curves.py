@@ -24,7 +24,7 @@ for ax, title in zip(axes, ("pcm", "dtw, open_end=True"), strict=True):
     ax.legend(loc="center")
 
 # %%
-# The values of the piece beside those of the whole test, each against the same simulation:
+# The values of the section next to those of the whole test, each against the same simulation:
 
 whole = curvewise.normalize(simulation, experiment)[1]
 print(f"{'':>20}   piece   whole")

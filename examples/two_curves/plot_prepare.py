@@ -21,8 +21,9 @@ raw[:, 0] += 0.002 * (1 - np.exp(-seated / 20))  # slack, which the first loadin
 raw = raw * [100, 1] + random.normal(0, 1, raw.shape) * [0.004, 4]  # per cent, noise
 
 # %%
-# Units first; then the origin, where the straight part between 60 and 250 MPa meets zero stress;
-# then true strain and stress; then noise, branch by branch; then points that are evenly spaced:
+# First convert units. Then shift the origin to where the straight part between 60 and 250 MPa meets
+# zero stress. Then compute true strain and stress, filter the noise branch by branch, and space the
+# points evenly:
 
 curve = raw * [0.01, 1]
 curve = shift_to_origin(curve, elastic=(60, 250))
@@ -40,7 +41,7 @@ right.set(xlabel="true strain [-]", ylabel="true stress [MPa]", title="Prepared"
 right.legend(loc="lower right")
 
 # %%
-# What is left of the errors, in MPa:
+# The errors that remain, in MPa:
 
 truth = np.column_stack([path, true_stress])
 for name, one in (("as recorded", raw * [0.01, 1]), ("prepared", curve)):

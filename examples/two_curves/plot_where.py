@@ -37,7 +37,7 @@ for turn in curvewise.curves.turning_points(test):
 right.set(xlabel="point of the test (grey: it turns)", ylim=0)
 
 # %%
-# The difference grows along each branch, and begins anew after each turn:
+# The difference grows along each branch, and restarts after each turn:
 
 worst = int(np.argmax(gap))
 print(f"{gap[worst]:.0f} MPa at strain {test[i[worst], 0]:.4f}, point {i[worst]}")
