@@ -1,6 +1,6 @@
 """Surfaces of the curves around an optimum, and how sensitive the loops are to the parameters.
 
-Slopes come from the runs that a search has made nearby, weighted by nearness, or from two runs a
+The derivatives come from a surrogate of the runs that a search has made nearby, or from two runs a
 parameter if there are too few of these. Their singular values say to which combinations of
 parameters the loops are sensitive, and how far an estimate moves. Cost: no runs, or 2 k.
 
@@ -106,7 +106,7 @@ def optimum_surfaces(
     elif near is None:
         slopes = _differences(problem, execution, unit, responses, base)
     else:
-        slopes = near.slopes(responses, _STEP)
+        slopes = near.slopes(responses)
     surfaces = Surfaces(unit, base, slopes)
     return Optimum(problem, unit, responses, surfaces, execution, known is not None)
 
