@@ -1,7 +1,7 @@
 """The methods that search, one file each, and one search from its start to its end.
 
-A method is known by the record that it fills in (`method.py`). A new one stands here in the list of
-public names and in that of the records, and nowhere else.
+A method is selected by its record (`method.py`). To add a method, list it in `__all__` and in the
+tuple of records; no other module needs a change.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ METHODS: dict[str, Method] = {
 
 
 def method_of(method: str | Method) -> Method:
-    """Return the method of a name; one that is no name as it is."""
+    """Return the method with a given name; return a method record unchanged."""
     if isinstance(method, Method):
         return method
     if not isinstance(method, str) or method not in METHODS:

@@ -1,10 +1,11 @@
-"""A search that somebody else drives: it is asked what to run, and told what came of it.
+"""Ask-and-tell interface: the caller runs the model and reports the results.
 
-For queues, libEnsemble, optimagic and whatever else runs models by itself. Every method can be
-driven so, since every method is a course: what is asked is a batch of the course, with what it is
-known to ask for next, and once all of the batch has been told the course goes on. Evaluations count
-in the order in which the course asks, so the answer depends neither on the order of arrival nor on
-how many runs were out at once. Cost: that of the method.
+It serves queues, libEnsemble, optimagic and other programs that run models themselves. Every method
+supports it, because every method is a course. `ask` returns the current batch of the course and the
+points that the course is known to request next. The course continues when all runs of the batch
+have been reported. Evaluations are numbered in the order in which the course requests them. The
+answer therefore depends neither on the order of arrival nor on the number of pending runs. Cost:
+the cost of the method.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ __all__ = ["Answer", "OpenSearch"]
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What a search that was driven from outside has found.
+    """Result of an ask-and-tell search.
 
     Attributes
     ----------
@@ -35,11 +36,11 @@ class Answer:
     value : float
         The objective there.
     simulations : object
-        What was told of them.
+        The simulations reported for these parameters.
     converged : bool
-        Whether the method met its tolerances, and no bound that was not meant stopped it.
+        True if the method met its tolerances and no unintended bound stopped it.
     message : str
-        How the search ended.
+        Reason why the search ended.
     history : numpy.recarray
         Every evaluation: its number, the parameters, value, failed and seconds.
     """
@@ -53,12 +54,12 @@ class Answer:
 
 
 class OpenSearch:
-    """A search under way, driven by whoever asks and tells; made by a method's ``begin``.
+    """A running search with ``ask`` and ``tell``; see :meth:`Method.begin`.
 
     Attributes
     ----------
     ended : bool
-        Whether the answer is there, and nothing more is asked.
+        Whether the search has ended; if so, `answer` is available and nothing more is requested.
 
     Examples
     --------
@@ -113,25 +114,26 @@ class OpenSearch:
         message: str = "",
         seconds: float = 0.0,
     ) -> None:
-        """Tell what came of a run.
+        """Report the result of a run.
 
         Parameters
         ----------
         parameters : mapping of str to float
-            As they were asked.
+            The parameters as `ask` returned them.
         simulations : array_like, shape (n, d), or sequence of such
-            The curves, one for every experiment. None means that the run has failed.
+            The curves, one for each experiment. None marks a failed run.
         message : str, optional
-            Why it has failed.
+            Reason for the failure.
         seconds : float, optional
-            How long it took, for the history.
+            Run time, recorded in the history.
 
         Raises
         ------
         ValueError
-            Parameters that are not out; simulations that do not fit the experiments.
+            If the parameters have not been requested, or the simulations do not fit the
+            experiments.
         RuntimeError
-            No simulation of the first batch has succeeded.
+            If no simulation of the first batch has succeeded.
         """
         point = self._point(parameters)
         if point not in self._out:
@@ -146,12 +148,12 @@ class OpenSearch:
         self._advance()
 
     def answer(self) -> Answer:
-        """Return what has been found.
+        """Return the best result of an ended search.
 
         Raises
         ------
         RuntimeError
-            The search has not ended.
+            If the search has not ended.
         """
         if self._finish is None:
             raise RuntimeError(
@@ -180,7 +182,7 @@ class OpenSearch:
         return list(dict.fromkeys((*self._batch, *self._ledger.expected)))
 
     def _advance(self) -> None:
-        """Go on to the next batch of which something has not been told, or to the end."""
+        """Advance to the next batch with unreported runs, or to the end."""
         try:
             while all(point in self._told for point in self._batch):
                 told, self._batch = [self._told.pop(point) for point in self._batch], []

@@ -1,4 +1,4 @@
-"""The method that goes with what is minimised: sums of squares have a faster one than the rest."""
+"""Automatic choice between least squares and trust region."""
 
 from __future__ import annotations
 
@@ -31,5 +31,5 @@ class Auto(Method, name="auto", keeps_curves=True, needs_squares=False):
         return TrustRegion().fewest_runs(parameters, has_start=has_start)
 
     def near_optimum(self) -> Method:
-        """Return the same: what it chooses is asked."""
+        """Return this method unchanged; the method that it chooses adapts itself."""
         return self

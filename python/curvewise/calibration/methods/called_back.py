@@ -1,8 +1,8 @@
-"""A function that calls back, such as an optimiser of scipy, as a course that yields what it asks.
+"""Turns a function with a callback, such as a scipy optimiser, into a course.
 
-The function runs in a thread, which waits while its points are out; of the two, one is at work at
-any time, so that nothing is shared while it changes. Cost: two hand-overs a batch, some 50
-microseconds.
+The function runs in its own thread, which waits for the results of its points. Only one of the two
+threads works at any time, so no shared data change concurrently. Cost: two thread switches per
+batch, about 50 microseconds.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ Evaluate: TypeAlias = Callable[[Array], list[Evaluation]]
 
 
 class _AbandonedError(BaseException):
-    """Nobody wants the rest of the course; no handler of exceptions shall keep it going."""
+    """The course has been abandoned; no handler of Exception can catch this error."""
 
 
 def course_of(function: Callable[[Evaluate], Finish]) -> Course:

@@ -1,16 +1,17 @@
 """One start of a search: a trust-region method on a surrogate of the curves.
 
-The surrogate through the runs near the best one is lowest somewhere in a region of trust around it;
-there the model is run next. The region grows and shrinks with what a step gains of what was
-promised. Where the surrogate promises no more, the directions in which it knows least are run.
-Where it knows them all, the global stage proposes other minima. Where that promises nothing, the
-start has ended. A start that is far above the best run, and promises little of that, is abandoned.
+Each iteration minimises the surrogate within a trust region around the best run and runs the model
+at the minimiser. The radius grows or shrinks with the ratio of actual to predicted reduction. If
+the predicted reduction is negligible, geometry-improving steps run the model in directions with
+poor sampling. If all directions are sampled well, the global stage proposes other minima. If its
+predicted reduction is negligible too, the start has ended. A start is abandoned if it is far above
+the best run and predicts only a small part of the difference.
 
-Where steps gain nothing of what is promised again and again, the surrogate of curves misleads, and
-the start goes on with one of the value (`surfaces.values`).
+If repeated steps do not achieve their predicted reduction, the surrogate of the curves is
+misleading. The start then continues with a surrogate of the value (`surfaces.values`).
 
-Cost: k + 1 runs to begin with for k parameters, one for every step and hop, and up to k to learn
-all directions at the end.
+Cost: k + 1 runs for the initial design of k parameters, one run for every step and restart, and up
+to k runs to sample all directions at the end.
 
 A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000).
 """
@@ -33,30 +34,35 @@ from .starts import NOISIEST, End, nothing_beside, simplex_around
 __all__ = ["Descent", "Rules"]
 
 _FAR = 5.0  # how far the runs may be from which a surrogate is made, in regions of trust
-# Of what was promised: a step that gains less than _POOR has failed; from _GOOD on regions grow.
+# Ratios of actual to predicted reduction: a step below _POOR has failed; the region grows from
+# _GOOD on.
 _POOR, _FAIR, _GOOD = 0.1, 0.3, 0.7
 _AFTER_FAILURE, _AFTER_POOR = 0.5, 0.7  # the region, of the length of a step
 _SHORTER = 0.05  # sides of the region after a run that failed, of some of its axes
-_AFTER_LOOK = 5.0  # a surrogate that has learnt more deserves trust again, so many times as far
+_AFTER_LOOK = 5.0  # factor of the radius after geometry-improving steps
 _OF_NOISE = 5.0  # times as far a surrogate has to be known of a model with noise
-_AFTER_HOP = 0.15  # and so does one beside another minimum, so far
-_FEW = 2  # of so few parameters each independent start has runs of its own to begin with
-# So many failed steps more than good ones, and the surrogate of curves has misled.
+_AFTER_HOP = 0.15  # factor of the diff_step radius after a restart next to another minimum
+_FEW = 2  # up to this number of parameters, each independent start runs its own initial design
+# Excess of failed over good steps that marks the surrogate of the curves as misleading.
 _MISLED = 5
-# How far hops go from the best run, how often from one place, and the least that one promises.
+# Restart distances from the best run, restarts per place, and the least predicted reduction as a
+# fraction of the value.
 _REACHES, _TRIES, _OF_VALUE = (0.4, 0.1, 0.025), 2, 2e-3
 _CLOSE = 0.1  # a start whose value is above the best by a larger part is far above it
-_LEFT_BEHIND = 0.2  # a start is abandoned that promises less, of what it is above the best
-# Planes of exact slopes lead right into the corners of the bounds, and a search that comes to one
-# too early does not leave it where the model changes abruptly there. No step goes further than
-# this part of the way to a bound, as in interior methods; three are as good as at it.
+# a start is abandoned if it predicts less than this fraction of its excess over the best
+_LEFT_BEHIND = 0.2
+# Planes of exact derivatives lead straight into the corners of the bounds. A search that reaches a
+# corner too early cannot leave it if the model changes abruptly there. As in interior-point
+# methods, no step covers more than this fraction of the distance to a bound. Three such steps
+# practically reach the bound.
 _OF_WAY = 0.9
-_PROMISING = 0.01  # an end where steps do not gain what is promised is none if that is more
+# an end after failed steps does not count if the predicted reduction exceeds this fraction
+_PROMISING = 0.01
 
 
 @dataclass(frozen=True)
 class Rules:
-    """How a search goes on; as the options of `TrustRegion` of the same names."""
+    """Settings of each start, named like the options of `TrustRegion`."""
 
     first_radius: float
     diff_step: float
@@ -93,7 +99,8 @@ class Descent:
         self._by_value = False
         self._noise = Noise(0.0, 0.0)
         self._reach = rules.diff_step  # within which the surrogate has to be known
-        self._nothing = 0.0  # differences of the value that do not count beside what was gained
+        # differences of the value that are negligible compared with the reduction so far
+        self._nothing = 0.0
 
     @property
     def value(self) -> float:
@@ -108,7 +115,7 @@ class Descent:
         return point
 
     def course(self, start: Array) -> Part[End | None]:
-        """Go down from a start; return how it ended, or None where simulations fail around it."""
+        """Run a start; return its end, or None if all simulations around it fail."""
         radius = self._rules.first_radius
         simplex = simplex_around(start, radius / 2.0, self._random)
         is_known = not self._runs.least_known(start, radius / 2.0)
@@ -179,9 +186,9 @@ class Descent:
         return _AFTER_POOR * length if ratio < _FAIR else radius
 
     def _drawn_sides(self) -> Array:
-        """Return the sides of the next region: all alike, or after a run that failed some shorter.
+        """Return the side lengths of the next region; a failed run shortens some.
 
-        A step that goes less far along some axes goes along the border of where runs fail.
+        A step that moves less along some axes follows the border of the region of failed runs.
         """
         k = self._sides.size
         if np.isfinite(self._last):
@@ -210,7 +217,7 @@ class Descent:
         return point, float(before - after)
 
     def _is_behind(self, promised: float) -> bool:
-        """Return whether the best run of all starts is too far ahead for what is promised."""
+        """Return whether the best run of all starts is too far ahead of the predicted value."""
         above = self.value - min(self._runs.values)
         if self._runs.is_misled:
             return False
@@ -258,9 +265,9 @@ class Descent:
                     break
 
     def _hops(self, least: float) -> Part[bool]:
-        """Run what the global stage proposes; return whether one of these places is better.
+        """Run the proposals of the global stage; return whether one is better.
 
-        Not of a smooth measure where the model knows its derivatives: another start costs less.
+        No run is made for a smooth measure if the model has a Jacobian: another start costs less.
         """
         if self._runs.has_slopes and self._runs.inner.is_smooth:
             return False

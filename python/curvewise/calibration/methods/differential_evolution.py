@@ -1,11 +1,11 @@
 """Global search by scipy's differential evolution, a generation at a time.
 
-What is set differently from scipy's defaults follows from the objective. It has kinks (a sum of
-absolute values, a maximum) and jumps, so the result is not polished, since scipy's polish takes
-gradients. Its smallest value is 0 for a perfect model, so `atol`, on the spread of the population,
-ends the search where it would only go on halving a value that is 0 to all purposes. A population on
-one level of a landscape of steps has no spread, which ends the search too. Cost: `popsize` k runs a
-generation for k parameters, in some 100 generations.
+Some settings differ from scipy's defaults because of the objective. The objective has kinks (a sum
+of absolute values, a maximum) and jumps, but scipy's polish needs gradients, so the result is not
+polished. The smallest value of a perfect model is 0. Therefore `atol`, a limit on the spread of the
+population, ends the search when it would only keep halving a negligible value. The search also ends
+if the spread is 0, as on one level of a piecewise constant objective. Cost: `popsize` k runs in
+each generation for k parameters, in about 100 generations.
 
 R. Storn, K. Price, "Differential evolution - a simple and efficient heuristic for global
 optimization over continuous spaces", J. Global Optimization 11 (1997) 341-359.
@@ -28,7 +28,7 @@ from .method import Method, check_passed_on, taken_by
 
 __all__ = ["DifferentialEvolution"]
 
-# What of scipy's function is not for users: the objective, and what is set here.
+# Arguments of scipy's function that users cannot set: the objective and fixed settings.
 _SET_HERE = ("func", "bounds", "args", "x0", "vectorized", "workers", "seed", "rng")
 
 
@@ -36,30 +36,31 @@ _SET_HERE = ("func", "bounds", "args", "x0", "vectorized", "workers", "seed", "r
 class DifferentialEvolution(Method, name="de", keeps_curves=False, needs_squares=False):
     """Differential evolution: global, for models that cost milliseconds.
 
-    In the place of the paper's genetic algorithm; by scipy, whose result is not polished. It takes
-    `popsize` k runs a generation for k parameters, in some 100 generations.
+    It replaces the genetic algorithm of the paper and uses scipy without its polish. It takes
+    `popsize` k runs in each generation for k parameters, in about 100 generations.
 
     Parameters
     ----------
     popsize : int, default 15
         Members of the population for every parameter.
     tol : float, default 0.01
-        The search ends where the values of the population spread by less than this fraction.
+        The search ends if the values of the population spread by less than this fraction.
     maxiter : int, default 1000
-        The most generations.
+        Maximum number of generations.
     stall : (improvement, generations), optional
-        End the search once the best value has improved by less than that fraction over so many
-        generations, as (0.001, 100) in the paper's section 3.3.
+        End the search if the best value has improved by less than this fraction over this number of
+        generations, as (0.001, 100) in section 3.3 of the paper.
     after : Method, optional
-        A search that is made before, and whose best point joins the first population:
-        ``DifferentialEvolution(after=SDRM())`` is what "sdrm+de" stands for.
+        A method that runs first; its best point joins the first population.
+        ``DifferentialEvolution(after=SDRM())`` is the method "sdrm+de".
     options : mapping, optional
-        Others of ``scipy.optimize.differential_evolution``: atol, mutation, recombination, ...
+        Other arguments of ``scipy.optimize.differential_evolution``: atol, mutation, recombination,
+        ...
 
     Raises
     ------
     ValueError
-        An option that cannot be, or that scipy does not have.
+        If an option is out of its range, or scipy does not have it.
 
     Notes
     -----
@@ -150,7 +151,7 @@ def _check_stall(stall: tuple[float, int]) -> None:
 
 
 class _Stall:
-    """Ends differential evolution where the best value hardly improves any more.
+    """Ends differential evolution if the best value has stopped improving.
 
     scipy calls it after every generation.
     """

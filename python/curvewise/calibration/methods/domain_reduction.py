@@ -1,12 +1,12 @@
 """Successive response surfaces with domain reduction (SDRM).
 
-In every iteration the model is run at the corners of a region of interest that an orthogonal
-two-level design picks (D-optimal for a linear surface) and at its centre. Planes are fitted by
-least squares to every coordinate of every point of the simulated curves, and the parameters at
-which the curves that these planes predict have the smallest objective, within the region, become
-the centre of the next. A parameter that keeps going the same way keeps its range (panning); where
-it turns back, or stays in the middle, the range shrinks (zooming). Simulations that differ in their
-number of points (a solver with adaptive steps) are resampled by arc length for the planes.
+Every iteration runs the model at the centre of a region of interest and at corners of it that an
+orthogonal two-level design selects (D-optimal for a linear surface). Planes are fitted by least
+squares to every coordinate of every point of the simulated curves. The minimiser of the objective
+on the curves that these planes predict, within the region, becomes the next centre. A parameter
+that keeps moving in one direction keeps its range (panning). If it reverses, or stays in the
+middle, its range shrinks (zooming). Simulations that differ in their number of points (a solver
+with adaptive steps) are resampled by arc length for the planes.
 
 Linear surfaces average over noise and jumps that mislead gradients. Cost: an iteration takes 5
 evaluations for k <= 3 parameters, 9 up to 7, and 17 up to 15. With the default options there are at
@@ -39,22 +39,22 @@ _GAIN = 1e-3  # the smallest that counts, as a fraction of the value
 class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
     """Successive linear response surfaces with domain reduction.
 
-    For any measure; robust to noise: 5 runs an iteration for up to 3 parameters, 9 for up to 7, 17
-    for up to 15, in 14 to some 30 iterations.
+    Suitable for any measure and robust to noise. An iteration takes 5 runs for up to 3 parameters,
+    9 for up to 7 and 17 for up to 15. A search takes 14 to about 30 iterations.
 
     Parameters
     ----------
     gamma_osc, gamma_pan, eta : float, default 0.6, 1.0 and 0.6
-        The contraction parameters of Stander & Craig: for oscillation, for panning, and for
-        zooming where the optimum stays in the middle.
+        Contraction parameters of Stander & Craig: for oscillation, for panning, and for zooming if
+        the optimum stays in the middle.
     initial_range : float, optional
-        The size of the first region, around the start or the middle of the bounds, as a fraction of
-        the bounds' range. By default 1.0, and 0.1 where :func:`identify_each` begins near the end
-        of another search.
+        Size of the first region, around the start or the middle of the bounds, as a fraction of the
+        bounds' range. The default is 1.0, or 0.1 if :func:`identify_each` begins near the end of
+        another search.
     tol : float, default 1e-3
-        The search ends where all ranges are below this fraction of the bounds' range.
+        The search ends if all ranges are below this fraction of the bounds' range.
     maxiter : int, default 50
-        The most iterations.
+        Maximum number of iterations.
 
     Notes
     -----
@@ -96,7 +96,7 @@ class SDRM(Method, name="sdrm", keeps_curves=True, needs_squares=False):
             points = np.vstack((centre, np.where(_design(k, random) > 0, high, low)))
             done = yield points
             good = [i for i, evaluation in enumerate(done) if not evaluation.failed]
-            target = ledger.best_unit  # what is left if no plane goes through so few points
+            target = ledger.best_unit  # used if too few runs succeeded to fit a plane
             if len(good) > k:
                 runs = [inner.taken(done[i])[0] for i in good]
                 places = points[good]
@@ -130,9 +130,10 @@ def _design_rows(k: int) -> int:
 def _design(k: int, random: np.random.Generator) -> Array:
     """Return an orthogonal design of k columns of -1 and 1, turned at random.
 
-    Columns of a Hadamard matrix, without its column of ones: as many rows as the next power of
-    two above k, at least 4. Which column serves which parameter, and its sign, are drawn anew for
-    every iteration, so that interactions between parameters do not bias the plane always alike.
+    The columns are those of a Hadamard matrix without its column of ones. The number of rows is the
+    next power of two above k, at least 4. Every iteration draws again which column serves which
+    parameter, and its sign. Interactions between parameters therefore do not bias all planes in the
+    same direction.
     """
     rows = _design_rows(k)
     columns = required("scipy.linalg").hadamard(rows)[:, 1 + random.permutation(rows - 1)[:k]]

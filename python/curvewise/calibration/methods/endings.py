@@ -1,8 +1,9 @@
-"""What is said of a search's end besides what its method says: of its bounds, and of its tests.
+"""Checks at the end of a search that do not depend on the method.
 
-A method knows its starts and its surfaces. That a bound has stopped it, or that points decide by
-the discrete Fréchet distance (`objective.sampling`), is the same for all methods.
-Cost: by that distance an evaluation of the objective; otherwise nothing.
+A method reports on its starts and surfaces. For all methods, this module reports whether a bound
+stopped the search, and whether sampling decides the discrete Fréchet distance
+(`objective.sampling`). Cost: one evaluation of the objective for the discrete Fréchet distance;
+otherwise nothing.
 """
 
 from __future__ import annotations
@@ -21,11 +22,11 @@ def judged_end(finish: Finish, ledger: Ledger, simulations: Any) -> Finish:
     Parameters
     ----------
     finish : Finish
-        What the method says.
+        The ending that the method reports.
     ledger : Ledger
-        Of the search.
+        The ledger of the search.
     simulations : object
-        At its best run; None where they are not known.
+        The curves of the best run; None if they are unknown.
     """
     finish = _within_bounds(finish, ledger)
     if simulations is None or not ledger.objective.is_largest_distance:

@@ -1,11 +1,11 @@
 """Global search by CMA-ES, for models of milliseconds; without it by differential evolution.
 
 The covariance matrix adaptation evolution strategy draws generations of points from a normal
-distribution whose shape it learns, so that valleys that are narrow and askew cost it little. A
-round ends where the best of its generations changes no more; the next one has twice as many points
-in a generation, since larger generations see the shape of the landscape rather than its dents
-(IPOP). The search has converged where two rounds end alike. Cost: some 5,000 to 20,000 runs for
-8 parameters; overhead of some 30 microseconds a run.
+distribution whose shape it learns. Narrow minima that are not aligned with the axes therefore cost
+it little. A round ends when the best values of its generations no longer change. Each further round
+doubles the population, because larger populations follow the overall shape rather than shallow
+local minima (IPOP). The search has converged when two rounds end at the same value. Cost: about
+5,000 to 20,000 runs for 8 parameters; an overhead of about 30 microseconds per run.
 
 N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772; A. Auger, N. Hansen, "A
 restart CMA evolution strategy with increasing population size", Proc. IEEE CEC (2005) 1769-1776.
@@ -113,13 +113,13 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
         return Finish(False, f"CMA-ES: the best of {self.rounds} rounds was found only once")
 
     def _enough(self, ledger: Ledger, value: float) -> float:
-        """Return by how much values may differ and be alike."""
+        """Return the largest difference between values that count as equal."""
         return max(self.tol * abs(value), ledger.negligible)
 
     def _round(
         self, cma: ModuleType, ledger: Ledger, place: Array | None, number: int, random: Any
     ) -> Any:
-        """Search from a place, the middle of the bounds if there is none; return the best value."""
+        """Run a round from a place (default: the middle); return its best value."""
         k = ledger.dimensions
         generation = self._generation(k) * 2**number
         # cma refuses a single parameter: a second one, which nothing depends on, is added then.
@@ -151,7 +151,7 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
 
 
 def _cma() -> ModuleType | None:
-    """Return the package cma, or None where it is not installed."""
+    """Return the package cma, or None if it is not installed."""
     try:
         return import_module("cma")
     except ModuleNotFoundError as error:

@@ -1,15 +1,17 @@
-"""The global stage of a search: where a surrogate is lowest beyond the region of trust.
+"""The global stage of a search: minima of a surrogate beyond the trust region.
 
-A local search ends in the next local minimum, and measures of curves have many beside each other:
-sums of distances where noisy curves cross elsewhere, largest distances where other points decide. A
-surrogate knows them before the model is run. CMA-ES (`surfaces.evolution`) looks for the lowest
-place on it: near the best run on the surface through the runs around it, over all the bounds on the
-surface through the best hundred. The inner search of the measure polishes what it finds.
+A local search ends in the nearest local minimum, and measures of curves have many close together.
+Sums of distances have them where noisy curves cross elsewhere, largest distances where other points
+decide. A surrogate predicts them before the model is run. CMA-ES (`surfaces.evolution`) searches
+two surrogates for the lowest place: the surface through the runs around the best one, and the
+surface through the best hundred runs within all the bounds. The inner search of the measure
+polishes the result.
 
-Near the best run it moves along the principal axes of the curves' sensitivity, in each as far as
-the curves move alike: parameters that hardly move the curves go far, the others little.
+Near the best run, the search moves along the principal axes of the curves' sensitivity. Steps are
+scaled so that the curves move by the same distance along each axis: parameters with little effect
+on the curves move far, the others little.
 
-Cost: some 400 evaluations of the measure on predicted curves, and no run.
+Cost: about 400 evaluations of the measure on predicted curves, and no run of the model.
 
 N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772; D. J. Wales, J. P. K. Doye,
 "Global optimization by basin-hopping", J. Phys. Chem. A 101 (1997) 5111-5116.
@@ -28,12 +30,13 @@ from .runs import Runs
 
 __all__ = ["NEAR", "GlobalStage"]
 
-NEAR = 0.1  # how far from the best run the first hop goes, as a fraction of the bounds' range
+NEAR = 0.1  # distance of the first restart from the best run, as a fraction of the bounds' range
 _MEMBERS, _GENERATIONS = 12, 30
 _SETTLED = 5e-3  # what follows is polished by the inner search
 _WIDTH = 0.3  # the first standard deviation, in reaches
 _LEAST = 0.03  # of the reach: the shortest principal axis
-_BEST, _GOOD = 100, 10  # runs in the wide surface, and those from one of which CMA-ES begins
+# runs in the wide surface; CMA-ES begins at one of the best _GOOD
+_BEST, _GOOD = 100, 10
 _SAME = 1e-4  # places that are nearer to each other, along each axis, are the same
 _POLISHED = 0.05  # how far the inner search may move what CMA-ES finds
 
@@ -52,9 +55,9 @@ class GlobalStage:
         self._runs, self._random = runs, random
 
     def lowest(self, number: int, reach: Array) -> tuple[Array, float] | None:
-        """Return the lowest place within reaches of a run, and the gain that it promises.
+        """Return the lowest place within reaches of a run, and its predicted reduction.
 
-        None where a run is there already.
+        Return None if a run exists at that place.
         """
         longest = float(reach.max())
         surface = self._runs.surrogate(number, 2.0 * longest)
@@ -71,7 +74,10 @@ class GlobalStage:
         return self._promised(surface, number, found)
 
     def wide(self) -> tuple[Array, float] | None:
-        """Return the lowest place of all, and the gain that it promises; None as for `near`."""
+        """Return the lowest place of all and its predicted reduction.
+
+        Return None if a run exists at that place.
+        """
         surface = self._runs.surface_through_best(_BEST)
         good = np.argsort(self._runs.values, kind="stable")[:_GOOD]
         start = self._runs.points[int(self._random.choice(good))]
@@ -99,7 +105,11 @@ class GlobalStage:
         return place, float(before - after)
 
     def _principal_axes(self, surface: Surface, centre: Array, reach: float) -> Array:
-        """Return the axes along which curves move alike, shape (k, k), the longest of a reach."""
+        """Return the axes scaled to equal curve movement, shape (k, k).
+
+        The longest has the length `reach`.
+
+        """
         _, slopes = surface.with_slopes(centre)
         sides = self._runs.inner.sides
         scaled = slopes if sides is None else slopes / sides[:, np.newaxis]

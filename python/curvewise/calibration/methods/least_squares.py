@@ -1,9 +1,9 @@
 """A search for the smallest sum of squares of an expensive model, without derivatives.
 
-Gauss and Newton's method needs the residuals as a function of the parameters. A kriging surrogate
-through the runs near the best one stands in their place: `trust_region` has the parts of the
-search, `surfaces.sums_of_squares` the inner search. Cost: k + 1 runs to begin with, and one for
-every step: 10 to 20 a start for 3 parameters, 30 to 60 for 8.
+The Gauss-Newton method needs the residuals as a function of the parameters. A kriging surrogate
+through the runs near the best one replaces that function. `trust_region` lists the parts of the
+search; `surfaces.sums_of_squares` is the inner search. Cost: k + 1 runs for the initial design and
+one for every step: 10 to 20 runs per start for 3 parameters, 30 to 60 for 8.
 
 C. Cartis, J. Fiala, B. Marteau, L. Roberts, "Improving the flexibility and robustness of
 model-based derivative-free optimization solvers", ACM Trans. Math. Softw. 45 (2019) 32; S. M. Wild,
@@ -34,40 +34,41 @@ _STEPS = 500  # the most, of each start
 class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_squares=True):
     """Multistart Gauss-Newton search on a kriging surrogate of the residuals.
 
-    For expensive models and the measures "curve_length" and "sum_of_squares": 10 to 20 runs a start
-    for 3 parameters, 30 to 60 for 8. A start begins with k + 1 runs for k parameters, and takes one
+    For expensive models and the measures "curve_length" and "sum_of_squares". A start takes 10 to
+    20 runs for 3 parameters and 30 to 60 for 8: k + 1 runs for k parameters to begin with, then one
     for every step. For several loops it minimises the weighted sum of squares.
 
     Parameters
     ----------
     starts : int, optional
-        How many starts have to agree, as for :class:`TrustRegion`.
+        Number of starts that must agree, as for :class:`TrustRegion`.
     most_starts : int, default 10
-        The most starts.
+        Maximum number of starts.
     starts_at_once : int, optional
-        How many are made side by side: by default one with one worker, and three with several. A
-        number gives the same result, bit for bit, with any number of workers.
+        Number of starts that run in parallel. The default is one with one worker, and three with
+        several. A given number yields bitwise identical results with any number of workers.
     initial_range : float, optional
-        Half the size of the first region of trust, as a fraction of the bounds' range; the first
-        differences are over half of that. By default 0.2, and 0.1 where :func:`identify_each`
+        Half the size of the first trust region, as a fraction of the bounds' range. The first
+        finite differences span half of that. The default is 0.2, or 0.1 if :func:`identify_each`
         begins near the end of another search.
     diff_step : float, default 0.02
-        How far around the best run the surface has to be known in every direction when the search
+        Distance around the best run within which every direction must be sampled before the search
         ends, as a fraction of the bounds' range.
     tol : float, default 1e-3
-        A region of trust that is smaller than this is too small to go on without another look
-        around.
+        Smallest trust region that continues without a geometry-improving step.
     gain : float, default 1e-5
-        The search ends where the surface promises to gain no more than this fraction of the value.
+        The search ends if the predicted reduction is at most this fraction of the value.
     loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
-        Of scipy.optimize.least_squares, for a robust sum, of which the result is then the minimum.
+        Loss function of scipy.optimize.least_squares, for a robust sum. The result minimises that
+        sum.
     f_scale : float, default 1.0
-        Residuals above this count less with such a loss, in units of the experiment's height.
+        Residuals above this value count less with a robust loss, in units of the experiment's range
+        of y.
 
     Raises
     ------
     ValueError
-        An option that cannot be.
+        If an option is out of its range.
 
     Notes
     -----
@@ -115,7 +116,7 @@ class LeastSquares(Method, name="least-squares", keeps_curves=True, needs_square
 
     @property
     def rules(self) -> Rules:
-        """How each start goes on."""
+        """Settings of each start."""
         return Rules(self.first_radius, self.diff_step, self.tol, self.gain, _STEPS)
 
     def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:

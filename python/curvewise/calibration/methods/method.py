@@ -63,11 +63,11 @@ class Method(ABC):
         Parameters
         ----------
         ledger : Ledger
-            What is known so far, and the objective.
+            The evaluations so far, and the objective.
         start : ndarray, shape (k,), or None
-            Where to begin, if that is said.
+            Starting point, if one is given.
         seed : int
-            Of all random numbers.
+            Seed of all random numbers.
         """
 
     @abstractmethod
@@ -79,7 +79,7 @@ class Method(ABC):
         """Return the same method for a start near the optimum, where another measure has ended."""
 
     def closer(self) -> Method | None:
-        """Return the same for smaller gains, to go on from its end; None where that is no use."""
+        """Return this method with smaller tolerances, to continue from its end; None if useless."""
         return None
 
     def staged(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
@@ -107,7 +107,7 @@ class Method(ABC):
         Raises
         ------
         ValueError
-            A start outside of the bounds; a measure that the method does not take.
+            If the start lies outside the bounds, or the method does not support the measure.
         """
         for measure in problem.objective.measures:
             self.check(measure)
@@ -116,7 +116,7 @@ class Method(ABC):
         return OpenSearch(self.staged(ledger, unit, seed), ledger)
 
     def chosen_for(self, objective: Objective) -> Method:
-        """Return the method itself; what stands for several methods returns one of them."""
+        """Return the method itself; :class:`Auto` returns the method that it chooses."""
         return self
 
     def check(self, measure: Measure) -> None:
@@ -151,7 +151,7 @@ def options_of(method: Method) -> list[str]:
 
 
 def _changed(method: Method) -> list[str]:
-    """Return which options are not what they are by default."""
+    """Return the options that differ from their defaults."""
     plain = type(method)()
     return [name for name in options_of(method) if getattr(method, name) != getattr(plain, name)]
 

@@ -1,9 +1,9 @@
 """Several starts of one search, until enough independent ones agree.
 
-One start after the other with one worker, three side by side with several. The first begin in the
-middle of the bounds and evenly over them. After these every second one begins where the surrogate
-through the best runs is lowest (`global_stage`): it takes few runs, and it owes its place to the
-others, so that it does not count as agreeing with them.
+Starts run one after the other with one worker, and three in parallel with several. The first starts
+are the middle of the bounds and points spread evenly over them. Afterwards every second start
+begins where the surrogate through the best runs is lowest (`global_stage`). Such a start takes few
+runs, but it depends on the other starts, so it does not count as agreeing with them.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from .starts import End, finish_of, is_enough, is_flat, places
 
 __all__ = ["searched"]
 
-_SMALLER = 0.25  # the first region of a start beside the best run
+_SMALLER = 0.25  # largest first radius of a start next to the best run
 
 
 def searched(
@@ -55,7 +55,7 @@ def searched(
     Raises
     ------
     RuntimeError
-        Simulations fail all around the starts.
+        If all simulations around the starts fail.
     """
     multistart = _Multistart(ledger, runs, rules, seed, (starts, most_starts, at_once))
     first = multistart.first(start)

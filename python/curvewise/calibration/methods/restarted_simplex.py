@@ -1,8 +1,9 @@
-"""Nelder and Mead's simplex search in a box, begun anew from its result until nothing is gained.
+"""Nelder-Mead simplex search within bounds, restarted until it gains nothing.
 
-scipy's, restarted: a simplex may collapse where there is no minimum, most easily on the kinks of
-an objective that sums absolute values or takes a maximum, and a fresh one in other directions gets
-the search going again. Local, and for few parameters: up to 10, better 5.
+It restarts scipy's simplex. A simplex may collapse at a point that is not a minimum, most often at
+the kinks of an objective that sums absolute values or takes a maximum. A new simplex in other
+directions lets the search continue. The search is local and suits few parameters: up to 10, better
+5.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""The runs of a search, each as one vector: what its surrogates go through.
+"""The runs of a search as vectors: the data that its surrogates interpolate.
 
-Starts share them, so that one that comes to where another has been takes few runs of its own. Cost:
-O(n k) for the nearest of n runs in k parameters.
+All starts share them, so a start that reaches the region of another start needs few runs. Cost: O(n
+k) for the nearest of n runs in k parameters.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ _NEAREST = 30  # runs that make a surrogate, at most; 3 k + 3 where that is more
 # Directions around a point are known if in each of them the runs within _AROUND times a reach are
 # spread by this much, in squares of the reach.
 _AROUND, _SPREAD = 3.0, 0.3
-_BESIDE = 0.01  # places that are nearer to each other, along each axis, have the same hops
-_NOISY = 1e-3  # of the box: less noise is none
+_BESIDE = 0.01  # places closer than this along each axis share their restarts
+_NOISY = 1e-3  # of the bounding box: smaller noise counts as 0
 
 
 class Noise(NamedTuple):
@@ -34,9 +34,9 @@ class Noise(NamedTuple):
     Attributes
     ----------
     of_curves : float
-        Of a coordinate, in sides of the test's box; 0 where the runs show none.
+        Of a coordinate, in side lengths of the test's bounding box; 0 if the runs show no noise.
     of_value : float
-        Of what is minimised.
+        Of the minimised value.
     """
 
     of_curves: float
@@ -44,27 +44,27 @@ class Noise(NamedTuple):
 
 
 class Runs:
-    """Runs that have succeeded: where they are, their vectors and values.
+    """Runs that have succeeded: their points, vectors and values.
 
     Parameters
     ----------
     ledger : Ledger
-        Whose earlier runs are the first.
+        Its earlier runs are the first.
     inner : InnerSearch
-        What is minimised.
+        The inner search, which defines the vectors and the minimised value.
 
     Attributes
     ----------
     points : ndarray, shape (n, k)
         In the unit cube.
     values : list of float
-        What is minimised.
+        The minimised values.
     has_slopes : bool
-        Whether the model knows the derivatives of its curves.
+        Whether the model has a Jacobian.
     is_misled : bool
-        Whether a start has gone on by the value alone.
+        Whether a start has continued with the surrogate of the value alone.
     exhausted : list of ndarray, shape (k,)
-        Where the global stage has found nothing.
+        Places where the global stage has found nothing.
     """
 
     def __init__(self, ledger: Ledger, inner: InnerSearch) -> None:
@@ -87,11 +87,11 @@ class Runs:
         return int(np.argmin(self.values))
 
     def number(self, point: Array) -> int | None:
-        """Return the number here of the run at a point; None where there is none."""
+        """Return the index of the run at a point; None if there is none."""
         return self._rows.get(tuple(point))
 
     def add(self, point: Array, run: Evaluation) -> int | None:
-        """Take a run in; return its number here, or None of one that has failed."""
+        """Add a run; return its index, or None if the run failed."""
         if run.failed:
             return None
         place = tuple(point)
@@ -115,7 +115,7 @@ class Runs:
         return self._slopes.get(number)
 
     def is_exhausted(self, point: Array) -> bool:
-        """Return whether hops from beside a point have found nothing before."""
+        """Return whether restarts from next to a point have found nothing before."""
         return any(np.abs(point - place).max() <= _BESIDE for place in self.exhausted)
 
     def least_known(self, centre: Array, reach: float) -> list[Array]:
@@ -131,7 +131,8 @@ class Runs:
     def surrogate(self, number: int, within: float) -> Surface:
         """Return the plane of a run's derivatives, or the surface through the runs around it.
 
-        Through the 2 k + 1 nearest, and through more as long as they are within a distance.
+        The surface interpolates the 2 k + 1 nearest runs, and further ones within the given
+        distance.
         """
         slopes = self._slopes_of(number)
         if slopes is not None:
@@ -146,7 +147,7 @@ class Runs:
         return self._through(number, near[: max(2 * k + 1, int(np.sum(distances[near] <= within)))])
 
     def surface_through_best(self, most: int) -> KrigedSurface:
-        """Return the surface through so many of the best runs, about the best."""
+        """Return the surface through the `most` best runs, centred on the best."""
         chosen = np.argsort(self.values, kind="stable")[:most]
         return self._through(int(chosen[0]), chosen)
 
@@ -160,7 +161,7 @@ class Runs:
         return Noise(surface.noise, float(np.std(np.array(self.values)[is_near] - smoothed)))
 
     def values_near(self, number: int, most: int) -> tuple[Array, Array]:
-        """Return the points and values of so many runs, those nearest to one."""
+        """Return the points and values of the `most` runs that are nearest to one run."""
         distances = np.abs(self.points - self.points[number]).max(axis=1)
         near = np.argsort(distances, kind="stable")[:most]
         return self.points[near], np.array(self.values)[near]

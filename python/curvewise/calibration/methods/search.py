@@ -38,7 +38,7 @@ class Plan:
 
 
 class EndedSearch(NamedTuple):
-    """What is left of a search: evaluations, how it ended, the best curves, runs made, records."""
+    """Result of a search: evaluations, ending, best curves, number of runs, records."""
 
     evaluations: Evaluations
     finish: Finish

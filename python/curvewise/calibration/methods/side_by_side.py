@@ -1,11 +1,11 @@
-"""Several courses side by side: each goes on as soon as its own runs are there.
+"""Several courses in parallel; each continues when its own runs end.
 
-In rounds, in each of which every course has its turn, in their order, and a course begins where
-others have ended in the round before. What a course asks for is made known at once, so that it may
-be run while the others have their turns: what they compute costs no time where there are workers
-enough. What comes of courses that share what they know depends on the order of turns alone, neither
-on how many runs are made at the same time nor on which is finished first, and no run is made that
-is not asked for. Cost: nothing beside the courses.
+The courses take turns in rounds, in a fixed order. New courses begin where others ended in the
+round before. The points that a course requests are announced at once, so that they can run during
+the turns of the other courses. With enough workers, computations within the courses therefore cost
+no time. The result of courses that share their runs depends on the order of turns alone. It depends
+neither on the number of parallel runs nor on which run finishes first. No run is made that was not
+requested. Cost: the cost of the courses.
 """
 
 from __future__ import annotations
@@ -30,18 +30,19 @@ def side_by_side(
     more: Callable[[], Sequence[Part[R]]],
     expect: Callable[[Array], object],
 ) -> Part[list[R]]:
-    """Drive courses in turns, each to its end; return what they return, in their order.
+    """Drive courses in turns, each to its end; return their results in order.
 
-    What they begin with is asked for at once: a search ends where all of that fails.
+    The first points of all courses are one batch, because a search ends if all of its first batch
+    fails.
 
     Parameters
     ----------
     first : sequence of generators
-        With which it begins.
+        The first courses.
     more : callable
-        Called after every round in which a course has ended, for those to begin then.
+        Called after every round in which a course has ended; returns the courses to begin then.
     expect : callable
-        Told what a course asks for, when that is known and other courses' turns come first.
+        Called with the points that a course requests while it waits for the turns of other courses.
     """
     courses: list[Part[R]] = []
     ended: dict[int, R] = {}

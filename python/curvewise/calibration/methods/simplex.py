@@ -1,7 +1,8 @@
 """Local search by Nelder and Mead's simplex, restarted: `restarted_simplex` on the model itself.
 
-Its tolerance on the value is what is negligible: the smallest value is 0 for a perfect model, so
-that one relative to the value alone would never be met. Cost: 250 to 500 runs for 3 parameters.
+Its tolerance on the value is the negligible difference of the objective. A relative tolerance would
+never be met, because the smallest value of a perfect model is 0. Cost: 250 to 500 runs for 3
+parameters.
 
 J. A. Nelder, R. Mead, "A simplex method for function minimization", The Computer Journal 7 (1965)
 308-313.
@@ -45,7 +46,7 @@ class NelderMead(Method, name="nelder-mead", keeps_curves=False, needs_squares=F
     Raises
     ------
     ValueError
-        An option that scipy does not have.
+        If scipy does not have an option.
 
     Notes
     -----
@@ -74,7 +75,7 @@ class NelderMead(Method, name="nelder-mead", keeps_curves=False, needs_squares=F
         return self
 
     def course(self, ledger: Ledger, start: Array | None, seed: int) -> Course:
-        """Minimise from a start, the middle of the bounds if none is given."""
+        """Minimise from a start, by default the middle of the bounds."""
         return course_of(partial(self._minimised, ledger, start, seed))
 
     def _minimised(

@@ -1,8 +1,9 @@
-"""Where a search begins, and what it may say of where its starts have ended.
+"""Starting points of a multistart search, and its verdict.
 
-The first start is the middle of the bounds, the others are Latin hypercubes of four points: of four
-in a row each has a quarter of every axis to itself. (A sequence of low discrepancy is no better
-for so few points in so many dimensions, and scipy's takes half a second to import.)
+The first start is the middle of the bounds. The others are Latin hypercube samples of four points:
+each of four consecutive starts lies in a different quarter of every axis. (A low-discrepancy
+sequence is not better for a few points in many dimensions, and scipy's takes half a second to
+import.)
 
 M. D. McKay, R. J. Beckman, W. J. Conover, "A comparison of three methods for selecting values of
 input variables in the analysis of output from a computer code", Technometrics 21 (1979) 239-245.
@@ -36,10 +37,10 @@ __all__ = [
 _QUARTERS = 4
 _DRAWN = (0.1, 0.9)  # where starts are, between the bounds
 _FEWEST = 3  # starts that have to agree
-_ALIKE = 0.01  # ends that are above the best by this fraction at most are alike
+_ALIKE = 0.01  # ends within this fraction above the best value agree
 NOISIEST = 0.05  # and by this one where the model's own noise moves values so far
-# And so are those whose difference is negligible, or next to nothing beside what was gained, that
-# fraction squared: fits to curves of the model itself.
+# Ends also agree if their difference is negligible, or at most the square of that fraction of the
+# total reduction. Fits to curves of the model itself need this.
 _PERFECT = 1e3
 _SAME_PLACE = 0.01  # of the bounds' range
 _MAYBE = "the start is a minimum already, or "
@@ -52,17 +53,18 @@ class End(NamedTuple):
     Attributes
     ----------
     first, value : float
-        The value that it began with, and the one it ended at.
+        The first and the last value.
     place : ndarray, shape (k,)
-        Where.
+        The point at the end.
     finish : Finish
-        What is said of it.
+        Convergence and message of the start.
     is_independent : bool
-        Whether it began at a place that owes nothing to other starts.
+        Whether its starting point does not depend on other starts.
     noise : float
-        By how much the model's own noise moves the value there, one standard deviation.
+        Effect of the model's own noise on the value, one standard deviation.
     is_misled : bool
-        Whether it went on by the value alone, since the surrogate of curves misled it.
+        Whether it continued with the surrogate of the value, because the surrogate of the curves
+        misled it.
     """
 
     first: float
@@ -89,7 +91,7 @@ def places(k: int, random: np.random.Generator) -> Iterator[Array]:
 
 
 def simplex_around(centre: Array, step: float, random: np.random.Generator) -> Array:
-    """Return a point beside the centre for every axis, inwards where a bound is near."""
+    """Return a point next to the centre on every axis, within the bounds."""
     signs = random.choice((-1.0, 1.0), centre.size)
     signs = np.where(centre + signs * step > 1.0, -1.0, signs)
     signs = np.where(centre + signs * step < 0.0, 1.0, signs)
@@ -107,7 +109,10 @@ def are_alike(ends: Sequence[End], negligible: float, among: Sequence[End]) -> i
 
 
 def is_enough(ends: Sequence[End], negligible: float, starts: int) -> bool:
-    """Return whether so many independent starts agree that the best is likely that of all.
+    """Return whether enough independent starts agree on the best value.
+
+    `starts` of them suffice if all agree. If some have ended higher, one more must agree, and at
+    least half of all.
 
     `starts` of them where all agree; where some have ended higher, one more and half of all.
     """
@@ -119,7 +124,7 @@ def is_enough(ends: Sequence[End], negligible: float, starts: int) -> bool:
 
 
 def starts_that_agree(starts: int | None, parameters: int) -> int:
-    """Return how many starts have to agree: as many as given, else half of the parameters."""
+    """Return the number of starts that must agree."""
     return max(_FEWEST, math.ceil(parameters / 2)) if starts is None else starts
 
 
@@ -130,7 +135,7 @@ def check_regions(
     most_starts: int,
     at_once: int | None,
 ) -> None:
-    """Refuse regions that are no fractions of the bounds, and fewer starts than one."""
+    """Check that regions are fractions and numbers of starts are positive."""
     for name, value in (("initial_range", first_radius), ("diff_step", diff_step)):
         if not 0.0 < value <= 1.0:
             raise ValueError(f"{name} is {value}; give a fraction of the bounds, such as 0.02")
@@ -181,7 +186,7 @@ def finish_of(ends: Sequence[End], negligible: float, starts: int) -> Finish:
 
 
 def nothing_beside(first: float) -> float:
-    """Return which differences are next to nothing beside what a start may gain."""
+    """Return the negligible difference relative to the first value of a start."""
     return _ALIKE**2 * first
 
 

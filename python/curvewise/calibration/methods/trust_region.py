@@ -1,12 +1,12 @@
-"""A search for expensive models: the exact measure on a surrogate of the curves, run by run.
+"""Trust-region search: the exact measure on surrogates of the curves.
 
-Composite optimisation: the model is expensive and smooth, the measure is cheap and has kinks. So a
-surrogate stands for the simulated curves, and the measure of what it predicts is minimised exactly.
-In the order in which to read: `multistart` begins starts until enough of them agree; a start is a
-trust-region method (`descent`) whose steps come from an inner search of the measure
-(`surfaces.inner_search`) on a kriging surrogate (`surfaces.kriged_surface`) of the runs (`runs`);
-before a start ends, a global stage (`global_stage`) looks for other minima on the surrogate. Where
-the model knows its derivatives (`jacobian`), their plane takes the place of the surrogate.
+This is composite optimisation: the model is expensive and smooth, the measure is cheap and has
+kinks. A surrogate replaces the simulated curves, and the measure of the predicted curves is
+minimised exactly. Read the modules in this order. `multistart` begins starts until enough of them
+agree. A start is a trust-region method (`descent`). Its steps come from an inner search of the
+measure (`surfaces.inner_search`) on a kriging surrogate (`surfaces.kriged_surface`) of the runs
+(`runs`). Before a start ends, a global stage (`global_stage`) searches the surrogate for other
+minima. If the model has a `jacobian`, a plane with its derivatives replaces the surrogate.
 
 A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000); S. M. Wild, R. G.
 Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in
@@ -33,42 +33,42 @@ __all__ = ["TrustRegion"]
 class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=False):
     """Multistart trust-region search on a kriging surrogate of the curves.
 
-    For expensive models and any measure: 10 to 20 runs a start for 3 parameters, 20 to 40 for 8,
-    since starts share their runs. A start begins with k + 1 runs for k parameters, and takes one
-    for every step.
+    For expensive models and any measure. A start takes 10 to 20 runs for 3 parameters and 20 to 40
+    for 8, because starts share their runs. It begins with k + 1 runs for k parameters and takes one
+    more for every step.
 
-    It has converged where so many independent starts agree to 1 %, and no unmeant bound holds the
-    best of them.
+    The search has converged if enough independent starts agree to within 1 % and no unintended
+    bound limits the best of them.
 
     Parameters
     ----------
     starts : int, optional
-        How many starts have to agree, where no start is given: from the middle of the bounds, and
-        evenly over them. By default half of the number of parameters, and at least 3. Where some
-        have ended higher, one more has to, and half of all.
+        Number of starts that must agree if no start is given: the middle of the bounds, and points
+        spread evenly over them. The default is half the number of parameters, at least 3. If some
+        starts have ended higher, one more must agree, and at least half of all.
     most_starts : int, default 30
-        The most starts.
+        Maximum number of starts.
     starts_at_once : int, optional
-        How many are made side by side: by default one with one worker, and three with several. A
-        number gives the same result, bit for bit, with any number of workers.
+        Number of starts that run in parallel. The default is one with one worker, and three with
+        several. A given number yields bitwise identical results with any number of workers.
     initial_range : float, optional
-        Half the size of the first region of trust, as a fraction of the bounds' range; the first
-        differences are over half of that. By default 0.5, and 0.1 where :func:`identify_each`
+        Half the size of the first trust region, as a fraction of the bounds' range. The first
+        finite differences span half of that. The default is 0.5, or 0.1 if :func:`identify_each`
         begins near the end of another search.
     diff_step : float, default 0.02
-        How far around the best run the surrogate has to be known in every direction when a start
-        ends, as a fraction of the bounds' range.
+        Distance around the best run within which every direction of the surrogate must be sampled
+        before a start ends, as a fraction of the bounds' range.
     tol : float, default 1e-3
-        The search ends where the region is smaller than this.
+        The search ends if the trust region is smaller than this.
     gain : float, default 1e-3
-        And where the surrogate promises to gain no more than this fraction of the value.
+        The search also ends if the predicted reduction is at most this fraction of the value.
     maxiter : int, default 200
-        The most steps, of each start.
+        Maximum number of steps of each start.
 
     Raises
     ------
     ValueError
-        An option that cannot be.
+        If an option is out of its range.
 
     Notes
     -----
@@ -102,7 +102,7 @@ class TrustRegion(Method, name="trust-region", keeps_curves=True, needs_squares=
 
     @property
     def rules(self) -> Rules:
-        """How each start goes on."""
+        """Settings of each start."""
         return Rules(self.first_radius, self.diff_step, self.tol, self.gain, self.maxiter)
 
     def fewest_runs(self, parameters: int, *, has_start: bool) -> int:

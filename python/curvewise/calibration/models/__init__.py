@@ -1,1 +1,1 @@
-"""Models: what runs them, what they are called, and solvers as models."""
+"""Models: their execution, their identity, and solvers as models."""

@@ -1,10 +1,10 @@
 """An external solver as a model: a deck from templates, a process, a curve from its results.
 
-Every set of parameters has a scratch folder of its own. The templates are written there, filled in;
-the command runs there under a time limit, in a process group of its own; and a function of the
-user's reads the curves. Nothing is shared between calls, so any number of them may run side by
-side, in threads or in processes. The cost of a call is the solver's, and that of the templates
-(templates.py) and of the process (process.py).
+Every set of parameters has its own scratch folder. The filled-in templates are written there. The
+command runs there under a time limit, in its own process group. A user-defined function then reads
+the curves. Calls do not share anything, so they can run in parallel, in threads or in processes. A
+call costs the solver's time plus that of the templates (templates.py) and of the process
+(process.py).
 """
 
 from __future__ import annotations
@@ -33,72 +33,70 @@ LOG = "command.log"
 
 
 class CommandModel:
-    r"""A model that runs an external program: call it with parameters, get its curves.
+    r"""A model that runs an external program and returns its curves.
 
     Templates hold placeholders with a parameter's name:
 
-    ``<<E>>``
-        the shortest text that reads back as the same number;
-    ``<<E:10>>``
-        a field of 10 characters, with as many digits as fit, and always a decimal point: for
-        decks with fixed columns;
-    ``<<E:12.4e>>``
-        any of Python's format specifications. A number that is longer than a width given is an
-        error, as it would move the columns behind it.
+    ``<<E>>`` inserts the shortest text that reads back as the same number. ``<<E:10>>`` is a field
+    of 10 characters, with as many digits as fit and always a decimal point, for decks with fixed
+    columns. ``<<E:12.4e>>`` accepts any of Python's format specifications. A number that is longer
+    than the given width is an error, because it would shift the columns behind it.
 
-    A template without placeholders, such as a mesh that the deck includes, is copied as it is.
+    A template without placeholders, such as a mesh that the deck includes, is copied unchanged.
 
     Parameters
     ----------
     template_files : path or sequence of paths
-        Files to write into each run's folder, under the same name. They are read once, here.
+        Files to write into each run's folder, under the same name. They are read once, when the
+        model is created.
     command : sequence of str
-        The program and its arguments, run in that folder, without a shell. Must wait for the
+        The program and its arguments, run in that folder without a shell. It must wait for the
         solver's end (Abaqus: ``interactive``).
     read : callable
-        ``read(folder)`` is given the folder (a ``Path``) after the program has ended with exit
-        code 0, and returns a curve, an array of shape (n, d), or a list of such arrays. It should
-        raise where results are incomplete. A function of a module can be pickled, a lambda not.
+        ``read(folder)`` is called with the folder (a ``Path``) after the program has ended with
+        exit code 0. It returns a curve, an array of shape (n, d), or a list of such arrays. It
+        should raise if results are incomplete. A module-level function can be pickled, a lambda
+        cannot.
     parameters : sequence of str
         The names of the parameters, so that a misspelt placeholder is found before the first run.
     timeout : float
         Seconds after which a run is stopped, with all processes it has started.
     environment : mapping of str to str, optional
-        Variables to set beside those of this process, e.g. ``{"OMP_NUM_THREADS": "1"}``.
+        Variables to set in addition to those of this process, e.g. ``{"OMP_NUM_THREADS": "1"}``.
     scratch : path, optional
-        Where the folders are made; by default the system's folder for temporary files.
+        The parent of the scratch folders; by default the system's folder for temporary files.
     keep : bool
-        Keep the folders of runs that succeeded, too.
+        Whether to keep the folders of successful runs, too.
 
     Attributes
     ----------
     identity : str
-        A text that is another for another model: what a store of simulations knows it by.
+        A text that differs between different models; a store identifies the model by it.
 
     Raises
     ------
     ValueError
-        A placeholder that is no parameter, or is malformed; a parameter without placeholder; two
-        templates of one name; no command; a time-out that is not positive.
+        If a placeholder is not a parameter, or is malformed. If a parameter lacks a placeholder. If
+        two templates have the same name, the command is empty, or the time limit is not positive.
     FileNotFoundError
-        A template, the scratch folder or the program does not exist.
+        If a template, the scratch folder or the program does not exist.
 
     Notes
     -----
-    A call raises `SolverError` when the program cannot be started, ends with another exit code
-    than 0 or by a signal, takes longer than `timeout`, prints more than 64 MiB, or when `read`
-    fails or returns something other than curves of finite numbers. The folder is then kept, with
-    all the program has printed in ``command.log``, which the error names. When a call ends, in
-    whichever way (Ctrl-C included), so do all processes of the run's group (on Windows: the
-    program itself).
+    A call raises `SolverError` if the program cannot be started, ends with an exit code other than
+    0 or by a signal, takes longer than `timeout`, or prints more than 64 MiB. It also raises
+    `SolverError` if `read` fails or returns something other than curves of finite numbers. The
+    folder is then kept, with the program's output in ``command.log``, which the error names.
+    However a call ends (Ctrl-C included), all processes of the run's group end with it (on Windows:
+    the program itself).
 
-    A store knows the model by its `identity`: the text of its templates, its command and
-    environment, and the function that reads (its own code, not that of functions it calls).
-    What it cannot see is another version of the program, or of a file that the deck names
-    and that is no template: give ``SimulationStore(path, version=...)`` for those.
+    A store identifies the model by its `identity`: the text of its templates, its command and
+    environment, and the code of `read` (but not of the functions that it calls). The identity does
+    not cover the version of the program, or files that the deck names but that are not templates.
+    Use ``SimulationStore(path, version=...)`` for those.
 
-    Parameters may also be text, which is inserted as it is, e.g. a table of a hardening curve
-    that a function has made of two numbers before it calls the model.
+    Parameters may also be text, which is inserted unchanged, e.g. a table of a hardening curve that
+    a function computes from two numbers before it calls the model.
 
     Examples
     --------

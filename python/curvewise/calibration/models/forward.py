@@ -1,10 +1,10 @@
-"""What a search runs for a set of parameters: one model, or several, and how their runs are read.
+"""The forward model of a search: the functions to run, and their simulations.
 
-A forward model knows the functions that have to be called, makes the simulations of their outcomes,
-and gives the derivatives of these simulations if every function has a ``jacobian``. A search knows
-it by this alone, whatever it stands for: one model of all experiments (`SingleModel`), some of its
-curves (`Selection`), or several cases (`Cases`). Cost of derivatives: one call of ``jacobian`` for
-every function, in this process.
+A forward model has the functions to call and turns their outcomes into simulations. It also returns
+the derivatives of these simulations, if every function has a ``jacobian``. A search uses only this
+interface. It represents one model of all experiments (`SingleModel`), some of its curves
+(`Selection`), or several cases (`Cases`). Cost of derivatives: one call of ``jacobian`` for every
+function, in this process.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class ForwardModel(ABC):
     @property
     @abstractmethod
     def callables(self) -> Sequence[Model]:
-        """The functions, each of which is called once for every set of parameters."""
+        """The functions, each called once for every set of parameters."""
 
     @abstractmethod
     def assembled(self, outcomes: list[Outcome]) -> Outcome:
@@ -36,24 +36,24 @@ class ForwardModel(ABC):
 
     @abstractmethod
     def slopes(self, parameters: Mapping[str, float], rates: Array) -> list[Array] | None:
-        """Return the derivatives of the simulations, or None if they are unknown at this point.
+        """Return the derivatives of the simulations; None if unknown at this point.
 
         Parameters
         ----------
         parameters : mapping of str to float
-            All p that the functions are called with.
+            All p parameters of the functions.
         rates : ndarray, shape (p, k)
             The derivatives of these parameters.
 
         Returns
         -------
         list of ndarray, shape (n, d, k)
-            One for every simulation.
+            An array for every simulation.
 
         Raises
         ------
         ValueError
-            A ``jacobian`` returned arrays of other shapes, or numbers that are not finite.
+            If a ``jacobian`` returns arrays of other shapes, or numbers that are not finite.
         """
 
     @property
@@ -136,7 +136,7 @@ class Selection(ForwardModel):
 def curve_slopes(
     model: Any, parameters: Mapping[str, float], rates: Array, count: int
 ) -> list[Array] | None:
-    """Return the derivatives of a model's curves; None if its ``jacobian`` returns None.
+    """Return the derivatives of a model's curves; None if its ``jacobian`` does.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def curve_slopes(
     Raises
     ------
     ValueError
-        The ``jacobian`` returned arrays of other shapes, or numbers that are not finite.
+        If the ``jacobian`` returns arrays of other shapes, or numbers that are not finite.
     """
     found = model.jacobian(dict(parameters))
     if found is None:

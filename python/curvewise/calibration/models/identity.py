@@ -1,13 +1,13 @@
-"""Which model a simulation is of: what a store has to know, so that no value is ever stale.
+"""The identity of a model, so that a store never returns a stale simulation.
 
-A model says so itself by an attribute `identity`, a text that changes whenever its curves may
-(:class:`CommandModel` has one, made of its templates, its command and the function that reads).
-Of any other Python callable only its user knows, and gives a `version`. Its bytecode and its data
-are remembered beside it as a fingerprint: a model whose code has changed under the same version
-is refused, and not looked up. So are the functions of its own module that it calls by their names,
-and what they call. Not seen are functions of other modules, and lists, dicts, whole numbers and
-variables of the module, since a model may keep a record of its runs there: where these change, only
-another `version` says so.
+A model can have an attribute `identity`, a text that changes whenever its curves may change.
+:class:`CommandModel` has one, made of its templates, its command and the function that reads. For
+any other Python callable the user gives a `version`. A fingerprint of its bytecode and data is
+stored with the version: a model whose code has changed under the same version is rejected. The
+fingerprint includes functions of the same module that the model calls by name, and the functions
+that these call. It excludes functions of other modules. It also excludes lists, dicts, whole
+numbers and variables of the module, because a model may keep a record of its runs there. Give a new
+`version` if any of these change.
 """
 
 from __future__ import annotations
@@ -144,7 +144,7 @@ def _add_code(digest: Any, code: types.CodeType, above: set[int]) -> None:
 
 
 def _without_docstring(function: types.FunctionType) -> types.CodeType:
-    """Return a function's code with None for its docstring, as if it had none."""
+    """Return a function's code object without its docstring."""
     code = function.__code__
     if not code.co_consts or code.co_consts[0] != function.__doc__:
         return code

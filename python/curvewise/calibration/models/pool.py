@@ -1,17 +1,18 @@
-"""Runs a model, in this process or in several, and turns what it raises into an outcome.
+"""Runs a model in this process or in several, and returns outcomes.
 
-With one worker the model is called here. With more, a pool of processes is started once and each
-gets the model once, pickled; outcomes come as they are finished. Calls may be begun before anybody
-waits for them. Ctrl-C stops the model in every process: workers raise KeyboardInterrupt while the
-model runs, so that it can end what it started (a solver, say), and ignore it while they are idle.
-Where SIGINT is ignored, as in what a shell script starts in the background, SIGTERM takes its place
-between these processes. A worker that dies (killed, or crashed in the model's compiled code) takes
-the pool with it; the points under way are then run again one by one, each in a fresh process, so
-that only the one that kills its process counts as failed. Workers end by themselves when the
-process that started them is killed.
+With one worker, the model is called in this process. With more, a pool of processes is started
+once. Each process receives the pickled model once, and outcomes are returned as they finish. Calls
+may begin before their results are requested.
 
-An executor of the caller's takes the place of these processes: dask's, a cluster's. It is left as
-it was found; what it still runs after Ctrl-C is its owner's to stop.
+Ctrl-C stops the model in every process. Workers raise KeyboardInterrupt while the model runs, so
+that it can stop its own processes (such as a solver), and ignore it while they are idle. If SIGINT
+is ignored, as in background jobs of a shell script, SIGTERM replaces it between these processes. A
+worker that dies (killed, or crashed in compiled code of the model) breaks the pool. The interrupted
+points are then run again one by one, each in a new process, so that only the point that kills its
+process counts as failed. Workers end by themselves if their parent process is killed.
+
+A given executor, such as that of dask or a cluster, replaces these processes. It is left unchanged.
+Runs that it continues after Ctrl-C must be stopped by its owner.
 """
 
 from __future__ import annotations
@@ -60,13 +61,13 @@ class ModelPool:
     workers : int
         Processes: at least 1 (the model is called in this process), or -1 for one per core.
     executor : concurrent.futures.Executor, optional
-        Runs the model in the place of processes of this pool's own.
+        Runs the model instead of processes of this pool.
 
     Raises
     ------
     ValueError
-        `workers` is out of range, or given beside an executor; the model cannot be sent to
-        another process.
+        If `workers` is out of range, or given together with an executor. If the model cannot be
+        sent to another process.
     """
 
     def __init__(self, model: Model, workers: int = 1, executor: Executor | None = None) -> None:
@@ -87,7 +88,7 @@ class ModelPool:
         self._pickled = b"" if self._workers == 1 else _pickled(model)
         self._pool: ProcessPoolExecutor | None = None
         self._processes: list[Any] = []
-        self._out: dict[Future[Outcome], dict[str, Any]] = {}  # what is under way
+        self._out: dict[Future[Outcome], dict[str, Any]] = {}  # runs in progress
 
     @property
     def is_parallel(self) -> bool:
@@ -124,17 +125,17 @@ class ModelPool:
                 self._submit(values)
 
     def run(self, calls: Sequence[dict[str, Any]]) -> Iterator[tuple[dict[str, Any], Outcome]]:
-        """Call the model for every dict; yield dict and outcome as they are finished.
+        """Call the model for every dict; yield dict and outcome as they finish.
 
-        What has been begun is not called again; what of it is finished meanwhile is yielded too,
-        whether it is among these dicts or not.
+        Calls that have begun are not repeated. Begun calls that finish meanwhile are also yielded,
+        whether or not they are among these dicts.
 
         Raises
         ------
         RuntimeError
-            The caller's executor has broken down.
+            If the given executor has broken down.
         ValueError
-            The model cannot be sent where that executor runs it.
+            If the model cannot be sent to the workers of that executor.
         """
         if self._executor is None and self._pool is None:
             for values in calls:
@@ -159,13 +160,13 @@ class ModelPool:
             yield from self._run_one_by_one(lost)
 
     def finished(self) -> Iterator[tuple[dict[str, Any], Outcome]]:
-        """Yield what has been begun, and has ended by itself meanwhile."""
+        """Yield the begun calls that have finished meanwhile."""
         for future in [future for future in self._out if future.done()]:
             if not future.cancelled() and future.exception() is None:
                 yield self._out.pop(future), future.result()
 
     def _outcome(self, future: Future[Outcome]) -> Outcome | None:
-        """Return the outcome, or None where a process of this pool died."""
+        """Return the outcome, or None if a process of this pool died."""
         if self._executor is not None:
             return _result_of_executor(future)
         try:
@@ -174,7 +175,7 @@ class ModelPool:
             return None
 
     def _submit(self, values: dict[str, Any]) -> Future[Outcome] | None:
-        """Start a call; return None where the processes have broken down."""
+        """Start a call; return None if the processes have broken down."""
         future: Future[Outcome]
         if self._executor is not None:
             try:
@@ -218,7 +219,7 @@ class ModelPool:
         self._start(workers)
 
     def _stop(self) -> None:
-        """End all processes, giving the model the chance to end what it started."""
+        """End all processes; the model can stop the processes that it started."""
         assert self._pool is not None
         for process in self._processes:
             if process.is_alive() and os.name == "posix":
@@ -298,7 +299,7 @@ def _end_with_parent() -> None:
     parent = multiprocessing.parent_process()
     assert parent is not None
     started_by = os.getppid()
-    # A forked worker holds the pipe by which an older one would notice: hence the other test.
+    # A forked worker holds the pipe that would notify an older one: hence the second test.
     while parent.is_alive() and os.getppid() == started_by:
         parent.join(1.0)
     if os.name == "posix":
@@ -311,7 +312,7 @@ def _interrupt(number: int, frame: object) -> None:
     _worker["interrupted"] = True
     if _worker["running"]:
         raise KeyboardInterrupt
-    if number != signal.SIGINT:  # SIGTERM, by which the executor, too, ends its processes
+    if number != signal.SIGINT:  # SIGTERM, with which the executor also ends its processes
         os._exit(1)
 
 

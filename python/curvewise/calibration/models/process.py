@@ -1,7 +1,7 @@
-"""A solver's process: started in its folder, watched, and ended with all that it has started.
+"""Runs a solver's process in its folder, and ends its process group.
 
-The program runs in a process group of its own, without a shell; what it prints goes to a log. It is
-looked at ten times a second, for its end, its time limit, and a log that has run away. Cost: a few
+The program runs in its own process group, without a shell; its output goes to a log. Ten times a
+second, the process is checked for its end, its time limit, and excessive output. Cost: a few
 milliseconds, and at most 50 ms until the end of the process is noticed.
 """
 
@@ -17,7 +17,7 @@ from pathlib import Path
 
 __all__ = ["SolverError", "run_solver"]
 
-# Bytes of output after which a program has run away, and what is then left of its log.
+# Bytes of output after which a program is stopped, and the size to which its log is then cut.
 _MOST_OUTPUT = 2**26
 _KEPT_OUTPUT = 2**20
 _LOOK = 0.1  # seconds between two looks at the log
@@ -42,18 +42,19 @@ def run_solver(
     Parameters
     ----------
     command : sequence of str
-        The program, by its path, and its arguments.
+        The path of the program, and its arguments.
     folder, log : Path
-        Where it runs, and the file for all that it prints.
+        The working directory, and the file for the program's output.
     timeout : float
-        Seconds after which it is stopped.
+        Seconds after which the program is stopped.
     environment : mapping of str to str
-        Variables to set beside those of this process.
+        Variables to set in addition to those of this process.
 
     Raises
     ------
     SolverError
-        It does not start, takes too long, prints too much, or ends with another exit code than 0.
+        If the program does not start, takes too long, prints too much, or ends with an exit code
+        other than 0.
     """
     program = Path(command[0]).name
     begin = time.monotonic()
@@ -91,7 +92,7 @@ def run_solver(
 
 
 def _wait(process: subprocess.Popen[bytes], deadline: float, log: Path) -> int | None:
-    """Return the exit code, or None for a huge log; TimeoutExpired at the deadline."""
+    """Return the exit code; None for a huge log. Raise TimeoutExpired if late."""
     while True:
         left = deadline - time.monotonic()
         try:

@@ -1,8 +1,8 @@
-"""Decks with placeholders: what a template holds, and what stands in its place.
+"""Decks with placeholders, and the values that replace these.
 
-Placeholders are written as in LS-OPT, ``<<E>>``: solvers give ``$``, ``{}``, ``%``, ``&``, ``*``
-and ``#`` a meaning; none of them gives one to two angle brackets. A template is read once, as bytes
-that are cut at its placeholders, in linear time; filling it in is linear in its size.
+Placeholders are written as in LS-OPT, ``<<E>>``. Solvers give ``$``, ``{}``, ``%``, ``&``, ``*``
+and ``#`` a meaning, but not one to two angle brackets. A template is read once, as bytes that are
+cut at its placeholders, in linear time. Filling it in takes linear time, too.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Template(NamedTuple):
     placeholders: list[_Placeholder]
 
     def fill(self, parameters: Mapping[str, float | str]) -> bytes:
-        """Return the file with values in the place of its placeholders."""
+        """Return the file with values instead of its placeholders."""
         parts = self.texts[:1]
         for placeholder, text in zip(self.placeholders, self.texts[1:], strict=True):
             try:

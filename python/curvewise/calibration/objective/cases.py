@@ -1,8 +1,8 @@
 """Several tests of different kinds in one identification: curves and single numbers.
 
-A case is a test with a model of its own, a measure and a weight. What is minimised is the sum of
-the cases, each in units of its noise if that is given: a case whose simulation is off by its sigma
-everywhere counts 1. Cost: that of the models; cases with the same model share its runs.
+A case is a test with its own model, measure and weight. The objective is the sum of the cases, each
+in units of its noise if that is given: a case whose simulation deviates by its sigma everywhere
+counts 1. Cost: that of the models; cases with the same model share its runs.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ _DIFFERENCE, _WIDE = 1e-6, 0.1
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """One test, with what simulates it and how the two are compared.
+    """One test with its model, measure and weight.
 
     Parameters
     ----------
     name : str
-        What messages and tables call it.
+        The name in messages and tables.
     model : callable
         ``model(parameters) -> curve`` or number. Cases with the same object share its runs. If
         every case's model has a ``jacobian(parameters)``, the search uses its derivatives instead
@@ -45,23 +45,24 @@ class Case:
     experiment : array_like, shape (n, d), or float
         The measured curve, or a number such as an ultimate strength.
     measure : str, callable or Criterion, default "area"
-        As for :class:`Objective`; the options of a measure are given by a :class:`Criterion`. Of a
-        number: "sum_of_squares" squares the difference, every other measure takes it as it is; in
-        units of `sigma`, or else of the number itself.
+        As for :class:`Objective`; use a :class:`Criterion` to set options of a measure. For a
+        number, "sum_of_squares" squares the difference, and every other measure takes its absolute
+        value; in units of `sigma`, or else of the number itself.
     weight : float, default 1
-        A factor.
+        A factor of the term.
     sigma : float, optional
-        The standard deviation of the noise in y. The case then counts in its units:
-        "sum_of_squares" is the sum of (difference / sigma)², every other measure is divided by
-        what it is for a simulation that is off by sigma everywhere.
+        The standard deviation of the noise in y, as the unit of the case. "sum_of_squares" becomes
+        the sum of (difference / sigma)². Every other measure is divided by its value for a
+        simulation that deviates by sigma everywhere.
     response : callable, optional
-        ``response(curve) -> curve`` or number: what of the model's curve is compared, e.g. its
-        largest stress. It is given a list where the model returns several curves.
+        ``response(curve) -> curve`` or number: the quantity to compare, computed from the model's
+        curve, e.g. its largest stress. The argument is a list if the model returns several curves.
 
     Raises
     ------
     ValueError
-        When the case is used: as for :class:`Objective`; a weight below 0, a sigma not above 0.
+        When the case is used: as for :class:`Objective`; if the weight is negative, or sigma is not
+        positive.
 
     Examples
     --------
@@ -141,7 +142,7 @@ class Cases(ForwardModel):
         return Objective.of_terms([case.term() for case in self.cases])
 
     def assembled(self, outcomes: list[Outcome]) -> Outcome:
-        """Return a simulation for every case; an exception in the place of one that failed."""
+        """Return a simulation for every case; an exception replaces a failed one."""
         seconds = sum(outcome.seconds for outcome in outcomes)
         simulations = [
             _response(case, outcomes[place])
@@ -150,7 +151,7 @@ class Cases(ForwardModel):
         return Outcome(simulations, "", seconds)
 
     def slopes(self, parameters: Mapping[str, float], rates: Array) -> list[Array] | None:
-        """Return the derivatives of every case's simulation; None if those of one are unknown."""
+        """Return the derivatives of all cases' simulations; None if one is unknown."""
         places = range(len(self._models))
         by_model = [self._slopes_of_model(place, parameters, rates) for place in places]
         pairs = zip(self.cases, self._places, strict=True)
@@ -168,7 +169,7 @@ class Cases(ForwardModel):
         if any(case.response is not None and at == place for case, at in asking):
             try:
                 curves = _curves(model(dict(parameters)))
-            except Exception:  # a run that fails has no derivatives
+            except Exception:  # a failed run does not have derivatives
                 return (), None
             count = len(curves)
         return curves, curve_slopes(model, parameters, rates, count) if count else None
@@ -218,7 +219,7 @@ def _slopes_of_case(
 def _differences(
     case: Case, curves: Sequence[Array], slopes: Sequence[Array], step: float
 ) -> Array | None:
-    """Return how fast a response changes along each derivative; None where it has no value."""
+    """Return the derivatives of a response; None if its value is missing."""
     columns = []
     for move in zip(*(np.moveaxis(one, -1, 0) for one in slopes), strict=True):
         ahead, behind = (

@@ -1,10 +1,11 @@
-"""Differences of y at a common x, at a common time, or point by point: what sum_of_squares sums.
+"""Differences of y at common x, at common time, or point by point.
 
-The simulation is interpolated linearly at the experiment's x, or at its time or step where curves
-have such a column. That is defined only where neither turns back, so a hysteresis loop is refused
-over x, and where the simulation covers the experiment: what numpy.interp would make up beyond its
-ends is no simulation. A model that is driven by the experiment's own x, a material point with the
-measured strains, is compared point by point instead, loops too. O(n log m) time.
+The measure "sum_of_squares" sums their squares. The simulation is interpolated linearly at the
+experiment's x, or at its time or step if the curves have such a column. This requires that neither
+curve reverses in that column, so a hysteresis loop is rejected over x. The simulation must also
+cover the experiment, because values that numpy.interp extrapolates are not simulated. A model that
+is driven by the experiment's x, such as a material point with the measured strains, is compared
+point by point instead, even for loops. O(n log m) time.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ Abscissa: TypeAlias = int | Literal["points"]
 
 # How far, relative to the experiment's extent in x, rounding may put the ends apart.
 _SLACK = 1e-9
-# And how far x of two points that are compared one by one may be apart: a solver's seven digits
+# Largest difference between x of two points that are compared one by one. A solver's seven digits
 # and its own measure of strain pass, another path does not.
 _SAME_X = 0.01
 

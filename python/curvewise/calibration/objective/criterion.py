@@ -1,4 +1,4 @@
-"""What is minimised: a measure, and everything that decides what it makes of two curves.
+"""The criterion of an objective: a measure and the curves' preparation.
 
 The settings of an objective travel together, from `identify`, `rescore` and their like to the terms
 of an objective, and are checked once, when a criterion is made. Cost: none.
@@ -43,54 +43,57 @@ Part: TypeAlias = Literal["experiment", "simulation"]
 @filled(measures=listed(MEASURES))
 @dataclass(frozen=True, init=False, repr=False)
 class Criterion:
-    """What is minimised: a measure with its options, and how curves are made ready for it.
+    """A measure with its options, and the preparation of the curves.
 
     :func:`identify`, :class:`Objective`, :class:`Case`, :func:`rescore`, :func:`cross_validate` and
-    :func:`line_plot` take it in the place of a measure's name.
+    :func:`line_plot` accept it instead of a measure's name.
 
     Parameters
     ----------
     measure : {measures} or callable
-        A measure by its name, or a function of the experiment, the simulation and the options
-        that returns a float; where it raises ValueError the simulation has failed.
-        "sum_of_squares" sums squared differences of y, the simulation interpolated linearly at
-        the experiment's x, which must not turn back. Its option `abscissa` says what y is
-        compared over: a column's number, 0 if not given (``abscissa=2`` of loops whose third
-        column is time or the step), or "points", point by point, for a model that is driven by
-        the experiment's own x, as a material point by the measured strains.
+        A measure by its name, or a function of the experiment, the simulation and the options that
+        returns a float. If the function raises ValueError, the simulation has failed.
+        "sum_of_squares" sums squared differences of y; the simulation is interpolated linearly at
+        the experiment's x, which must not reverse. Its option `abscissa` is the coordinate over
+        which y is compared. It is the number of a column, 0 by default (``abscissa=2`` for loops
+        whose third column is time or the step). The value "points" compares point by point, for a
+        model that is driven by the experiment's x, such as a material point with the measured
+        strains.
     preset : {"scaled", "paper", "raw"}
-        As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's box, so
-        that experiments, and x and y, count alike, and takes area with ``spacing="matched"``,
-        which hardly depends on the simulation's increments; "paper" has Algorithm 1.
-        sum_of_squares and functions are given the curves as they are in the other two.
+        As for :func:`curvewise.compare`. "scaled" scales curves by their experiment's bounding box,
+        so that experiments, and x and y, have the same weight. Its area uses ``spacing="matched"``,
+        which barely depends on the simulation's increments. "paper" uses Algorithm 1. With "paper"
+        and "raw", sum_of_squares and functions receive the raw curves.
     part : {"experiment", "simulation"}
-        Which curve may be a piece of the other, with "pcm" and with "dtw" that has an open end.
-        "experiment": a test that starts late or stops early, against the whole simulation.
-        "simulation": a model of the first branch alone, against the whole test; dtw is then that
-        of the simulation to the experiment, and "pcm" has no `min_coverage`.
+        Which curve may be a part of the other, for "pcm" and for "dtw" with an open end. Use
+        "experiment" for a test that starts late or stops early, which is compared with the whole
+        simulation. Use "simulation" for a model of the first branch alone, which is compared with
+        the whole test. In that case dtw is computed from the simulation to the experiment, and
+        "pcm" ignores `min_coverage`.
     min_coverage : float
-        For "pcm": a simulation shorter than this fraction of its experiment's length (both
-        scaled) counts as failed, since partial curve mapping scores a piece of the curve well.
-        An experiment that is a piece of its simulation is what it is made for, and passes.
+        For "pcm": a simulation shorter than this fraction of its experiment's length (both scaled)
+        counts as failed, since partial curve mapping rates a part of the curve as good. An
+        experiment that is a part of its simulation is the intended use, and passes.
     weights : sequence of float, optional
-        A factor for every experiment, not negative; 1 if not given.
+        A non-negative factor for every experiment; by default 1.
     failure_value : float, optional
-        The term of an experiment whose simulation failed, finite and positive. By default 10⁶
-        times what the measure gives for a simulation that is its experiment moved up by its own
-        height, which fits every measure and unit.
+        The finite, positive term of an experiment whose simulation failed. The default is 10⁶ times
+        the measure of a simulation that is the experiment shifted up by its own range of y. This
+        default suits every measure and unit.
     missing : {"refuse", "skip"}, default "refuse"
-        What happens to points of experiments with nan in any coordinate. "refuse" is an error,
-        "skip" leaves them out and warns how many. A simulation with nan has failed in both cases.
+        Treatment of experimental points with nan in any coordinate. "refuse" raises an error,
+        "skip" omits them and warns with their number. A simulation with nan has failed in both
+        cases.
     **options
-        Options of the measure, which override the preset's.
+        Options of the measure; they override the preset's.
 
     Raises
     ------
     ValueError
-        An unknown measure, preset, part or `missing`; a part for a measure of whole curves;
-        numbers out of their range.
+        If the measure, preset, part or `missing` is unknown. If a part is given for a measure of
+        whole curves. If a number is out of its range.
     TypeError
-        An option that the measure does not have.
+        If the measure does not have an option.
 
     Examples
     --------
@@ -193,7 +196,7 @@ class Criterion:
 Measure: TypeAlias = str | Callable[..., float] | Criterion
 """What the functions of this package call a measure: a name, a function, or a criterion."""
 
-# The settings beside the measure and its options, with their defaults.
+# The settings other than the measure and its options, with their defaults.
 _SETTINGS = {
     name: parameter.default
     for name, parameter in signature(Criterion).parameters.items()
@@ -269,7 +272,7 @@ def _check_options(
 
 
 def _option_names(measure: str | Callable[..., float]) -> list[str] | None:
-    """Return the names of a measure's options, or None where it takes any or does not say."""
+    """Return the names of a measure's options; None if it takes any."""
     if measure == "sum_of_squares":
         return ["abscissa"]
     function = registry.MEASURES[measure].function if isinstance(measure, str) else measure

@@ -1,13 +1,13 @@
-"""Noise in the tests, and the measures that do not average it out: said before a search, and after.
+"""Noise in the tests, and warnings about measures that do not average it out.
 
-The noise of a test is estimated from its curve alone: by how much y of each point differs from the
-cubic through its two neighbours on either side, over the other columns or over the number of the
-point, whichever differs less. The median does not see the corners. Noise that the logger has
-filtered is not seen either. Cost: O(n) for a test of n points.
+The noise of a test is estimated from its curve alone. The estimate is the median deviation of y of
+each point from the cubic through its two neighbours on either side. The cubic is a function of the
+other columns or of the point number, whichever fits better. The median ignores corners. Noise that
+the logger has filtered is not detected either. Cost: O(n) for a test of n points.
 
 T. Gasser, L. Sroka, C. Jennen-Steinmetz, "Residual variance and residual pattern in nonlinear
-regression", Biometrika 73 (1986) 625-633, of which this is the estimate with cubics in the place of
-straight lines, and with the median of F. R. Hampel, J. Am. Stat. Assoc. 69 (1974) 383-393.
+regression", Biometrika 73 (1986) 625-633. Their estimate is used with cubics instead of straight
+lines, and with the median of F. R. Hampel, J. Am. Stat. Assoc. 69 (1974) 383-393.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ _EFFECTS = {
     "frechet": "frechet is decided by the one point that noise moves most",
 }
 _BY_LENGTH = ("curve_length", "pcm")
-# Noise below this fraction of the test's extent, or that makes it longer by less, moves parameters
-# by hardly 1 %.
+# Noise below this fraction of the test's extent, or that lengthens the curve by less than this
+# fraction, changes parameters by at most about 1 %.
 _HARMLESS = 1e-3
 _FEWEST = 9  # points that tell of noise
 _OTHERS = (0, 1, 3, 4)  # of five points in a row, all but the one in the middle
@@ -107,7 +107,7 @@ def estimated_noise(curve: Array, y: int) -> float:
     if len(curve) < _FEWEST:
         return 0.0
     places = [np.arange(float(len(curve))), *np.delete(curve, y, axis=1).T]
-    with np.errstate(all="ignore"):  # nan is no noise: neighbours that are all but one point
+    with np.errstate(all="ignore"):  # nan does not count as noise: nearly coincident neighbours
         return min(_scatter(t, curve[:, y]) for t in places)
 
 

@@ -1,10 +1,10 @@
-"""From simulations to one number: a weighted sum of terms, of which each has an experiment.
+"""The objective: a weighted sum of terms, one for each experiment.
 
-The experiments are checked and scaled once, when an objective is made; what is wrong with them is
-an error then. What is wrong with a simulation later is no error: an optimiser tries parameters at
-which the model fails, and has to be told that they are bad, so a failed simulation has a finite,
-large value. A simulation of the wrong shape is an error: the model is hooked up wrongly, which no
-parameters will cure. Cost: that of the measure, for every term.
+The experiments are checked and scaled once, when an objective is created; invalid experiments raise
+an error then. A failed simulation does not raise an error later: an optimiser also tries parameters
+at which the model fails. A failed simulation therefore has a finite, large value. A simulation of
+the wrong shape is an error, because the model is connected wrongly whatever its parameters. Cost:
+that of the measure, for every term.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class Score(NamedTuple):
 
 
 class Objective:
-    """A weighted sum of terms, one for every experiment; what an optimiser minimises.
+    """A weighted sum of terms, one for each experiment, for minimisation.
 
     Parameters
     ----------
@@ -57,53 +57,53 @@ class Objective:
         One measured curve or several. A list whose items are points or numbers is one curve;
         several series are arrays of shape (n, 1).
     measure : str, callable or Criterion, default "area"
-        How each is compared with its simulation: see :class:`Criterion`.
+        The comparison of each experiment with its simulation: see :class:`Criterion`.
     **options
-        Options of the measure, where `measure` is no criterion.
+        Options of the measure, if `measure` is not a criterion.
 
     Attributes
     ----------
     experiments : tuple of ndarray
-        As given, in float64 and of shape (n, d); a number has the shape (1, 1).
+        The experiments as float64 arrays of shape (n, d); a number has the shape (1, 1).
     criterion : Criterion or None
-        That of all terms; None where each has its own, as cases have.
+        The criterion of all terms; None if each has its own, as cases have.
     measure, preset : str
-        By their names; of cases those of each, with " + " between them.
+        Their names; for cases the names of all, joined by " + ".
     measures : list of str or callable
         The measure of every term.
     weights, failure_value, scales : ndarray, shape (experiments,)
-        The factors; the terms of failed simulations; the values, by measure, of simulations that
-        are wrong by their experiment's height.
+        The factors; the values of failed simulations; the values, by measure, of simulations that
+        deviate by their experiment's range of y.
     failures : int
-        How many simulations have failed so far, counted by experiment.
+        Number of failed simulations so far, counted by experiment.
     titles, names, sigmas, extents, y_columns : list
-        For every experiment: its file or number, or the case's name; what its columns are called,
-        if that is known; the noise, where it is given; the extent in each coordinate, of a number
-        the number itself; the column that noise is in.
+        An item for every experiment. `titles` has its file, number or case name, `names` the names
+        of its columns (if known), and `sigmas` the noise (if given). `extents` has the extent in
+        each coordinate (for a number, the number itself), `y_columns` the column with noise.
     residual_counts, residual_factors : list of int, ndarray
-        For every experiment: how many residuals it has, and by what a difference in y is multiplied
-        to be a residual of "sum_of_squares".
+        For every experiment: the number of residuals, and the factor that turns a difference in y
+        into a residual of "sum_of_squares".
     is_least_squares : bool
         Whether the value is a weighted sum of squares of `residuals`.
     is_area_of_pieces : bool
-        Whether it adds up absolute areas of pieces: "area" with ``spacing="matched"``.
+        Whether the value adds up absolute areas of sections: "area" with ``spacing="matched"``.
     is_largest_distance : bool
-        Whether it is a discrete Fréchet distance, or a mean of several.
+        Whether the value is a discrete Fréchet distance, or a mean of several.
     has_function : bool
-        Whether a measure is a function of the user's, which cannot be written down.
+        Whether a measure is a user-defined function, which cannot be recorded.
     has_gradient : bool
-        Whether there is a gradient that is of use to a minimisation.
+        Whether a gradient exists that is useful for minimisation.
     can_be_thinned : bool
-        Whether some of the points of tests and simulations will do, for an estimate. Not where y is
+        Whether some of the points of tests and simulations suffice for an estimate. False if y is
         compared at each point of the test, which costs little anyway.
 
     Raises
     ------
     ValueError
-        An experiment that the measure refuses; a wrong number of weights; as for
+        If the measure rejects an experiment, or the number of weights is wrong; as for
         :class:`Criterion`.
     TypeError
-        An experiment does not hold real numbers; an option that the measure does not have.
+        If an experiment does not hold real numbers, or the measure does not have an option.
 
     Notes
     -----
@@ -184,8 +184,8 @@ class Objective:
         Parameters
         ----------
         simulations : array_like, or sequence of array_like
-            A curve for every experiment, in the same order; None or an exception in the place
-            of one that failed, or of all of them.
+            A curve for every experiment, in the same order. None or an exception replaces a failed
+            one, or all of them.
         """
         return self.score(simulations).value
 
@@ -248,9 +248,10 @@ class Objective:
         return total, gradients
 
     def thinned(self, most: int) -> Objective | None:
-        """Return the objective of about so many points a test at most; None if all have no more.
+        """Return the objective with about `most` points per test, or None.
 
-        Its terms are weighted so that a simulation that is wrong by a loop's height costs the same.
+        Return None if no test has more points. The terms are weighted so that a simulation that
+        deviates by a loop's range of y costs the same.
         """
         rows = [thinned_rows(curve, most) for curve in self.experiments]
         pairs = list(zip(self._terms, rows, strict=True))
@@ -291,9 +292,9 @@ class Objective:
         Parameters
         ----------
         simulations
-            As for a call; none of them has failed.
+            As for a call; all must have succeeded.
         directions : sequence of ndarray, shape (n, d, k)
-            For each simulation how it moves.
+            The direction in which each simulation moves.
         """
         parts = zip(self._terms, self._matched(simulations), directions, strict=True)
         return np.concatenate(
@@ -320,9 +321,9 @@ class Objective:
     def by_measure(self, simulations: Any) -> dict[str, float]:
         """Return the value of simulations under every measure that the curves' dimension allows.
 
-        This objective's own measure with its options, the others with the preset's; nan where one
-        refuses. Where each term has a criterion of its own: the terms by their names, with their
-        weights; nan where one failed.
+        This objective's own measure keeps its options; the others use the preset's. A value is nan
+        if the measure rejects the simulation. If each term has its own criterion, the result has
+        the weighted terms by name, with nan for failed ones.
         """
         own = self.predicted(simulations)
         if self.criterion is None:
@@ -360,7 +361,7 @@ class Objective:
     def condition(self) -> Condition | None:
         """Whether the measure is computed on scaled curves, and its options with the preset's.
 
-        None for "sum_of_squares", for a function, and where each term has its own.
+        None for "sum_of_squares", for a function, and if each term has its own criterion.
         """
         if self.criterion is None or not self.criterion.is_of_the_registry:
             return None
@@ -405,7 +406,7 @@ def objectives_of(experiments: Any, measures: Sequence[Measure] | None) -> dict[
     experiments
         As for `Objective`.
     measures
-        Names, functions or criteria; if None every measure that the curves' dimension allows.
+        Names, functions or criteria; by default every measure that the curves' dimension allows.
     """
     if measures is None:
         measures = list(default_measures(as_points(curve_list(experiments)[0], "P")))

@@ -28,20 +28,20 @@ __all__ = ["OfSimulation", "of_simulation"]
 
 
 class OfSimulation(NamedTuple):
-    """What there is of a measure, each as a function of Q.
+    """The functions of a measure, each as a function of Q.
 
     Attributes
     ----------
     value
-        The measure; of pcm the match, which has its coverage.
+        The measure; for pcm the match, which has its coverage.
     residuals
-        The differences that the measure squares, where it does.
+        The differences whose squares the measure sums, if it does.
     residual_slopes
-        Their derivatives, shape (m, k), as Q moves along directions of shape (n, d, k). None where
-        they are to be found by differences.
+        Their derivatives, shape (m, k), as Q moves along directions of shape (n, d, k). None if
+        they must be computed by finite differences.
     gradient
-        The measure with its derivative by Q. None where there is none: that of frechet is 0 except
-        at one point, and of no use to whoever wants to go down.
+        The measure with its derivative by Q, or None. The gradient of frechet is 0 except at one
+        point, so it does not help a minimisation.
     """
 
     value: Callable[[Array], float | PcmMatch]

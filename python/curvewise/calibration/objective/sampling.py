@@ -1,13 +1,13 @@
-"""Whether points decide by the discrete Fréchet distance, and not the curves that they stand for.
+"""Checks whether sampling decides the discrete Fréchet distance of a test.
 
-A simulated point that passes from one end of a test's step to the other is half of it away from
-both on its way, so that either side is a valley of its own. Steps of up to a third of the distance
-make shallow ones, and searches from different seeds end alike (benchmarks/validation/README.md);
-over steps of more than four distances no point passes. Where the distance is that of the test's
-noise, no step decides. Cost: O(n).
+If a simulated point moves from one end of a test's step to the other, it is half the step away from
+both on its way. Each end therefore has its own local minimum. Steps of up to a third of the
+distance cause shallow minima, and searches from different seeds agree
+(benchmarks/validation/README.md). If a step is longer than four distances, no point moves across
+it. If the distance is that of the test's noise, no step decides. Cost: O(n).
 
-T. Eiter, H. Mannila, "Computing discrete Fréchet distance", CD-TR 94/64, TU Wien (1994): the
-discrete distance is up to the longest step of the curves longer than the continuous one.
+T. Eiter, H. Mannila, "Computing discrete Fréchet distance", CD-TR 94/64, TU Wien (1994). The
+discrete distance exceeds the continuous one by at most the longest step of the curves.
 """
 
 from __future__ import annotations
@@ -31,14 +31,15 @@ _ROUND = 100  # to which the points are rounded up that would be enough
 
 
 class Sampling(NamedTuple):
-    """How a test is sampled.
+    """The sampling of a test.
 
     Attributes
     ----------
     deciding : int
-        How many of its steps decide.
+        Number of steps that decide the distance.
     enough : int
-        Of how many even points none would; those that it has, where none does.
+        Number of evenly spaced points with which no step would decide; the actual number if no step
+        decides now.
     """
 
     deciding: int

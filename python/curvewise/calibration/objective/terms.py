@@ -1,8 +1,8 @@
-"""The terms of an objective: an experiment each, a curve or a number, beside which simulations go.
+"""The terms of an objective: one measured curve or number each.
 
-The experiment is checked and scaled once. What is wrong with it is an error then; what is wrong
-with a simulation later is a `FailedSimulationError`, in the place of which the objective takes the
-term's failure value. Cost: that of the measure.
+The experiment is checked and scaled once; an invalid experiment raises an error then. An invalid
+simulation raises `FailedSimulationError` later, and the objective uses the term's failure value
+instead. Cost: that of the measure.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ __all__ = ["CurveTerm", "FailedSimulationError", "Label", "NumberTerm", "Term"]
 
 T = TypeVar("T")
 
-# A failed simulation costs as much as so many simulations that are wrong by the loop's height.
+# The value of a failed simulation, in values of one that deviates by the loop's range of y.
 _FAILURE = 1e6
 _DIFFERENCE = 1e-6  # of a place in the unit cube, along slopes that a model knows
 
 
 class FailedSimulationError(Exception):
-    """A simulation has no value; the message says why."""
+    """Raised if a simulation does not have a value; the message says why."""
 
 
 class Label(NamedTuple):
@@ -63,36 +63,36 @@ class Term(ABC):
     Parameters
     ----------
     experiment
-        What simulations are compared with.
+        The curve or number with which simulations are compared.
     criterion : Criterion
-        How.
+        The comparison.
     label : Label
-        What it is called.
+        The name of the experiment.
     factor : float
-        What the user weighs it with.
+        The user's weight.
     sigma : float, optional
-        The standard deviation of the noise in y; the weight is then in its units.
+        The standard deviation of the noise in y, as the unit of the weight.
 
     Attributes
     ----------
     experiment : ndarray, shape (n, d)
-        As given, in float64; of a number (1, 1).
+        The experiment in float64; shape (1, 1) for a number.
     names : tuple of str
-        What its columns are called; empty where that is not known.
+        The names of its columns; empty if they are unknown.
     y : int
-        The column that noise is in.
+        The column with noise.
     extent : ndarray, shape (d,)
-        Of the experiment in each coordinate; of a number the number itself.
+        The extent of the experiment in each coordinate; for a number the number itself.
     height : float
-        By what y is divided before it is compared.
+        The divisor of y before the comparison.
     scale : float
-        The measure of a simulation that is wrong by the experiment's height.
+        The measure of a simulation that deviates by the experiment's range of y.
     residual_count : int
-        How many residuals there are.
+        The number of residuals.
     has_gradient, can_be_thinned : bool
         See `Objective`.
     weight, failure_value : float
-        The factor of the value; what takes its place where a simulation has failed.
+        The factor of the value; the value of a failed simulation.
     """
 
     experiment: Array
@@ -144,7 +144,7 @@ class Term(ABC):
 
     @property
     def settings(self) -> dict[str, Any]:
-        """What a record writes down beside the experiment."""
+        """The settings that a record stores in addition to the experiment."""
         return {
             "name": self.label.title,
             "criterion": self.criterion.settings,
@@ -228,7 +228,7 @@ class CurveTerm(Term):
         self.names = tuple(known_names(experiment))
         self._name = "the experiment" if argument == "P" else argument
         try:
-            (P,) = normalize(self.experiment)  # refuses what is empty or not finite
+            (P,) = normalize(self.experiment)  # raises an error if it is empty or not finite
             self._box = box(self.experiment) if self.criterion.condition.scaled else None
             P = self.experiment if self._box is None else P
             extent = np.ptp(self.experiment, axis=0)
@@ -336,7 +336,7 @@ class CurveTerm(Term):
 
 
 class NumberTerm(Term):
-    """A number, of which simulations differ: in units of sigma, or else of the number itself."""
+    """A number; differences are in units of sigma, or else of the number itself."""
 
     scale = 1.0
     residual_count = 1

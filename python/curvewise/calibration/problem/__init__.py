@@ -1,1 +1,1 @@
-"""What is searched: models, objective and space, put together."""
+"""The problem of a search: models, objective and parameter space."""

@@ -1,4 +1,4 @@
-"""What a search writes down of its problem beside the settings: enough for a report on it."""
+"""The details of a problem that a search records for its report."""
 
 from __future__ import annotations
 
@@ -16,10 +16,9 @@ __all__ = ["details_of"]
 
 
 def details_of(problem: Problem, execution: Execution, max_runs: int | None) -> dict[str, Any]:
-    """Return what a report needs beside the settings of a search; JSON can hold it.
+    """Return what a report needs in addition to the settings, as JSON data.
 
-    Tests with the names of their columns and of the tests, the parameters searched for, what the
-    model is called, and the versions of what computes.
+    These are the names of tests, columns, parameters and models, and the versions of the software.
     """
     objective, models = problem.objective, problem.callables
     return {

@@ -1,9 +1,9 @@
 """Between a method and the model: runs each point once, records it, and stops in time.
 
-A method yields batches of points. Points that this search has already evaluated are looked up; the
-others are run, in parallel if the pool has several processes, or come out of a store. Numbers are
-given in the order in which the method asked, so that nothing that it sees depends on the number of
-processes or on what was run before an interruption.
+A method yields batches of points. Points that this search has already evaluated are read from the
+ledger. The others are run, in parallel if the pool has several processes, or read from a store.
+Evaluations are numbered in the order in which the method requests them. Nothing that the method
+sees therefore depends on the number of processes or on runs before an interruption.
 """
 
 from __future__ import annotations
@@ -90,12 +90,12 @@ class Evaluations(Ledger):
         self._bar.set_description(name)
 
     def show_activity(self) -> None:
-        """Show that a search is at work between runs, on what it predicts of them."""
+        """Show that a search is computing on predictions between runs."""
         if time.monotonic() - self._shown > _PAUSE:
             self.show("choosing the next run")
 
     def show(self, doing: str = "", *, refresh: bool = True) -> None:
-        """Say beside the progress what the best value is, and what the search is waiting for."""
+        """Display the best value and the current activity next to the progress."""
         stored = self._simulator.looked_up
         parts = [
             f"{stored} of them from the store" if stored else "",

@@ -32,12 +32,12 @@ class Execution:
 
     @contextmanager
     def simulator(self, model: ForwardModel | None) -> Iterator[Simulator]:
-        """Start what runs a model, and end it.
+        """Start what runs a model, and stop it at the end.
 
         Raises
         ------
         ValueError
-            `model` is None: it runs elsewhere. As `ModelPool` and `SimulationStore`.
+            If `model` is None, because it runs elsewhere; as for `ModelPool` and `SimulationStore`.
         """
         if model is None:
             raise ValueError(
@@ -54,7 +54,7 @@ class Execution:
                 simulator.keep_finished()
 
     def identities(self, models: Sequence[Model]) -> list[str] | None:
-        """Return what the runs of models are known by, or None if nobody has said it."""
+        """Return the identities of the models, or None if they are not known."""
         known = all(isinstance(getattr(model, "identity", None), str) for model in models)
         if self.store is None and not known:
             return None

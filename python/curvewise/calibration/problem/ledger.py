@@ -1,9 +1,10 @@
-"""What a search knows: every point of the unit cube that has been evaluated, and the best of them.
+"""The ledger of a search: its evaluated points, and the best one.
 
-A method is a course (`Course`): it yields a batch of points and is given their evaluations, in the
-same order. Between the two somebody runs the models, this package (`evaluations`) or whoever asks
-and tells (`methods.ask_tell`); both write into this ledger, which numbers evaluations in the order
-of the batches, so that nothing a method sees depends on who has run what, or on what came first.
+A method is a course (`Course`): it yields a batch of points and receives their evaluations, in the
+same order. In between, the models are run by this package (`evaluations`) or by the caller of an
+ask-and-tell search (`methods.ask_tell`). Both write into this ledger, which numbers evaluations in
+the order of the batches. Nothing that a method sees therefore depends on who ran which point, or on
+which run finished first.
 """
 
 from __future__ import annotations
@@ -84,7 +85,7 @@ class Ledger:
 
     @property
     def starts_at_once(self) -> int:
-        """How many starts a search makes side by side: three, of which whoever asks may run all."""
+        """Number of parallel starts: three, because the caller can run all of them."""
         return STARTS_AT_ONCE
 
     @property
@@ -116,11 +117,11 @@ class Ledger:
         return self._units[self._best]
 
     def best_simulations(self) -> Any:
-        """Return the simulations at the best point, or None where they have not been kept."""
+        """Return the simulations at the best point, or None if they were not kept."""
         return self._best_simulations
 
     def settle(self, unit: Array) -> None:
-        """Take a point that was evaluated for the best, where a method has a rule of its own."""
+        """Make an evaluated point the best one, if a method has a separate rule."""
         self._best = self.space.point(unit)
         self._best_simulations = self._done[self._best].simulations
 
@@ -130,7 +131,7 @@ class Ledger:
         Parameters
         ----------
         name : str
-            Shown beside the progress, where there is one.
+            Shown next to the progress, if progress is displayed.
         keeps_curves : bool
             Keep the curves of simulations that succeed.
         """
@@ -140,7 +141,7 @@ class Ledger:
         """Show that a search is at work between runs, where somebody looks."""
 
     def missing(self, units: Array) -> list[Point]:
-        """Return which of a batch of points have to be run, as many as the limit leaves."""
+        """Return the points of a batch that must be run, within the limit of runs."""
         points = [self.space.point(unit) for unit in units]
         for point, unit in zip(points, units, strict=True):
             self._units.setdefault(point, np.array(unit))
@@ -148,10 +149,10 @@ class Ledger:
         return new if self._limit is None else new[: self._limit - len(self._done)]
 
     def expect(self, units: Array) -> list[Point]:
-        """Take note of points that a course will ask for, in this order; return the new ones.
+        """Register points that a course will request; return the new ones.
 
-        Whoever runs the models may begin with them, as many as the limit leaves. Nothing that a
-        method sees depends on it.
+        They are registered in order. They can be run early, within the limit of runs. Nothing that
+        a method sees depends on this.
         """
         points = dict.fromkeys(self.space.point(unit) for unit in units)
         new = [p for p in points if p not in self._done and p not in self.expected]
@@ -161,7 +162,7 @@ class Ledger:
         return new
 
     def judged(self, ahead: int, point: Point, outcome: Outcome) -> Evaluation:
-        """Return the evaluation of a point before which so many are still to be added."""
+        """Return the evaluation of a point; `ahead` others are added before it."""
         # Its message in full, as the objective would give it for an exception.
         number = len(self._done) + 1 + ahead
         simulations = None if outcome.message else outcome.simulations

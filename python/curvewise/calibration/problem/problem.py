@@ -25,11 +25,11 @@ class Problem:
     Attributes
     ----------
     objective : Objective
-        What is minimised.
+        The function to minimise.
     space : Space
         The parameters.
     model : ForwardModel or None
-        What simulates the experiments; None if it runs elsewhere.
+        Simulates the experiments; None if the model runs elsewhere.
     """
 
     objective: Objective
@@ -52,7 +52,7 @@ class Problem:
 
     @property
     def callables(self) -> Sequence[Model]:
-        """The functions of the model; none if it runs elsewhere."""
+        """The functions of the model; empty if it runs elsewhere."""
         return () if self.model is None else self.model.callables
 
     @property
@@ -61,15 +61,15 @@ class Problem:
         return self.model is not None and self.model.has_slopes
 
     def slopes(self, unit: Array) -> list[Array] | None:
-        """Return the derivatives of the simulations by the place in the unit cube.
+        """Return the derivatives of the simulations with respect to the unit cube.
 
-        Of shape (n, d, k), one for every experiment; None if the model does not give them at this
-        place. Cost: one call of each ``jacobian``, in this process.
+        The shape is (n, d, k) for every experiment. The result is None if the derivatives at this
+        place are unknown. Cost: one call of each ``jacobian``, in this process.
 
         Raises
         ------
         ValueError
-            A ``jacobian`` returned arrays of other shapes, or numbers that are not finite.
+            If a ``jacobian`` returns arrays of other shapes, or numbers that are not finite.
         """
         if self.model is None or not self.model.has_slopes:
             return None

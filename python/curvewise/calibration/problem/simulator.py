@@ -1,8 +1,8 @@
-"""Runs the models of a problem, or looks their runs up in a store.
+"""Runs the models of a problem, or reads their runs from a store.
 
-A problem has one model, or several (one for each kind of test). Every set of parameters asks each
-of them for a run; those that the store holds are looked up, the others go to the pool, and a set
-is done when all of its runs are. Cost: that of the models; a look-up takes some 50 microseconds.
+A problem has one model, or several (one for each kind of test). Every set of parameters needs a run
+of each model. Runs in the store are read from it, the others go to the pool. A set is complete when
+all of its runs are. Cost: that of the models; reading a stored run takes about 50 microseconds.
 """
 
 from __future__ import annotations
@@ -35,24 +35,24 @@ class Dispatch:
 
 
 class Simulator:
-    """The models as a function of parameters that runs nothing twice.
+    """The models as a function of parameters; no run is repeated.
 
     Parameters
     ----------
     pool : ModelPool
         Runs a `Dispatch` of the model's functions.
     model : ForwardModel
-        The functions, and what makes one outcome of theirs.
+        The functions, and the rule that combines their outcomes.
     store : SimulationStore, optional
-        Where runs are looked up and saved.
+        The store from which runs are read, and in which they are saved.
 
     Attributes
     ----------
     store
         As given.
     runs, looked_up : int
-        How many runs of models this simulator has made, and how many sets of parameters it has
-        looked up.
+        The number of model runs made by this simulator, and the number of parameter sets read from
+        the store.
     """
 
     def __init__(
@@ -69,7 +69,8 @@ class Simulator:
             for identity in self._identities:
                 store.register(identity)
         self.runs = self.looked_up = 0
-        self._early: dict[_Run, Outcome] = {}  # of what has been begun: known, and not asked for
+        # outcomes of early runs that no course has requested yet
+        self._early: dict[_Run, Outcome] = {}
 
     @property
     def is_parallel(self) -> bool:
@@ -104,7 +105,7 @@ class Simulator:
                     yield i, self._assembled(found[i])
 
     def keep_finished(self) -> None:
-        """Save what has been begun and is finished, though nobody has asked for it yet."""
+        """Save early runs that have finished but have not been requested yet."""
         for call, outcome in self._pool.finished():
             self._keep(call, outcome)
 
@@ -122,7 +123,7 @@ class Simulator:
         return self._model.assembled([outcomes[j] for j in range(self._count)])
 
     def _known(self, values: dict[str, float]) -> dict[int, Outcome]:
-        """Return what is known of a set of parameters, by the model's number."""
+        """Return the known outcomes for a set of parameters, by the model's number."""
         runs = {j: _run(self._call(j, values)) for j in range(self._count)}
         early = {j: self._early.pop(run) for j, run in runs.items() if run in self._early}
         if self.store is None or len(early) == self._count:

@@ -1,9 +1,10 @@
-"""The space that is searched: names, bounds, and the unit cube that optimisers see.
+"""The parameter space: names, bounds, and the unit cube of the optimisers.
 
-Optimisers work in the unit cube, so that a modulus of 10⁵ and an exponent of 0.1 weigh alike. A
-point is a tuple of Python floats in the order of the bounds; the same point of the cube always
-gives the same bits, which is what a resumed run finds its evaluations by. A parameter may also be
-searched for on a logarithmic scale, stay below another one, be fixed, or follow from the others.
+Optimisers work in the unit cube, so that a modulus of 10⁵ and an exponent of 0.1 have the same
+weight. A point is a tuple of Python floats in the order of the bounds. The same point of the cube
+always gives bitwise identical parameters. A resumed search finds its evaluations by them. A
+parameter may also use a logarithmic scale, stay below another one, be fixed, or follow from the
+others.
 """
 
 from __future__ import annotations
@@ -22,21 +23,21 @@ from ..records.evaluation import Point
 
 __all__ = ["Space", "WideBoundsWarning"]
 
-# Columns of the table of evaluations, beside the parameters.
+# Columns of the table of evaluations, in addition to the parameters.
 _RESERVED = ("evaluation", "value", "failed", "seconds", "message")
 
 # How far a parameter stays below another one, as a fraction of its bounds' range.
 _GAP = 1e-6
 
-# A parameter this near to a bound, as a fraction of the range, is said to be at the bound.
+# A parameter within this fraction of the range from a bound is reported as at the bound.
 _AT_BOUND = 1e-3
 
 
 class WideBoundsWarning(UserWarning):
-    """Bounds go over more than a decade on a linear scale, of which most is the last decade.
+    """Linear bounds span more than a decade and lie mostly in the last decade.
 
     :func:`identify`, :func:`identify_each` and :func:`cross_validate` warn once, before the first
-    run of the model; :class:`Log` is what to give in their place.
+    run of the model. Use :class:`Log` for such bounds.
 
     Examples
     --------
@@ -53,25 +54,26 @@ class Space:
     Parameters
     ----------
     bounds : mapping of str to (low, high), Log, Below, Tied or float
-        In the order in which parameters are listed from then on. A number, or low = high, is a
-        parameter that stays what it is.
+        The bounds; their order is the order of the parameters everywhere. A number, or low = high,
+        fixes a parameter.
 
     Attributes
     ----------
     names : tuple of str
-        Those that are searched for.
+        The parameters to search for.
     bounds : dict of str to (low, high)
-        Theirs.
+        The bounds of these parameters.
     is_log : tuple of bool
-        Whether each of them is searched for on a logarithmic scale.
+        Whether each of them uses a logarithmic scale.
     fixed : dict of str to float
-        The parameters that stay what they are.
+        The fixed parameters.
 
     Raises
     ------
     ValueError
-        No parameter to search for, a name that is reserved, or bounds that are not finite with
-        low < high, of a logarithm not above 0, or below a parameter that is not listed before.
+        If no parameter is left to search for, or a name is reserved. If bounds are not finite with
+        low < high, or not above 0 on a logarithmic scale. If a parameter must stay below one that
+        is not listed before it.
     """
 
     def __init__(self, bounds: Bounds) -> None:
@@ -186,7 +188,7 @@ class Space:
         return self.unit({name: parameters[name] for name in self.names}, "parameters")
 
     def with_fixed(self, name: str, value: float) -> Space:
-        """Return the same space with a parameter that stays what it is."""
+        """Return the same space with one parameter fixed."""
         return Space({**self._given, name: value})
 
     def place(
@@ -232,9 +234,9 @@ class Space:
         }
 
     def at_limits(self, parameters: Mapping[str, float]) -> tuple[str, ...]:
-        """Return those at a bound that is no assumption: at 0, or at the one that they stay below.
+        """Return the parameters at a natural bound: 0 or their upper parameter.
 
-        A modulus, a rate or a share cannot go below 0, so that nothing lies beyond.
+        Nothing lies beyond such a bound, because a modulus, a rate or a share cannot be negative.
         """
         found = []
         for name, side in self.at_bounds(parameters).items():

@@ -21,12 +21,12 @@ def parameter_table(
     spread: Mapping[str, Any] | None = None,
     with_bounds: bool = True,
 ) -> Table:
-    """Return the parameters with what is known of each, and which are at a bound.
+    """Return a table of the parameters, their uncertainty, and reached bounds.
 
     Parameters
     ----------
     space : Space
-        What was searched.
+        The searched space.
     parameters : mapping of str to float
         The optimum.
     spread : mapping, optional
@@ -60,7 +60,7 @@ def parameter_table(
 
 
 def digits(value: float, count: int) -> str:
-    """Return a number to so many digits, as 176340 where it is read more easily than 1.7634e+05."""
+    """Return a number with `count` digits, as 176340 rather than 1.7634e+05."""
     return f"{float(f'{value:.{count}g}'):.10g}"
 
 

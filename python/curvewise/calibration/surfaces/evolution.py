@@ -1,12 +1,12 @@
-"""A minimum near a place of the unit cube, by a population that learns the valley's shape: CMA-ES.
+"""CMA-ES: minimum of a cheap function near a point of the unit cube.
 
 Generations of points are drawn from a normal distribution. Its mean moves to the better half of
-them, its covariance takes over the directions in which these were better, and its width grows where
-steps follow each other and shrinks where they turn. Small generations soon settle in one valley,
-which may be another than the one where they began. No gradient is asked for, so that kinks and
-steps do no harm. For a function that costs next to nothing: `methods.global_search` searches
-models by the package cma, which is not needed here. Cost: members times generations evaluations,
-and O(k^3) a generation, some 0.1 ms for k = 8.
+them. Its covariance learns the directions of these better points. Its width grows while successive
+steps point the same way, and shrinks when they reverse. Small generations converge quickly to one
+local minimum, which need not be the one at the start. The method needs no gradient and tolerates
+kinks and steps. The function must cost very little; `methods.global_search` searches models by the
+package cma, which is not needed here. Cost: members times generations evaluations, and O(k^3) for
+each generation, about 0.1 ms for k = 8.
 
 N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772.
 """
@@ -92,6 +92,6 @@ def evolved(
 
 
 def _followed(path: Array, step: Array, rate: float, strength: float) -> Array:
-    """Return a path, part of which is forgotten, with one more step."""
+    """Return an evolution path with one more step; part of the old path decays."""
     followed: Array = (1.0 - rate) * path + math.sqrt(rate * (2.0 - rate) * strength) * step
     return followed

@@ -1,10 +1,11 @@
-"""What a search on a surrogate asks of whatever it minimises, and that of measures of curves.
+"""The interface between a surrogate search and its objective.
 
-The search itself knows no measure. It knows runs as vectors, a surrogate of these vectors, and an
-inner search: what a run's vector and value are, what the value of a predicted vector is, and where
-it is lowest in a box. Measures of curves differ in the last alone: sums of distances have gradients
-with kinks (`sums_of_distances`), and a largest distance is a minimax problem
-(`largest_distances`). Sums of squares have residuals for vectors (`sums_of_squares`).
+The search itself does not depend on the measure. It uses runs as vectors, a surrogate of these
+vectors, and an inner search. An inner search defines the vector and the value of a run, the value
+of a predicted vector, and its minimum within bounds. Measures of curves differ in the minimum
+alone: sums of distances have gradients with kinks (`sums_of_distances`), and a largest distance is
+a minimax problem (`largest_distances`). Sums of squares use residuals as vectors
+(`sums_of_squares`).
 
 Curves of thousands of points are thinned to some hundreds for the inner search, and all points
 decide at its end.
@@ -28,19 +29,20 @@ from .surfaces import Responses, Surface
 
 __all__ = ["CurveSearch", "InnerSearch"]
 
-# Of thinned curves; those of up to half as many again are taken as they are. The minimum of thinned
-# curves is that of all points to some 1e-3 of the value: for less they have more points.
+# Number of points of a thinned curve; curves of up to 1.5 times as many are not thinned. The
+# minimum of thinned curves agrees with that of all points to about 1e-3 of the value. If less is to
+# be gained, they keep more points.
 _MOST_POINTS, _MORE_POINTS, _LESS = 400, 1600, 1e-3
 _EVALUATIONS, _POLISHING = 60, 8  # and those after thinned curves
 
 
 class InnerSearch(Protocol):
-    """What is minimised: of runs, and of what a surrogate predicts of them.
+    """The function to minimise, for runs and for predictions of a surrogate.
 
     Attributes
     ----------
     is_smooth : bool
-        Whether it is a smooth function of a vector, without kinks and local minima beside them.
+        Whether it is a smooth function of a vector, without kinks and the local minima near them.
     """
 
     is_smooth: ClassVar[bool]
@@ -51,7 +53,7 @@ class InnerSearch(Protocol):
 
     @property
     def sides(self) -> Array | None:
-        """The side of the box along each coordinate, shape (m,); None where there is no box."""
+        """The side of the bounding box along each coordinate, shape (m,), or None."""
 
     def taken(self, run: Evaluation) -> tuple[Array, float]:
         """Return the vector and the value of a run that succeeded."""

@@ -1,10 +1,11 @@
 """Universal kriging of curves: a surrogate of each coordinate of each point, through runs.
 
-A linear trend, and a Matérn kernel (5/2) whose length is a few times the distance of the farthest
-run. Through k + 1 runs it is a plane; through more it is the least bent surface of those that pass
-through them. Coordinates enter as they are, or as the inverse hyperbolic sine of their distance
-from the run at the centre, in units of a fifth of the test's box, whichever is likelier. By the
-second a run that leaves the box by far bends the surface near the centre little.
+The model has a linear trend and a Matérn kernel (5/2) whose length is a few times the distance of
+the farthest run. Through k + 1 runs it is a plane; through more runs it is the interpolating
+surface with the least curvature. Each coordinate is used directly, or as the inverse hyperbolic
+sine of its distance from the central run, in units of a fifth of the test's bounding box. The
+likelihood selects one of the two. With the transformation, a run that leaves the box by far bends
+the surface near the centre only slightly.
 
 The nugget is the variance of the model's own noise, as a fraction of the kernel's. Restricted
 maximum likelihood (REML) estimates it from the runs. Of a smooth model it is the smallest.
@@ -12,9 +13,9 @@ maximum likelihood (REML) estimates it from the runs. Of a smooth model it is th
 Cost: O(n^3 + n^2 m) for n runs of m coordinates, and O(n m) for a point.
 
 J. Sacks, W. J. Welch, T. J. Mitchell, H. P. Wynn, "Design and analysis of computer experiments",
-Statistical Science 4 (1989) 409-423; H. D. Patterson, R. Thompson, "Recovery of inter-block
-information when block sizes are unequal", Biometrika 58 (1971) 545-554, for REML; S. M. Wild, R.
-G. Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in
+Statistical Science 4 (1989) 409-423. H. D. Patterson, R. Thompson, "Recovery of inter-block
+information when block sizes are unequal", Biometrika 58 (1971) 545-554, for REML. S. M. Wild, R. G.
+Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in
 trust-regions", SIAM J. Sci. Comput. 30 (2008) 3197-3219.
 """
 
@@ -34,7 +35,7 @@ __all__ = ["KrigedSurface"]
 _ROOT = math.sqrt(5.0)
 _LENGTH = 4.0  # of the kernel, in distances of the farthest run from the centre
 _NUGGETS = 10.0 ** np.arange(-8.0, 0.5, 0.5)
-_LEVEL = 1e-8  # the inverse of the variance of the trend's coefficients: none are unlikely
+_LEVEL = 1e-8  # the inverse prior variance of the trend's coefficients: nearly uninformative
 _FEWEST = 4  # degrees of freedom that tell of noise
 _EVIDENCE = 2.0  # and the gain in likelihood, its logarithm by coordinate
 _UNIT = 0.2  # of a side of the box, from which on coordinates count by their logarithm
@@ -47,18 +48,19 @@ class KrigedSurface:
     Parameters
     ----------
     points : ndarray, shape (n, k)
-        Where the runs are.
+        The points of the runs.
     vectors : ndarray, shape (n, m)
     centre : ndarray, shape (k,)
-        The point of one of the runs. Of a model without noise the surface passes through it.
+        The point of one of the runs. Without noise, the surface interpolates this run.
     sides : ndarray, shape (m,), optional
-        The side of the box along each coordinate. None for coordinates without transformation.
+        The side of the bounding box along each coordinate. None for coordinates without
+        transformation.
 
     Attributes
     ----------
     noise : float
-        The standard deviation of the model's noise: in sides of the box, or of the coordinates
-        where these have none. 0 where the runs show none.
+        The standard deviation of the model's noise, in sides of the bounding box, or in the units
+        of the coordinates if `sides` is None. 0 if the runs show no noise.
     """
 
     def __init__(
@@ -132,7 +134,7 @@ class KrigedSurface:
         return self._restored(vector), chain_rule
 
     def of_places(self, places: Rows | None) -> KrigedSurface:
-        """Return the surface of some of the coordinates, or of all where `places` is None."""
+        """Return the surface of some of the coordinates; all if `places` is None."""
         if places is None:
             return self
         some = copy(self)
@@ -157,7 +159,7 @@ class KrigedSurface:
 
 
 class _Contrasts:
-    """What is left of coordinates when a trend is taken out: their restricted likelihood.
+    """Coordinates without their trend, and their restricted likelihood.
 
     Parameters
     ----------

@@ -1,14 +1,16 @@
-"""Where the largest distance between predicted curves and tests is smallest: a minimax problem.
+"""Minimax search: minimises the largest distance from predicted curves.
 
-The Fréchet distance is the largest of many distances, and its gradient that of a single pair of
-points, which leads nowhere: at a minimum as many pairs as there are parameters are equally far
-apart. With a coupling held, the smallest of the largest distances is a minimax problem, which is
-solved as Madsen does it: distances become linear in the parameters, a linear program finds the step
-within a region that makes the largest of them smallest, and the region shrinks where the distance,
-with its coupling found anew, does not follow. A coupling that is held is an upper bound, so that a
-better one can only help. The one that attains the distance says little of pairs that do not decide;
-the warping path of squared distances keeps all of them short and comes first, and where it promises
-nothing the other has its turn.
+The Fréchet distance is the largest of many distances. Its gradient is that of a single pair of
+points and does not lead to the minimum, where as many pairs as there are parameters are equally far
+apart. For a fixed coupling, minimising the largest distance is a minimax problem, solved by
+Madsen's method. Distances are linearised in the parameters, and a linear program finds the step
+within a trust region that minimises the largest of them. The region shrinks if the distance, with
+its new coupling, does not follow. A fixed coupling gives an upper bound, so a better coupling can
+only help.
+
+The coupling that attains the distance determines little about the pairs that do not decide. The
+warping path of squared distances keeps all pairs short and is used first. If it predicts no
+reduction, the attaining coupling is used.
 
 Cost: a path and a linear program of some hundred rows, 2 to 4 ms, for each of up to 15 steps.
 
@@ -35,8 +37,8 @@ __all__ = ["minimised"]
 
 _STEPS_OF = 3  # evaluations with a gradient take the time of a step
 _DECIDING = 0.5  # of the distance: pairs that are nearer to each other are left out
-_SMALL = 1e-4  # of the value: a promise that is less is none
-_POOR, _GOOD = 0.25, 0.7  # of what was promised
+_SMALL = 1e-4  # of the value: a smaller predicted reduction is negligible
+_POOR, _GOOD = 0.25, 0.7  # ratios of actual to predicted reduction
 _SHRUNK, _SMALLEST, _ANEW = 0.4, 1e-3, 0.1  # regions, in sides of the box
 
 Coupling = Callable[[Array, Array], Alignment]
@@ -51,10 +53,10 @@ def minimised(
     Parameters
     ----------
     predicted, surface
-        What is minimised.
+        The function to minimise, and the surface of its argument.
     start, low, high : ndarray, shape (k,)
     most : int
-        The most evaluations, in the time of one with a gradient.
+        The maximum number of evaluations, each with the cost of one with a gradient.
     """
     width = np.where(high > low, high - low, 1.0)
     distances = _LargestDistances(predicted, surface, low, width)
@@ -85,7 +87,7 @@ class _LargestDistances:
         return self._predicted.value(self._seen.at(self._low + place * self._width))
 
     def descended(self, place: Array, most: int) -> Array:
-        """Return where up to so many steps lead from a place, to a distance that is not above."""
+        """Return the end of at most `most` steps; the distance never increases."""
         value = self.value(place)
         couplings = list(_COUPLINGS)
         reach = 1.0

@@ -1,11 +1,11 @@
 """A quasi-Newton search in the unit cube for functions with kinks whose gradient is known.
 
-The method of Broyden, Fletcher, Goldfarb and Shanno with a line search that asks for a decrease and
-for a slope that has turned (Wolfe's weak conditions), and for no more: so it goes down functions
-that are smooth almost everywhere, as sums of absolute values are, where line searches for smooth
-functions give up. Where it halts, which may be at a kink, it begins anew with smaller steps, twice
-at most. Coordinates that press against a side of the cube are held there. Cost: 20 to 100
-evaluations for up to ten coordinates.
+The BFGS method with a line search that requires only a sufficient decrease and a sufficient
+increase of the slope (weak Wolfe conditions). It therefore descends on functions that are smooth
+almost everywhere, such as sums of absolute values, where line searches for smooth functions fail.
+If it stops, possibly at a kink, it restarts with smaller steps, at most twice. Coordinates that
+press against a side of the cube are fixed there. Cost: 20 to 100 evaluations for up to ten
+coordinates.
 
 A. S. Lewis, M. L. Overton, "Nonsmooth optimization via quasi-Newton methods", Math. Program. 141
 (2013) 135-163.
@@ -26,10 +26,10 @@ __all__ = ["nonsmooth_descent"]
 
 ValueAndGradient: TypeAlias = Callable[[Array], tuple[float, Array]]
 
-_TURN = 0.9  # by which the slope of a whole step is less; Wolfe's second constant
+_TURN = 0.9  # the slope must fall to this fraction; the second Wolfe constant
 _CURVATURE = 1e-12  # least cosine between a step and the change of the gradient
 _ENOUGH = 1e-5  # gains below ten times this fraction of the value are small
-_PATIENCE = 4  # so many small gains in a row end a round
+_PATIENCE = 4  # number of consecutive small gains that ends a round
 _TRIALS = 10  # of a line search
 _FIRST_STEPS = (0.1, 0.03, 0.01)  # of each round, in sides of the cube
 _WORTH_A_ROUND = 1e-4  # a round that gains less, as a fraction of the value, is the last
@@ -117,14 +117,14 @@ def _searched(
 ) -> _Place | None:
     """Return a place along a direction that meets Wolfe's weak conditions, or the last tried.
 
-    None where nothing along it is lower.
+    Return None if no place along it has a lower value.
     """
     slope = float(place.gradient @ direction)
     low, high, length = 0.0, np.inf, 1.0
     trial = place
     for _ in range(_TRIALS):
         trial = function(np.clip(place.point + length * direction, 0.0, 1.0))
-        # A curved path along the sides of the cube has no slope to look at.
+        # A path that bends along the sides of the cube does not have a single slope.
         is_bent = bool(((trial.point <= 0.0) | (trial.point >= 1.0))[free].any())
         if trial.value > place.value + DECREASE * length * slope:
             high = length

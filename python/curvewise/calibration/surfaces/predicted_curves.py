@@ -25,11 +25,11 @@ class PredictedCurves:
     objective : Objective
         Of the tests.
     responses : Responses
-        What a surface's vectors stand for.
+        Converts vectors of the surface to curves.
     rows : list of ndarray, optional
-        Which points of each simulated curve take part; all by default.
+        The points of each simulated curve that take part; all by default.
     show_activity : callable
-        Called before every evaluation, to show that something moves.
+        Called before every evaluation, to display activity.
     """
 
     def __init__(

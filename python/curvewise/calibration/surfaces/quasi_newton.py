@@ -1,8 +1,8 @@
 """A small quasi-Newton search for functions that cost less than an optimiser's own bookkeeping.
 
-The method of Broyden, Fletcher, Goldfarb and Shanno with forward differences and backtracking,
-begun from an inverse Hessian of the right size, so that each of thousands of alike functions takes
-a few steps. Cost: k + 2 evaluations a step, or thereabouts.
+The BFGS method with forward differences and backtracking. It starts from an inverse Hessian of the
+right magnitude, so that each of thousands of similar functions takes only a few steps. Cost: about
+k + 2 evaluations for each step.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def quasi_newton(
     gradient = _gradient(function, point, value, axes)
     for _ in range(maxiter):
         step = _step(function, point, value, gradient, B, enough)
-        if step is None and B is not inverse_hessian:  # kinks may have spoilt it: begin anew
+        if step is None and B is not inverse_hessian:  # kinks may have spoilt it: restart
             B = inverse_hessian
             step = _step(function, point, value, gradient, B, enough)
         if step is None:
@@ -72,7 +72,7 @@ def _step(
     B: Array,
     enough: float,
 ) -> tuple[Array, float] | None:
-    """Return the next point and its value, or None where no step is worth it."""
+    """Return the next point and its value, or None if no step gains enough."""
     direction = -B @ gradient
     slope = float(gradient @ direction)
     if not slope < -2.0 * enough:

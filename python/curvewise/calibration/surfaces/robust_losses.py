@@ -1,8 +1,9 @@
 """Robust sums: residuals that are large count less than their squares.
 
-A robust sum, f^2 times the sum of rho((r / f)^2), is the sum of the squares of bent residuals, f
-sign(r) sqrt(rho((r / f)^2)): so whatever minimises sums of squares minimises robust sums. The
-names and the functions rho are those of scipy.optimize.least_squares. Cost: O(1) for a residual.
+A robust sum, f^2 times the sum of rho((r / f)^2), is a sum of squares of transformed residuals, f
+sign(r) sqrt(rho((r / f)^2)). Any method for sums of squares therefore also minimises robust sums.
+The names and the functions rho are those of scipy.optimize.least_squares. Cost: O(1) for a
+residual.
 
 B. Triggs, P. F. McLauchlan, R. I. Hartley, A. W. Fitzgibbon, "Bundle adjustment - a modern
 synthesis", Lecture Notes in Computer Science 1883 (2000) 298-372, section 4.3.
@@ -46,7 +47,7 @@ _RHO = {"soft_l1": _soft_l1, "huber": _huber, "cauchy": _cauchy, "arctan": _arct
 
 
 def bend_of(loss: Loss, scale: float) -> Bend | None:
-    """Return how residuals are bent; None for "linear", where they stay.
+    """Return the transformation of residuals; None for "linear", the identity.
 
     Parameters
     ----------

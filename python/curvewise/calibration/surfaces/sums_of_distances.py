@@ -32,10 +32,10 @@ def minimised(
     Parameters
     ----------
     predicted, surface
-        What is minimised.
+        The function to minimise, and the surface of its argument.
     start, low, high : ndarray, shape (k,)
     most : int
-        The most evaluations with a gradient.
+        The maximum number of evaluations with a gradient.
     """
     seen = predicted.seen(surface)
     width = np.where(high > low, high - low, 1.0)

@@ -1,11 +1,10 @@
-"""Sums of squares: what a search on a surrogate of the residuals asks, and their minimum in a box.
+"""Sums of squares: vectors and values of runs, bounded minimisation.
 
-A bounded linear least squares problem in a handful of unknowns is solved by an active set: a
-coordinate that meets its bound is held there, and let go again where the gradient points inwards.
-scipy's lsq_linear does the same in twenty times the time, most of it bookkeeping; a search asks for
-hundreds. Residuals that are not linear are minimised by Gauss and Newton's steps, cut back to a
-region in which the linear residuals foretell what comes. Cost: O(m k^2 + k^3) a step for m
-residuals of k unknowns.
+An active-set method solves a bounded linear least-squares problem in a few unknowns. A coordinate
+that meets its bound is fixed there, and released when the gradient points inwards. scipy's
+lsq_linear takes twenty times as long, mostly for bookkeeping, and a search solves hundreds of such
+problems. Gauss-Newton steps minimise nonlinear residuals, within a region in which their
+linearisation is accurate. Cost: O(m k^2 + k^3) for each step, with m residuals of k unknowns.
 
 A. Björck, "Numerical methods for least squares problems", SIAM (1996), sections 5.2.3 and 9.2.
 """
@@ -33,7 +32,7 @@ _ROUNDING = 1e-12  # of the gradient at the start, and of the mean of the diagon
 _STEPS = 12  # of Gauss and Newton
 _POOR, _GOOD = 0.1, 0.7  # of what linear residuals promise: cut back below, go further above
 _SMALL = 1e-4  # gains smaller than this fraction of the sum, and smaller steps, end it
-# Of what is negligible elsewhere: near a perfect fit squares are smaller than distances.
+# Fraction of the usual negligible value: near a perfect fit squares are smaller than distances.
 _OF_SQUARES = 1e-3
 
 
@@ -62,7 +61,7 @@ class SumOfSquares:
         return _OF_SQUARES * self._objective.negligible
 
     def taken(self, run: Evaluation) -> tuple[Array, float]:
-        """Return the residuals of a run, and what is minimised."""
+        """Return the residuals of a run and the value to minimise."""
         residuals = self._objective.residuals(run.simulations)
         return residuals, float(self._sums(residuals))
 
@@ -87,7 +86,7 @@ class SumOfSquares:
         return sums
 
     def _bent(self, surface: ResidualsAndSlopes) -> ResidualsAndSlopes:
-        """Return a surface of what is squared and added up."""
+        """Return a surface of the residuals whose squares are summed."""
         bend = self._bend
         if bend is None:
             return surface
@@ -156,9 +155,9 @@ def _newton(curvature: Array, downhill: Array, free: list[int]) -> list[float]:
 def _first_wall(
     step: list[float], move: dict[int, float], box: list[tuple[float, float]]
 ) -> tuple[float, int, int] | None:
-    """Return after which share of a move which coordinate is the first at which side, if any.
+    """Return the fraction of a move at which it first meets a bound, and which.
 
-    In plain numbers, of which there are too few for arrays to be faster.
+    Plain numbers are used, because arrays are not faster for so few.
     """
     walls = []
     for i, by in move.items():
@@ -201,6 +200,6 @@ def squares_minimum(
         if gain > _GOOD * promised:
             reach = min(1.0, 2.0 * reach)
         point, residuals, slopes, value = trial, there, slopes_there, value - gain
-        if promised <= _SMALL * value:  # what is left is the square of that
+        if promised <= _SMALL * value:  # the remaining value is the square of that
             break
     return point, float(residuals @ residuals)

@@ -1,9 +1,10 @@
-"""Linear response surfaces of simulated curves: every coordinate of every point, in the parameters.
+"""Linear response surfaces of curves over the parameters.
 
-What a measure makes of predicted curves is its exact value there, so that a surface serves every
-measure and none of its kinks is smoothed away. Simulations with another number of points than the
-first (a solver with adaptive steps) are resampled at equal fractions of their arc length, measured
-in units of the first one's box. Cost: O(k) for every coordinate, k parameters.
+Each coordinate of each point has its own surface. The measure is evaluated exactly on predicted
+curves. A surface therefore serves every measure and preserves its kinks. Simulations whose number
+of points differs from the first (a solver with adaptive steps) are resampled at equal fractions of
+their arc length, in units of the first one's bounding box. Cost: O(k) for every coordinate and k
+parameters.
 """
 
 from __future__ import annotations
@@ -54,22 +55,22 @@ class Responses:
     def slopes(self, by_curve: Sequence[Array] | None) -> Array | None:
         """Return the derivatives of that vector, shape (coordinates, k).
 
-        Of derivatives of the curves' points, shape (n, d, k); None where there are none, or of
-        other numbers of points.
+        The argument holds derivatives of the curves' points, shape (n, d, k). Return None if it is
+        None, or if the numbers of points differ.
         """
         if by_curve is None or [slopes.shape[:2] for slopes in by_curve] != self.shapes:
             return None
         return np.concatenate([slopes.reshape(-1, slopes.shape[2]) for slopes in by_curve])
 
     def curves(self, vector: Array) -> list[Array]:
-        """Return the curves that a vector stands for."""
+        """Return the curves that a vector encodes."""
         pairs = zip(self._parts, self.shapes, strict=True)
         return [vector[part].reshape(shape) for part, shape in pairs]
 
     def thinned_rows(self, most: int) -> list[Rows] | None:
-        """Return which points of each curve stand for it, or None where all have to.
+        """Return the points that represent each curve, or None if all must.
 
-        See `thinned_rows`; by the curves of the first run.
+        The curves of the first run decide; see `thinned_rows`.
         """
         rows = [thinned_rows(curve, most) for curve in self._first]
         fewer = any(len(kept) < len(curve) for kept, curve in zip(rows, self._first, strict=True))
@@ -130,7 +131,7 @@ class Surface(Protocol):
         """Return it, and what turns a gradient by the coordinates into one by the point."""
 
     def of_places(self, places: Rows | None) -> Surface:
-        """Return the surface of some of the coordinates, or of all where places is None."""
+        """Return the surface of some of the coordinates, or of all if places is None."""
 
 
 class Surfaces:

@@ -1,9 +1,10 @@
-"""Where values alone are lowest in a box: a surrogate of the value, where that of curves misleads.
+"""Minimum of a kriging surrogate of the value.
 
-Curves whose phase turns with the parameters have no surrogate by point number: half a period off is
-as far as it goes. The value itself bends less. A kriged surface goes through the values of the
-nearest runs, and a quasi-Newton method finds its minimum, from the best run and from random places.
-Cost: some 100 evaluations of the surface.
+It is used if the surrogate of the curves is misleading. Curves whose phase depends strongly on the
+parameters have no useful surrogate by point number: beyond half a period its prediction is wrong.
+The value itself varies more smoothly. A kriged surface interpolates the values of the nearest runs.
+A quasi-Newton method finds its minimum, starting at the best run and at random places. Cost: about
+100 evaluations of the surface.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ def lowest_value(
     high: Array,
     random: np.random.Generator,
 ) -> tuple[Array, float]:
-    """Return where a surface through values is lowest in a box, and by how much below the centre.
+    """Return the minimiser of a surface through values, and its gain.
 
     Parameters
     ----------
