@@ -1,7 +1,7 @@
 """Identify the parameters of a model from measured curves: inverse analysis.
 
-An :class:`Objective` turns simulations into one number, :func:`identify` searches for the
-parameters that make it smallest, :func:`cross_validate` leaves out one loop after the other, and
+An :class:`Objective` turns simulations into one number, and :func:`identify` searches for the
+parameters that minimise it. :func:`cross_validate` leaves out one loop after the other.
 :func:`line_plot` shows the objectives between two sets of parameters. The method is that of Jekel,
 Venter, Venter, Stander, Haftka, "Similarity measures for identifying material parameters from
 hysteresis loops using inverse analysis", Int. J. Material Forming (2018). scipy and tqdm are

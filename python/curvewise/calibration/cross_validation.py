@@ -105,13 +105,13 @@ def cross_validate(
     measure: Measure = "area",
     **keywords: Any,
 ) -> CrossValidation:
-    """Identify the parameters without each of the loops in turn, and predict it.
+    """Identify the parameters without each loop in turn, and predict that loop.
 
     Parameters
     ----------
     model : callable
-        As for :func:`identify`: returns a curve for every experiment. Those of the left-out
-        loop are not looked at while the others are fitted.
+        As for :func:`identify`: returns a curve for every experiment. The fit to the other loops
+        ignores the curves of the left-out loop.
     experiments : sequence of array_like
         At least two measured curves.
     bounds, measure, **keywords
@@ -125,7 +125,7 @@ def cross_validate(
     Raises
     ------
     ValueError
-        There is only one experiment; as for :func:`identify`.
+        If only one experiment is given; as for :func:`identify`.
     RuntimeError, ImportError, KeyboardInterrupt
         As for :func:`identify`.
 
@@ -136,9 +136,9 @@ def cross_validate(
 
     Notes
     -----
-    Time: for k loops that of k identifications, and k runs of the model; with ``store=`` a run that
-    several folds ask for is made once, and what was interrupted goes on where it was. The paper's
-    section on cross-validation leaves out each of its five loops.
+    Time: for k loops that of k identifications, and k runs of the model. With ``store=``, a run
+    that several folds request is made once, and an interrupted call can be repeated to continue.
+    The paper's section on cross-validation leaves out each of its five loops.
 
     Examples
     --------

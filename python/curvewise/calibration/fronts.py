@@ -34,22 +34,22 @@ _MOST_ROWS = 12  # of the table
 
 @dataclass(frozen=True, eq=False)
 class Front(Result):
-    """What `front` returns: the runs that are best by both measures, from one end to the other.
+    """Result of `front`: the Pareto-optimal runs for two measures.
 
     Attributes
     ----------
     measures : (str, str)
-        The two, by their names.
+        The names of the two measures.
     values : ndarray, shape (n, 2)
-        Of the runs of the front by both; the first column rises, the second falls.
+        The values of the runs on the front for both; the first column rises, the second falls.
     losses : ndarray, shape (n, 2)
-        By how much each is above the best run of that measure, as a fraction of the best value.
+        The excess of each over the best run of that measure, as a fraction of the best value.
     parameters : tuple of dict of str to float
-        Of each run of the front.
+        The parameters of each run on the front.
     compromise : int
-        Which run of the front has the smallest larger loss: good for both.
+        The index of the run with the smallest larger loss: good for both measures.
     all_values : ndarray, shape (runs, 2)
-        Of every run that succeeded.
+        The values of every run that succeeded.
     """
 
     measures: tuple[str, str]
@@ -105,18 +105,18 @@ def front(
     *,
     model: Any = None,
 ) -> Front:
-    """Return which of the runs of a store are good for two measures.
+    """Return the stored runs that are Pareto-optimal for two measures.
 
     Parameters
     ----------
     store : path-like or SimulationStore
-        What `identify` or `identify_each` has filled; best by both measures.
+        A store that `identify` or `identify_each` has filled; best by both measures.
     experiments : array_like, shape (n, d), or sequence of such
         The measured curves.
     measures : sequence of two of str, callable or Criterion, default ("area", "frechet")
         As for :class:`Objective`.
     model : callable or str, optional
-        Whose runs, as for :func:`rescore`.
+        The model of the runs, as for :func:`rescore`.
 
     Returns
     -------
@@ -126,14 +126,15 @@ def front(
     Raises
     ------
     ValueError
-        Other than two measures; no run that both of them can compare; as for :func:`rescore`.
+        If the number of measures is not two, or no run is valid for both of them; as for
+        :func:`rescore`.
     FileNotFoundError
-        There is no such file.
+        If the file does not exist.
 
     Notes
     -----
-    Of the runs that there are: a search of each of both measures makes the ends exact, and the
-    middle as good as the runs between. Time: that of both measures for every run.
+    The front contains existing runs only. A search by each of the two measures makes the ends
+    exact; the middle depends on the runs in between. Time: that of both measures for every run.
 
     Examples
     --------

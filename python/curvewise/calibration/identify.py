@@ -50,59 +50,58 @@ def identify(
     callback: Callable[[Progress], Any] | None = None,
     **options: Any,
 ) -> Identification:
-    """Find the parameters with which a model's curves are most like the measured ones.
+    """Identify the parameters with which a model best reproduces measured curves.
 
     Parameters
     ----------
     model : callable, or sequence of Case
-        ``model(parameters: dict) -> curve``, or a list of curves, one for every experiment. What
-        it raises, and curves that have no value, count as failed simulations. Tests of different
-        kinds are given as a list of :class:`Case` in the place of model, experiments and measure.
+        ``model(parameters: dict) -> curve``, or a list of curves, one for every experiment.
+        Exceptions, and curves without a value, count as failed simulations. For tests of different
+        kinds, pass a list of :class:`Case` instead of model, experiments and measure.
     experiments : array_like, shape (n, d), or sequence of such
-        The measured curve, or curves.
+        One measured curve or several.
     bounds : mapping of str to (low, high)
-        The parameters and where to search. In the place of a pair: a number for a parameter that
-        stays what it is, :class:`Log`, :class:`Below` another parameter, or :class:`Tied`.
+        The parameters and their search ranges. Instead of a pair: a number for a fixed parameter,
+        :class:`Log`, :class:`Below` another parameter, or :class:`Tied`.
     measure : str, callable or Criterion, default "area"
-        What is minimised: see :class:`Criterion`, which has the preset, weights and what else
-        there is to say.
+        The measure to minimise. A :class:`Criterion` also sets its preset, weights and other
+        options.
     method : str or method, default "auto"
-        "trust-region" (:class:`TrustRegion`: several starts on a surrogate, for expensive
-        models), "least-squares" (:class:`LeastSquares`: the same for sums of squares), "auto": the
-        second for "sum_of_squares", else the first; "global" (:class:`Global`, for models of
-        milliseconds); "sdrm" (:class:`SDRM`), "de" (:class:`DifferentialEvolution`), "sdrm+de" (the
-        second after the first), "nelder-mead" (:class:`NelderMead`). An object of these classes has
-        options of its own:
-        ``method=TrustRegion(starts=5)``.
+        "trust-region" is :class:`TrustRegion`: several starts on a surrogate, for expensive models.
+        "least-squares" is :class:`LeastSquares`, the same for sums of squares. "auto" uses the
+        second for "sum_of_squares", else the first. "global" is :class:`Global`, for models of
+        milliseconds. Others are "sdrm" (:class:`SDRM`), "de" (:class:`DifferentialEvolution`),
+        "sdrm+de" (the second after the first) and "nelder-mead" (:class:`NelderMead`). Pass an
+        object of these classes to set options: ``method=TrustRegion(starts=5)``.
     store : path-like or SimulationStore, optional
-        A file with the curves of every run, by model and parameters. Runs that it holds are
-        looked up, whichever search made them; new ones are added at once, so that an interrupted
-        search goes on where it was. A Python function needs ``SimulationStore(path, version="1")``,
-        with another version whenever it changes; a :class:`CommandModel` does not.
+        A file with the curves of every run, by model and parameters. Runs that it holds are read,
+        whichever search made them. New ones are added at once, so that an interrupted search
+        continues from the stored runs when it is repeated. A Python function needs
+        ``SimulationStore(path, version="1")``, with another version whenever it changes; a
+        :class:`CommandModel` does not.
     workers : int, default 1
-        Processes in which the model runs at the same time; -1 for one per core. The model must
-        be picklable, and a script must have its ``if __name__ == "__main__":``.
+        Number of processes in which the model runs at the same time; -1 for one per core. The model
+        must be picklable, and a script must have its ``if __name__ == "__main__":``.
     executor : concurrent.futures.Executor, optional
-        Runs the model in the place of processes of this machine: ``MPIPoolExecutor()``, or
+        Runs the model instead of processes of this machine: ``MPIPoolExecutor()``, or
         ``Client(...).get_executor()`` of dask. It is not shut down.
     seed : int, default 0
-        Of all random numbers. The same seed gives the same result, bit for bit, after any
+        Seed of all random numbers. The same seed gives bitwise identical results after any
         interruption, and with any number of workers above one (and the same versions of numpy and
         scipy). One worker makes starts one after the other: see `starts_at_once` of
         :class:`TrustRegion`.
     start : mapping of str to float, optional
-        Begin a single local search at this point. By default the search begins at several points,
-        the first of which is the middle of the bounds.
+        Begin a single local search at this point. By default the search has several starts; the
+        first is the middle of the bounds.
     max_runs : int, optional
-        End the search after so many parameter sets, those that are looked up included; no run is
-        begun beyond them.
+        Maximum number of parameter sets to evaluate, including those read from `store`.
     progress : bool, default True
-        Show a progress bar (tqdm).
+        Whether to show a progress bar (tqdm).
     callback : callable, optional
-        Told a :class:`Progress` after every batch of runs, those of one start; a true result ends
-        the search, and runs that have been begun by then for others do not count.
+        Called with a :class:`Progress` after every batch of runs of one start. A true result ends
+        the search; runs of other starts that have begun by then do not count.
     **options
-        Options of the measure, where `measure` is no criterion.
+        Options of the measure, if `measure` is not a criterion.
 
     Returns
     -------
@@ -112,28 +111,30 @@ def identify(
     Raises
     ------
     ValueError
-        Wrong bounds, options or experiments; simulations that do not fit the experiments; a model
-        that cannot be pickled (workers > 1); a store for a model without identity or version, or
-        with runs of other code of that version.
+        If bounds, options or experiments are invalid. If simulations do not fit the experiments. If
+        the model cannot be pickled (workers > 1). If a store is given for a model without identity
+        or version, or its runs are of other code of that version.
     RuntimeError
-        No simulation of the first batch has succeeded: the message has the first reason.
+        If no simulation of the first batch succeeds; the message has the first reason.
     ImportError
-        scipy or tqdm is missing: ``pip install "curvewise[calibration]"``.
+        If scipy or tqdm is missing: ``pip install "curvewise[calibration]"``.
     KeyboardInterrupt
-        Ctrl-C, after the processes have been stopped. The store holds what was finished.
+        If Ctrl-C is pressed, after the processes have been stopped. The store holds the finished
+        runs.
 
     Warns
     -----
     NoisyTestWarning
-        A test has noise that the measure does not average out ("curve_length", "pcm", "frechet").
+        If a test has noise that the measure does not average out ("curve_length", "pcm",
+        "frechet").
     WideBoundsWarning
-        Bounds go over more than a decade, for which there is :class:`Log`.
+        If bounds span more than a decade; use :class:`Log` for them.
 
     Notes
     -----
-    Cost: the runs of the model; how many they are stands with each method. The search is over the
-    unit cube, so that the units of parameters do not matter. Failures are logged under
-    "curvewise.calibration", the first as a warning.
+    Cost: the runs of the model; see each method for their number. The search uses the unit cube, so
+    the units of parameters do not matter. Failures are logged under "curvewise.calibration", the
+    first as a warning.
 
     Examples
     --------
@@ -168,7 +169,7 @@ def identify(
     plan = replace(plan, method=plan.method.chosen_for(objective))
     for one in objective.measures:
         plan.method.check(one)
-    if not isinstance(model, Selection):  # of whose tests cross_validate has warned
+    if not isinstance(model, Selection):  # cross_validate has warned about these tests already
         warn_of_noise([objective])
         space.warn_of_wide_bounds()
     forward: Any = model if cases is None else cases
@@ -178,7 +179,7 @@ def identify(
 
 
 def _cases_of(model: Any) -> Cases | None:
-    """Return the cases, if it is those that are given in the place of a model."""
+    """Return the cases if they are given instead of a model, else None."""
     if isinstance(model, (list, tuple)) and model and all(isinstance(c, Case) for c in model):
         return Cases(model)
     return None

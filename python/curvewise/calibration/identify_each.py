@@ -1,11 +1,11 @@
-"""The parameters by several measures, from shared runs: what the paper's section 4 asks for.
+"""Identification by several measures with shared runs.
 
-"Use several measures; their spread indicates the uncertainty." The measures search one after the
-other. All use one store, so that no run is made twice, and each but the first begins at the best
-of all runs so far under its own measure, in a small region. With "trust-region" each then goes on
-from the best of all runs for smaller gains, as long as it finds any. Cost: the first search in
-full, the others a fraction of it with the methods that begin from what is known ("trust-region",
-"sdrm").
+The paper's section 4 suggests: "Use several measures; their spread indicates the uncertainty." The
+measures search one after the other. All use one store, so that no run is repeated. Each search but
+the first begins at the best of all runs so far under its own measure, in a small region. With
+"trust-region", each then continues from the best of all runs with smaller tolerances, as long as it
+gains anything. Cost: the first search in full; the others cost a fraction of it with the methods
+that use known runs ("trust-region", "sdrm").
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ from .surfaces.nearby_runs import Run
 
 __all__ = ["identify_each"]
 
-# After the first round every measure goes on from the best of all runs, and on for less, until no
-# search has gained more than this fraction of its value.
+# After the first round, every measure continues from the best of all runs with smaller tolerances,
+# until no search has gained more than this fraction of its value.
 _WORTH_A_ROUND, _ROUNDS = 1e-3, 4
 
 
@@ -60,7 +60,7 @@ def identify_each(
     start: Mapping[str, float] | None = None,
     max_runs: int | None = None,
 ) -> SeveralMeasures:
-    """Find the parameters by each of several measures, with runs shared among them.
+    """Identify the parameters by each of several measures, with shared runs.
 
     Parameters
     ----------
@@ -68,15 +68,15 @@ def identify_each(
         As for :func:`identify`.
     measures : sequence of str, callable or Criterion, optional
         By default every measure that the curves' dimension allows. Each search begins where the
-        ones before have been, so put the smoothest first.
+        previous ones have been, so put the smoothest measure first.
     method : str or method
         As for :func:`identify`; :class:`TrustRegion` and :class:`SDRM` gain most. The searches
         after the first have `initial_range` 0.1 unless it has been changed.
     store
-        As for :func:`identify`. Without a store runs are shared all the same, through a temporary
-        one, and forgotten.
+        As for :func:`identify`. Without a store, a temporary one shares the runs and is deleted
+        afterwards.
     max_runs : int, optional
-        Of each measure.
+        Maximum number of parameter sets for each measure.
     seed, workers, executor, progress, start
         As for :func:`identify`, for all measures.
 
@@ -88,7 +88,7 @@ def identify_each(
     Raises
     ------
     ValueError, RuntimeError, ImportError, KeyboardInterrupt
-        As for :func:`identify`; a measure that is given twice.
+        As for :func:`identify`; ValueError also if a measure is given twice.
 
     Warns
     -----
@@ -97,9 +97,9 @@ def identify_each(
 
     Notes
     -----
-    Runs: for the four measures of `benchmarks/validation/shared_runs.py`, 7 parameters, 393, where
-    four searches by "sdrm" take 751; three optima are as good as theirs to 0.02 %, and that of
-    frechet, which has several, is 4 % above.
+    Runs: the four measures of `benchmarks/validation/shared_runs.py`, with 7 parameters, take 393,
+    while four searches by "sdrm" take 751. Three optima agree with those of "sdrm" to 0.02 %. That
+    of frechet, which has several, is 4 % above.
 
     Examples
     --------

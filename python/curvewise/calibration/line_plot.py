@@ -1,8 +1,8 @@
 """Objectives along the straight line between two sets of parameters.
 
-Whether a measure has one minimum or many, and whether it is smooth, decides which optimiser works;
-the line between the optima of two measures shows it (the paper's appendix B). Cost: one run of the
-model for every point of the line, whatever the number of measures.
+The number of minima of a measure and its smoothness decide which optimiser works. The line between
+the optima of two measures shows both (the paper's appendix B). Cost: one run of the model for every
+point of the line, whatever the number of measures.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ __all__ = ["LinePlot", "line_plot"]
 
 
 class LinePlot(NamedTuple):
-    """What `line_plot` returns.
+    """Result of `line_plot`.
 
     Attributes
     ----------
     data : numpy.recarray
-        A row for every point: ``t`` (0 at `a`, 1 at `b`), then for every objective its value and
-        its value scaled to [0, 1], the latter as ``<name>_scaled``; nan where it failed.
+        A row for every point. The first column is ``t`` (0 at `a`, 1 at `b`). Every objective has
+        its value, and its value scaled to [0, 1] as ``<name>_scaled``; nan if it failed.
     figure : matplotlib.figure.Figure
         The scaled values against t.
     """

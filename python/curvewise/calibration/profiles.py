@@ -1,10 +1,10 @@
-"""The profile of one parameter: how good the best fit is where it is held at another value.
+"""The profile of one parameter: the best fit at fixed values of it.
 
-Intervals by sensitivities are those of curves that are linear in the parameters. A profile is not:
-the parameter is held at several values in turn, all others are searched for anew, and the interval
-goes as far as the objective rises by no more than it does, on the linear surfaces, at the ends of
-the interval by sensitivities; so correlated residuals widen it alike. Cost: a search from a nearby
-start for each of `points` values, of some 5 to 30 runs.
+Intervals by sensitivities assume that the curves are linear in the parameters; a profile does not.
+The parameter is fixed at several values in turn, and all others are identified again. The interval
+ends where the objective has risen as much as on the linear surfaces at the ends of the interval by
+sensitivities. Correlated residuals therefore widen both intervals equally. Cost: a search from a
+nearby start for each of `points` values, with about 5 to 30 runs each.
 
 D. J. Venzon, S. H. Moolgavkar, "A method for computing profile-likelihood-based confidence
 intervals", Applied Statistics 37 (1988) 87-94.
@@ -41,31 +41,31 @@ _BEYOND = 1.5  # how far the values go, in half intervals by sensitivities
 
 @dataclass(frozen=True, eq=False)
 class Profile(Result):
-    """What `profile` returns.
+    """Result of `profile`.
 
     Attributes
     ----------
     name : str
         The parameter.
     values : ndarray, shape (points,)
-        At which it was held, ascending; the optimum is one of them.
+        The fixed values, ascending; the optimum is one of them.
     objective : ndarray, shape (points,)
-        The smallest value of the objective there.
+        The smallest value of the objective at each of them.
     parameters : tuple of dict of str to float
-        All parameters there.
+        All parameters at each of them.
     interval : (float, float)
-        Where the objective has risen by `rise`; the first or last of `values` where it has not.
+        Where the objective has risen by `rise`; the first or last of `values` if it has not.
     is_open : (bool, bool)
-        Whether the interval goes further than `values` on either side.
+        Whether the interval extends beyond `values` on either side.
     by_sensitivities : (float, float)
-        The interval by sensitivities alone, as those of :meth:`Identification.uncertainty` of a
-        model that does not say its slopes.
+        The interval by sensitivities alone, as :meth:`Identification.uncertainty` gives it for a
+        model without a Jacobian.
     rise : float
-        Of the objective, at the ends of the interval.
+        The rise of the objective at the ends of the interval.
     level : float
-        As asked for.
+        The probability level of the call.
     runs : int
-        How many runs of the model it took.
+        The number of runs of the model.
     """
 
     name: str
@@ -173,7 +173,7 @@ def profile(
     optimum, index = uncertainty.optimum, space.names.index(name)
     noise = noise_of(optimum, None)
     linear = linear_spread(optimum, noise, level).intervals[index]
-    # Half the interval, as it is on the side where no bound cuts it.
+    # Half the interval, taken on the side that a bound does not cut.
     half = max(abs(end - found.parameters[name]) for end in linear)
     values = _values(found, half, name, points)
     search = method or TrustRegion(initial_range=0.05)
@@ -223,9 +223,9 @@ def _rise(optimum: Optimum, noise: Noise, index: int, half: float) -> float:
 
 
 def _crossing(values: Array, lowest: Array, rise: float) -> tuple[float, bool]:
-    """Return where a side of the profile has risen, and whether it goes on beyond the last value.
+    """Return where a side of the profile reaches the rise; whether it is open.
 
-    Between values the root of the rise is interpolated, which of a parabola is a line.
+    The square root of the rise is interpolated between values, because it is linear for a parabola.
     """
     roots = np.sqrt(np.maximum(lowest - lowest[0], 0.0))
     wanted = float(np.sqrt(rise))

@@ -59,20 +59,20 @@ def rescore(
     model: Any = None,
     **options: Any,
 ) -> Rescored:
-    """Evaluate an objective at every stored run of a model, without running anything.
+    """Evaluate an objective for every stored run of a model, without new runs.
 
     Parameters
     ----------
     store : path-like or SimulationStore
-        What `identify` has filled.
+        A store that `identify` has filled.
     experiments : array_like, shape (n, d), or sequence of such
         The measured curves.
     measure, **options
         As for :class:`Objective`.
     model : callable or str, optional
-        Whose runs: the model, or its identity as :meth:`SimulationStore.models` lists it. Needed
-        where the store has runs of several. Beside a model that is a function the store is a
-        :class:`SimulationStore` with the version.
+        The model of the runs, or its identity as :meth:`SimulationStore.models` lists it. Required
+        if the store has runs of several. If the model is a function, `store` must be a
+        :class:`SimulationStore` with its version.
 
     Returns
     -------
@@ -82,9 +82,10 @@ def rescore(
     Raises
     ------
     ValueError
-        The store has no runs, or runs of several models and none is named; wrong options.
+        If the store is empty, or has runs of several models and `model` is missing. If an option is
+        wrong.
     FileNotFoundError
-        There is no such file.
+        If the file does not exist.
 
     Notes
     -----

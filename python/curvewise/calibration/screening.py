@@ -1,13 +1,14 @@
-"""Which parameters matter at all, over the whole of their bounds: Morris' elementary effects.
+"""Morris screening: elementary effects of the parameters over their bounds.
 
-From a place that is drawn the parameters change one after the other, in a random order, by two
-thirds of their range; how far every loop moves with each of these changes is an elementary effect.
-Their mean says whether the loops notice the parameter somewhere, their deviation whether that
-depends on the place and on the other parameters. `Uncertainty.sensitivities` is the same at the
-optimum alone. Cost: k + 1 runs of the model a path for k parameters.
+Starting at a random place, the parameters change one after the other, in random order, by two
+thirds of their range. The move of every loop due to one of these changes is an elementary effect.
+The mean of the effects shows whether the loops are sensitive to the parameter anywhere. Their
+deviation shows whether the effect depends on the place and on the other parameters.
+`Uncertainty.sensitivities` gives the same at the optimum alone. Cost: k + 1 runs of the model for
+each path, with k parameters.
 
 M. D. Morris, "Factorial sampling plans for preliminary computational experiments", Technometrics 33
-(1991) 161-174; F. Campolongo, J. Cariboni, A. Saltelli, "An effective screening design for
+(1991) 161-174. F. Campolongo, J. Cariboni, A. Saltelli, "An effective screening design for
 sensitivity analysis of large models", Environmental Modelling & Software 22 (2007) 1509-1518 (the
 mean of absolute effects).
 """
@@ -37,21 +38,21 @@ _STEP = 2.0 / 3.0  # of four levels 0, 1/3, 2/3 and 1, as Morris has it
 
 @dataclass(frozen=True, eq=False)
 class Screening(Result):
-    """What `screening` returns.
+    """Result of `screening`.
 
     Attributes
     ----------
     names : tuple of str
         The parameters.
     titles : tuple of str
-        The loops.
+        The names of the loops.
     means : ndarray, shape (loops, k)
-        The mean over the paths of the root mean square move of each loop as a parameter goes
-        through its bounds, in units of the loop's box.
+        The mean over the paths of the root mean square move of each loop as a parameter spans its
+        bounds, in units of the loop's bounding box.
     deviations : ndarray, shape (loops, k)
-        How much that differs from place to place.
+        The deviation of these moves between places.
     runs, failed : int
-        How many runs of the model it took, and how many of them failed.
+        The number of runs of the model, and how many of them failed.
     """
 
     names: tuple[str, ...]
@@ -161,7 +162,7 @@ def screening(found: Identification, *, paths: int = 10, seed: int = 0) -> Scree
 
 
 def _path(order: np.ndarray[Any, np.dtype[np.int64]], random: np.random.Generator) -> Array:
-    """Return k + 1 places, each of which differs from the last in one parameter, by the step."""
+    """Return k + 1 places; each differs from the previous one in one parameter."""
     place = random.integers(0, 2, order.size) / 3.0
     place = np.where(random.random(order.size) < 0.5, place, 1.0 - place)
     places = [place]

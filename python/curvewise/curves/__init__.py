@@ -1,9 +1,8 @@
-"""Loops made ready for a comparison, and what is read from them: energy, stiffness, damping.
+"""Preparation of loops, and their energy, stiffness and damping.
 
-Measured curves have points where a logger took them, noise, a start that is not zero, and
-engineering values; simulations have none of these. Each function takes a curve of shape (n, d), the
-order of the points being the order of loading. docs/preparing_curves.md and
-docs/hysteresis_loops.md show them on tests.
+Measured curves have irregularly placed points, noise, an offset, and engineering values;
+simulations do not. Each function takes a curve of shape (n, d) with its points in the order of
+loading. docs/preparing_curves.md and docs/hysteresis_loops.md show them on tests.
 """
 
 from __future__ import annotations

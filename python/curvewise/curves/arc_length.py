@@ -34,8 +34,8 @@ def arc_lengths(curve: Array) -> Array:
 def box_scaled_arc_lengths(curve: Array, box_of: Array) -> Array:
     """Return those of a curve scaled by the bounding box of another, both of shape (., 2).
 
-    By the differences of its own coordinates: where it lies far from the box, scaled coordinates
-    have lost the bits in which they differ.
+    The differences of the raw coordinates are used: far from the box, scaled coordinates have lost
+    the bits in which they differ.
     """
     return _summed(box_scaled_differences(curve, box_of))
 
@@ -46,7 +46,7 @@ def _summed(edges: Array) -> Array:
 
 
 def norms(vectors: Array) -> Array:
-    """Return sqrt(dx² + dy²) of vectors, shape (..., 2), of which squares may be out of range."""
+    """Return sqrt(dx² + dy²) of vectors, shape (..., 2); squares may overflow."""
     dx, dy = np.moveaxis(vectors, -1, 0)
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         squares = dx * dx + dy * dy
@@ -67,7 +67,7 @@ def locate(lengths: Array, position: Array) -> tuple[npt.NDArray[np.intp], Array
     segment = np.searchsorted(lengths, position, side="right") - 1
     segment = np.clip(segment, 0, len(lengths) - 2)
     extent = lengths[segment + 1] - lengths[segment]
-    # Where a segment has no extent, beside the length of the curve, its end is meant.
+    # The end is used if a segment has negligible extent, compared with the length of the curve.
     fraction = (position - lengths[segment]) / np.where(extent > 0, extent, 1.0)
     return segment, np.where(extent > 0, fraction, 1.0)
 
@@ -77,7 +77,7 @@ def interpolate(curve: Array, segment: npt.NDArray[np.intp], fraction: Array) ->
     if curve.ndim == 2:
         fraction = fraction[..., np.newaxis]
     start, end = curve[segment], curve[segment + 1]
-    # The end itself, not start + (end - start): beside a large start a small end is lost.
+    # The exact end instead of start + (end - start): next to a large start a small end is lost.
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         return np.asarray(np.where(fraction == 1.0, end, start + fraction * (end - start)))
 
@@ -99,5 +99,6 @@ def corresponding_positions(P: Array, Q: Array) -> tuple[npt.NDArray[np.intp], A
 
 def _relative_arc_lengths(curve: Array) -> Array:
     largest = np.abs(curve).max(axis=0)
-    # The original's number for a coordinate that is 0 throughout. It has no effect: 0 / 1e-15.
+    # The original's divisor for a coordinate that is 0 throughout. It does not have an effect: 0 /
+    # 1e-15.
     return arc_lengths(curve / np.where(largest > 0, largest, 1e-15))

@@ -1,11 +1,11 @@
-"""A dense, noisy record as means of its rows, with reversals that are found from both sides.
+"""Averages of a dense, noisy record, with reversals located from both sides.
 
 If the noise of the driving column exceeds its step from row to row, a single row says little and an
 extreme is an extreme of the noise. The record is cut into blocks of rows over which the column
 moves by at most its noise. The blocks' means are smoothed by quadratics in the row, branch by
-branch: the dyadic partition with the least penalised sum of squares (D. L. Donoho, "CART and
-best-ortho-basis: a connection", Annals of Statistics 25, 1997). A reversal lies where the
-quadratics of its two branches meet. O(n log n) time and O(n) memory.
+branch. The smoother uses the dyadic partition with the least penalised sum of squares (D. L.
+Donoho, "CART and best-ortho-basis: a connection", Annals of Statistics 25, 1997). A reversal lies
+where the quadratics of its two branches meet. O(n log n) time and O(n) memory.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _LOUDEST = 0.05  # largest noise of a record that is averaged, as a share of its
 _SHORTEST = 12  # fewest blocks of a branch
 _LEAF = 4  # fewest blocks of a quadratic
 _PENALTY = 12.0  # variances that a further quadratic must gain: 0.7 % of chi-squared, 3 degrees
-_GAPS = (12, 4, 0)  # blocks beside a turn that are left out while it is located
+_GAPS = (12, 4, 0)  # blocks on either side of a reversal that are left out while it is located
 _ZOOMS = 4  # on where two quadratics meet: each to a 25th
 _LINE = 4  # blocks of the line that ends a branch: its end varies as much as one block
 
@@ -175,7 +175,7 @@ def _quadratics(rows: int) -> Array:
 def _branches(
     record: Array, ends: Sequence[int], size: float, gap: int, least: float
 ) -> list[_Branch]:
-    """Return what lies between some rows in blocks, without `gap` rows beside each turn."""
+    """Return the sections between reversals, without `gap` rows at their ends."""
     blocks, squares = [], []
     for a, b in pairwise(ends):
         first, last = a + (gap if a > 0 else 0), b - (gap if b < len(record) else 0)
@@ -219,7 +219,7 @@ def _smoothed(values: Array, leaf: int, penalty: float) -> tuple[Array, npt.NDAr
 
 
 def _middle(whole: _Branch, turn: int, alike: float) -> float:
-    """Return the middle of the rows about a turn at which the driving column is alike."""
+    """Return the middle row around a reversal with equal values on both sides."""
     apart = np.flatnonzero(np.abs(whole.driving - whole.driving[turn]) > alike)
     after = int(np.searchsorted(apart, turn))
     return 0.5 * float(whole.rows[apart[after - 1]] + whole.rows[apart[after]])

@@ -18,7 +18,7 @@ Turns = Sequence[int] | npt.NDArray[np.int64]
 
 
 def checked_curve(curve: CurveLike, least: int) -> Array:
-    """Return a curve as an array of shape (n, d), finite, with at least so many points."""
+    """Return a curve as a finite array (n, d) with at least `least` points."""
     array = in_columns(as_numbers(curve, "curve"))  # a column of time is resampled with the rest
     if array.shape[0] < least or array.shape[1] == 0:
         raise ValueError(f"curve has shape {array.shape}; at least {least} points are needed")
@@ -27,7 +27,7 @@ def checked_curve(curve: CurveLike, least: int) -> Array:
 
 
 def check_finite(array: Array, name: str, what: str = "curves") -> None:
-    """Refuse numbers that are not finite; `what` they are is said in the plural."""
+    """Raise an error if numbers are not finite; `what` names them in the plural."""
     bad = np.argwhere(~np.isfinite(array))
     if len(bad):
         place = ", ".join(map(str, bad[0]))

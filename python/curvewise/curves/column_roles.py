@@ -1,9 +1,9 @@
-"""What the names of a table's columns say of them: time, a count of rows, coordinates of a point.
+"""Recognises time, row numbers and coordinates by the names of columns.
 
-A table of three columns or more is hardly ever meant whole: a logger writes time, a number of the
-row, a temperature beside strain and stress, and each would be a coordinate. It is taken where its
-names say that all are coordinates of one point; docs/inputs.md has the rule. The cost is that of
-some comparisons of short texts.
+In a table of three columns or more, rarely all columns are coordinates. A logger writes time, a row
+number or a temperature next to strain and stress, and each would count as a coordinate. Such a
+table is accepted if its names show that all columns are coordinates of one point; docs/inputs.md
+has the rule. The cost is that of some comparisons of short texts.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ def is_time(name: Any) -> bool:
 def are_coordinates(names: Sequence[Any]) -> bool:
     """Say whether names are those of the coordinates of one point.
 
-    They are numbers, or letters that follow one another in the alphabet (x, y, z), or components
-    (xx, yy, xy), alone or where longer names differ; or a place on the Earth. Units, in brackets or
-    behind a comma or slash, and capitals do not count.
+    Accepted names are numbers, consecutive letters (x, y, z), or components (xx, yy, xy). They may
+    be alone or the part in which longer names differ. A place on the Earth is accepted too. Units
+    in brackets or behind a comma or slash, and capitals, are ignored.
     """
     plain = [re.split(r"[\[(/,]", _text(name))[0].strip().lower() for name in names]
     if len(set(plain)) < len(plain):

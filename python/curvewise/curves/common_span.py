@@ -17,9 +17,9 @@ def common_span(P: CurveLike, Q: CurveLike, *, by: int = 0) -> tuple[Array, Arra
     Parameters
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
-        The curves, such as two histories of which one runs longer.
+        The curves, such as two histories of different length.
     by : int, default 0
-        The column, from 0, such as a time. It must not turn back.
+        The column, from 0, such as a time. It must not reverse.
 
     Returns
     -------
@@ -33,7 +33,7 @@ def common_span(P: CurveLike, Q: CurveLike, *, by: int = 0) -> tuple[Array, Arra
         If a curve does not hold real numbers.
     ValueError
         If a curve has fewer than two points, a number is not finite, the column does not exist or
-        turns back, or the spans do not overlap.
+        reverses, or the spans do not overlap.
 
     Notes
     -----

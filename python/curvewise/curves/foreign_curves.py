@@ -1,9 +1,10 @@
-"""Curves in the objects of other packages: what they are told by, and what to write instead.
+"""Recognises curves in objects of other packages, and suggests alternatives.
 
-Nothing is imported for it. An object is known by what it offers: ``__geo_interface__`` (shapely and
-whatever speaks GeoJSON), named columns (pandas, polars, pyarrow), ``requires_grad`` (torch),
-``__next__`` (``zip(x, y)``). Whatever numpy reads rightly by itself is left to numpy. The cost is a
-few look-ups of attributes; arrays of float64 do not come here. docs/inputs.md is the table of it.
+Other packages are not imported. An object is recognised by its attributes: ``__geo_interface__``
+(shapely and other packages with GeoJSON), named columns (pandas, polars, pyarrow),
+``requires_grad`` (torch), ``__next__`` (``zip(x, y)``). Objects that numpy reads correctly are left
+to numpy. The cost is a few attribute look-ups, and nothing for arrays of float64. docs/inputs.md
+has the table.
 """
 
 from __future__ import annotations
@@ -159,10 +160,10 @@ def column_names(curve: Any) -> list[Any]:
 
 
 def list_instead(curves: Any, name: str) -> str:
-    """Return what to write instead of a collection that is no list of curves, if it is known."""
+    """Return what to write instead of an unsuitable collection, if known."""
     if not type(curves).__name__.endswith("GroupBy"):
         return ""
-    # Of polars; the groups hold the key too, which is no coordinate.
+    # For polars; the groups also contain the key, which is not a coordinate.
     keys = getattr(curves, "by", ())
     keys = keys if isinstance(keys, list | tuple) else [keys]
     names = [one for one in column_names(getattr(curves, "df", None)) if one not in keys]

@@ -1,8 +1,8 @@
 """Points between those of a track of longitudes and latitudes, along great circles.
 
-A point of a great circle is a combination of the unit vectors of two points by the sines of the
-arcs (K. Shoemake, "Animating rotation with quaternion curves", SIGGRAPH 1985). Angles are by
-arctan2, which is accurate for short arcs, long arcs and near the poles. Time and memory O(n).
+A point of a great circle is a combination of the unit vectors of two points with the sines of the
+arcs as weights. See K. Shoemake, "Animating rotation with quaternion curves", SIGGRAPH 1985. Angles
+use arctan2, which is accurate for short arcs, long arcs and near the poles. Time and memory O(n).
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def points_on_arcs(track: Array, parameters: Array, of_vertices: Array) -> Array
 
 
 def warn_of_longitudes(points: Array, remedy: str) -> None:
-    """Warn of two columns in the range of longitudes and latitudes, of which the first jumps."""
+    """Warn if two columns look like longitude and latitude and the first jumps."""
     if points.shape[1] != 2 or (np.abs(points) > (360.0, 90.0)).any():
         return
     jumps = np.abs(np.diff(points[:, 0]))

@@ -31,16 +31,16 @@ _SAME_AS_MINKOWSKI: dict[float, Metric] = {
 
 
 def check_metric(metric: Metric, p: Any, radius: Any = None) -> tuple[Metric, float]:
-    """Check a metric and its order, or radius, and return what is computed: both as one number.
+    """Check a metric and its order or radius; return metric and number.
 
-    "minkowski" with p = 1, 2 or inf is computed as the metric that it is; the order of a metric
-    that has none is returned as 2.
+    "minkowski" with p = 1, 2 or inf is computed as the equivalent metric. The order is 2 for
+    metrics without an order.
 
     Raises
     ------
     ValueError
-        An unknown metric, one of one's own, p or radius with a metric that has none, p < 1, or
-        radius <= 0.
+        If the metric is unknown or user-defined. If p or radius is given for a metric that does not
+        have one. If p < 1 or radius <= 0.
     """
     if is_own_metric(metric):
         raise ValueError(
@@ -68,12 +68,12 @@ def check_metric(metric: Metric, p: Any, radius: Any = None) -> tuple[Metric, fl
 def in_range(
     P: Array, Q: Array, metric: Metric, constant: float = 0.0, coordinate: float = 0.0
 ) -> tuple[Array, Array, int]:
-    """Return both curves in the range of what can be squared, and the exponent of the distances.
+    """Return both curves scaled so that squares stay in range, and the exponent.
 
-    A distance between the curves is one between those that are returned, times 2**exponent. For a
-    metric of degree 0, for which what is small beside the largest coordinate counts too, the curves
-    stay as they are. A constant that is added to distances is not enlarged beyond 2**1000: curves
-    that are so small beside it keep fewer bits. Another coordinate comes to at most 2**500.
+    A distance between the curves is the distance between the returned ones, times 2**exponent. The
+    curves stay unchanged for a metric of degree 0, for which small coordinates count too. A
+    constant that is added to distances is not enlarged beyond 2**1000: curves that are very small
+    compared with it keep fewer bits. Other coordinates reach at most 2**500.
     """
     power = degree(metric)
     exponent = range_exponent(P, Q) if power > 0 else 0
@@ -87,7 +87,7 @@ def in_range(
 
 
 def degree(metric: Metric) -> int:
-    """Return by which power of a factor a distance grows when both curves do."""
+    """Return the power of a common factor with which a distance grows."""
     return _ROWS[metric].degree
 
 
@@ -95,10 +95,10 @@ Root: TypeAlias = Callable[[Array], Array]
 
 
 def before_root(P: Array, Q: Array, metric: Metric, p: float) -> tuple[Array, Root | None]:
-    """Return what is under the root of ground distances, and the root, which may then come last.
+    """Return ground distances before their root, and the root to apply last.
 
-    Where distances are only compared, that is: it is monotone. Else, and in one dimension, the
-    ground distances, and None.
+    This is valid if distances are only compared, because the root is monotone. Otherwise, and in
+    one dimension, the result is the ground distances and None.
     """
     points = _points(P, Q, metric)
     root = _ROWS[metric].root
@@ -111,8 +111,8 @@ def before_root(P: Array, Q: Array, metric: Metric, p: float) -> tuple[Array, Ro
 def ground_distances(P: Array, Q: Array, metric: Metric, p: float) -> Array:
     """Return the distances between points, by the metric and order that `check_metric` returns.
 
-    The last axis of P and of Q is that of the coordinates; the others are broadcast: shapes
-    (n, 1, d) and (m, d) give the (n, m) table, and (k, d) twice the distances of k pairs.
+    The last axis of P and of Q is that of the coordinates; the others are broadcast. Shapes (n, 1,
+    d) and (m, d) give the (n, m) table, and two arrays of shape (k, d) the distances of k pairs.
     """
     row = _ROWS[metric]
     points = _points(P, Q, metric)
@@ -176,7 +176,7 @@ class _Row(NamedTuple):
     """What the measures ask of a metric."""
 
     distances: Callable[[_Points, float], Array]
-    degree: int  # by which power of a factor a distance grows when both curves do
+    degree: int  # the power of a common factor with which a distance grows
     is_absolute_in_one_dimension: bool  # |difference|, and computed as that
     root: Callable[[float, Array], Array] | None = None  # of squares, where it is one
 

@@ -1,9 +1,9 @@
-"""From what a user passes to a float64 array of one or two dimensions.
+"""Converts user input to a float64 array of one or two dimensions.
 
-This is the only place that knows about lists, DataFrames and dtypes; what other packages hold
-curves in is told apart in _foreign_curves.py, and docs/inputs.md has the table of it. What follows
-from the numbers themselves (finite, long enough, matching dimensions) is checked by whoever
-computes: the C++ library for the compiled functions, numpy code for the reference.
+Only this module handles lists, DataFrames and dtypes. foreign_curves.py recognises the objects of
+other packages; docs/inputs.md has the table. The computing code checks the numbers themselves
+(finite, long enough, matching dimensions): the C++ library for the compiled functions, numpy code
+for the reference.
 """
 
 from __future__ import annotations
@@ -53,12 +53,13 @@ _MAY_HOLD_MASKED = (np.ma.MaskedArray, list, tuple)
 
 
 def as_curve(curve: Any, name: str, keep_float32: bool = False) -> Array:
-    """Return a curve that is to be measured, as :func:`as_numbers`; every column is a coordinate.
+    """Return a curve as :func:`as_numbers` does; every column is a coordinate.
 
     Raises
     ------
     TypeError, ValueError
-        As for :func:`as_numbers`; a table whose columns are hardly all meant, see column_roles.py.
+        As for :func:`as_numbers`. If rarely all columns of such a table are coordinates, see
+        column_roles.py.
     """
     array = as_numbers(curve, name, keep_float32)
     names = column_names(curve)
@@ -82,16 +83,17 @@ def _knows_its_layout(curve: Any, names: list[Any]) -> bool:
 def as_numbers(curve: Any, name: str, keep_float32: bool = False) -> Array:
     """Return `curve` as an aligned, native float64 array of shape (n, d) or (n,).
 
-    A float64 array is returned as it is, without a copy, whatever its strides; where asked for, a
-    float32 array too, which the types do not say: compiled functions of lists take either.
+    A float64 array is returned unchanged, without a copy, whatever its strides. With `keep_float32`
+    so is a float32 array, although the type hints omit it: compiled functions of lists accept both.
 
     Raises
     ------
     TypeError
-        Complex numbers, text, objects, dates, or masked entries; an object of another package
-        that is no curve, or none in this memory, with what to write instead.
+        If the input is complex numbers, text, objects, dates, or masked entries. If it is an object
+        of another package that is not a curve, or not in main memory; the message suggests an
+        alternative.
     ValueError
-        Ragged lists, or an array of 0 or more than 2 dimensions.
+        If lists are ragged, or an array has 0 or more than 2 dimensions.
     """
     if type(curve) is np.ndarray and curve.dtype is _FLOAT64 and 1 <= curve.ndim <= 2:
         return _aligned(curve)
@@ -170,7 +172,7 @@ def in_columns(array: Array) -> Array:
 
 def as_curves(P: Any, Q: Any) -> tuple[Array, Array]:
     """Return both curves as arrays; DataFrames must have the same columns."""
-    # What is to be returned as it is, found without a call: short curves take a microsecond.
+    # Inputs that are returned unchanged are found without a call: short curves take a microsecond.
     if (
         type(P) is type(Q) is np.ndarray
         and P.dtype is Q.dtype is _FLOAT64
@@ -236,7 +238,7 @@ def _converted(
     for i, curve in enumerate(given):
         check_column_names(first, first_name, column_names(curve), f"{name}[{i}]")
     converted = [
-        # What is to be returned as it is, found without a call.
+        # Inputs that are returned unchanged are found without a call.
         curve
         if type(curve) is np.ndarray
         and curve.dtype is _FLOAT64

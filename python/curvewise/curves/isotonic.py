@@ -1,8 +1,8 @@
-"""Values that noise turns back, made to ascend: isotonic regression by pooling neighbours.
+"""Isotonic regression by pooling neighbours: makes noisy values ascend.
 
-Where two neighbours descend they are pooled, with those before them that are not below the mean
-(R. E. Barlow, D. J. Bartholomew, J. M. Bremner, H. D. Brunk, "Statistical inference under order
-restrictions", Wiley, 1972). O(n) time and memory.
+Two descending neighbours are pooled, together with earlier values that are not below their mean.
+See R. E. Barlow, D. J. Bartholomew, J. M. Bremner, H. D. Brunk, "Statistical inference under order
+restrictions", Wiley, 1972. O(n) time and memory.
 """
 
 from __future__ import annotations

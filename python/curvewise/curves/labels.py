@@ -1,9 +1,10 @@
-"""Curves with labels: what has them, and results that keep them.
+"""Labels of curves in the input, and results that keep them.
 
-A dict of curves, a groupby of pandas, a Series of curves and a GeoDataFrame of lines say what each
-curve is called; a list and an array do not. What comes in with labels comes back in pandas, with
-the labels as its index; without any, in numpy. pandas is imported for what comes back alone. The
-cost is that of the index: for a triangle of k (k-1) / 2 values two numbers a value.
+A dict of curves, a groupby of pandas, a Series of curves and a GeoDataFrame of lines have a label
+for each curve; a list and an array do not. Input with labels gives results in pandas, with the
+labels as their index; input without labels gives numpy arrays. pandas is imported only for such
+results. The cost is that of the index: two numbers for each of the k (k-1) / 2 values of a
+triangle.
 """
 
 from __future__ import annotations
@@ -37,12 +38,12 @@ _UNLABELLED = (list, tuple, np.ndarray)
 
 
 def unlabelled(curves: Any, name: str) -> tuple[Any, Labels]:
-    """Return a collection of curves as a list, and its labels; as it is where it has none.
+    """Return a collection of curves as a list, and its labels, if any.
 
     Raises
     ------
     ValueError
-        Groups with columns that are hardly all coordinates.
+        If groups have columns that are probably not all coordinates.
     """
     if isinstance(curves, _UNLABELLED):
         return curves, None
@@ -77,13 +78,13 @@ def _groups(grouped: Any, name: str) -> tuple[list[Any], list[Any]]:
 def in_order_of(values: Any, curves: Any, name: str) -> Any:
     """Return one value for each curve in the order of the curves, if both have labels.
 
-    An index that only counts, as pandas gives it to what has none, is no labels, unless it counts
-    the curves in another order.
+    An index that only counts, as pandas adds to unlabelled data, does not count as labels, unless
+    it counts the curves in another order.
 
     Raises
     ------
     ValueError
-        Labels that differ, or that are not distinct.
+        If labels differ, or are not distinct.
     """
     if not hasattr(values, "iloc"):
         return values
@@ -148,7 +149,7 @@ def labelled_triangle(values: npt.NDArray[Any], labels: Labels) -> Any:
 
 
 def labels_at(labels: Labels, places: npt.NDArray[np.int64]) -> npt.NDArray[Any]:
-    """Return the labels of curves by their places; the places where there are no labels."""
+    """Return the labels of curves by their indices; without labels the indices."""
     return places if labels is None else np.asarray(_flat(labels).to_numpy()[places])
 
 

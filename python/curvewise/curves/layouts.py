@@ -1,10 +1,10 @@
-"""Whether the points of a curve are its rows: what shapes tell, and what they leave in doubt.
+"""Checks by the shape whether the points of a curve are its rows.
 
 A curve has shape (n, d): a row is a point. Many packages for time series have the channels first.
 The same rule holds for arrays of all packages, for all measures and for all sizes:
 
 - A shape with more coordinates than points, d > n, is in doubt. Two points in space and embeddings
-  of words have such shapes. So the curves are computed as they are, with a `LayoutWarning`.
+  of words have such shapes. The curves are computed unchanged, with a `LayoutWarning`.
 - Curves of different n and the same d are not in doubt. With points as columns they would differ in
   their number of coordinates, which no measure accepts.
 - Tables whose columns have names, lines of shapely and series of aeon and sktime are not in doubt.
@@ -92,14 +92,14 @@ def ask_about_list(curves: Sequence[Array], name: str) -> None:
 
 
 def ask_about_curves(*curves: Any, batched: bool = False) -> None:
-    """Warn if curves that have no option for it are in doubt, and name what to write.
+    """Warn if curves without an option for their layout are in doubt.
 
     Parameters
     ----------
     *curves : array of any package, shape (n, d) or (..., n, d)
-        P and what it is compared with, or batches of both.
+        P and the curve compared with it, or batches of both. The warning suggests what to write.
     batched : bool
-        Whether batches are taken too, so that (n, d) may be meant as n series.
+        Whether batches are accepted too, so that (n, d) may be meant as n series.
     """
     if not _in_doubt(curves):
         return

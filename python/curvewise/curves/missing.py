@@ -44,9 +44,9 @@ def skip_in_both(P: Any, Q: Any, missing: Missing) -> tuple[Any, Any]:
 
 
 def skip_in_each(curves: Sequence[Array], names: Sequence[str], missing: Missing) -> list[Array]:
-    """Return curves, which go by `names`, without their missing points, if these are skipped.
+    """Return curves, called `names`, without missing points if these are skipped.
 
-    A curve without gaps is returned as it is. There is one warning for each curve with gaps.
+    A curve without gaps is returned unchanged. There is one warning for each curve with gaps.
     """
     check_choice("missing", missing, get_args(Missing))
     if missing == "refuse":
@@ -65,7 +65,7 @@ def skip_in_list(curves: list[Array], name: str, missing: Missing) -> list[Array
 
 
 def named_without_gaps(curves: list[Any], missing: Missing) -> list[Any]:
-    """Return tests as they are given; those to be skipped in, as curves that know their columns."""
+    """Return tests unchanged, or without missing points; keep column names."""
     check_choice("missing", missing, get_args(Missing))
     if missing == "refuse":
         return curves

@@ -1,11 +1,11 @@
-"""What the coordinates of a curve are called: for the axes of pictures, and for nothing else.
+"""Names of a curve's coordinates, used only for the axes of plots.
 
 A curve that was read from a file, or made by :mod:`curvewise.datasets`, is an array that remembers
-the names of its columns; a DataFrame does so by itself. No measure looks at these names, so that
-two files with different headers are compared as they always were. The names stay with the array
-where its columns stay what they are, that is, where rows are chosen (``curve[::10]``) and where it
-is copied. Whatever else numpy makes of it is a plain array without names, since a wrong name on an
-axis is worse than none.
+the names of its columns; a DataFrame has names anyway. Measures ignore these names, so that two
+files with different headers can be compared. The names stay with the array if its columns are
+unchanged, that is, if rows are selected (``curve[::10]``) or the array is copied. Every other numpy
+operation returns a plain array without names, because a wrong name on an axis is worse than a
+missing one.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ _LONGEST = 32  # characters of a file's name that a picture shows
 
 
 class Labels(NamedTuple):
-    """What stands in a picture of two curves.
+    """Labels of the axes and curves in a plot.
 
     Attributes
     ----------
     axes : tuple of str
-        What the coordinates are called.
+        The names of the coordinates.
     curves : tuple of str
-        What the curves are called.
+        The names of the curves.
     """
 
     axes: tuple[str, ...]
@@ -145,7 +145,7 @@ def renamed(curve: Any, array: Array) -> Array:
 
 
 def known_names(*curves: Any) -> tuple[str, ...]:
-    """Return the names of the columns of the first curve that knows them; empty if none does."""
+    """Return the column names of the first curve that has any, or ()."""
     for curve in curves:
         names = getattr(curve, "column_names", ()) or column_names(curve)
         if names:
@@ -159,7 +159,7 @@ def known_file(curve: Any) -> str:
 
 
 def labels_of(dim: int, names: Sequence[str] | None, P: Any, Q: Any) -> Labels:
-    """Return what stands in a picture of P and Q: see `axis_names`, and for curves their files."""
+    """Return the labels for a plot of P and Q; see `axis_names`."""
     files = [known_file(curve)[-_LONGEST:] for curve in (P, Q)]
     p, q = (file or letter for file, letter in zip(files, "PQ", strict=True))
     curves = (f"{p} (P)", f"{q} (Q)") if p == q else (p, q)
@@ -169,18 +169,18 @@ def labels_of(dim: int, names: Sequence[str] | None, P: Any, Q: Any) -> Labels:
 def axis_names(
     dim: int, names: Sequence[str] | None, *curves: Any, default: Sequence[str] = ("x", "y")
 ) -> tuple[str, ...]:
-    """Return what the axes of a picture are to be called.
+    """Return the labels of the axes of a plot.
 
     Parameters
     ----------
     dim : int
-        How many coordinates the curves have.
+        Number of coordinates of the curves.
     names : sequence of str, or None
-        What the user wants them to be called.
+        The names that the user wants.
     *curves : array_like
-        Whose own names are taken otherwise: those of the first that has any.
+        Curves whose own names are the second choice: those of the first that has any.
     default : sequence of str
-        What a plane curve's coordinates are called where nobody knows.
+        The names of a plane curve's coordinates if nothing else is known.
 
     Returns
     -------
@@ -189,9 +189,9 @@ def axis_names(
     Raises
     ------
     TypeError
-        A lone name.
+        If `names` is a single text.
     ValueError
-        Another number of names than of coordinates.
+        If the number of names differs from the number of coordinates.
 
     Examples
     --------

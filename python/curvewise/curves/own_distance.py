@@ -1,8 +1,8 @@
-"""A ground distance of the user's own: a matrix, or a callable of two blocks of points.
+"""A user-defined ground distance: a matrix or a callable.
 
-The compiled sweep asks for the distances of some rows of P and columns of Q at a time, the
-reference for all at once; what a user's object answers is checked here, for both. Time that of the
-callable, and O(p q) for a block of p and q points; memory O(p q).
+A callable receives two blocks of points. The compiled code requests the distances of some rows of P
+and columns of Q at a time, the reference requests all at once. The user's results are checked here,
+for both. Time that of the callable, and O(p q) for a block of p and q points; memory O(p q).
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""What the reference system of tracks says of distances between their coordinates.
+"""Checks the reference system of tracks before distances are computed.
 
-A GeoDataFrame and a GeoSeries know what their coordinates are. Degrees are no plane; a plane map,
-such as Web Mercator, may be stretched by much; tracks of two systems cannot be compared. How much a
-map is stretched is taken from PROJ, at some points of the tracks (Tissot's indicatrix; Snyder, Map
-Projections, 1987). Nothing is imported for tracks without a reference system.
+A GeoDataFrame and a GeoSeries have a reference system. Degrees are not coordinates of a plane. A
+plane map, such as Web Mercator, may have a large scale distortion. Tracks of two systems cannot be
+compared. The distortion is taken from PROJ, at some points of the tracks (Tissot's indicatrix;
+Snyder, Map Projections, 1987). Nothing is imported for tracks without a reference system.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .foreign_curves import warn
 __all__ = ["check_degrees", "check_reference_systems", "warn_of_stretched_map"]
 
 _STRETCH = 0.02  # of lengths on a map, which is passed over
-_LINES = 50  # whose ends are looked at
+_LINES = 50  # number of lines whose ends are checked
 
 
 def check_reference_systems(

@@ -26,8 +26,8 @@ from .named_curve import renamed
 
 __all__ = ["Along", "StepMetric", "resample", "trim"]
 
-# A column that turns back by no more than this share of its way along a branch is noisy; as much is
-# what turning_points passes over, unless it is told otherwise.
+# A column that reverses by at most this fraction of its range along a branch is noisy.
+# turning_points ignores reversals of this size by default.
 _NOISE = 0.1
 
 Along = Literal["arc_length"] | int | npt.NDArray[np.float64] | Sequence[float]
@@ -48,33 +48,34 @@ def resample(
 ) -> Array:
     """Put evenly spaced points on a curve, branch by branch.
 
-    Two curves resampled alike, with `turns` and the same `count`, have their branches at the same
-    indices, which is what `sum_of_squares`, `mse`, `mae` and the default of `area` ask for.
+    If two curves are resampled with `turns` and the same `count`, their branches have the same
+    indices. `sum_of_squares`, `mse`, `mae` and the default of `area` require this.
 
     Parameters
     ----------
     curve : array_like, shape (n, d) or (n,)
         The curve.
     count : int or sequence of int, optional
-        Points in each branch, both of its ends included; at least 2. A sequence has a number for
-        every branch. Without `turns` the curve is one branch. Give either `count` or `spacing`.
+        Number of points in each branch, both of its ends included; at least 2. A sequence has a
+        number for every branch. Without `turns` the curve is one branch. Give either `count` or
+        `spacing`.
     spacing : float, optional
-        The largest step, above 0, in the unit of what `by` measures. Each branch has equal steps.
-        By "arc_length" it is in the unit of the coordinates, which must then be the same for all;
-        in metres with ``metric="haversine"``.
+        The largest step, above 0, in the unit of the quantity `by`. Each branch has equal steps.
+        With "arc_length", the unit is that of the coordinates, which must then be the same for all;
+        metres with ``metric="haversine"``.
     by : "arc_length", int or array_like of shape (n,), default "arc_length"
-        Along what the points are evenly spaced: the arc length, see `metric`; a column's values,
-        by its index from 0 (negative: from the end); or values given for the points, such as their
-        times. A column or a time must not turn back within a branch.
+        The quantity along which points are evenly spaced. "arc_length": see `metric`. An integer:
+        the values of this column, from 0 (negative: from the end). An array: values of the points,
+        such as their times. A column or a time must not reverse within a branch.
     metric : {"euclidean", "haversine"}, optional
-        What arc length is. By default each coordinate is divided by its range, as suits curves
-        whose coordinates have different units. "euclidean": the coordinates are unchanged; this is
-        also the default with `spacing`. "haversine": the columns are longitude and latitude in
-        degrees, arc lengths are metres on the sphere, points lie on great circles, and longitudes
-        of the result are from -180 to 180.
+        The definition of arc length. By default each coordinate is divided by its range, which
+        suits curves whose coordinates have different units. "euclidean": the coordinates are
+        unchanged; this is also the default with `spacing`. "haversine": the columns are longitude
+        and latitude in degrees, and arc lengths are metres on the sphere. Points lie on great
+        circles. Longitudes of the result are from -180 to 180.
     turns : sequence of int, optional
-        Indices of the turning points, at which branches meet: what `turning_points` returns. They
-        and the ends stay as they are, to the bit; without them turns are cut off.
+        Indices of the turning points, at which branches meet, as `turning_points` returns them.
+        Turning points and ends stay bitwise identical; without `turns`, turning points are cut off.
 
     Returns
     -------
@@ -85,11 +86,11 @@ def resample(
     Raises
     ------
     TypeError, ValueError
-        No curve of at least two finite points; `count` below 2, or not one per branch; `turns`
-        that do not ascend; no such column; values to space by that turn back by more than a tenth
-        of a branch, or that do not change at all within it; not one of `count` and `spacing`. With
-        ``metric="haversine"``: a column as `by`, values that turn back at all, points that are not
-        on the sphere, neighbours that are opposite on it.
+        If `curve` does not have at least two finite points. If `count` is below 2, or not one per
+        branch. If `turns` do not ascend. If the column does not exist. If the values of `by`
+        reverse by more than a tenth of a branch, or are constant within it. If not exactly one of
+        `count` and `spacing` is given. With ``metric="haversine"``: if `by` is a column, its values
+        reverse at all, points are not on the sphere, or neighbours are opposite on it.
 
     Warns
     -----
@@ -99,8 +100,8 @@ def resample(
 
     Notes
     -----
-    O(n + count) time and memory. Noise is length: smooth a noisy test before resampling by arc
-    length. Where a column or time stands still, the last of the points there counts.
+    O(n + count) time and memory. Noise adds length: smooth a noisy test before resampling by arc
+    length. If a column or time is constant for several points, the last of them counts.
 
     Examples
     --------

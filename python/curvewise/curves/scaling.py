@@ -1,9 +1,9 @@
-"""Scaling: by P's bounding box, and by a power of two where squares would overflow or vanish.
+"""Scaling by P's bounding box, and by powers of two against overflow.
 
-Squares of numbers beyond 2**512 overflow and those of numbers below 2**-512 lose bits, although
-the distances asked for are representable. Curves whose largest magnitude is beyond 2**±500 are
-therefore multiplied by a power of two before the work, which changes no bit of a number that
-stays in range, and the result is multiplied back. Time and memory O(n d).
+Squares of numbers beyond 2**512 overflow and those of numbers below 2**-512 lose bits, although the
+resulting distances are representable. Curves whose largest magnitude is beyond 2**±500 are
+therefore multiplied by a power of two, and the result is multiplied back. This does not change any
+bit of a number that stays in range. Time and memory O(n d).
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def box(curve: Array) -> tuple[Array, Array]:
 def box_scaled(curve: Array, box_of: Array) -> Array:
     """Return `curve` scaled by the bounding box of `box_of`, both of shape (., d).
 
-    Each coordinate has a range of its own, that of the box: x may be as large as y is small.
+    Each coordinate is scaled by its range of the box, so x may be as large as y is small.
     """
     scaled = np.empty(curve.shape)
     for c in range(curve.shape[1]):

@@ -29,27 +29,27 @@ def smooth(
     turns: Turns = (),
     columns: Sequence[int] | None = None,
 ) -> Array:
-    """Take noise off a curve by Savitzky and Golay's filter, branch by branch.
+    """Smooth a curve by a Savitzky-Golay filter, branch by branch.
 
     Parameters
     ----------
     curve : array_like, shape (n, d) or (n,)
-        The curve, sampled about evenly within the window: the filter knows the order of the
-        points, not their distances.
+        The curve, sampled about evenly within the window: the filter uses the order of the points,
+        not their distances.
     window : int or float, default 0.2
-        Over how many points each polynomial is fitted: a whole number, odd and above `order`, or a
-        fraction of each branch's points, between 0 and 1. A fifth of a branch did well before pcm
-        and curve_length; a window that is longer than the knee of a stress–strain curve moves
-        the yield stress.
+        Number of points for each fitted polynomial: an odd integer above `order`, or a fraction of
+        each branch's points, between 0 and 1. A fifth of a branch works well before pcm and
+        curve_length. A window that is longer than the knee of a stress–strain curve changes the
+        yield stress.
     order : int, default 2
         Degree of the polynomials, at least 0.
     turns : sequence of int, optional
-        Indices of the turning points, as `turning_points` returns them. The two polynomials
-        that end in one are averaged there.
+        Indices of the turning points, as `turning_points` returns them. At a turning point, the two
+        polynomials that end there are averaged.
     columns : sequence of int, optional
-        The coordinates to smooth, from 0. By default all: where a test is sampled unevenly, as
-        the generated pair is, stress alone over the number of the point is wrong by more than
-        the noise, and with the strain smoothed alike it is half as wrong.
+        The coordinates to smooth, from 0; by default all. In an unevenly sampled test, such as the
+        generated pair, smoothing the stress alone over the point number causes an error above the
+        noise. Smoothing the strain too halves this error.
 
     Returns
     -------
@@ -59,10 +59,10 @@ def smooth(
     Raises
     ------
     ImportError
-        scipy is missing.
+        If scipy is missing.
     TypeError, ValueError
-        No curve of finite numbers; `turns` that do not ascend; no such column; a window that is
-        even, not above `order`, or longer than a branch.
+        If `curve` does not hold finite numbers, `turns` do not ascend, or a column does not exist.
+        If the window is even, not above `order`, or longer than a branch.
 
     Warns
     -----

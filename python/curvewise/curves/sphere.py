@@ -1,10 +1,10 @@
-"""Points of the sphere by their longitude and latitude, in space, and the arcs between them.
+"""Points of the sphere in space, from longitude and latitude, and their arcs.
 
-On the sphere of diameter 1 about the origin, the square of the distance of two points in space is
-h, the square of half the chord of the unit sphere, and the arc is 2 asin(sqrt(h)). Sines, cosines
-and arcsines are by polynomials of its own, interpolation in the nodes of Chebyshev with errors
-below 2e-17, in the order of operations of the compiled library: the same bits. Time and memory
-O(n).
+On the sphere of diameter 1 about the origin, the squared distance of two points in space is h, the
+square of half the chord of the unit sphere. The arc is 2 asin(sqrt(h)). Sines, cosines and arcsines
+are computed by dedicated polynomials, interpolated at Chebyshev nodes with errors below 2e-17. The
+order of operations is that of the compiled library, so results are bitwise identical. Time and
+memory O(n).
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ _ARCSINE = (
 
 
 def check_on_sphere(curve: Array, name: str) -> None:
-    """Refuse a point that is none: longitudes from -360 to 360, latitudes from -90 to 90."""
+    """Raise an error for longitudes beyond ±360 and latitudes beyond ±90."""
     limits = (("longitude", 360), ("latitude", 90))
     outside = np.abs(curve) > [limit for _, limit in limits]
     if not outside.any():
@@ -96,7 +96,7 @@ def _by_halves(z: Array) -> Array:
 
 
 def _sine_and_cosine(degrees: Array) -> tuple[Array, Array]:
-    """Return both of an angle, of which the multiple of 90 degrees is taken away exactly."""
+    """Return sine and cosine of an angle; its reduction by 90 degrees is exact."""
     quarters: npt.NDArray[np.int64] = np.rint(degrees / 90.0).astype(np.int64)
     rest = degrees - 90.0 * quarters
     square = rest * rest

@@ -32,9 +32,9 @@ def stiffness(
     curve : array_like, shape (n, 2)
         The record: displacement and force, or strain and stress.
     kind : {"secant", "unloading", "reloading"}, default "secant"
-        "secant": the slope from valley to peak, the effective stiffness of ASCE/SEI 7.
-        "unloading": the slope after the peak, of strain and stress ASTM E606's modulus E_NT.
-        "reloading": the slope after the valley, ASTM E606's E_NC.
+        "secant": the slope from valley to peak, the effective stiffness of ASCE/SEI 7. "unloading":
+        the slope after the peak; for strain and stress ASTM E606's modulus E_NT. "reloading": the
+        slope after the valley, ASTM E606's E_NC.
     part : (low, high), default (0.05, 0.35)
         The part of the branch whose slope is taken, by the change of y since the reversal, as
         fractions of the loop's height. It must lie within the straight part. Ignored for "secant".

@@ -13,9 +13,9 @@ __all__ = ["engineering_to_true", "shift_to_origin"]
 
 
 def engineering_to_true(curve: CurveLike) -> Array:
-    r"""Turn engineering strain and stress into true (logarithmic, Cauchy) ones.
+    r"""Convert engineering strain and stress to true (logarithmic, Cauchy) ones.
 
-    With constant volume and strain that is the same everywhere,
+    With constant volume and uniform strain,
 
     .. math::
 
@@ -35,12 +35,12 @@ def engineering_to_true(curve: CurveLike) -> Array:
     Raises
     ------
     TypeError, ValueError
-        No curve of two finite columns; a strain of -1 or less.
+        If `curve` does not have two finite columns, or a strain is -1 or less.
 
     Notes
     -----
-    O(n) time and memory. It holds up to the largest force: beyond it a tension specimen necks,
-    and its mean strain is nobody's (`trim` cuts that off).
+    O(n) time and memory. It is valid up to the largest force. Beyond it a tension specimen necks,
+    and the mean strain is that of neither section (`trim` cuts this part off).
 
     Examples
     --------
@@ -69,13 +69,13 @@ def shift_to_origin(
     curve : array_like, shape (n, d) or (n,)
         The curve; with `elastic` strain and stress, (n, 2).
     elastic : (low, high), optional
-        Two stresses between which the first loading is a straight line. The strain is then shifted
-        so that this line, fitted by least squares, goes through the origin, and the stress stays
-        as it is: the toe that slack and settling grips leave (ASTM E111's and D638's toe
-        compensation). By default the first point becomes the origin.
+        Two stresses between which the first loading is a straight line. The strain is shifted so
+        that this line, fitted by least squares, passes through the origin; the stress is unchanged.
+        This removes the toe that slack and settling grips cause (toe compensation of ASTM E111 and
+        D638). By default the first point becomes the origin.
     cut : bool, default False
-        Leave out the toe: the curve then begins with the first point of the straight line, as a
-        fit of a material needs it. Only with `elastic`.
+        Whether to cut off the toe: the curve then begins with the first point of the straight line,
+        as a material fit requires. Only with `elastic`.
 
     Returns
     -------
@@ -85,8 +85,9 @@ def shift_to_origin(
     Raises
     ------
     TypeError, ValueError
-        No curve of finite numbers; `elastic` not low < high, fewer than three points between them
-        in the first loading, or no rising line through these; `cut` without `elastic`.
+        If `curve` does not hold finite numbers. If `elastic` is not low < high, fewer than three
+        points of the first loading lie between the two, or their line does not rise. If `cut` is
+        given without `elastic`.
 
     Notes
     -----

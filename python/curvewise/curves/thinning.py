@@ -1,4 +1,4 @@
-"""Some points of a curve that stand for all of them, about evenly along it. Time O(n)."""
+"""A subset of a curve's points, spaced about evenly along it. Time O(n)."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ Rows: TypeAlias = npt.NDArray[np.intp]
 
 
 def thinned_rows(curve: Array, most: int) -> Rows:
-    """Return the numbers of some points of a curve, about evenly along it, its ends among them.
+    """Return the indices of some points of a curve, including its ends.
 
     Parameters
     ----------
     curve : ndarray, shape (n, d)
     most : int
-        About how many to keep; all where there are hardly more.
+        Approximate number of points to keep; all are kept if the curve has few more.
     """
     count = len(curve)
     if count <= 1.5 * most:
         return np.arange(count)
     extent = np.ptp(curve, axis=0)
     steps = np.diff(curve, axis=0) / np.where(extent > 0, extent, 1.0)
-    # Noise has length too: a test that rests must not take all points to itself, nor have none.
+    # Noise adds length. A test that pauses must get neither all points for the pause, nor too few.
     length = np.concatenate(([0.0], np.cumsum(np.linalg.norm(steps, axis=1))))
     along = length / (length[-1] or 1.0) + np.linspace(0.0, 1.0, count)
     rows: Rows = np.unique(np.searchsorted(along, np.linspace(0.0, along[-1], most)))

@@ -1,8 +1,8 @@
-"""Where a curve turns back, and its cycles: one walk, keeping the extreme since the last turn.
+"""The reversals and cycles of a curve, found in one pass.
 
-A turn is accepted when the curve has come back from that extreme by more than the smallest reversal
-that counts. This is the rule by which rainflow counting finds reversals above a hysteresis gate
-(ASTM E1049). Time and memory are O(n).
+The pass keeps the extreme since the last reversal. A reversal is accepted when the curve has come
+back from that extreme by more than the smallest reversal that counts. Rainflow counting finds
+reversals above a hysteresis gate by the same rule (ASTM E1049). Time and memory are O(n).
 """
 
 from __future__ import annotations
@@ -24,28 +24,29 @@ _REVERSALS = "it must be between 0 and 1"
 def turning_points(
     curve: CurveLike, *, column: int = 0, reversal: float = 0.1
 ) -> npt.NDArray[np.int64]:
-    """Find the points at which a curve turns back, as a loop does between its branches.
+    """Find the points at which a curve reverses, as a loop does between branches.
 
     Parameters
     ----------
     curve : array_like, shape (n, d) or (n,)
         The curve.
     column : int, default 0
-        The coordinate that turns, from 0: usually the strain.
+        The coordinate that reverses, from 0: usually the strain.
     reversal : float, default 0.1
-        The smallest reversal that counts, as a fraction of the coordinate's range; between 0 and
-        1. Above the noise, below the smallest branch.
+        The smallest reversal that counts, as a fraction of the coordinate's range; between 0 and 1.
+        Choose a value above the noise and below the smallest branch.
 
     Returns
     -------
     ndarray of int64, shape (k,)
-        Indices of the turning points, ascending, without the first and the last point. Where
-        the coordinate stands still at a turn, the first of these points.
+        Indices of the turning points, ascending, without the first and the last point. If the
+        coordinate is constant at a reversal, the first of these points.
 
     Raises
     ------
     TypeError, ValueError
-        No curve of finite numbers; no such column; `reversal` out of range.
+        If `curve` does not hold finite numbers, the column does not exist, or `reversal` is out of
+        range.
 
     Notes
     -----
@@ -87,13 +88,14 @@ def turning_points(
 
 
 def last_cycle(curve: CurveLike, *, column: int = 0, reversal: float = 0.1) -> slice:
-    """Find the last complete cycle of a curve: from a turn to the turn after the next.
+    """Find the last complete cycle of a curve.
 
-    Such as the stabilised cycle of a test, beside whole histories. A cycle is two branches, of
-    which the second comes back to where the first began, or passes it; less than the smallest
-    reversal that counts may be missing. The last point of the curve counts as a turn, so that a
-    test that stops at the end of a branch has its cycle, and one that is cut short has the cycle
-    before. What comes before the first turn is no part of a cycle.
+    It is the stabilised cycle of many tests. A cycle is two branches. It extends from a turning
+    point to the next but one. The second branch returns to the beginning of the first, or passes
+    it; it may miss less than the smallest reversal that counts. The last point of the curve counts
+    as a turning point. A test that stops at the end of a branch therefore has its last cycle, and
+    one that is cut short has the cycle before. The section before the first turning point does not
+    belong to a cycle.
 
     Parameters
     ----------
@@ -103,12 +105,13 @@ def last_cycle(curve: CurveLike, *, column: int = 0, reversal: float = 0.1) -> s
     Returns
     -------
     slice
-        Of the points, the turn at each end included.
+        The points of the cycle, including the turning point at each end.
 
     Raises
     ------
     ValueError
-        No cycle is complete; or as for :func:`turning_points`, with TypeError.
+        If the curve does not have a complete cycle; or as for :func:`turning_points`, with
+        TypeError.
 
     Notes
     -----

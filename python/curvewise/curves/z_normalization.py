@@ -1,8 +1,7 @@
-"""Curves, and windows of a curve, with mean 0 and deviation 1 in each coordinate.
+"""Curves, and windows of a curve, with mean 0 and deviation 1 per coordinate.
 
-Mean and deviation are those of the window's own numbers, in two passes, and not differences of
-running sums, which have no digits left where a small wave rides on a large level. Time O(n) a
-window.
+Mean and deviation are computed from the window's numbers in two passes. Differences of running sums
+would lose all digits of a small wave on a large level. Time O(n) for each window.
 """
 
 from __future__ import annotations
@@ -52,9 +51,9 @@ def z_normalized(curve: CurveLike) -> Array:
 
 
 def normalized_windows(curve: Array, points: int, starts: slice | Sequence[int]) -> Array:
-    """Return the windows of so many points that begin at `starts`.
+    """Return the windows of `points` points that begin at `starts`.
 
-    `curve` has shape (n, d), what is returned (starts, points, d).
+    `curve` has shape (n, d), the result (starts, points, d).
     """
     # Coordinates first, so that sums run over numbers that lie side by side.
     windows = np.array(sliding_window_view(curve.T, points, axis=1)[:, starts], order="C")

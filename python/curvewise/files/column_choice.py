@@ -1,6 +1,6 @@
-"""Which columns of a file a user asks for, by name or by number, whatever the kind of file.
+"""Selects the columns of a file by name or by number, for every kind of file.
 
-Where nobody asks, the first two are taken, which is said where they are time and something else.
+By default the first two columns are used, with a warning if they are time and something else.
 """
 
 from __future__ import annotations
@@ -52,33 +52,33 @@ def choose_columns(
     columns: Sequence[str | int] | None,
     units: Sequence[str] = (),
 ) -> list[int]:
-    """Return the indices of the columns asked for; by default the first two, or the only one.
+    """Return the indices of the chosen columns; by default the first two, or one.
 
     Parameters
     ----------
     file : str
-        What messages call the file.
+        The name of the file in messages.
     names : list of str
-        Of the columns, blank or missing where one has none.
+        The names of the columns; blank or missing if a column lacks one.
     width : int
         The number of columns.
     columns : sequence of str or int, or None
-        Names, or numbers from 1 (as int or str). Of a name, capitals, blanks, hyphens, underscores
-        and the unit do not count if no column has it to the letter.
+        Names, or numbers from 1 (as int or str). If no column has exactly this name, capitals,
+        spaces, hyphens, underscores and the unit are ignored.
     units : sequence of str
-        What a row of units gives the columns.
+        The units of the columns, from a row of units.
 
     Raises
     ------
     TypeError
-        A lone name.
+        If `columns` is a single text.
     ValueError
-        No column, or one that is not there, or a name that several have.
+        If no column is chosen, a column does not exist, or several have the name.
 
     Warns
     -----
     TimeColumnWarning
-        The first two of several columns are taken, and the first is time.
+        If the first two of several columns are used, and the first is time.
     """
     if columns is None:
         if width > 2 and names and (is_time(names[0]) or _unit(names[0], units) in TIMES):

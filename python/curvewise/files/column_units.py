@@ -1,7 +1,7 @@
-"""The units that the header of a file gives its columns: in their names, or in a row of units.
+"""Units of columns, from their names or from a row of units.
 
-A unit stands in brackets behind a name ("Strain (%)"), behind a slash or a comma, as its last word
-("stress_MPa"), or in a row of its own. Capitals do not count, nor how µ and ² are encoded.
+A unit is in brackets behind a name ("Strain (%)"), behind a slash or a comma, as the last word
+("stress_MPa"), or in a separate row. Capitals and the encoding of µ and ² do not matter.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ _LAST_WORD = re.compile(r"(?:[\s_,;:/]|\bin )\s*([^\s_,;:]+)$")
 
 
 def unit_of(name: str) -> str:
-    """Return the unit that the name of a column ends with, as it is known here; "" if it has none.
+    """Return the unit at the end of a column's name; "" if it is missing.
 
     Examples
     --------
@@ -85,20 +85,20 @@ def in_mpa(units: str) -> float | None:
 
 
 def factor_of(given: float | str, units: str = "MPa") -> float:
-    """Return a factor that is given as a number, or as the unit that it converts.
+    """Return a factor, given as a number or as the unit that it converts.
 
     Parameters
     ----------
     given : float or str
-        A number, or the unit of a column: of strain, which becomes a fraction, of stress, which
-        becomes one in `units`, of force, which becomes N, or of length, which becomes mm.
+        A number, or the unit of a column. Strain is converted to a fraction, stress to `units`,
+        force to N, and length to mm.
     units : str
-        Unit of stresses.
+        The unit of stresses.
 
     Raises
     ------
     ValueError
-        Neither a number nor a known unit.
+        If it is neither a number nor a known unit.
 
     Examples
     --------

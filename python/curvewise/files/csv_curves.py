@@ -37,36 +37,36 @@ from .separators import BLANKS, cells_of, choose_separator, refuse_doubtful_cell
 
 __all__ = ["read_csv_columns"]
 
-# Lines of nothing but separators, which spreadsheets append, and comments. Excel's error values
-# are no comments: '#N/A,200' is a bad point.
+# Comments, and lines of separators alone, which spreadsheets append. Excel's error values are not
+# comments: '#N/A,200' is an invalid point.
 _IGNORED = re.compile(r"[\s;,]*$|\s*(?:#(?!N/A|DIV/0!|VALUE!|REF!|NAME\?|NUM!|NULL!)|%|//)")
 _COMMENT = re.compile(r"\s*(?:#+|%+|//)\s*")
 _SEPARATOR = re.compile(r'\s*"?sep=([^\w\s]|\t)"?[\s;,|]*$')  # as Excel writes and reads it
 _LAYOUT_LINES = 200
-_HEAD = 2**16  # bytes in which a file that is no text has a zero byte, which ends the reading
+_HEAD = 2**16  # bytes in which a binary file has a zero byte, which ends the reading
 _LONGEST = 2**20  # characters of a line
 
 
 def read_csv_columns(
     path: str | os.PathLike[str], columns: Sequence[str | int] | None, reading: Reading
 ) -> tuple[npt.NDArray[np.float64], list[str], list[str]]:
-    r"""Read the columns of a text file, and say which they are.
+    r"""Read the columns of a text file with their names and units.
 
     Parameters
     ----------
     path, columns
         As for :func:`curvewise.read_curve`.
     reading : Reading
-        Its other keywords.
+        The other keywords of :func:`curvewise.read_curve`.
 
     Returns
     -------
     values : ndarray, shape (n, d)
         The curve.
     names : list of str
-        Of each column its name in the header; its number, from 1, where it has none.
+        The name of each column in the header; its number, from 1, if it lacks one.
     units : list of str
-        Of each column what a row of units gives it; "" where there is none.
+        The unit of each column from a row of units; "" if it lacks one.
 
     Raises
     ------
@@ -125,7 +125,7 @@ class _Layout:
 
 
 def _rest_of(stream: BinaryIO, file: str) -> bytes:
-    """Return what is left of a file, or of a pipe up to a limit."""
+    """Return the rest of a file, or of a pipe up to a limit."""
     if stream.seekable():
         return stream.read()
     rest = stream.read(LARGEST_OF_PIPE + 1)
@@ -179,11 +179,11 @@ def _find_layout(
     start = begin_of_table(file, "line", list(enumerate(text, 1)), reading)
     if start or reading.begins_later:
         lines[:start] = [""] * start
-        if reading.header_row is not None:  # the names may stand in a comment
+        if reading.header_row is not None:  # the names may be in a comment
             lines[start] = _COMMENT.sub("", text[start])
         filled = [i for i in range(start, len(lines)) if lines[i]]
     count, separator, score = _LAYOUT_LINES, BLANKS, 0.0
-    while score == 0.0:  # of a long header, more lines are looked at
+    while score == 0.0:  # for a long header, read more lines
         if count >= 2 * max(len(filled), _LAYOUT_LINES):
             refuse_no_numbers(file, "line", enumerate(text[start:], start + 1))
         sample = filled[:count]
@@ -204,17 +204,17 @@ def _find_layout(
     names = choose_names(header[:1] if reading.header_row else header, columns)
     width = max(map(len, rows[first:]))
     if separator is BLANKS and len(names) != width:
-        names = []  # "true strain  true stress": nobody can say which word belongs where
+        names = []  # "true strain true stress": the assignment of words to columns is ambiguous
     is_title = sum(map(bool, names)) < 2
     most = max(len(names), len(rows[first]) if is_title else 0)
     width = max(width, len(names))
     if width == 1:
-        # No blank, tab or semicolon is expected, and none is then accepted.
+        # Spaces, tabs and semicolons are not expected, and not accepted.
         separator = ";" if reading.decimal == "," else ","
     place = f"{file}, line {sample[first] + 1}"
     numbers = [lines[i] for i in sample[first:] if i < len(lines)]
     refuse_doubtful_cells(place, numbers, separator, names, most, reading.decimal, columns)
-    above = text[sample[begin] if begin else start : sample[first]]  # "%;MPa" is no comment here
+    above = text[sample[begin] if begin else start : sample[first]]  # "%;MPa" is not a comment here
     kept = [line for line in above if line.lstrip().startswith("%") or not _IGNORED.match(line)]
     units = units_row([cells_of(line, separator) for line in kept], names)
     return _Layout(
@@ -232,7 +232,7 @@ def _parse_fast(table: _Layout, chosen: list[int]) -> npt.NDArray[np.float64] | 
     has_commas = table.separator != "," and any("," in line for line in lines)
     if has_commas or table.reading.decimal == ",":
         if table.reading.decimal == "." or any("." in line for line in lines):
-            return None  # both signs, of which one groups thousands, or is that of a date or a text
+            return None  # both signs: one groups thousands, or belongs to a date or a text
         lines = [line.replace(",", ".") for line in lines]
     # Without usecols numpy insists that all lines have as many cells as the first.
     values = _loaded(lines, table.separator, None)
@@ -266,7 +266,7 @@ def _loaded(
             delimiter=separator,
             usecols=columns,
             comments=None,
-            encoding=None,  # text as it is; numpy 1 would take it for bytes
+            encoding=None,  # raw text; numpy 1 would read bytes
             ndmin=2,
         )
     except ValueError:

@@ -40,70 +40,64 @@ def read_curve(
 ) -> Array:
     r"""Read a curve from a file: text, a sheet of Excel, or variables of MATLAB.
 
-    What the name ends with decides: .xlsx, .xlsm, .xls and .ods are workbooks, .mat is MATLAB's,
-    and everything else is text, one point per line:
+    The end of the name selects the format: .xlsx, .xlsm, .xls and .ods are workbooks, .mat is
+    MATLAB's, and everything else is text, one point per line:
 
-    Separator
-        Semicolon, tab, ``|``, comma or blanks, whichever turns the first 200 lines into numbers
-        best, or what a first line such as "sep=;" says. Cells may be quoted. A file with numbers
-        between tabs is never read as separated by blanks, so that an empty cell stays one. Lines
-        without a header that may be other cells, such as "1 000,5", are refused.
-    Decimal sign
-        A point; or a comma where the separator is a semicolon, a tab or blanks ("1,5;2,5"), or
-        where cells are quoted. ("1,5" on its own is two columns.) The first number read that is
-        one with one of the signs alone decides; with decimal commas "1.000" and "1.000,5" have
-        points between thousands. What stays open, as "1,234" beside "0.5", is refused: give
-        `decimal`. Exponents may be Fortran's, "1.5D-03". The minus sign may be U+2212 or a dash.
-        Blanks of any width and apostrophes may stand between thousands.
-    Header
-        All lines before the first one that holds a number, and before them lines that begin with
-        a text and hold one number, such as "Width;12,5", if a line of names follows. The column
-        names are the one line with the most cells, the first among equals; or that has all names
-        in `columns`; that line may be further down, above a second table. Names that blanks
-        separate count only if there are as many as columns. Lines with more cells than there are
-        names are refused, and so is a second table whose names are not asked for. A row that
-        looks like numbers, such as "0,1 %;10 MPa", is no header. A row of units names the units.
-    Ignored
-        Empty lines (separators alone too), lines that begin with #, % or //, columns that are
-        not asked for, and below the last point rows that are empty in those asked for.
-    Encoding
-        UTF-8, UTF-16 with a byte order mark, else GBK if all bytes above ASCII are pairs and most
-        of these are common Chinese characters, else Windows-1252 or Latin-1; or `encoding`. Lines
-        end with CR, LF or CRLF.
+    Separator Semicolon, tab, ``|``, comma or spaces, whichever best turns the first 200 lines into
+    numbers; or the separator of a first line such as "sep=;". Cells may be quoted. If numbers are
+    separated by tabs, spaces never separate cells, so that an empty cell is kept. Lines without a
+    header are refused if their cells are ambiguous, such as "1 000,5". Decimal sign A point; or a
+    comma if the separator is a semicolon, a tab or spaces ("1,5;2,5"), or if cells are quoted.
+    ("1,5" on its own is two columns.) The first number that is valid with only one of the signs
+    decides. With decimal commas, "1.000" and "1.000,5" have points between thousands. Ambiguous
+    files, such as "1,234" with "0.5", are refused: give `decimal`. Fortran exponents, "1.5D-03",
+    are accepted. The minus sign may be U+2212 or a dash. Spaces of any width and apostrophes may
+    stand between thousands. Header All lines before the first one that holds a number. Lines before
+    them that begin with a text and hold one number, such as "Width;12,5", also belong to the header
+    if a line of names follows. The column names are the line with the most cells, the first among
+    equals; or the line that has all names in `columns`, possibly further down, above a second
+    table. Names that are separated by spaces count only if there is one for every column. Lines
+    with more cells than names are refused, and so is a second table whose names are not requested.
+    A row that looks like numbers, such as "0,1 %;10 MPa", is not a header. A row of units sets the
+    units. Ignored Empty lines (separators alone too), lines that begin with #, % or //, and columns
+    that are not requested. Below the last point, rows that are empty in the requested columns.
+    Encoding UTF-8, or UTF-16 with a byte order mark. Otherwise GBK if all bytes above ASCII are
+    pairs and most of these are common Chinese characters, else Windows-1252 or Latin-1. `encoding`
+    overrides this. Lines end with CR, LF or CRLF.
 
     A sheet of a workbook is read by the same rules. The columns of a .mat file are its real arrays
-    in the order of the file: a vector is a column of its variable's name; a matrix A of k > 1
-    columns is "A(:,1)" to "A(:,k)"; the fields of a structure are "test.strain".
+    in the order of the file. A vector is a column with its variable's name. A matrix A of k > 1
+    columns is "A(:,1)" to "A(:,k)". The fields of a structure are "test.strain".
 
     Parameters
     ----------
     path : str or path-like
         The file.
     columns : sequence of str or int, optional
-        Names from the header, or numbers from 1 (as int or str), in the order wanted. If no column
-        has a name to the letter, capitals, blanks, hyphens, underscores and the unit do not count:
+        Names from the header, or numbers from 1 (as int or str), in the wanted order. If no column
+        has exactly this name, capitals, spaces, hyphens, underscores and the unit are ignored:
         "stress" is "Stress (MPa)". By default the first two columns, or the only one.
     sheet : str or int, optional
-        The sheet of a workbook, by its name, or by its number from 1 (as int or str). By default
-        the first.
+        The sheet of a workbook, by its name or by its number from 1 (as int or str). By default the
+        first.
     factors : sequence of float, one per column, optional
-        What the columns are multiplied by, to change units: ``[0.01, 1e-6]`` for per cent and Pa
-        where the other curve has fractions and MPa.
+        Factors of the columns that convert units: ``[0.01, 1e-6]`` for per cent and Pa if the other
+        curve has fractions and MPa.
     decimal : {".", ","}, optional
-        The decimal sign of numbers that are text, if they leave it open; the other one may then
-        stand between thousands. By default told from the numbers.
+        The decimal sign of numbers in text, if the file is ambiguous; the other sign may then
+        separate thousands. By default it is detected.
     from_ : str, optional
-        The table begins with the first row that contains this text: its title, or its names. What
-        is above, such as a table of results, is not looked at.
+        The table begins with the first row that contains this text: its title, or its names. Rows
+        above, such as a table of results, are ignored.
     header_row : int, optional
-        The row of the file that has the names, from 1; it may be a comment. Not with `from_`.
+        The row of the file with the names, from 1; it may be a comment. Not allowed with `from_`.
     until : str, optional
-        The curve ends before the first row that contains this text, below the first row of
-        numbers: where statistics or a second table follow. By default, and where no row contains
-        it, with the file. Without effect on a .mat file.
+        The curve ends before the first row that contains this text, below the first row of numbers:
+        where statistics or a second table follow. By default, and if no row contains it, the curve
+        ends with the file. Without effect on a .mat file.
     skip_invalid : bool, optional
-        Leave out rows in which a cell is missing, not a number, nan or inf, and warn how many.
-        By default such a row is an error.
+        Whether to omit rows in which a cell is missing, not a number, nan or inf, with a warning of
+        how many. By default such a row is an error.
     encoding : str, optional
         The encoding of a text file, such as "gbk" or "cp1251".
 
@@ -111,40 +105,41 @@ def read_curve(
     -------
     ndarray, shape (n, d)
         One row per point, one column per entry of `columns`, in the units of the file times
-        `factors`. It remembers the names and units of its columns, which pictures write on their
-        axes.
+        `factors`. It remembers the names and units of its columns, which plots show on their axes.
 
     Raises
     ------
     ValueError
-        A cell is missing, not a number, nan or inf (with file, line and column); there is no
-        such column or sheet (lists those there are); no line holds a number, or none is left; two
-        decimal signs; a line with more cells than names; a damaged file, or one of another kind;
-        factors that are not finite, that are 0, or not one per column; a sheet of a file that is
-        no workbook; no row with `from_` or `header_row`; an unknown encoding, or not that of the
-        file; a device, a file above 4 GiB, a pipe above 256 MiB, a line above 2^20
-        characters, a sheet above 2^25 cells; MATLAB variables of different lengths, or a .mat file
-        of version 7.3.
+        If a cell is missing, not a number, nan or inf (the message has file, line and column). If a
+        column or sheet does not exist (the message lists the existing ones). If no line holds a
+        number, or all are omitted. If there are two decimal signs, or a line with more cells than
+        names. If the file is damaged or of another kind, or `sheet` is given for a file that is not
+        a workbook. If factors are not finite, are 0, or not one per column. If no row matches
+        `from_` or `header_row`. If the encoding is unknown or does not fit the file. If the file is
+        a device, or too large. The limits are a file above 4 GiB, a pipe above 256 MiB, a line
+        above 2^20 characters, a sheet above 2^25 cells. If MATLAB variables differ in length, or a
+        .mat file has version 7.3.
     ImportError
-        A workbook without pandas and openpyxl, or a .mat file without scipy.
+        If pandas and openpyxl are missing for a workbook, or scipy for a .mat file.
     OSError
-        The file cannot be read.
+        If the file cannot be read.
     MemoryError
-        The file takes more memory than there is.
+        If the file needs more memory than is available.
 
     Warns
     -----
     TimeColumnWarning
-        `columns` is not given, the first column is time by its name, and there are three or more.
+        If `columns` is not given, the first column is time by its name, and there are three or
+        more.
     UserWarning
-        `skip_invalid` has left out rows.
+        If `skip_invalid` has omitted rows.
 
     Notes
     -----
-    O(size) time and memory: about 2 s for 10^6 points of text (quoted: 5 s), more of a workbook.
-    Workbooks in Strict Open XML are read, too.
-    .xls needs xlrd and .ods odfpy, beside pandas. A .mat file is read in a process of its own,
-    which takes 0.5 s, since scipy's reader can crash on a damaged one.
+    O(size) time and memory: about 2 s for 10^6 points of text (quoted: 5 s), more for a workbook.
+    Workbooks in Strict Open XML are supported. .xls needs xlrd and .ods odfpy, in addition to
+    pandas. A .mat file is read in a separate process, which takes 0.5 s, because scipy's reader can
+    crash on a damaged one.
 
     Examples
     --------
@@ -171,21 +166,21 @@ def read_named_columns(
     *,
     factors: Sequence[float] | None = None,
 ) -> tuple[Array, list[str]]:
-    r"""Read a curve as :func:`read_curve` does, and say which columns it was read from.
+    r"""Read a curve as :func:`read_curve` does, with the names of its columns.
 
     Parameters
     ----------
     path, columns, factors
         As for :func:`read_curve`.
     reading : Reading
-        Its other keywords.
+        The other keywords.
 
     Returns
     -------
     values : ndarray, shape (n, d)
         The curve.
     names : list of str
-        Of each column its name; its number, from 1, where it has none.
+        The name of each column; its number, from 1, if it lacks one.
 
     Raises
     ------

@@ -1,8 +1,8 @@
-"""The encoding of a text file, told from its bytes: UTF-8, UTF-16, GBK, Windows-1252, Latin-1.
+"""Detects the encoding of a text file from its bytes.
 
-GBK is told from Windows-1252 by its pairs: of each run of bytes above 0x7F the number is even, and
-most pairs are common Chinese characters (level 1 of GB 2312). Western letters beyond ASCII stand
-alone, or are other pairs. O(n) time.
+The encodings are UTF-8, UTF-16, GBK, Windows-1252 and Latin-1. GBK differs from Windows-1252 by its
+pairs: each run of bytes above 0x7F has an even length, and most pairs are common Chinese characters
+(level 1 of GB 2312). Western letters beyond ASCII are isolated, or form other pairs. O(n) time.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Curves from a sheet of a workbook, through pandas and openpyxl.
 
-They read the cells as they are; what is header and what is a number is decided by the rules for
-text files (number_tables.py): texts that are numbers count, too. Rows are kept up to their last
-cell, so that a stray one far below or beside the others costs nothing. Time and memory are linear
-in the number of cells, of which a sheet of too many is refused while it is read.
+pandas and openpyxl read the raw cells. The rules for text files (number_tables.py) decide which
+cells are header and numbers; texts that are numbers count, too. Rows are kept up to their last
+cell, so that a stray cell far away costs nothing. Time and memory are linear in the number of
+cells. A sheet with too many cells is refused while it is read.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def _columns_of(
         lines = [(i, "\t".join(map(str, row))) for i, row in numbered]
         numbered = numbered[begin_of_table(place, "row", lines, reading) :]
     rows = [row for _, row in numbered]
-    # Texts that are numbers are no header only where nothing else is a number.
+    # Texts that are numbers do not count as header only if the sheet lacks other numbers.
     numbers = [sum(is_number(cell) for cell in row if not isinstance(cell, str)) for row in rows]
     if not any(numbers):
         numbers = [sum(map(is_number, row)) for row in rows]
@@ -138,7 +138,7 @@ def _refuse_bomb(file: str) -> None:
 
 
 def _with_formulas(file: str | io.BytesIO) -> Any:
-    """Return a workbook as openpyxl reads it with its formulas, or None if it has none."""
+    """Return a workbook with its formulas from openpyxl, or None if it lacks any."""
     with zipfile.ZipFile(file) as parts:
         for name in parts.namelist():
             if name.startswith("xl/worksheets/") and name.endswith(".xml"):
@@ -154,7 +154,7 @@ def _with_formulas(file: str | io.BytesIO) -> Any:
 def _openpyxl_rows(sheet: Any, formulas: Any) -> Iterator[list[Any]]:
     """Yield the rows of a sheet as pandas reads them, up to their last cells.
 
-    A formula without a value, as programs write that do not compute, stands for itself.
+    A formula without a value, from programs that do not compute, is returned itself.
     """
     sheet.reset_dimensions()  # what the file says of its size may be wrong
     if formulas is None:

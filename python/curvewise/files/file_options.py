@@ -1,8 +1,8 @@
-"""How a file is read and its test is prepared: each option of it is declared once, here.
+"""The options for reading a file and preparing its test, each declared once.
 
-`curvewise.read_curve` and `curvewise.fitting.prepare` take them as keywords, the commands as
-``--options``, a study as keys of a test. What an option is called, which values it takes and what
-it does stands in one row of `READING` or `PREPARATION`; commands and studies are made from these.
+`curvewise.read_curve` and `curvewise.fitting.prepare` have them as keywords, the commands as
+``--options``, and a study as keys of a test. One row of `READING` or `PREPARATION` holds the name,
+values and effect of an option. Commands and studies are made from these rows.
 """
 
 from __future__ import annotations
@@ -21,19 +21,20 @@ Kind: TypeAlias = Literal[
 
 
 class FileOption(NamedTuple):
-    """An option that is said of a file.
+    """An option of a file.
 
     Attributes
     ----------
     name : str
         The keyword in Python; ``from_`` is ``from`` elsewhere.
     kind : str
-        Its values: a text, a name or a number from 1 or several such, the number of a row, a flag,
-        a decimal sign, numbers or units, a number above 0, two stresses or none.
+        The kind of its values. Texts: a text, a decimal sign. Columns and rows: one or several
+        column names or numbers from 1, a row number. Numbers: numbers or units, a number above 0,
+        two stresses or None. Also a flag.
     help : str
-        What it does, for the command line.
+        The help text of the command line.
     metavar : str
-        What help calls its value.
+        The name of its value in help texts.
     """
 
     name: str
@@ -151,7 +152,7 @@ class Reading:
 
 
 def _check_encoding(name: Any) -> None:
-    """Refuse what is not the name of an encoding of text."""
+    """Raise an error if a name is not that of a text encoding."""
     try:
         codecs.lookup(name)
         "".encode(name)

@@ -1,8 +1,8 @@
-"""Curves from MATLAB's .mat files, through scipy: their real arrays, taken apart into columns.
+"""Curves from MATLAB's .mat files, read by scipy.
 
-scipy's reader can crash the process on a damaged file, so it runs in one of its own
-(mat_process.py), from which the columns come back through a pipe; that takes half a second.
-Time and memory are linear in the size of the file.
+The columns are the real arrays of a file. scipy's reader can crash the process on a damaged file.
+It therefore runs in a separate process (mat_process.py), which returns the columns through a pipe;
+that takes half a second. Time and memory are linear in the size of the file.
 """
 
 from __future__ import annotations
@@ -60,10 +60,10 @@ def read_mat_columns(
 
 
 def _columns(file: str) -> dict[str, Array]:
-    """Return all columns of a file, as a process of its own reads them."""
+    """Return all columns of a file, read in a separate process."""
     with extra("curves", f"to read {file}, curvewise needs scipy"):
         import_module("scipy")
-    with open(file, "rb"):  # what cannot be opened is said here
+    with open(file, "rb"):  # raises an error for a file that cannot be opened
         done = subprocess.run([sys.executable, _SCRIPT, file], capture_output=True, check=False)
     if done.returncode:
         raise ValueError(

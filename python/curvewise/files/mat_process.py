@@ -1,11 +1,11 @@
-"""What reads a .mat file by scipy and writes its columns to standard output.
+"""Reads a .mat file by scipy and writes its columns to stdout.
 
     python mat_process.py test.mat
 
-A process of its own, since scipy's reader can crash on a damaged file. It writes a line of JSON
-(what is wrong with the file, and the lengths of the columns by name); then the columns, as doubles.
-Started by mat_curves.py, and imports nothing of curvewise. Cost: linear in the file, and 0.4 s for
-Python and scipy to begin.
+It is a separate process, because scipy's reader can crash on a damaged file. It writes a line of
+JSON (an error of the file, and the lengths of the columns by name), then the columns as doubles.
+mat_curves.py starts it. It does not import any other module of curvewise. Cost: linear in the file,
+and 0.4 s to start Python and scipy.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from typing import Any
 import numpy as np
 from scipy.io import loadmat  # type: ignore[import-untyped]
 
-# Bytes that a file may take unpacked: some, and so many times its own.
+# Limits of a file's unpacked size: bytes, and a multiple of its packed size.
 _MEMORY, _TIMES = 2**32, 20
 _SAVE = "save it in MATLAB with save(..., '-v7')"
 
 
 def main(file: str) -> None:
-    """Write the columns of a file, or what is wrong with it."""
+    """Write the columns of a file, or its error."""
     found: dict[str, Any] = {}
     problem = ""
     warnings.simplefilter("ignore")
@@ -47,7 +47,7 @@ def main(file: str) -> None:
 
 
 def _limit_memory(most: int) -> None:
-    """Have Python raise MemoryError beyond so many bytes, where the system can do that."""
+    """Let Python raise MemoryError beyond `most` bytes, if supported."""
     with contextlib.suppress(ImportError, ValueError, OSError):
         import resource
 

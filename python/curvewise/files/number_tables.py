@@ -1,8 +1,8 @@
-"""Rows of cells as numbers, whether they are lines of text or rows of a sheet.
+"""Rows of cells as numbers, for lines of text and rows of a sheet.
 
-What is a number is told in number_texts.py. The first number read that leaves no doubt about the
-decimal sign decides for the file. Time is linear in the cells, some 5 s for 10^6 points; what is
-not in doubt is read by faster parsers before it comes here.
+number_texts.py recognises numbers. The first number with an unambiguous decimal sign decides for
+the file. Time is linear in the cells, about 5 s for 10^6 points; faster parsers read unambiguous
+files without this module.
 """
 
 from __future__ import annotations
@@ -51,18 +51,18 @@ class NumberTable:
     """The rows of the header, which may be repeated among the numbers."""
 
     def read(self, chosen: Sequence[int]) -> Array:
-        """Return the columns, given by index; or say which cell is wrong, and why.
+        """Return the columns with the given indices; raise an error for a wrong cell.
 
         Raises
         ------
         ValueError
-            A cell is missing, not a number, or not finite, and such rows are not to be left out;
-            there are two decimal signs; a row is too long; no row is left.
+            If a cell is missing, not a number, or not finite, and such rows are not omitted. If
+            there are two decimal signs, a row is too long, or no row remains.
 
         Warns
         -----
         UserWarning
-            Rows are left out.
+            If rows are omitted.
         """
         decimal, groups = self._decimal(chosen)
         points, wrong, empty, first_gap = [], [], [], ""
@@ -78,7 +78,7 @@ class NumberTable:
                 else:
                     point.append(value)
             if all(column >= len(cells) or cells[column] == "" for column in chosen):
-                # Below the last row of a curve stands that of a longer one beside it.
+                # Below the last row of a curve may be further rows of a longer one next to it.
                 empty.append(number)
                 first_gap = first_gap or problem
                 continue
@@ -114,7 +114,7 @@ class NumberTable:
             )
 
     def _check_table(self, number: int, cells: Sequence[Any]) -> None:
-        """Refuse a row of names that are none of the header: a second table begins there."""
+        """Refuse a row of names outside the header: a second table begins there."""
         filled = _filled(cells)
         words = [cell for cell in filled if isinstance(cell, str) and not may_be_number(cell)]
         if (
@@ -131,7 +131,7 @@ class NumberTable:
         )
 
     def _decimal(self, chosen: Sequence[int]) -> tuple[str, bool]:
-        """Return the decimal sign, and whether the other one may stand between thousands alone."""
+        """Return the decimal sign, and whether the other one may separate thousands."""
         if self.reading.decimal is not None:
             return self.reading.decimal, True
         doubtful: dict[str, tuple[int, int, str]] = {}
@@ -165,7 +165,7 @@ class NumberTable:
     def _check_decimal(
         self, cell: Any, value: float | None, decimal: str, groups: bool, chosen: Sequence[int]
     ) -> None:
-        """Refuse a second decimal sign: "1,234" beside "0.5" may be 1234 or 1.234."""
+        """Refuse a second decimal sign: "1,234" next to "0.5" may be 1234 or 1.234."""
         other = "," if decimal == "." else "."
         if groups and (value is not None or self.reading.decimal is not None):
             return
@@ -186,7 +186,7 @@ class NumberTable:
 
 
 def say_left_out(file: str, row: str, wrong: Sequence[int], count: int) -> None:
-    """Warn of rows, given by their numbers, that are left out of so many, or of all."""
+    """Warn of omitted rows, given by their numbers, out of `count` rows."""
     if len(wrong) == count:
         raise ValueError(f"{file}: none of {count} {row}s is made of finite numbers")
     if wrong:
@@ -205,7 +205,7 @@ def count_cells(cells: Sequence[Any]) -> int:
 
 
 def _fault(cell: Any, value: float | None, *, is_alone: bool) -> str:
-    """Say what is wrong with a cell, which may be the only one of its row that is filled."""
+    """Describe the fault of a cell, which may be the only filled one of its row."""
     if value is not None:
         return f"{_shown(cell)} is {value}; curves must be finite"
     fault = "the cell is missing" if cell == "" else f"{_shown(cell)} is not a number"
@@ -260,24 +260,24 @@ def find_header(
     columns: Sequence[str | int] | None,
     reading: Reading,
 ) -> tuple[int, int]:
-    """Return where the rows of numbers begin, and where the header above them does.
+    """Return the first row of numbers, and the first row of the header above.
 
-    Numbers begin at the first row that has any, except where a header stands below "Width", 12.5:
-    rows that begin with a text and have one number, with a row of names between them and the first
-    row of several numbers, which begins with one, describe the test. Nor do they where a row
-    further down has all names that are asked for: what is above it is another table. A row of the
-    header that may be one of numbers, in all columns that have them, is no header.
+    Numbers begin at the first row that has any, with two exceptions. Rows that begin with a text
+    and have one number, such as "Width", 12.5, describe the test if a row of names follows them.
+    The first row of several numbers must then begin with a number. If a row further down has all
+    requested names, the rows above it are another table. A row that may hold numbers, in all
+    columns that have them, does not count as a header.
 
     Parameters
     ----------
     rows : sequence of sequences
-        Cells, "" where they are empty.
+        The cells; "" for empty ones.
     numbers : sequence of int
-        How many cells of each row are numbers; one row has some.
+        The number of numeric cells in each row; at least one row has some.
     columns : sequence of str or int, or None
-        What is asked for.
+        The requested columns.
     reading : Reading
-        With a `header_row` the first row has the names, whatever it looks like.
+        With a `header_row` the first row has the names, whatever its content.
     """
     if reading.header_row is not None:
         first, begin = next((i for i, count in enumerate(numbers) if count and i), len(rows)), 1
@@ -330,7 +330,7 @@ def _first_numbers(rows: Sequence[Sequence[Any]], numbers: Sequence[int]) -> tup
 
 
 def refuse_no_numbers(file: str, row: str, rows: Iterable[tuple[int, Any]]) -> NoReturn:
-    """Say that a file has no numbers, or what looks like one and is none."""
+    """Raise an error for a file without numbers; show a text that resembles one."""
     for number, text in rows:
         if any(character.isdigit() for character in str(text)):
             raise ValueError(

@@ -1,9 +1,9 @@
-"""Texts that are numbers, as machines, spreadsheets and people write them.
+"""Recognises numbers in texts of machines, spreadsheets and people.
 
-A text is a number by one decimal sign or by the other, with the other one between thousands or
-without: "1.234,5" by a comma alone, "1.234" by either. Blanks of any width and apostrophes may
-stand between thousands, too, and the minus sign may be that of printers. What is no number, but
-would be read as one by a person ("0,1 %", "(5)"), is told from words. Time is linear in the text.
+A number uses one decimal sign; the other sign may separate thousands. "1.234,5" is valid with a
+decimal comma alone, "1.234" with either sign. Spaces of any width and apostrophes may also separate
+thousands. Typographic minus signs are accepted. A text that people would read as a number ("0,1 %",
+"(5)") is distinguished from words. Time is linear in the text.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ __all__ = [
 ]
 
 SIGNS = ".,"
-# U+2212 and the dashes that stand in its place: hyphens, figure dash, en dash.
+# U+2212 and the dashes that replace it: hyphens, figure dash, en dash.
 _MINUS = dict.fromkeys(map(ord, "\u2212\u2010\u2011\u2012\u2013\ufe63\uff0d"), "-")
 # No-break, figure, thin and narrow no-break spaces: they never separate cells.
 BLANKS_IN_NUMBERS = "\u00a0\u2007\u2009\u202f"

@@ -1,7 +1,7 @@
-"""Whether a path is that of a file that can be read whole: no device, not too large.
+"""Checks that a path is a regular file of acceptable size.
 
-A device such as /dev/zero has no end. A pipe, such as a shell's <(command), has no size. If it is
-allowed, its reader has a limit. Cost: one look at the path.
+A device such as /dev/zero does not end. The size of a pipe, such as a shell's <(command), is
+unknown. If pipes are allowed, their reader has a limit. Cost: one system call.
 """
 
 from __future__ import annotations

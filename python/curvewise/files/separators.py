@@ -71,15 +71,15 @@ def choose_separator(
 def _score(
     lines: list[str], separator: str | None, decimal: str | None, *, grouped: bool = False
 ) -> float:
-    """Return how many of the lines are numbers, if they are separated so.
+    """Return how many of the lines are numbers with a given separator.
 
-    Between commas a blank counts as one between thousands only if `grouped`: what is separated by
-    blanks may have decimal commas.
+    Next to commas, spaces separate thousands only if `grouped`: cells that are separated by spaces
+    may have decimal commas.
     """
     score = 0.0
     no_blanks = separator == "," and not grouped
     for cells in (cells_of(line, separator) for line in lines):
-        # What is not separated at all has no decimal comma: "1,5" is two cells.
+        # A line without separators does not have a decimal comma: "1,5" is two cells.
         if separator == "," or decimal == "," or len(cells) > 1 or "," not in cells[0]:
             numbers = (_is_number(c, decimal) for c in cells if not (no_blanks and " " in c))
             score += sum(numbers) / len(cells)
@@ -99,7 +99,7 @@ def refuse_doubtful_cells(
     decimal: str | None,
     columns: Sequence[str | int] | None,
 ) -> None:
-    """Refuse lines of numbers whose cells may be others.
+    """Refuse lines of numbers whose division into cells is ambiguous.
 
     Parameters
     ----------
@@ -108,18 +108,18 @@ def refuse_doubtful_cells(
     lines : sequence of str
         The first lines of numbers.
     separator : str or None
-        What is to separate their cells.
+        The separator of their cells.
     names : sequence of str
-        Of the columns.
+        The names of the columns.
     most : int
-        Cells that a line may have; longer ones are refused elsewhere.
+        Maximum number of cells of a line; longer lines are refused elsewhere.
     decimal, columns
         As for :func:`curvewise.read_curve`.
 
     Raises
     ------
     ValueError
-        They may be others, and neither a header nor the user says what is meant.
+        If the cells are ambiguous, and neither a header nor the user decides.
     """
     rows = [cells_of(line, separator) for line in lines]
     counts = [sum(map(bool, row)) for row in rows]
@@ -152,7 +152,7 @@ def _may_be_joined(
     separator: str | None,
     last: int,
 ) -> bool:
-    """Say whether what separates cells may stand between thousands: "1 000", "1,000"."""
+    """Return whether the separator may also separate thousands: "1 000", "1,000"."""
     group = _GROUPS[separator]
     joined = [sum(map(bool, cells_of(group.sub("0", line), separator))) for line in lines]
     if sum(joined) == sum(counts):

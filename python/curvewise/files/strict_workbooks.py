@@ -1,7 +1,8 @@
-"""Workbooks in "Strict Open XML" (ISO/IEC 29500 Strict), in the names that openpyxl knows.
+"""Workbooks in Strict Open XML (ISO/IEC 29500 Strict) for openpyxl.
 
-Strict and transitional workbooks differ, for what is read of them, in the names of their XML
-namespaces. A strict one is copied in memory with the other names. Cost: linear in its parts.
+In the parts that are read, strict and transitional workbooks differ only in the names of their XML
+namespaces. A strict workbook is copied in memory with the transitional names. Cost: linear in its
+parts.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ _HEADS = {
 
 
 def transitional(file: str) -> str | io.BytesIO:
-    """Return a workbook as it is, or a copy with transitional names if it is a strict one."""
+    """Return a workbook; a strict one as a copy with transitional names."""
     try:
         with zipfile.ZipFile(file) as parts:
             if _BOOK not in parts.namelist() or _STRICT not in parts.read(_BOOK):

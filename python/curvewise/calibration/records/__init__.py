@@ -1,1 +1,1 @@
-"""What is written down of runs and searches."""
+"""The records of runs and searches."""

@@ -1,14 +1,14 @@
-"""The file of a store: an SQLite database whose rows tell whether they are as they were written.
+"""The file of a store: an SQLite database with a checksum in every row.
 
-Ctrl-C may come between any two statements, and the disk may be full at any of them: what comes
-next must find the database as it was, not inside a transaction that nobody ends. SQLite notices
-damage to the structure of its file, but not to what stands in a row: so each row ends with a
-checksum of its other columns (CRC-32). All reading and writing goes through `Database`, which
-makes one kind of error of whatever may be wrong with the file. The format is that of
-https://sqlite.org, through Python's own sqlite3.
+Ctrl-C may interrupt between any two statements, and the disk may be full at any of them. The next
+statement must find the database in its earlier state, not inside an open transaction. SQLite
+detects damage to the structure of its file, but not to the contents of a row. Each row therefore
+ends with a checksum of its other columns (CRC-32). All reading and writing uses `Database`, which
+turns every fault of the file into one kind of error. The format is that of https://sqlite.org,
+through Python's own sqlite3.
 
-Cost: half a millisecond to open a store; for the checksum of a row some 10 microseconds, and as
-much again for each 500 points of its curves.
+Cost: half a millisecond to open a store. The checksum of a row takes about 10 microseconds, and
+another 10 for every 500 points of its curves.
 """
 
 from __future__ import annotations
@@ -39,17 +39,17 @@ TABLES = {
     "value REAL NOT NULL, failed INTEGER NOT NULL, seconds REAL NOT NULL, message TEXT NOT NULL, "
     "checksum INTEGER NOT NULL, PRIMARY KEY (search, number)",
 }
-# What is wrong around a file that is itself as it should be, in SQLite's words.
+# SQLite's words for faults outside an intact file.
 _AROUND = ("locked", "unable to open", "readonly", "disk I/O error", "is full")
-# SQLite's words may hold a piece of the file that is no text.
+# SQLite's words may contain bytes of the file that are not valid text.
 _ERRORS = (sqlite3.Error, UnicodeDecodeError)
 _SCHEMA = "type, name, tbl_name, rootpage, sql"
 
 
 class StoreError(OSError):
-    """The file of a store cannot be used: it is damaged, or locked, or the disk is full, say.
+    """The file of a store is damaged, locked, or cannot be written.
 
-    The text names the file, says what is wrong, and what to do.
+    The message names the file, the fault and the remedy.
     """
 
 
@@ -122,16 +122,16 @@ class Database:
         return self._connection.execute(query, values).rowcount
 
     def rows(self, table: str, order: str = "rowid", **equal: Any) -> Iterator[Row]:
-        """Yield rows without their checksums, once these have been found right.
+        """Yield rows without their checksums, after checking these.
 
         Parameters
         ----------
         table : str
             The table.
         order : str, default "rowid"
-            The column by which they are sorted: as they were written.
+            The sort column; by default the order of writing.
         **equal : object
-            Columns that have these values. An index that is damaged leads to other rows.
+            Required values of columns. A damaged index would lead to other rows.
         """
         condition = " AND ".join(["TRUE", *(f"{name} = ?" for name in equal)])
         query = f"SELECT {', '.join([*equal, '*'])} FROM {table} WHERE {condition} ORDER BY {order}"
@@ -194,7 +194,7 @@ class Database:
 
 
 def checksum(row: Sequence[Any]) -> int:
-    """Return the checksum of a row: the same for what was written and for what is read."""
+    """Return the checksum of a row, equal before writing and after reading."""
     total = 0
     for value in row:
         if isinstance(value, (int, float)):  # SQLite makes one of the other

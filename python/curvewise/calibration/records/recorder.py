@@ -1,6 +1,6 @@
-"""Takes a search down as it goes: in memory, and in its store, if it has one.
+"""Records a search while it runs, in memory and in its store, if it has one.
 
-What was taken down is read again as a :class:`SearchRecord`, the same from either.
+The record can be read as a :class:`SearchRecord`, equal from either place.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ __all__ = ["Recorder"]
 
 
 class Recorder:
-    """Where a search is written down, from its first evaluation to what is known of its end.
+    """The record of a search, from its first evaluation to its end.
 
     Parameters
     ----------
     settings, details
-        As those of a :class:`SearchRecord`.
+        As for a :class:`SearchRecord`.
     store : SimulationStore or None
-        The open store of the search. After it has been closed only `end` is called.
+        The open store of the search. After it has been closed only `end` may be called.
     """
 
     def __init__(
@@ -43,12 +43,12 @@ class Recorder:
 
     @property
     def has_store(self) -> bool:
-        """Whether what is taken down outlives the process."""
+        """Whether the record outlives the process."""
         return self._store is not None
 
     @property
     def evaluations(self) -> tuple[Evaluation, ...]:
-        """What has been taken down so far, in order."""
+        """The evaluations recorded so far, in order."""
         return tuple(self._evaluations)
 
     def with_evaluations(self, evaluations: Iterable[Evaluation]) -> Recorder:
@@ -65,14 +65,15 @@ class Recorder:
             self._store.add_evaluation(self._number, evaluation)
 
     def end(self, ending: Ending) -> None:
-        """Take down how the search ended, or what has become known of it since.
+        """Record how the search ended, or later findings about its end.
 
-        A store that has gone, as the temporary one of `identify_each` has, is not made again.
+        A store that has been removed, such as the temporary one of `identify_each`, is not created
+        again.
 
         Raises
         ------
         OSError, ValueError
-            The store cannot be written; or another file is in its place.
+            If the store cannot be written, or another file has replaced it.
         """
         self.ending = ending
         if self._store is not None and self._store.path.is_file():
@@ -80,7 +81,7 @@ class Recorder:
                 store.end_search(self._number, ending)
 
     def record(self) -> SearchRecord:
-        """Return what has been taken down, as a store gives it."""
+        """Return the record, equal to the one that a store returns."""
         settings, details = json.loads(self._settings), json.loads(self._details)
         ending = self.ending and Ending.from_json(self.ending.to_json())
         return SearchRecord(settings, details, tuple(self._evaluations), ending)

@@ -1,10 +1,9 @@
-"""Takes out of a damaged store what can still be read of it, into a new one.
+"""Copies the readable part of a damaged store into a new one.
 
-The first page of a store, which says what tables there are and where they begin, is the same in
-every store, and is taken from the new one. Then the tables are read from both ends, until where
-the damage is; and so is each page of rows, as if a table began there, which finds those to which no
-damaged page leads any more. A row counts where its checksum is right; one that had been deleted may
-come back. Cost: some seconds for each 100 MB.
+The first page of a store lists its tables and where they begin. It is the same in every store, and
+is taken from the new one. Then the tables are read from both ends until the damage. Each page of
+rows is also read as if a table began there. This finds rows to which only damaged pages lead. A row
+counts if its checksum is right; deleted rows may reappear. Cost: some seconds for each 100 MB.
 """
 
 from __future__ import annotations
@@ -20,32 +19,33 @@ from .database import TABLES, Database, Row, checksum
 
 __all__ = ["rescue"]
 
-# Of SQLite's format: where a page has its size and for which count of changes the length in it
-# is valid (zeros let SQLite look how long the file is), and how a page of rows begins.
+# Constants of SQLite's format. Two offsets: the page size, and the change counter for which the
+# stored file length is valid (zeros make SQLite compute the length). The first byte of a page of
+# rows.
 _SIZE, _VALID_FOR, _HAS_ROWS = slice(16, 18), slice(92, 96), 13
 
 
 def rescue(damaged: Path, new: Path) -> dict[str, int]:
-    """Copy what can still be read of a store into a new one.
+    """Copy the readable part of a store into a new one.
 
     Parameters
     ----------
     damaged : Path
-        The store, which is left as it is.
+        The store; it is not changed.
     new : Path
-        The file to make.
+        The file to create.
 
     Returns
     -------
     dict of str to int
-        How many rows the new store has in each of its tables.
+        The number of rows in each of the tables of the new store.
 
     Raises
     ------
     OSError
-        The damaged store cannot be read at all, or the new one not be written; or there is one.
+        If the damaged store cannot be read at all. If the new one cannot be written, or exists.
     ValueError
-        Nothing can be read.
+        If nothing can be read.
     """
     with tempfile.TemporaryDirectory() as folder:
         copy, made = Path(folder, "copy.db"), Path(folder, "new.db")
@@ -69,7 +69,7 @@ def rescue(damaged: Path, new: Path) -> dict[str, int]:
 
 
 def _mend_first_page(copy: Path, made: Path) -> list[int]:
-    """Put a new store's first page in the place of the old; return the pages that have rows."""
+    """Replace the first page by a new store's; return the pages that have rows."""
     content = bytearray(made.read_bytes())
     size = int.from_bytes(content[_SIZE], "big")
     content[_VALID_FOR] = bytes(4)

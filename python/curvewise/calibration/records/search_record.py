@@ -1,8 +1,8 @@
-"""What is written down of a search, beside its runs: enough to report on it, and to repeat it.
+"""The record of a search: enough to report on it, and to repeat it.
 
-A record has three parts: what was asked for (tests, objective, space, method, seed, versions), the
-evaluations as they came, and the ending. A store keeps all three, and gives back what was written
-bit for bit, so that a report made of a store is that made by the search itself. Curves stand in
+A record has three parts: the settings (tests, objective, space, method, seed, versions), the
+evaluations in order, and the ending. A store keeps all three and returns them bitwise identical. A
+report made from a store therefore equals the one made by the search itself. Curves are stored in
 JSON as text: the shape of each, and its float64 numbers in base64, eight bytes in eleven letters.
 """
 
@@ -32,17 +32,17 @@ class Ending:
     Attributes
     ----------
     converged, message, parameters, value, measures
-        As those of an :class:`Identification`.
+        As for an :class:`Identification`.
     deviations : list of (mean, largest, height), or None, for each loop
         See :class:`curvewise.comparing.deviations.Deviation`.
     simulations : tuple of ndarray
         The curves at the optimum.
     unit, slopes : ndarray, or None
-        Where in the unit cube the optimum is, and the slopes of the curves there; None where the
-        search has left no runs near the optimum to tell them from.
+        The place of the optimum in the unit cube, and the derivatives of the curves there. None if
+        the search has left too few runs near the optimum.
     uncertainty : dict, or None
-        What :func:`curvewise.calibration.report.figures_of_uncertainty` says of an
-        :class:`Uncertainty` that has been computed.
+        The figures of a computed :class:`Uncertainty`, see
+        :func:`curvewise.calibration.report.figures_of_uncertainty`.
     """
 
     converged: bool
@@ -67,7 +67,7 @@ class Ending:
 
     @classmethod
     def from_json(cls, text: str) -> Ending:
-        """Return the ending that a line of JSON stands for."""
+        """Return the ending that a line of JSON encodes."""
         plain = json.loads(text)
         plain["simulations"] = curves_of(plain["simulations"])
         for name in ("unit", "slopes"):
@@ -78,20 +78,20 @@ class Ending:
 
 @dataclass(frozen=True)
 class SearchRecord:
-    """A search: what was asked for, what was evaluated, how it ended.
+    """A search: its settings, its evaluations, and its ending.
 
     Attributes
     ----------
     settings : dict
-        What decides the course of the search.
+        The settings that determine the course of the search.
     details : dict
-        What a report needs beside: see `details_of`.
+        What else a report needs: see `details_of`.
     evaluations : tuple of Evaluation
-        In the order of their numbers; those that are read from a store are without curves.
+        In the order of their numbers. Evaluations read from a store lack their curves.
     ending : Ending or None
-        None for a search that has been interrupted.
+        None for an interrupted search.
     simulations : tuple of ndarray
-        The curves at the best point so far of a search without an ending, if they are known.
+        The curves at the best point so far of an interrupted search, if they are known.
     """
 
     settings: dict[str, Any]
@@ -107,7 +107,7 @@ class SearchRecord:
 
     @property
     def curves(self) -> tuple[Array, ...]:
-        """The simulated curves at the best point; none where they are not known."""
+        """The simulated curves at the best point; empty if they are unknown."""
         return self.simulations if self.ending is None else self.ending.simulations
 
     @property
@@ -143,7 +143,7 @@ def text_of(curves: Sequence[Array]) -> str:
 
 
 def curves_of(text: str) -> tuple[Array, ...]:
-    """Return the curves that a text stands for; none of an empty text."""
+    """Return the curves that a text encodes; () for an empty text."""
     curves = []
     for part in text.split():
         shape, _, numbers = part.partition(":")

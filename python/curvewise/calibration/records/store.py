@@ -1,16 +1,16 @@
-"""A store of simulations: every run's curves, by the model and its parameters, and the searches.
+"""A store of simulations: the curves of every run, and the searches.
 
-An SQLite database (database.py). A run is found again by the identity of its model (see
-`model_identity`) and by what the model was called with, to the last bit; which measure, method,
-weights or loops it was made for does not matter. A search is found again by the digest of its
-settings, so that one that is resumed, or made again, takes the place of its former self and keeps
-its number. Runs and evaluations are written together with others that came within a fifth of a
-second, in one transaction. So a process that is killed loses what was under way and a fifth of a
-second of what was not, and several processes may use one store at once.
+The store is an SQLite database (database.py). A run is identified by the identity of its model (see
+`model_identity`) and by the bitwise values of its parameters. The measure, method, weights and
+loops of the search do not matter. A search is identified by the digest of its settings. A resumed
+or repeated search therefore replaces its earlier record and keeps its number. Runs and evaluations
+that arrive within a fifth of a second are written in one transaction. A killed process thus loses
+its unfinished runs and at most a fifth of a second of finished ones. Several processes may use one
+store at once.
 
-Cost: a transaction takes 20 milliseconds on a slow disk, a look-up some 50 microseconds; the
+Cost: a transaction takes 20 milliseconds on a slow disk, reading a run about 50 microseconds. The
 file has 8 bytes for every number of every curve, and some hundred bytes for every evaluation.
-What reads all runs, or all searches, has SQLite look through their tables first, some 1 GB/s.
+Operations on all runs, or on all searches, first let SQLite check their tables, at about 1 GB/s.
 """
 
 from __future__ import annotations
@@ -42,29 +42,28 @@ _PAUSE = 0.2
 
 
 class SimulationStore:
-    """A file that holds the curves of every run of one or several models, and their searches.
+    """A file with the curves of every run of one or several models, and searches.
 
     Parameters
     ----------
     path : path-like, or SimulationStore
-        The file; it is made when it is first used, if it does not exist. Of another store the file
-        and the version, with a connection of its own.
+        The file, created at its first use if it does not exist. Given another store, its file and
+        version are used with a separate connection.
     version : str, optional
-        What you call the present state of the models, whose runs are stored under it. A Python
-        function needs one; :class:`CommandModel`, and any model with an attribute `identity`, says
-        by itself what it is.
+        A name for the present state of the models; runs are stored under it. A Python function
+        needs one. :class:`CommandModel`, and any model with an attribute `identity`, does not.
 
     Raises
     ------
     ValueError
-        A version that is no text. When it is first used: the file is something else than a store.
+        If the version is not a text; at the first use, if the file is not a store.
     StoreError
-        When it is used: it cannot be made, read or written, or is damaged.
+        At a use, if the file cannot be created, read or written, or is damaged.
 
     Notes
     -----
-    A context manager, which closes it. Not for several threads at once; several processes, each
-    with a `SimulationStore` of its own, may use one file, and every search takes one of its own.
+    A context manager that closes the store. It is not thread-safe. Several processes may use one
+    file, each with its own `SimulationStore`; every search opens its own.
 
     Examples
     --------
@@ -125,7 +124,7 @@ class SimulationStore:
         return self._database.number("SELECT count(*) FROM runs")
 
     def close(self) -> None:
-        """Write what is not written yet, and close the file; the next use opens it again."""
+        """Write all pending data and close the file; the next use opens it again."""
         try:
             self._write()
         finally:
@@ -163,7 +162,8 @@ class SimulationStore:
         with self._database.transaction():
             self._database.write("models", [model])
         ((_, stored),) = self._database.rows("models", identity=model.text)
-        # Another Python compiles the same code to other bytes, of which nothing can be said.
+        # Another Python compiles the same code to other bytes, so the fingerprints cannot be
+        # compared.
         same_python = stored.partition(":")[0] == model.fingerprint.partition(":")[0]
         if same_python and stored != model.fingerprint:
             raise ValueError(
@@ -172,7 +172,7 @@ class SimulationStore:
             )
 
     def look_up(self, identity: str, parameters: Mapping[str, Any]) -> Outcome | None:
-        """Return what came of a run, or None if there is none."""
+        """Return the stored outcome of a run, or None."""
         key = identity, key_of(parameters)
         if (row := self._new_runs.get(key)) is not None:
             return decoded(*row[2:])
@@ -183,7 +183,7 @@ class SimulationStore:
         """Store a run; what the model should not have returned is left out, to be run again."""
         try:
             shapes, numbers = encoded(outcome)
-        except (TypeError, ValueError):  # the objective says what is wrong with it
+        except (TypeError, ValueError):  # the objective reports the error
             return
         key = identity, key_of(parameters)
         self._new_runs[key] = (*key, outcome.seconds, outcome.message, shapes, numbers)
@@ -248,16 +248,16 @@ class SimulationStore:
         Parameters
         ----------
         path : path-like
-            The file; what is there is replaced.
+            The file; an existing file is replaced.
         search : int, optional
-            The number of the search; needed where the store has several.
+            The number of the search; required if the store has several.
 
         Raises
         ------
         ValueError
-            The store has no such search, or several and none is named.
+            If the store lacks this search, or has several and the number is not given.
         OSError
-            The file cannot be written.
+            If the file cannot be written.
         """
         records = self.searches()
         number = next(iter(records), None) if search is None else search

@@ -21,13 +21,13 @@ class StoredRun(NamedTuple):
     Attributes
     ----------
     parameters : dict of str to float
-        What the model was called with.
+        The parameters of the call.
     simulations : list of ndarray, or None
-        What it returned, with None for a curve that it did not return; None if it failed.
+        The returned curves, with None for a curve that it did not return; None if it failed.
     message : str
-        Why it failed; empty if it did not.
+        The reason for the failure; empty if it succeeded.
     seconds : float
-        How long it took.
+        The run time.
     """
 
     parameters: dict[str, Any]
@@ -46,7 +46,7 @@ def key_of(parameters: Mapping[str, Any]) -> str:
 
 
 def parameters_of(key: str) -> dict[str, Any]:
-    """Return the parameters of which `key_of` has made a text."""
+    """Return the parameters that `key_of` has encoded."""
     return {name: _number(text) for name, text in json.loads(key).items()}
 
 

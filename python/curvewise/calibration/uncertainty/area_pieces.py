@@ -1,13 +1,13 @@
-"""How far an estimate by the area moves with white noise: as a median of the pieces of a curve.
+"""Effect of white noise on an estimate by the area: a median over sections.
 
-The area of `spacing="matched"` cuts the curves into pieces, a tenth of the box long, and adds up
-what each of them encloses, regardless of its sign. Noise of the points moves the area of a piece by
-a sum along it, which is normal, and the estimate is a median of these sums, in the direction of
-every parameter: each counts by its own deviation, and two sums with the correlation rho, as
-neighbours that share a point have, have signs with the correlation (2 / pi) arcsin(rho). So of n
-points as many say something as there are pieces, mostly 50 of a loop: what lies within a piece is
-averaged, and no more than that. For pieces of one point each it is a median's pi / 2. Cost: O(n k)
-for n points and k parameters, and a decomposition of (pieces, k).
+The area with `spacing="matched"` cuts the curves into sections of a tenth of the bounding box and
+adds up the absolute areas. Noise of the points changes the area of a section by a sum along it,
+which is normally distributed. The estimate is a median of these sums, in the direction of every
+parameter. Each sum counts by its own deviation. Two sums with the correlation rho, such as
+neighbours that share a point, have signs with the correlation (2 / pi) arcsin(rho). The effective
+number of observations is therefore the number of sections, mostly 50 of a loop: noise is averaged
+only within a section. For sections of one point each, the variance is a median's pi / 2. Cost: O(n
+k) for n points and k parameters, and a decomposition of (sections, k).
 
 P. J. Huber, "The behavior of maximum likelihood estimates under nonstandard conditions", Proc. 5th
 Berkeley Symp. Math. Stat. Prob. 1 (1967) 221-233.
@@ -40,13 +40,13 @@ class NoisyCurve(NamedTuple):
     ----------
     test : ndarray, shape (m, 2)
     fitted : ndarray, shape (n, 2)
-        Its points, of which each has noise of its own.
+        The points of the fitted curve; each has independent noise.
     moves : ndarray, shape (n, 2)
-        How each of them moves with one deviation of its noise.
+        The move of each point for one deviation of its noise.
     slopes : ndarray, shape (n, k)
-        Of the points, in deviations of their noise, by the place in the unit cube.
+        The derivatives of the points, in deviations of their noise, by the place in the unit cube.
     cost : float
-        How much the objective changes where all points move by one deviation.
+        The change of the objective if all points move by one deviation.
     """
 
     test: Array
@@ -90,7 +90,7 @@ def _signs(curve: NoisyCurve) -> tuple[Array, Array, Any]:
 
 
 def sums_of_pieces(test: Array, fitted: Array, moves: Array) -> Any:
-    """Return by how much the area of each piece changes as each point moves.
+    """Return the change of each section's area as each point moves.
 
     Returns
     -------

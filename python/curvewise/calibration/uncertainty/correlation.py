@@ -5,17 +5,18 @@ covariance comes from the residuals themselves. Circular shifts, reversal and ch
 taken to be equally likely. The covariance of a test is then the circulant matrix of its sample
 autocovariances, whose spectrum is the periodogram. A fit takes part of the noise. So the residuals
 are enlarged until fits of shifted residuals leave as much as the observed fit. Intervals are those
-of a bootstrap-t: the move of each refit, on the linearised model, in units of the standard error
-that its own residuals give. Student's t allows for the few frequencies that decide an error. White
-noise is assumed unless neighbours differ less, or a variance from the autocovariances is larger,
-than in 99 % of draws of white noise (Monte Carlo tests; the first statistic is Durbin and
-Watson's). Cost: O(n log n + n k) for each of 600 draws of n points and k parameters.
+of a bootstrap-t. The pivot is the move of each refit, on the linearised model, in units of the
+standard error that its residuals give. Student's t allows for the few frequencies that decide an
+error. White noise is assumed unless one of two Monte Carlo tests rejects it: neighbours differ
+less, or a variance from the autocovariances is larger, than in 99 % of draws of white noise. The
+first statistic is Durbin and Watson's. Cost: O(n log n + n k) for each of 600 draws of n points and
+k parameters.
 
-B. Efron, R. J. Tibshirani, "An introduction to the bootstrap", Chapman & Hall (1993), section 12.5;
+B. Efron, R. J. Tibshirani, "An introduction to the bootstrap", Chapman & Hall (1993), section 12.5.
 D. N. Politis, J. P. Romano, "A circular block-resampling procedure for stationary data", in
-"Exploring the limits of bootstrap", Wiley (1992); R. B. Blackman, J. W. Tukey, "The measurement of
-power spectra", Dover (1958), B.6 (equivalent degrees of freedom); J. Durbin, G. S. Watson,
-Biometrika 37 (1950) 409-428; G. A. Barnard, J. R. Stat. Soc. B 25 (1963) 294 (Monte Carlo tests).
+"Exploring the limits of bootstrap", Wiley (1992). R. B. Blackman, J. W. Tukey, "The measurement of
+power spectra", Dover (1958), B.6 (equivalent degrees of freedom). J. Durbin, G. S. Watson,
+Biometrika 37 (1950) 409-428. G. A. Barnard, J. R. Stat. Soc. B 25 (1963) 294 (Monte Carlo tests).
 """
 
 from __future__ import annotations
@@ -118,16 +119,17 @@ def given_noise(counts: Sequence[int]) -> Correlation:
 
 
 def correlation_of(residuals: Sequence[Array], slopes: Array, moves: Array) -> Correlation:
-    """Return what the residuals of a fit show of the noise.
+    """Return the correlation of the noise, as the residuals of a fit show it.
 
     Parameters
     ----------
     residuals : sequence of ndarray
-        Of each test, in units of its deviation.
+        The residuals of each test, in units of its deviation.
     slopes : ndarray, shape (points, k)
-        Of the fitted values, in the same units: what the fit has taken from the residuals.
+        The derivatives of the fitted values, in the same units; they determine the part of the
+        noise that the fit removed.
     moves : ndarray, shape (points, k)
-        By how much the estimates move with the noise of each point.
+        The change of the estimates for the noise of each point.
     """
     basis, values, _ = np.linalg.svd(slopes, full_matrices=False)
     basis = basis[:, values > 1e-9 * values[0]]
@@ -154,7 +156,7 @@ def correlation_of(residuals: Sequence[Array], slopes: Array, moves: Array) -> C
 
 
 def _pass_for_white(seen: _Sums, by_chance: _Sums, moves: Array) -> bool:
-    """Say whether residuals pass for white, beside those of draws of white noise."""
+    """Return whether residuals pass for white noise, given draws of white noise."""
     by_white = (moves**2).sum(axis=0)
     noticed = by_white > 0.0
 
@@ -219,7 +221,7 @@ class _Squares:
         return _Sums((residuals**2).sum(axis=1), steps, total[:, 0], total[:, 1:])
 
     def of_draws(self, one: Callable[[], Array]) -> tuple[Array, _Sums]:
-        """Return by how much draws of noise move the estimates, and `of` what a fit leaves."""
+        """Return the moves of the estimates for draws of noise, and their residuals."""
         moved, sums = [], []
         step = max(1, _AT_ONCE // len(self._basis))
         for first in range(0, _DRAWS, step):

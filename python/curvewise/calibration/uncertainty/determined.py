@@ -1,9 +1,10 @@
-"""Which parameters the tests determine: the rule, and what is known without a bootstrap.
+"""The rule that decides which parameters the tests determine.
 
-A parameter is determined if it is at no bound, and half its interval is at most a quarter of its
-value and of its bounds' range: tests that leave more than that open have barely told more than the
+A parameter is determined if it is not at a bound, and half its interval is at most a quarter of its
+value and of its bounds' range. Tests that leave a wider interval have told little more than the
 bounds. For a parameter near 0 the limit is a fiftieth of the range instead of a quarter of the
-value. Cost: that of an estimate.
+value. The module also gives the part of the verdict that needs no bootstrap. Cost: that of an
+estimate.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ def determined(
 
 
 def _most(space: Space, name: str, size: float) -> float:
-    """Return by how much a parameter of a size may be wrong and still be determined."""
+    """Return the largest error with which a parameter counts as determined."""
     if space.is_log[space.names.index(name)]:  # decades of bounds say nothing of a value
         return _OF_VALUE * size
     low, high = space.bounds[name]
@@ -49,14 +50,14 @@ def _most(space: Space, name: str, size: float) -> float:
 
 
 class Verdict(NamedTuple):
-    """Which parameters are determined, as far as can be said without a bootstrap.
+    """The determined parameters, as far as is known without a bootstrap.
 
     Attributes
     ----------
     determined : dict of str to bool
     loose : str
-        Those that are not and are at no bound, with half their intervals in per cent. Empty if
-        there are none.
+        The other parameters that are not at a bound, with half their intervals in per cent. Empty
+        if all are determined or at bounds.
     """
 
     determined: dict[str, bool]
@@ -79,7 +80,7 @@ def verdict_on(optimum: Optimum) -> Verdict:
 
 
 def _share(space: Space, name: str, value: float, change: float) -> str:
-    """Return a change in per cent of what it is too large a part of."""
+    """Return a change in per cent of the limiting quantity."""
     if change > _OF_VALUE * abs(value) > 0.0:
         return f"{per_cent(change, value)} %"
     low, high = space.bounds[name]

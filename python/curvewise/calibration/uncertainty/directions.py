@@ -23,7 +23,7 @@ __all__ = ["Directions", "at_places", "directions_along", "directions_of", "fitt
 
 Places: TypeAlias = npt.NDArray[np.intp]
 
-_STILL = 1e-9  # of the longest: a shorter step of a curve has no direction
+_STILL = 1e-9  # of the longest step: a shorter step of a curve does not define a direction
 
 
 class Directions(NamedTuple):

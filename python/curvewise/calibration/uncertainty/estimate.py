@@ -1,12 +1,12 @@
-"""How an estimate moves with the noise of every point: slopes, weights, and their sandwich.
+"""Effect of the noise of every point on an estimate: the sandwich estimator.
 
-To the first order an estimate moves with the noise of a point by the slopes of the curves there, in
-the direction of its deviation (`directions`), and by the weight that the measure gives it. For a
-sum of squares that is the linear theory of least squares. A measure that adds up distances has the
-weights of its gradient, and the covariance of medians: pi / 2 of the variance of white noise, and
-the arcsines of the autocorrelations of correlated noise. The area of pieces is a median of these,
-if the noise is white (`area_pieces`). Cost: two evaluations of the residuals a parameter, or one
-gradient; and that of `correlation_of`.
+To first order, the effect of a point's noise is a product. One factor is the derivatives of the
+curves there, in the direction of the point's deviation (`directions`). The other is the measure's
+weight of the point. For a sum of squares this is the linear theory of least squares. A measure that
+adds up distances has the weights of its gradient and the covariance of medians. That is pi / 2 of
+the variance of white noise; for correlated noise it uses the arcsines of the autocorrelations. For
+white noise, the area over sections is a median of these (`area_pieces`). Cost: two evaluations of
+the residuals for each parameter, or one gradient; in addition the cost of `correlation_of`.
 
 P. J. Huber, "The behavior of maximum likelihood estimates under nonstandard conditions", Proc. 5th
 Berkeley Symp. Math. Stat. Prob. 1 (1967) 221-233.
@@ -32,27 +32,28 @@ __all__ = ["Estimate", "estimate_of"]
 
 
 class Estimate(NamedTuple):
-    """How an estimate moves with the noise of the points of all tests, in their deviations.
+    """An estimate's response to the noise of all points, in their deviations.
 
     Attributes
     ----------
     moves : ndarray, shape (points, k)
-        By how much the place in the unit cube moves with the noise of each point.
+        The change of the place in the unit cube for the noise of each point.
     slopes : ndarray, shape (points, k)
-        Of the curves in these directions, at the measured points.
+        The derivatives of the curves in these directions, at the measured points.
     factors : ndarray, shape (points,)
-        By what a deviation of each point is multiplied in the squares that are added up.
+        The factor of each point's deviation in the sum of squares.
     inverse : ndarray, shape (k, k)
-        Of the normal matrix: how far the estimate moves with white noise of those squares.
+        The inverse of the normal matrix: the covariance of the estimate for white noise in these
+        squares.
     correlation : Correlation
-        Of the noise.
+        The correlation of the noise.
     freedom : float
-        The degrees of freedom of its deviation: of points that are independent; infinite where it
-        is given.
+        The degrees of freedom of its deviation, that is, the number of independent points; infinite
+        if the deviation is given.
     covariance : ndarray, shape (k, k)
-        Of the place in the unit cube.
+        The covariance of the place in the unit cube.
     directions : list of Directions
-        For each test the directions of its points' deviations.
+        For each test, the directions of its points' deviations.
     """
 
     moves: Array
@@ -65,7 +66,7 @@ class Estimate(NamedTuple):
     directions: list[Directions]
 
     def compared(self, curves: Sequence[Array]) -> Array:
-        """Return what is squared and added up: how far points of curves are, times factors."""
+        """Return the compared quantity: distances of points, times factors."""
         sizes: Array = self.factors * _points(curves, self.directions)
         return sizes
 
@@ -145,9 +146,9 @@ def _at_points(curve: Array, count: int) -> Array:
 
 
 def _weights(optimum: Optimum, noise: Noise, counts: Sequence[int]) -> Array:
-    """Return what a deviation at each point costs, where all are alike; 1 in the mean.
+    """Return the cost of equal deviations at each point; the mean is 1.
 
-    1 everywhere where the measure has no gradient, such as that of the worst point alone.
+    All are 1 if the measure has a useless gradient, such as that of the worst point alone.
     """
     objective, curves = optimum.problem.objective, optimum.curves(optimum.unit)
     total = sum(counts)

@@ -1,8 +1,8 @@
 """The simulated point that belongs to each measured one, by y at the measured x.
 
-A dynamic time warping path says which part of the simulation a measured point belongs to; there
-the simulation is interpolated at the measured x, on the branch that is meant. Where it does not
-reach that x nearby (a simulation that turns earlier), the matched point's y is taken. O(n + m)
+A dynamic time warping path assigns each measured point to a section of the simulation. There the
+simulation is interpolated at the measured x, on the corresponding branch. If the section does not
+reach that x (a simulation that reverses earlier), the y of the matched point is used. O(n + m)
 memory; the time of a path.
 """
 

@@ -1,26 +1,27 @@
-"""Intervals as far as the model's own curves go, where it says its slopes.
+"""Intervals on the nonlinear model, for models with a Jacobian.
 
-Sensitivities take the curves for linear in the parameters. With errors as large as those of a model
-that is wrong they are not: a parameter may go further than its slope at the optimum says before its
-curves have moved as far, or meets a bound. So each end of each interval is followed along the
-model: to the place where the parameter is greatest, or least, of all places within the bounds whose
-curves are no further from the fitted ones, in the sense of weighted squares, than on the linear
-surfaces at the end of the linear interval. Of a linear model that is the same end. It is a profile
-of the expected deviance, its height adjusted for correlated noise.
+Sensitivities assume that the curves are linear in the parameters. With errors as large as those due
+to model error they are not. A parameter may change further than its slope at the optimum predicts
+before its curves have moved as far, or it may meet a bound. Each interval end is therefore computed
+on the nonlinear model. It is the greatest (or least) value of the parameter among all places within
+the bounds whose curves are close enough to the fitted ones. Close enough means a weighted sum of
+squares of at most that on the linear surfaces at the end of the linear interval. For a linear model
+both ends are equal. The result is a profile of the expected deviance, with its height adjusted for
+correlated noise.
 
-Each step is exact for the linear model of the curves at its start: an ellipsoid's furthest point,
-with parameters that would leave the bounds held there. An end that has not settled after `_MOST`
-runs counts as far as it has come. No interval is narrower than the linear one.
+Each step is exact for the linearised model at its start: the furthest point of an ellipsoid, with
+parameters that would leave the bounds fixed there. An end that has not converged after `_MOST` runs
+counts as far as it has come. An interval is never narrower than the linear one.
 
-Where a parameter has ended at a bound, the others have taken over its error, which the distances of
-their own ends do not allow for. There no end counts for its parameter alone: an interval goes as
-far as its parameter does at any of the ends.
+If a parameter has ended at a bound, the others have absorbed its error, and the distances of the
+others' ends do not allow for that. Single ends do not count in this case: an interval extends to
+the furthest value of its parameter at any of the ends.
 
-Cost: some 3 to 6 runs of the model with slopes for each end, those of all ends side by side;
-O(n k^2) a run.
+Cost: about 3 to 6 runs of the model with derivatives for each end, all ends in parallel; O(n k^2)
+for each run.
 
-D. J. Venzon, S. H. Moolgavkar, Applied Statistics 37 (1988) 87-94 (following a profile's ends);
-R. E. Chandler, S. Bate, "Inference for clustered data using the independence loglikelihood",
+D. J. Venzon, S. H. Moolgavkar, Applied Statistics 37 (1988) 87-94 (following a profile's ends). R.
+E. Chandler, S. Bate, "Inference for clustered data using the independence loglikelihood",
 Biometrika 94 (2007) 167-183 (adjusting its height).
 """
 
@@ -46,8 +47,8 @@ __all__ = ["End", "followed_spread"]
 _MOST = 15  # runs for an end
 _FURTHEST, _NEAREST = 0.3, 1e-3  # steps, in parts of the bounds' ranges
 _OUTSIDE = 4.0  # times the square of the distance, beyond which a step has gone too far
-# An end has settled where the square of the distance, and that by which the next step would move
-# the curves, are known to these parts of the square that is wanted.
+# An end has converged if the squared distance, and the squared move of the curves by the next step,
+# are within these fractions of the target.
 _NEAR, _STILL = 0.1, 0.01
 
 
@@ -113,25 +114,25 @@ def _run(optimum: Optimum, simulator: Simulator, places: Sequence[Array]) -> lis
 
 
 class End:
-    """One end of one interval, on its way.
+    """One end of one interval, during its computation.
 
     Parameters
     ----------
     start : ndarray, shape (k,)
         The optimum in the unit cube.
     slopes : ndarray, shape (n, k)
-        Of what is compared there.
+        The derivatives of the compared quantity there.
     index : int
-        Of the parameter.
+        The index of the parameter.
     way : float
         1 for the upper end, -1 for the lower one.
     square : float
-        By how much, squared, what is compared may move.
+        The largest squared change of the compared quantity.
 
     Attributes
     ----------
     furthest : ndarray, shape (k,)
-        Where the parameter has come furthest so far.
+        The place where the parameter has come furthest so far.
     """
 
     def __init__(self, start: Array, slopes: Array, index: int, way: float, square: float) -> None:
@@ -147,7 +148,7 @@ class End:
     def next_place(self) -> Array | None:
         """Return where the model is to be run next, or None where the end has arrived."""
         if self._runs >= _MOST or self._radius < _NEAREST or not self._normal.any():
-            return None  # a model that no parameter moves has no ends
+            return None  # a model that does not depend on its parameters does not have ends
         at_bound = self._place[self._index] == (self._way > 0.0)
         if at_bound and self._distance <= self._square:
             return None
@@ -161,7 +162,7 @@ class End:
         return place
 
     def tell(self, place: Array, moved: Array | None, slopes: Array | None) -> None:
-        """Take what a run has given: by how much what is compared has moved, and its slopes."""
+        """Record a run: the change of the compared quantity, and its derivatives."""
         self._runs += 1
         distance = math.inf if moved is None else float(moved @ moved)
         too_far = distance > max(_OUTSIDE * self._square, 0.5 * self._distance)

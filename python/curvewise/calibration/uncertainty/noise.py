@@ -1,9 +1,9 @@
 """The noise of a test: its residuals from the fitted curve, or a given deviation.
 
-Residuals are taken in the directions of the deviations (`directions`). How much noise each
-coordinate has is fitted to their squares: by non-negative least squares, first with equal weights
-and then with those of the first fit. If that is hardly more likely, the noise is where the model
-answers. Cost: that of a dynamic time warping path for every loop.
+Residuals are taken in the directions of the deviations (`directions`). The noise of each coordinate
+is fitted to their squares by non-negative least squares, first with equal weights and then with
+those of the first fit. If that is not clearly more likely, all noise is attributed to the model's
+response. Cost: that of a dynamic time warping path for every loop.
 
 C. L. Lawson, R. J. Hanson, "Solving least squares problems", Prentice-Hall (1974), chapter 23.
 """
@@ -23,11 +23,11 @@ from .sensitivity import Optimum
 
 __all__ = ["Noise", "noise_of"]
 
-# The least deviation of a point in parts of its test's, and that of a test in parts of its height:
-# a test that is fitted to the last digit has no noise that could be divided by.
+# The least deviation of a point as a fraction of its test's, and that of a test as a fraction of
+# its range of y. A test that is fitted to the last digit does not have any noise to divide by.
 _LEAST_OF_TEST, _LEAST_OF_HEIGHT, _LEAST = 0.01, 1e-12, 1e-150
-# By how much the logarithm of the likelihood of noise in another coordinate has to be larger: the
-# 95 % point of a likelihood ratio of one parameter.
+# Least gain of the log-likelihood for noise in another coordinate: the 95 % point of a likelihood
+# ratio with one parameter.
 _BETTER = 2.0
 
 
@@ -112,7 +112,7 @@ def noise_of(optimum: Optimum, sigma: float | Sequence[float] | None) -> Noise:
         return Noise(fitted, directions, None, components, heights, freedom)
     components, answers = [], _answers(optimum)
     for i, (residual, one) in enumerate(zip(residuals, directions, strict=True)):
-        # A single number has no residual to speak of: a hundredth of it, if nothing is given.
+        # A single number does not have a usable residual: a hundredth of it by default.
         found = 0.01 * heights[i] * in_y[i]
         if residual.size > 1:
             found = math.sqrt(total / freedom) * _components(residual, one, answers[i])

@@ -1,11 +1,12 @@
-"""How far the parameters spread with the noise: by sensitivities, at once, or by a bootstrap.
+"""Spread of the parameters due to noise, by sensitivities or by a bootstrap.
 
-At once: by how an estimate moves with the noise of every point (`estimate`), with Student's t.
+Sensitivities use the response of an estimate to the noise of every point (`estimate`), with
+Student's t.
 
-Bootstrap: the tests are made anew many times, as the fitted curves plus noise, and the parameters
-are identified from each on the response surfaces around the optimum, which takes no run of the
-model; basic intervals. Cost: that of an estimate, or `samples` minimisations of the measure of some
-30 k evaluations each.
+The bootstrap draws tests as the fitted curves plus noise and identifies the parameters from each.
+It uses the response surfaces around the optimum and takes no run of the model; intervals are basic.
+Cost: that of an estimate, or `samples` minimisations of the measure with about 30 k evaluations
+each.
 
 B. Efron, R. J. Tibshirani, "An introduction to the bootstrap", Chapman & Hall (1993).
 """
@@ -32,14 +33,15 @@ ADDED_UP = ("area", "dtw", "sum_of_squares")
 # Of a minimisation on the surfaces: differences, in standard errors, and the gain that is not worth
 # another step, in parts of what a standard error costs.
 _DIFFERENCE, _ENOUGH = 0.05, 0.002
-_FLATTEST = 1e-3  # directions that the loops notice less than this, relative to the best, are alike
+# directions with less sensitivity than this, relative to the largest, are treated equally
+_FLATTEST = 1e-3
 
 
 class Spread(NamedTuple):
     """Of the parameters, in their own units."""
 
     errors: Array
-    bias: Array  # by how much noise alone moves the parameters in the mean
+    bias: Array  # the mean change of the parameters due to noise alone
     intervals: list[tuple[float, float]]
     correlations: Array
 
@@ -68,9 +70,9 @@ def spread_of(estimate: Estimate, optimum: Optimum, level: float) -> Spread:
 
 
 def rise_at(optimum: Optimum, noise: Noise, index: int, change: float) -> float:
-    """Return by how much the objective rises on the surfaces where one place has a change.
+    """Return the rise of the objective on the surfaces as one place changes.
 
-    The other parameters follow as least squares has them. The mean of both ways.
+    The other parameters adapt as in least squares. The result is the mean of both directions.
     """
     moves = estimate_of(optimum, noise).moves
     together = moves.T @ moves
@@ -83,7 +85,7 @@ def rise_at(optimum: Optimum, noise: Noise, index: int, change: float) -> float:
 
 
 def _within(space: Space, low: Array, high: Array) -> list[tuple[float, float]]:
-    """Return intervals as far as they are within the bounds."""
+    """Return intervals, clipped to the bounds."""
     ends = zip(low.tolist(), high.tolist(), space.bounds.values(), strict=True)
     return [(max(a, first), min(b, last)) for a, b, (first, last) in ends]
 
@@ -112,10 +114,10 @@ def bootstrapped_spread(
 def _basic_interval(
     units: Array, points: Array, point: Array, missed: float
 ) -> tuple[Array, Array]:
-    """Return the mirror image of the percentiles about the optimum, which allows for a bias.
+    """Return the percentiles mirrored at the optimum, which allows for a bias.
 
-    A bound cuts draws off, so that their mirror image has no meaning. The percentile itself is
-    taken there if it is further away. The optimum is inside in any case.
+    At a bound, draws are cut off and the mirrored interval is not meaningful. The percentile itself
+    is used there if it is further away. The optimum is always inside.
     """
     low, high = np.quantile(points, [missed / 2.0, 1.0 - missed / 2.0], axis=0)
     at_low, at_high = ((units == bound).mean(axis=0) > missed / 2.0 for bound in (0.0, 1.0))
@@ -135,7 +137,7 @@ def _correlation(covariance: Array) -> Array:
 def _reminimised(optimum: Optimum, tests: list[Array], steps: Array) -> Array:
     """Return where on the surfaces the objective of other tests is lowest.
 
-    The search is in coordinates in which all directions count alike: of `steps`.
+    The search uses `steps` as coordinates, which give all directions the same weight.
     """
     objective = optimum.problem.objective.of_other_tests(tests)
 
@@ -158,7 +160,7 @@ def _reminimised(optimum: Optimum, tests: list[Array], steps: Array) -> Array:
 
 
 def _natural_steps(optimum: Optimum, noise: Noise) -> Array:
-    """Return steps, as columns, that the loops notice alike: about one standard error each."""
+    """Return steps (columns) of equal sensitivity: about one standard error each."""
     values, directions = sensitivity_of(optimum)
     count = sum(map(len, optimum.problem.objective.experiments))
     error = max(float(np.mean(noise.sigma / noise.heights)), 1e-9) / math.sqrt(count)

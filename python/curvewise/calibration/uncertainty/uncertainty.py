@@ -1,12 +1,12 @@
-"""What the tests determine, as one report: errors, intervals, the weakest direction, what is loose.
+"""Report on what the tests determine: errors, intervals, weak directions.
 
-The noise is that of the residuals, normal to the curves (`directions`), or of a deviation that is
-given (`noise`), correlated as they are (`correlation`); how far the parameters would move with
-other noise is said by sensitivities, along the model where it says its slopes (`followed`), or by a
-bootstrap on response surfaces (`spread`); what the loops do not notice has nothing to do with noise
-(`sensitivity`); `determined` is the verdict on both. Cost: no runs, 2 k of them where the search
-has left no surfaces, or some 10 k of a model with slopes; some 30 k evaluations of the measure, and
-with a bootstrap as many for each of its `samples`. Sources: see those modules.
+The noise is that of the residuals, normal to the curves (`directions`), or a given deviation
+(`noise`), with the correlation of the residuals (`correlation`). The effect of noise on the
+parameters follows from sensitivities, on the nonlinear model if that has a Jacobian (`followed`),
+or from a bootstrap on response surfaces (`spread`). Insensitive directions do not depend on noise
+(`sensitivity`). `determined` gives the verdict on both. Cost: no runs, or 2 k of them if the search
+has left no surfaces, or about 10 k of a model with a Jacobian. In addition about 30 k evaluations
+of the measure, with a bootstrap for each of its `samples`. Sources: see those modules.
 """
 
 from __future__ import annotations
@@ -47,46 +47,45 @@ _FEWEST = 20
 
 @dataclass(frozen=True, eq=False)
 class Uncertainty(Result):
-    """How well the tests determine the parameters.
+    """How precisely the tests determine the parameters.
 
     Attributes
     ----------
     parameters : dict of str to float
-        The optimum.
+        The identified parameters.
     standard_errors : dict of str to float
-        Of each parameter, in its own unit.
+        The standard error of each parameter, in its unit.
     intervals : dict of str to (low, high)
-        In which each parameter lies with the probability `level`.
+        The interval that contains each parameter with the probability `level`.
     bias : dict of str to float
-        By how much noise alone moves each parameter in the mean, as a bootstrap shows it; 0
-        without. The intervals allow for it as far as that can be done, `parameters` are as
-        identified.
+        The mean change of each parameter due to noise alone, from a bootstrap; 0 without one. The
+        intervals allow for it as far as possible. `parameters` are not corrected for it.
     correlations : ndarray, shape (k, k)
-        Of the errors of the parameters.
+        The correlations of the errors of the parameters.
     sensitivities : ndarray, shape (loops, k)
-        The root mean square move of each loop as a parameter goes through its bounds, in units of
-        the loop's box.
+        The root mean square move of each loop as a parameter spans its bounds, in units of the
+        loop's bounding box.
     singular_values : ndarray, shape (k,)
-        The same for the combinations of parameters that the loops notice most to least.
+        The sensitivities of the principal combinations of parameters, in descending order.
     weakest_direction : dict of str to float
-        By how much each parameter changes, in its own unit, along the direction that the loops
-        notice least: by so much that one of them changes by 10 % of its value, or of its bounds'
-        range if its value is 0.
+        The least sensitive combination of parameters, as a change of each in its own unit. It is
+        scaled so that one of them changes by 10 % of its value, or of its bounds' range if its
+        value is 0.
     determined : dict of str to bool
-        Whether half the interval is within 25 % of the value (or 2 % of the bounds' range, if that
-        is more) and 25 % of the bounds' range, and the parameter is not at a bound. With `samples`
-        the interval by sensitivities has to be, too.
+        Whether a parameter is known precisely enough and not at a bound. Half its interval must be
+        within 25 % of the bounds' range, and within 25 % of the value or 2 % of the bounds' range,
+        whichever is more. With `samples`, the interval by sensitivities must also satisfy this.
     at_bounds : dict of str to str
         "lower" or "upper", for the parameters that are at a bound.
     at_limits : tuple of str
-        Those of them whose bound is no assumption: 0, or the parameter that they stay below.
+        The parameters at a natural bound: 0, or the parameter that they must stay below.
     sigma : ndarray, shape (loops,)
-        The standard deviation of the noise in units of y, as given or as the residuals have it. The
-        variances of x and y are added, x scaled by the test's box.
+        The standard deviation of the noise in units of y, as given or estimated from the residuals.
+        The variances of x and y are added, with x scaled by the test's bounding box.
     level, samples, measure
-        As asked for.
+        The arguments of the call.
     runs : int
-        How many runs of the model it took, those that a store held included.
+        The number of runs of the model, including those read from a store.
     """
 
     parameters: dict[str, float]
@@ -109,7 +108,7 @@ class Uncertainty(Result):
 
     @property
     def is_rough(self) -> bool:
-        """Whether the errors are those of sums of distances, and the measure is none of these."""
+        """Whether the theory of sums of distances is used for another measure."""
         measures = self.optimum.problem.objective.measures
         return not self.samples and any(measure not in ADDED_UP for measure in measures)
 
@@ -144,7 +143,7 @@ class Uncertainty(Result):
     picture_shows = "Intervals, correlations, and the weakest direction"
 
     def parts(self) -> Sequence[Table | str]:
-        """Return the parameters with their intervals, and what is not determined."""
+        """Return the parameters with their intervals, and the undetermined ones."""
         searched = {name: self.parameters[name] for name in self.standard_errors}
         space = self.optimum.problem.space
         table = parameter_table(space, searched, spread=vars(self), with_bounds=False)
@@ -174,7 +173,7 @@ class Uncertainty(Result):
         return [table, "\n".join(lines)]
 
     def _biased(self) -> str:
-        """Say which parameters are biased by more than is harmless, and by how much."""
+        """Return a description of the parameters with a considerable bias."""
         return ", ".join(
             f"{name} by {self.bias[name]:+.2g}"
             for name, error in self.standard_errors.items()
@@ -215,7 +214,7 @@ class Uncertainty(Result):
 
 
 def _size(space: Space, name: str, value: float) -> float:
-    """Return what a change of a parameter is small beside: its value, or if that is 0 its range."""
+    """Return the scale of a parameter: its value, or its range if that is 0."""
     low, high = space.bounds[name]
     return abs(value) if abs(value) > _ZERO * (high - low) else high - low
 
