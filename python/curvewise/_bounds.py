@@ -13,7 +13,7 @@ DECADE = 10.0
 
 
 class OutsideModelError(ValueError):
-    """A model has no answer for these parameters: a bound of the model, not a failed run.
+    """A model does not have an answer for these parameters; not a failed run.
 
     A search does not go there, does not log it and does not count it among its failures.
 
@@ -48,16 +48,16 @@ class Log:
 
 @dataclass(frozen=True)
 class Below:
-    """Bounds of a parameter that stays below another one, at every run.
+    """Bounds of a parameter that stays below another one in every run.
 
-    Of two back stresses, say, which could change places: C1 > C2.
+    They suit, for example, two back stresses that could change places: C1 > C2.
 
     Parameters
     ----------
     other : str
-        A parameter with bounds of its own, listed before this one.
+        A parameter with its own bounds, listed before this one.
     low, high : float
-        The bounds beside that.
+        The additional bounds of this parameter.
 
     Examples
     --------

@@ -1,9 +1,9 @@
 """Text that several docstrings share, written once.
 
-A docstring marked with :func:`filled` names a shared paragraph, or a list of choices, in braces:
-a line ``{metric}`` becomes the description of that parameter, and ``{measures}`` becomes the names
-of the measures. :func:`inherit` gives a function of the reference the docstring of its measure.
-Both run once, at import.
+A docstring marked with :func:`filled` names a shared paragraph, or a list of choices, in braces: a
+line ``{metric}`` becomes the description of that parameter; ``{measures}`` becomes the list of
+measures. :func:`inherit` gives a function of the reference the docstring of its measure. Both run
+once, at import.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ _NOT_OF_THE_REFERENCE = ("workers", "prune", "cutoff", "missing")
 
 
 def filled(**lists: str) -> Callable[[Documented], Documented]:
-    """Put shared text, and that of `lists`, in the place of its name in braces."""
+    """Replace names in braces by shared text, or by that of `lists`."""
 
     def fill(documented: Documented) -> Documented:
         doc = inspect.getdoc(documented)

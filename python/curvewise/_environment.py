@@ -1,8 +1,8 @@
-"""What is looked at when the package, and this first of it, is imported.
+"""Checks of the environment, made first when the package is imported.
 
-A subinterpreter: there the compiled module would wait for ever for a lock that belongs to the main
-interpreter. And arithmetic that flushes subnormal numbers to zero: any library that was linked with
--ffast-math switches this on for the thread that loads it.
+Two environments are refused or reported. In a subinterpreter the compiled module would wait forever
+for a lock that belongs to the main interpreter. Arithmetic may also flush subnormal numbers to
+zero: any library that was linked with -ffast-math switches this on for the thread that loads it.
 """
 
 from __future__ import annotations

@@ -106,7 +106,7 @@ Notes
 
 
 def documented_loss(array: str) -> Callable[[Loss], Loss]:
-    """Put the sections of a loss of `array`, a Tensor or an Array, in the place of ``{loss}``."""
+    """Replace ``{loss}`` by the sections of a loss of `array` (Tensor, Array)."""
 
     def fill(loss: Loss) -> Loss:
         name = loss.__name__

@@ -11,16 +11,16 @@ __all__ = ["did_you_mean"]
 def did_you_mean(
     names: Iterable[object], known: Iterable[str], shown: Callable[[str], str] = repr
 ) -> str:
-    """Return "; did you mean ...?" for names near to known ones, or nothing where none is near.
+    """Return "; did you mean ...?" for close matches of known names, or "".
 
     Parameters
     ----------
     names
-        As they were given, some of them perhaps right.
+        The given names; some of them may be correct.
     known
-        Those that there are.
+        The known names.
     shown
-        How a name is written, with its quotes.
+        Formats a name, with its quotes.
     """
     known = list(known)
     plain = {_plain(name): name for name in known}
@@ -33,5 +33,5 @@ def did_you_mean(
 
 
 def _plain(name: str) -> str:
-    """Return a name without what is most often confused in it."""
+    """Return a name without the characters that are most often confused."""
     return name.lower().replace("-", "").replace("_", "").replace(" ", "")

@@ -1,8 +1,8 @@
-"""What the options of the measures can be, and what they are where they are not given.
+"""The choices and defaults of the measures' options.
 
-The measures and the reference, which must not know of each other, both take choices and defaults
-from here, and so do the docstrings that list them. Defaults are the compiled library's. Choices,
-which type checkers read, stand here once more, and a test holds them to ``_core.choices()``.
+The measures and the reference, which must not import each other, both take choices and defaults
+from here, and so do the docstrings that list them. Defaults are the compiled library's. Choices are
+repeated here for type checkers, and a test compares them with ``_core.choices()``.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ CoordinateMetric: TypeAlias = Literal[
 ]  # of differences of coordinates
 Metric: TypeAlias = Literal[CoordinateMetric, "haversine"]
 _Points: TypeAlias = npt.NDArray[np.float64]
-# By its name; or one's own, a matrix or a function of two blocks of points.
+# A metric's name, or a user-defined matrix or function of two blocks of points.
 GroundDistance: TypeAlias = (
     Metric | npt.NDArray[Any] | Sequence[Sequence[float]] | Callable[[_Points, _Points], Any]
 )
@@ -147,7 +147,7 @@ def check_closed(options: Mapping[str, object]) -> None:
 
 
 def real_number(option: str, value: Any, least: float, advice: str) -> float:
-    """Return `value` as a float; refuse text, nan, what is no number, and what is below `least`."""
+    """Return `value` as a float; raise for text, nan, and values below `least`."""
     try:
         number = math.nan if isinstance(value, str | bytes) else float(value)
     except (TypeError, ValueError, OverflowError):
@@ -158,7 +158,7 @@ def real_number(option: str, value: Any, least: float, advice: str) -> float:
 
 
 def whole_number(option: str, value: Any, least: int, advice: str, most: float = math.inf) -> int:
-    """Return `value` as an int; refuse bools, floats and what is not from `least` to `most`."""
+    """Return `value` as an int; raise for bools, floats and values out of range."""
     try:
         number = None if isinstance(value, bool) else operator.index(value)
     except TypeError:

@@ -1,13 +1,13 @@
-"""The distances of aeon under its names and in its layouts, and Fréchet and Hausdorff likewise.
+"""The distances of aeon in its layouts, with Fréchet and Hausdorff.
 
-A series of aeon has shape (n_channels, n_timepoints) or (n_timepoints,), a collection
+A series of aeon has shape (n_channels, n_timepoints) or (n_timepoints,). A collection has shape
 (n_cases, n_channels, n_timepoints) or (n_cases, n_timepoints), or is a list of series of different
-lengths; a curve is the transpose of a series. Names, order and defaults of the arguments are those
-of aeon 1.6, values agree to 1e-12. A collection is compared in one compiled call; the functions
-import numpy alone. What aeon has and this module lacks is refused and never passed over: Itakura's
-parallelogram, windows for series of different lengths (aeon's band is another there), `g_arr` of
-erp, `independent=False` of msm. Of several cheapest paths the one that comes back may be another.
-Time O(n m) a pair.
+lengths. A curve is the transpose of a series. Names, order and defaults of the arguments are those
+of aeon 1.6; values agree to 1e-12. A collection is compared in one compiled call; the functions
+import numpy alone. Features of aeon that are missing here raise an error: Itakura's parallelogram,
+windows for series of different lengths (aeon uses another band there), `g_arr` of erp,
+`independent=False` of msm. If several paths are cheapest, another one may be returned. Time O(n m)
+for each pair.
 
 For each name there are ``dtw_distance``, ``dtw_pairwise_distance`` and, except for lcss, msm,
 frechet, frechet_continuous and hausdorff, ``dtw_cost_matrix`` and ``dtw_alignment_path``.
@@ -168,7 +168,7 @@ def _curves(collection: Collection, name: str, is_one: bool = False) -> list[Arr
 
 
 def _is_multivariate(collection: Collection) -> bool:
-    """Say whether a collection has several channels, so that an array beside it is one series."""
+    """Return whether a collection has several channels."""
     if isinstance(collection, np.ndarray):
         return collection.ndim == 3 and collection.shape[1] > 1
     return bool(np.ndim(collection[0]) == 2 and len(collection[0]) > 1)

@@ -1,11 +1,12 @@
-"""A hysteresis pair that the package makes itself, and the material model behind it.
+"""A generated hysteresis pair, and the material model behind it.
 
 The model is 1-D plasticity with nonlinear kinematic hardening: a yield surface of fixed size whose
-centre, the back stress, follows Armstrong and Frederick's law, several such terms being added as
-Chaboche does. A step of strain is integrated exactly: the back stresses have a closed form in the
-plastic strain, which leaves one scalar equation, convex and decreasing, that Newton's method
-solves from the left without overshooting. Cost: O(n) steps of a few iterations each, in Python,
-since every step starts where the last one ended (a few microseconds a point).
+centre is the back stress. The back stress follows Armstrong and Frederick's law; several such terms
+are added, as Chaboche does. A step of strain is integrated exactly. The back stresses have a closed
+form in the plastic strain, which leaves one scalar equation. The equation is convex and decreasing,
+and Newton's method solves it from the left without overshooting. Cost: O(n) steps of a few
+iterations each, in Python, since every step starts where the last one ended (a few microseconds per
+point).
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ def kinematic_hardening(
     yield_stress: float = 300.0,
     backstresses: Sequence[tuple[float, float]] = ((80e3, 400.0), (5e3, 20.0)),
 ) -> npt.NDArray[np.float64]:
-    r"""Stress along a strain path, by Chaboche's nonlinear kinematic hardening.
+    r"""Compute the stress along a strain path by Chaboche's kinematic hardening.
 
     With stress :math:`\sigma`, plastic strain :math:`\varepsilon_p`, back stresses :math:`X_k`
     and :math:`\dot p = |\dot\varepsilon_p|`, all 0 at the start:
@@ -59,7 +60,7 @@ def kinematic_hardening(
     strain : array_like, shape (n,)
         Strain [-] in the order of loading; the first step leads there from the unloaded state.
     youngs_modulus : float, default 200e3
-        E [MPa], above 0.
+        Young's modulus E [MPa], above 0.
     yield_stress : float, default 300
         Half the size of the elastic range [MPa], at least 0.
     backstresses : sequence of (C, gamma), default ((80e3, 400), (5e3, 20))
@@ -75,7 +76,7 @@ def kinematic_hardening(
     Raises
     ------
     ValueError
-        `strain` is not one-dimensional or not finite, or a constant is outside its range.
+        If `strain` is not one-dimensional or not finite, or a constant is out of its range.
 
     Notes
     -----
@@ -149,9 +150,9 @@ def _plastic_step(
 ) -> float:
     """Return the plastic strain p > 0 that brings the stress back to the yield surface.
 
-    The root of f(p) = excess - E p - sum_k modulus_k grown_k(p). The moduli are not negative,
-    because a back stress never leaves [-C / gamma, C / gamma], so f is decreasing and convex and
-    Newton's iterates climb from 0 to the root; rounding ends the climb.
+    It is the root of f(p) = excess - E p - sum_k modulus_k grown_k(p). The moduli are not negative,
+    because a back stress never leaves [-C / gamma, C / gamma]. So f is decreasing and convex, and
+    Newton's iterates climb from 0 to the root until rounding stops them.
     """
     p, exp, expm1 = 0.0, math.exp, math.expm1  # names found soon: most of the time goes here
     terms = list(zip(moduli, gammas, strict=True))
@@ -168,13 +169,13 @@ def _plastic_step(
 
 
 def hysteresis_pair(*, seed: int = 0) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Make a measured and a simulated hysteresis loop of a sheet steel.
+    """Generate a measured and a simulated hysteresis loop of a sheet steel.
 
     Both are strain-driven cycles tension, compression, tension (0, +2 %, -2 %, +2 %) of
-    `kinematic_hardening`, with different constants. The "experiment" is as a test machine logs
-    it: unevenly spaced, densest after each reversal, turning up to 2 % early or late, the stress
-    with normal noise of standard deviation 4 MPa. The "simulation" is smooth and, in each branch,
-    evenly spaced in strain.
+    `kinematic_hardening`, with different constants. The "experiment" resembles the log of a test
+    machine. It is unevenly spaced, densest after each reversal, and reverses up to 2 % early or
+    late; the stress has normal noise of standard deviation 4 MPa. The "simulation" is smooth and,
+    in each branch, evenly spaced in strain.
 
     Parameters
     ----------
@@ -184,15 +185,15 @@ def hysteresis_pair(*, seed: int = 0) -> tuple[npt.NDArray[np.float64], npt.NDAr
     Returns
     -------
     experiment : ndarray, shape (241, 2)
-        True strain [-] and true stress [MPa]; pictures write so on their axes.
+        True strain [-] and true stress [MPa]; plots show these names on their axes.
     simulation : ndarray, shape (151, 2)
-        Likewise.
+        The same quantities of the simulation.
 
     Notes
     -----
-    The numbers drawn are ``numpy.random.Generator(numpy.random.PCG64(seed)).normal``. NumPy does
-    not promise to keep these, and has kept them since they exist (1.17); platforms differ in the
-    last digits of exp and log at most. A call takes a few milliseconds.
+    The random numbers are ``numpy.random.Generator(numpy.random.PCG64(seed)).normal``. NumPy does
+    not promise to keep these, and has kept them since version 1.17; platforms differ in the last
+    digits of exp and log at most. A call takes a few milliseconds.
 
     Examples
     --------

@@ -1,11 +1,11 @@
-"""Tracks of GeoPandas and MovingPandas compared in metres, with their labels.
+"""Tracks of GeoPandas and MovingPandas compared in metres, with labels.
 
-Importing this module gives GeoDataFrames and GeoSeries of lines the accessor ``curvewise``:
-``tracks.curvewise.pdist("frechet")``. In a projected reference system coordinates are brought to
-metres; in a geographic one (degrees, longitude and latitude in this order, as geometries have them)
-distances of points are arcs on the sphere, ``metric="haversine"``. Heights and times do not count.
-The work is that of :func:`curvewise.cdist` and its relatives, at their cost
-(``pip install "curvewise[geopandas]"``).
+Importing this module adds the accessor ``curvewise`` to GeoDataFrames and GeoSeries of lines:
+``tracks.curvewise.pdist("frechet")``. In a projected reference system, coordinates are converted to
+metres. In a geographic one (degrees, longitude and latitude in this order, as in geometries),
+distances of points are arcs on the sphere, ``metric="haversine"``. Heights and times are ignored.
+The methods call :func:`curvewise.cdist` and its relatives, at their cost (``pip install
+"curvewise[geopandas]"``).
 """
 
 from __future__ import annotations
@@ -35,13 +35,13 @@ __all__ = ["Tracks"]
 @pandas.api.extensions.register_dataframe_accessor("curvewise")
 @pandas.api.extensions.register_series_accessor("curvewise")
 class Tracks:
-    """Lines on the Earth as curves in metres, or in degrees where their arcs are in metres.
+    """Lines on the Earth as curves, in metres or in degrees with arcs in metres.
 
     Parameters
     ----------
     data : GeoDataFrame, GeoSeries or TrajectoryCollection
-        LineStrings, with a reference system (``crs``); the labels are the index. Of MovingPandas
-        a collection, whose labels are the trajectories' ids.
+        LineStrings with a reference system (``crs``); the labels are the index. For a collection of
+        MovingPandas, the labels are the trajectories' ids.
 
     Attributes
     ----------
@@ -53,18 +53,18 @@ class Tracks:
     Raises
     ------
     TypeError
-        Data without lines.
+        If the data do not hold lines.
     ValueError
-        No reference system; a geometry that is no LineString.
+        If the reference system is missing, or a geometry is not a LineString.
 
     Warns
     -----
     UserWarning
-        By every method, if lengths on the map differ by more than 2 % from those on the Earth.
+        From every method, if lengths on the map differ by more than 2 % from those on the Earth.
 
     Notes
     -----
-    pandas keeps the accessor of an object: lines that are changed in place are not seen.
+    pandas caches the accessor of an object: later changes of its lines have no effect.
 
     Examples
     --------
@@ -103,66 +103,67 @@ class Tracks:
         measure : str
             A measure by its name, see :func:`curvewise.available_measures`.
         **options
-            Those of :func:`curvewise.pdist`, lengths in metres.
+            The options of :func:`curvewise.pdist`, lengths in metres.
 
         Returns
         -------
         Series
-            The values, in metres where the measure is a length, by pairs of labels.
+            The values by pairs of labels; in metres if the measure is a length.
 
         Raises
         ------
         ValueError, TypeError
-            As for :func:`curvewise.pdist`; a measure that has none for degrees.
+            As for :func:`curvewise.pdist`; if a measure does not support degrees.
         """
         return pdist(self.curves, measure, **self._on_earth(measure, options))
 
     def cdist(self, other: Any = None, measure: MeasureName = "dtw", **options: Any) -> Any:
-        """Compute a measure between every track and every one of `other`, or of its own.
+        """Compute a measure between all tracks and those of `other`, or all pairs.
 
         Parameters
         ----------
         other : GeoDataFrame, GeoSeries or TrajectoryCollection, optional
-            In the same reference system.
+            Tracks in the same reference system.
         measure : str
             A measure by its name, see :func:`curvewise.available_measures`.
         **options
-            Those of :func:`curvewise.cdist`, lengths in metres.
+            The options of :func:`curvewise.cdist`, lengths in metres.
 
         Returns
         -------
         DataFrame
-            The values, in metres where the measure is a length, with the labels.
+            The values with the labels; in metres if the measure is a length.
 
         Raises
         ------
         ValueError, TypeError
-            As for :func:`curvewise.cdist`; a measure that has none for degrees; `other` in another
-            reference system.
+            As for :func:`curvewise.cdist`; if a measure does not support degrees, or `other` has
+            another reference system.
         """
         second = None if other is None else self._beside(other)
         return cdist(self.curves, second, measure, **self._on_earth(measure, options))
 
     def index(self, measure: MeasureName = "dtw", **options: Any) -> Index:
-        """Make an index of the tracks, which finds the nearest without all distances.
+        """Build an index of the tracks for nearest-neighbour queries.
 
         Parameters
         ----------
         measure : str
             A measure by its name, see :func:`curvewise.available_measures`.
         **options
-            Those of the measure, lengths in metres.
+            The options of the measure, lengths in metres.
 
         Returns
         -------
         Index
-            Its radii and distances are in metres where the measure is a length. What is looked for
-            is given as the attribute `curves` of other tracks.
+            The index finds neighbours without computing all distances. Its radii and distances are
+            in metres if the measure is a length. Query it with the attribute `curves` of other
+            tracks.
 
         Raises
         ------
         ValueError, TypeError
-            As for :class:`curvewise.Index`; a measure that has none for degrees.
+            As for :class:`curvewise.Index`; if a measure does not support degrees.
         """
         return Index(self.curves, measure, **self._on_earth(measure, options))
 
@@ -175,25 +176,26 @@ class Tracks:
         workers: SupportsIndex = Default.workers,
         **options: Any,
     ) -> Any:
-        """Find the nearest tracks of each track of `other`, or of its own.
+        """Find the nearest tracks of each track of `other`, or of these tracks.
 
         Parameters
         ----------
         other : GeoDataFrame, GeoSeries or TrajectoryCollection, optional
-            In the same reference system. If not given, a track is none of its own neighbours.
+            Tracks in the same reference system. By default the neighbours of these tracks are
+            found; a track does not count as its own neighbour.
         n_neighbors : int
-            How many.
+            Number of neighbours.
         measure : str
             A measure by its name, see :func:`curvewise.available_measures`.
         workers : int
-            Threads: at least 1, or -1 for one per core. Never changes a result.
+            Number of threads: at least 1, or -1 for one per core. Does not change a result.
         **options
-            Those of the measure, lengths in metres.
+            The options of the measure, lengths in metres.
 
         Returns
         -------
         distances, labels : DataFrame
-            A row a track, a column a neighbour, the nearest first.
+            A row for each track, a column for each neighbour, the nearest first.
 
         Raises
         ------

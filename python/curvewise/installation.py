@@ -1,7 +1,7 @@
-"""What is installed: how it was compiled, and what a C++, C or Fortran project builds against.
+"""Build information, and the files for C++, C or Fortran projects.
 
-The wheel carries the headers and a static library, together with the files by which CMake and
-pkg-config find them; docs/embedding.md shows their use.
+The wheel carries the headers and a static library, with the files that CMake and pkg-config need to
+find them; docs/embedding.md shows their use.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ __all__ = ["build_info", "get_cmake_dir", "get_include"]
 
 
 def build_info() -> BuildInfo:
-    """Return how the compiled library was built and what it uses on this machine.
+    """Return how the compiled library was built, and what this machine uses.
 
     Returns
     -------
@@ -91,7 +91,7 @@ def get_cmake_dir() -> str:
 
 
 def _installed(folder: str, holds: str) -> str:
-    # Beside the compiled module, also where an editable install has the Python files elsewhere.
+    # Search next to the compiled module: an editable install has the Python files elsewhere.
     path = Path(compiled_file).resolve().parent / folder
     if not (path / holds).is_file():
         raise FileNotFoundError(

@@ -41,16 +41,16 @@ class Comparison(Result):
     Attributes
     ----------
     P, Q : ndarray
-        The curves, in float64, not scaled; with the names of their columns, if they had any.
+        The curves in float64, unscaled, with the names of their columns if known.
     preset : {"scaled", "paper", "raw"}
         The conditions under which the values were computed.
     values : dict of str to float
-        In the order in which :func:`compare` lists the measures, or as asked for; nan for a measure
-        that refuses these curves.
+        The values, in the order of :func:`compare` or as requested; nan for a measure that refuses
+        these curves.
     conditions : dict of str to Condition
-        How each value was computed: on curves scaled or not, and with which options.
+        How each value was computed: on scaled curves or not, and with which options.
     refusals : dict of str to str
-        Why a measure has no value, for each measure that refuses these curves.
+        The reason for each measure that refuses these curves.
     """
 
     P: Array = field(repr=False)
@@ -71,7 +71,7 @@ class Comparison(Result):
         return "\n".join([*lines, *self.notes])
 
     def _text(self, name: str) -> str:
-        """Return a measure's value as text, or why there is none."""
+        """Return a measure's value as text, or the reason why it is missing."""
         refusal = self.refusals.get(name)
         return f"no value: {refusal}" if refusal else f"{self.values[name]:.6g}"
 
@@ -112,7 +112,7 @@ class Comparison(Result):
         return Deviations({name: value for name, value in found.items() if value is not None})
 
     def to_dict(self) -> dict[str, float]:
-        """Return the values by name, as a new dict of Python floats; nan where there is none."""
+        """Return the values by name, as a new dict of Python floats; nan if missing."""
         return dict(self.values)
 
     def within(self, limits: Mapping[str, float | str]) -> Verdict:
@@ -121,8 +121,9 @@ class Comparison(Result):
         Parameters
         ----------
         limits : mapping of str to float or str
-            The largest value of each measure, or a percentage of P's height such as "2%": of the
-            mean deviation for area, pcm and dtw, of the largest for the Fréchet distances.
+            The largest value of each measure, or a percentage of P's range of y such as "2%". The
+            percentage limits the mean deviation for area, pcm and dtw, and the largest for the
+            Fréchet distances.
 
         Returns
         -------
@@ -208,37 +209,36 @@ def compare(
     Parameters
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
-        The curves; P is the reference. Every column of an array is a coordinate: of three or more
-        of which one is time by its name, or alone increases from point to point in both curves, a
-        warning says so, unless `measures` is given. A table of three columns or more is refused
-        where they are not all coordinates by their names (docs/inputs.md).
+        The curves; P is the reference. Every column of an array is a coordinate. Unless `measures`
+        is given, a warning is issued if one of three or more columns is time by its name, or alone
+        increases from point to point in both curves. A table of three columns or more is refused if
+        their names show that they are not all coordinates (docs/inputs.md).
     preset : {"scaled", "paper", "raw"}
-        "scaled": everything on curves scaled by P's box, area with spacing="matched",
-        curve_length with scale="mean_abs".
-        "paper": the conditions of the paper's Table 4 (area raw with spacing="x"; frechet, and
-        dtw with step_pattern="symmetric2", on scaled curves; curve_length raw with
-        scale="mean"). "raw": every default on the curves as they are.
+        "scaled": all measures on curves scaled by P's bounding box, area with spacing="matched",
+        curve_length with scale="mean_abs". "paper": the conditions of the paper's Table 4 (area raw
+        with spacing="x"; frechet, and dtw with step_pattern="symmetric2", on scaled curves;
+        curve_length raw with scale="mean"). "raw": every default, on the raw curves.
     measures : sequence of str, optional
-        Of {measures}.
-        If not given: {in_plane} in the plane, {any_dimension} in other dimensions.
+        A subset of {measures}. The default is {in_plane} in the plane, {any_dimension} in other
+        dimensions.
     options : mapping of str to mapping, optional
-        Options of measures, in the place of the preset's: {"dtw": {"window": 0.1}}.
+        Options of measures that override the preset's: {"dtw": {"window": 0.1}}.
     {missing}
 
     Returns
     -------
     Comparison
-        The values by name; prints as a table, plots itself. Its `notes` say where the curves are
+        The values by name; prints as a table, plots itself. Its `notes` mention curves that are
         probably in different units. If a measure refuses these curves, the others have their
         values, and `refusals` has the reason.
 
     Raises
     ------
     ValueError
-        An unknown preset or measure, options of a measure that is not computed, options that a
-        measure refuses; curves that every measure refuses.
+        If a preset or measure is unknown. If options are given for a measure that is not computed,
+        or a measure refuses an option. If every measure refuses the curves.
     TypeError
-        A curve does not hold real numbers; an option that the measure does not have.
+        If a curve does not hold real numbers, or a measure does not have an option.
 
     Notes
     -----
@@ -286,7 +286,7 @@ def compare(
 
 
 def _warn_of_time(P: Array, Q: Array, names: Sequence[Any], measures: Sequence[str]) -> None:
-    """Warn of a column beside two others that is time: it would count as a coordinate."""
+    """Warn if one of several columns is time: it would count as a coordinate."""
     if P.ndim != 2 or Q.ndim != 2 or P.shape[1] != Q.shape[1] or P.shape[1] < 3:
         return
     times = [i for i, name in enumerate(names) if is_time(name)]

@@ -28,24 +28,25 @@ _Distances: TypeAlias = tuple[float, float, tuple[Array, Array] | None]
 
 
 class Deviation(NamedTuple):
-    """How far apart the points are that a measure compares, in units of y.
+    """Distances between the points that a measure compares, in units of y.
 
-    Where the measure is computed on scaled curves, a distance is a part of P's box, and that part
-    of its height is given.
+    If the measure is computed on scaled curves, a distance is a fraction of P's bounding box. It is
+    converted with the box's range of y.
 
     Attributes
     ----------
     mean : float
-        area: the area by how far P travels along x, a mean difference in y; where that is more
-        than the largest, because the curves travel elsewhere, the mean distance of facing points,
-        by the lengths that both walk. dtw, frechet: the mean distance along the path.
-        frechet_continuous: the mean leash, by the lengths that both ends walk. pcm: the area by the
-        length of the mapped curve. Never above the largest.
+        The mean distance; never above the largest. "area": the area divided by the distance that P
+        travels along x, a mean difference in y. If that exceeds the largest, because the curves
+        travel elsewhere, it is the mean distance of matched points, weighted by the lengths of both
+        curves. "dtw", "frechet": the mean distance along the path. "frechet_continuous": the mean
+        pair distance, weighted by the lengths of both curves. "pcm": the area divided by the length
+        of the mapped curve.
     largest : float
-        The largest distance; area: of facing vertices. dtw, frechet: on the path; for both Fréchet
-        distances that is the value. pcm: of the mapped vertices.
+        The largest distance. "area": of facing vertices. "dtw", "frechet": on the path. For both
+        Fréchet distances it is the value. "pcm": of the mapped vertices.
     height : float
-        The extent of P in y, its last coordinate.
+        The range of P in y, its last coordinate.
     """
 
     mean: float
@@ -86,7 +87,7 @@ class Deviations(Tabular, dict[str, Deviation]):
 
 
 def cells(deviation: Deviation | None) -> list[str]:
-    """Return mean and largest as the cells of a table; empty where there is no deviation."""
+    """Return mean and largest as the cells of a table; "" without a deviation."""
     return ["", ""] if deviation is None else [deviation.mean_text, deviation.largest_text]
 
 
@@ -146,7 +147,9 @@ def deviation(
 def largest_places(
     measure: str, condition: Condition, P: Array, Q: Array
 ) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
-    """Return the points of P and of Q with the largest deviation; None if a measure pairs none.
+    """Return the points of P and of Q with the largest deviation.
+
+    Return None if a measure does not pair points.
 
     Parameters
     ----------

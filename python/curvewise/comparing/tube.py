@@ -43,7 +43,7 @@ class Tube:
     place : tuple of float
         The point of Q, or of P, with the largest distance.
     first : tuple of float
-        The first point of Q, else of P, outside; empty if there is none.
+        The first point of Q, else of P, outside; () if the curves are within.
     """
 
     dx: float
@@ -117,9 +117,9 @@ def tube(P: CurveLike, Q: CurveLike, dx: float, dy: float) -> Tube:
     Notes
     -----
     The tube about a curve is the union of rectangles, 2 dx wide and 2 dy high, about all points of
-    its segments, as csv-compare has it for functions of time. The order of the points does not
-    count: compare loops by `frechet` in addition. Rounding errors of the coordinates do not decide.
-    Time O(n + m) for similar curves, at most O(n m).
+    its segments. The program csv-compare uses the same definition for functions of time. The order
+    of the points does not count: compare loops by `frechet` in addition. Rounding errors of the
+    coordinates do not decide. Time O(n + m) for similar curves, at most O(n m).
 
     Examples
     --------

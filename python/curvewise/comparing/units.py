@@ -21,17 +21,17 @@ _FLAT = 1e12
 
 
 def other_units(P: Array, Q: Array, axes: Sequence[str], p_name: str, q_name: str) -> list[str]:
-    """Return a question for each coordinate in which the extents differ by more than 20 times.
+    """Return a question for each coordinate whose extents differ 20-fold or more.
 
-    There is none for a curve that is flat in the coordinate: a constant has no unit.
+    Coordinates in which a curve is flat are skipped: a constant does not show its unit.
 
     Parameters
     ----------
     P, Q : ndarray, shapes (n, d) and (m, d)
     axes : sequence of str
-        What the coordinates are called.
+        The names of the coordinates.
     p_name, q_name : str
-        What the curves are called.
+        The names of the curves.
     """
     questions = []
     with np.errstate(over="ignore"):

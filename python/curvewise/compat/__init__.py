@@ -6,11 +6,11 @@ A program written for that package runs with one changed line::
 
 The DTW table and the discrete Fréchet distance come from the compiled library. Area, partial curve
 mapping and curve length are numpy code that repeats that package's arithmetic: their values are
-equal bit for bit, also where its choices are not those of the paper. New programs want
-:mod:`curvewise` itself: its area needs no second measurement of lengths, its partial curve mapping
-is the paper's, and its paths do not depend on how a tie is stored.
+bitwise identical, even if its choices differ from those of the paper. Use :mod:`curvewise` itself
+for new programs. Its area does not measure lengths twice, its partial curve mapping is the paper's,
+and its paths do not depend on how a tie is stored.
 
-What is odd there is the same here:
+These oddities are reproduced:
 
 - a vertical segment is not bisected when ``area_between_two_curves`` refines a curve: its first
   point is repeated, as often as points are missing;
@@ -19,7 +19,7 @@ What is odd there is the same here:
 - a direction without extent, a curve without length and a mean of zero give nan or inf, and no
   error.
 
-What differs:
+These properties differ:
 
 - lists, tuples and DataFrames work everywhere, and nan or inf comes without a warning;
 - ``dtw`` and ``frechet_dist`` never skip a distance that is nan (there, some metrics do): curves

@@ -1,11 +1,12 @@
 """Partial curve mapping and the curve length measure in similaritymeasures' arithmetic.
 
-Both compare points of equal arc length along two curves, the one at many offsets between curves
-of different length, the other at equal relative length. That package's partial curve mapping is
-not the one of the paper (:func:`curvewise.pcm`): the vertices of the longer curve are mapped to the
-shorter one, at offsets in the units of relative length, past whose end its last point is used; and
-distances are weighted with the arc length from the start of the curve instead of the segment's.
-O(n) time for the curve length measure, 200 searches of O(n log m) for partial curve mapping.
+Both measures compare points of equal arc length along two curves: partial curve mapping at many
+offsets between curves of different length, curve length at equal relative length. That package's
+partial curve mapping differs from that of the paper (:func:`curvewise.pcm`) in two respects. The
+vertices of the longer curve are mapped to the shorter one, at offsets in units of relative length;
+past its end its last point is used. Distances are weighted with the arc length from the start of
+the curve instead of the segment's. O(n) time for the curve length measure, 200 searches of O(n log
+m) for partial curve mapping.
 """
 
 from __future__ import annotations
@@ -40,15 +41,15 @@ def pcm(
     Returns
     -------
     p : numpy floating
-        The smallest of 200 weighted sums of distances (dimensionless); nan where `exp_data` has no
-        extent in x or y.
+        The smallest of 200 weighted sums of distances (dimensionless); nan if `exp_data` is flat in
+        x or y.
 
     Raises
     ------
     ValueError
-        An array that is not (n, 2), or a curve without points.
+        If an array is not (n, 2), or a curve is empty.
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
 
     See Also
     --------
@@ -116,15 +117,15 @@ def curve_length_measure(exp_data: CurveLike, num_data: CurveLike) -> np.floatin
     -------
     r : numpy floating
         The square root of the sum of squared ln(1 + abs(Δx) / mean(x)) and the same in y
-        (dimensionless); inf where a mean is zero, nan where a negative mean makes the logarithm
-        undefined or `exp_data` has no length.
+        (dimensionless). It is inf if a mean is zero. It is nan if a negative mean makes the
+        logarithm undefined, or the length of `exp_data` is 0.
 
     Raises
     ------
     ValueError
-        An array that is not (n, 2), or a curve without points.
+        If an array is not (n, 2), or a curve is empty.
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
 
     See Also
     --------
@@ -232,16 +233,16 @@ def normalizeTwoCurves(
     Returns
     -------
     xi, eta : ndarray, shape (n,)
-        The first curve within [0, 1]; nan in a direction in which it has no extent.
+        The first curve within [0, 1]; nan in a direction in which it is flat.
     xiP, etaP : ndarray, shape (m,)
-        The second curve, scaled alike; nan or inf in such a direction.
+        The second curve with the same scale; nan or inf in such a direction.
 
     Raises
     ------
     ValueError
-        Arrays that are not (n,), or empty.
+        If arrays are not (n,), or are empty.
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
 
     See Also
     --------

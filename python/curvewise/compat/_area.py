@@ -1,14 +1,14 @@
 """The area between two curves in similaritymeasures' arithmetic, and the quadrilaterals it sums.
 
-The paper's Algorithm 1 (Jekel et al. 2018) as that package does it: the curve with fewer points
-gets one more point at a time, in the middle of the segment that is the longest at that moment. All
-lengths are measured again between the rounded points, and ``numpy.interp`` gives a midpoint's y.
-That makes vertical segments odd: ``numpy.interp`` cannot interpolate between two equal x, and
-returns the y of the segment's first point. The new point repeats that point, the segment stays the
-longest, and every point that is still missing is added at the same place. This module does the
-same, bit for bit; :func:`curvewise.area` bisects such a segment. The areas of the quadrilaterals
-between corresponding segments are added. O(n·(n − m)) time for the refinement, in vectorised
-steps; O(n) memory.
+This is the paper's Algorithm 1 (Jekel et al. 2018) as that package implements it. The curve with
+fewer points gets one more point at a time, in the middle of the segment that is currently the
+longest. All lengths are measured again between the rounded points, and ``numpy.interp`` gives a
+midpoint's y. Vertical segments are therefore treated oddly: ``numpy.interp`` cannot interpolate
+between two equal x, and returns the y of the segment's first point. The new point repeats that
+point, the segment stays the longest, and every missing point is added at the same place. This
+module reproduces this bitwise; :func:`curvewise.area` bisects such a segment. The areas of the
+quadrilaterals between corresponding segments are added. O(n·(n − m)) time for the refinement, in
+vectorised steps; O(n) memory.
 """
 
 from __future__ import annotations
@@ -106,14 +106,15 @@ def makeQuad(x: CurveLike, y: CurveLike) -> np.floating[Any]:
     -------
     area : numpy floating
         The polygon area of the first simple one of three orders: as given, with the first two
-        vertices swapped, with the second and third swapped; of the last if none is simple.
+        vertices swapped, with the second and third swapped. If all are complex, the area of the
+        last.
 
     Raises
     ------
     ValueError
-        Not four vertices.
+        If there are not four vertices.
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
 
     Notes
     -----
@@ -317,8 +318,8 @@ def _turns_one_way(dx: RealArray, dy: RealArray) -> npt.NDArray[np.bool_]:
 
 def _shoelace_areas(x: RealArray, y: RealArray) -> RealArray:
     """Return the areas (k,) of polygons with vertices x, y of shape (k, n)."""
-    # A product of a row and a column is the dot product that numpy gives for two vectors, to the
-    # bit: where the formula cancels, another order of summation would give other digits.
+    # A product of a row and a column is bitwise identical to numpy's dot product of two vectors. If
+    # the formula cancels, another order of summation would give other digits.
     forward = x[:, np.newaxis, :] @ np.roll(y, 1, axis=1)[:, :, np.newaxis]
     backward = y[:, np.newaxis, :] @ np.roll(x, 1, axis=1)[:, :, np.newaxis]
     areas: RealArray = 0.5 * np.abs(forward - backward)[:, 0, 0]

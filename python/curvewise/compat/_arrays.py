@@ -1,8 +1,9 @@
 """From what a user passes to the arrays that similaritymeasures would compute with.
 
-Unlike the rest of curvewise, this keeps the dtype of integer and float32 arrays: there, midpoints
-inserted in an integer curve are truncated and float32 curves are computed in float32, and the
-numbers follow from it. What is accepted at all is decided by :mod:`curvewise.curves.inputs`.
+Unlike the rest of curvewise, this module keeps the dtype of integer and float32 arrays. In
+similaritymeasures, midpoints inserted in an integer curve are truncated and float32 curves are
+computed in float32, which determines its numbers. :mod:`curvewise.curves.inputs` decides which
+input is accepted.
 """
 
 from __future__ import annotations

@@ -1,11 +1,10 @@
 """Dynamic time warping and the discrete Fréchet distance in similaritymeasures' names.
 
-The metrics that the compiled library knows go to it (:func:`curvewise.dtw_table`,
-:func:`curvewise.frechet`): the same recurrence (symmetric1), and the same bits for all of them
-except minkowski. For every other metric, and for curves with nan or inf,
-``scipy.spatial.distance.cdist`` gives the costs, and the cumulative table is filled here along
-anti-diagonals, whose cells depend on earlier ones only. O(n·m) time and memory; the Fréchet
-distance from the library takes O(n + m) memory.
+The compiled library computes its metrics (:func:`curvewise.dtw_table`, :func:`curvewise.frechet`):
+with the same recurrence (symmetric1), and bitwise identical for all of them except minkowski. For
+every other metric, and for curves with nan or inf, ``scipy.spatial.distance.cdist`` gives the
+costs. The cumulative table is then filled here along anti-diagonals, whose cells depend on earlier
+ones only. O(n·m) time and memory; the Fréchet distance from the library takes O(n + m) memory.
 """
 
 from __future__ import annotations
@@ -239,7 +238,8 @@ def _scipy_costs(
         ) from error
     costs: Array = scipy_distance.cdist(P, Q, metric, **options)
     if isinstance(metric, str):
-        # Some metrics, chebyshev among them, pass over a nan: a curve with nan has no distance.
+        # Some metrics, chebyshev among them, ignore a nan, but the distance of a curve with nan is
+        # undefined.
         undefined = np.isnan(P).any(axis=1, keepdims=True) | np.isnan(Q).any(axis=1)
         costs = np.where(undefined, np.nan, costs)
     return costs

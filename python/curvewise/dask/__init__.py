@@ -1,14 +1,14 @@
 """One measure between many curves, on any scheduler of dask: threads, processes, a cluster.
 
 The matrix of :func:`curvewise.cdist` is cut into blocks. A block is one call of curvewise.cdist for
-some rows and columns, made wherever dask makes it. Since a value depends on its two curves alone,
-the blocks change no bit, and a block that is lost with its worker is simply computed again. Cost:
-that of the local matrix, and about a millisecond a block for dask's scheduler. The curves go into
-the graph once, in pieces of a block's rows or columns.
+some rows and columns, on any worker of dask. A value depends only on its two curves, so blocks give
+bitwise identical values. A block that is lost with its worker is computed again. Cost: that of the
+local matrix, and about a millisecond for each block for dask's scheduler. The curves are stored
+once in the graph, in pieces of a block's rows or columns.
 
-With ``store="d.zarr"`` each block is written to disk as it is done, so that the matrix may be
-larger than memory, and what was cut short is begun again where it stopped. Nearest neighbours are
-found block by block, in an index of each block of the curves, and merged.
+With ``store="d.zarr"`` each block is written to disk when it is finished. The matrix may then be
+larger than memory, and an interrupted call continues from the stored blocks. Nearest neighbours are
+found in one index for each block of the curves, and merged.
 """
 
 from .matrix import cdist, pdist

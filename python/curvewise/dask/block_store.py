@@ -1,12 +1,12 @@
-"""Distances on disk, block by block: a zarr array that says what it is of.
+"""Distances on disk, block by block: a zarr array with its description.
 
 zarr writes a chunk under another name and then renames it (``LocalStore`` from 3.1.3 on), so that
-SIGKILL leaves a chunk's file whole or not at all. Nothing waits for the disk: a crash of the whole
-machine may leave a chunk without its content. Each chunk therefore ends in a checksum, which zarr's
-codec crc32c writes and checks. The codec does not know a chunk's place. So a file in ``checksums``
-ties the checksum to the block's place and to the store's contents; it is written after the chunk,
-and a chunk without it is not yet done. The chunks are not compressed, since digits of distances are
-hardly ever alike.
+SIGKILL leaves either the whole file of a chunk or no file. The package does not wait for the disk:
+a crash of the whole machine may leave a chunk without its content. Each chunk therefore ends in a
+checksum, which zarr's codec crc32c writes and checks. The codec does not know a chunk's place. A
+file in ``checksums`` therefore ties the checksum to the block's place and to the store's contents.
+It is written after the chunk, and a chunk without it is unfinished. The chunks are not compressed,
+because the digits of distances are practically random.
 """
 
 from __future__ import annotations
@@ -40,21 +40,22 @@ _NAMED = 3  # damaged blocks that a warning names
 
 
 class DamageError(ValueError):
-    """What is wrong with a block."""
+    """The fault of a block."""
 
 
 @dataclass(frozen=True)
 class BlockStore:
-    """A zarr array in a folder, of which every chunk is a block of distances.
+    """A zarr array in a folder; each of its chunks is a block of distances.
 
     Attributes
     ----------
     folder : str
-        Where it is; a cluster's workers must see the same folder.
+        The folder; a cluster's workers must see the same folder.
     array : zarr.Array
-        The array, by the description that was checked: damage of the file comes too late to matter.
+        The array, as the checked description defines it; it does not depend on later damage of the
+        file.
     contents : mapping of str to str
-        What the store is of.
+        The digests of the store's input.
     """
 
     folder: str
@@ -85,7 +86,7 @@ class BlockStore:
             ) from error
 
     def damage(self, place: Place) -> str | None:
-        """Say what is wrong with a block that was written, if anything."""
+        """Return the damage of a block that was written, if any."""
         try:
             self._checked(place)
         except DamageError as error:
@@ -161,14 +162,15 @@ def begin_store(
     block: tuple[int, ...],
     contents: dict[str, str],
 ) -> BlockStore:
-    """Return a store that is new, or was begun for the same contents and stopped.
+    """Return a new store, or an unfinished one for the same contents.
 
     Raises
     ------
     ValueError
-        It was begun for others, holds something else, or its description is damaged.
+        If the store was begun for other contents, holds something else, or its description is
+        damaged.
     ImportError
-        There is no zarr.
+        If zarr is missing.
     """
     zarr = _zarr()
     folder, contents = os.path.abspath(store), contents | {"block": repr(block)}
@@ -202,7 +204,7 @@ def begin_store(
 
 
 def _begun(folder: str, store: str | os.PathLike[str]) -> tuple[Any, dict[str, Any]]:
-    """Return a store's array, and what it was begun for."""
+    """Return a store's array, and the contents for which it was begun."""
     try:
         array = _zarr().open_array(folder, mode="r+", config={"write_empty_chunks": True})
         return array, dict(array.attrs[_KEY])
@@ -226,12 +228,12 @@ def _listed(damaged: dict[Place, str]) -> str:
 
 
 def _is_bare(folder: str) -> bool:
-    """Say whether a folder is empty, but for what was to be a new store's description."""
+    """Return whether a folder is empty, except for a partial description."""
     return all(name.endswith(".partial") for name in os.listdir(folder))
 
 
 def _another(names: list[str], contents: dict[str, str], found: dict[str, str]) -> str:
-    """Say what is another than it was, of short contents with what was given then and now."""
+    """Describe differing contents; short ones with the earlier and new value."""
     said = (f"{name} {found.get(name)}, not {contents[name]}" for name in names)
     return " and ".join(
         f"other curves {name}" if name in ("X", "XA", "XB") else text

@@ -1,9 +1,9 @@
-"""Whether a block that dask computes is still wanted: asked some twenty times a second.
+"""Checks about twenty times a second whether a block of dask is still needed.
 
-Python delivers Ctrl-C to the main thread alone. The threads of dask's own scheduler go on with what
-they have begun, and keep the interpreter from ending; so do those of a cluster's worker with a task
-that was cancelled. None of them tells the task. What can be seen from the task's own thread is
-where the main thread is, whether it has ended, and what the worker thinks of the task.
+Python delivers Ctrl-C to the main thread alone. The threads of dask's own scheduler continue the
+tasks that they have begun, and keep the interpreter from ending. A cluster's worker does the same
+with a cancelled task. The task is not notified. The task's thread can check where the main thread
+is, whether it has ended, and the state that the worker records for the task.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ __all__ = ["AbandonedError", "watch"]
 
 
 class AbandonedError(RuntimeError):
-    """The result is no longer wanted."""
+    """The result is not needed any more."""
 
 
 def watch() -> Callable[[int, int], None] | None:
-    """Return what raises AbandonedError, in this thread, once nobody waits for it any more.
+    """Return a function that raises AbandonedError in this thread if abandoned.
 
-    None on the main thread, which hears of Ctrl-C itself.
+    Return None on the main thread, which receives Ctrl-C itself.
     """
     if threading.current_thread() is threading.main_thread():
         return None

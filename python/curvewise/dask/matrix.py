@@ -1,7 +1,7 @@
 """The matrix of all distances, or its upper triangle, block by block with dask.
 
 Without XB, a block of a symmetric measure below the diagonal is the transpose of the one above. The
-triangle is cut into runs of equal length, each of which is a few rows of the matrix.
+triangle is cut into sections of equal length; each is a few rows of the matrix.
 """
 
 from __future__ import annotations
@@ -51,41 +51,43 @@ def cdist(
     layout: Layout | None = None,
     **options: Any,
 ) -> dask_array.Array:
-    """Compute a measure between every curve of one list and every curve of another, with dask.
+    """Compute a measure between all curves of two lists with dask.
 
     Parameters
     ----------
     XA, XB, measure, cutoff, **options
-        As for :func:`curvewise.cdist`. A callable must be one that the scheduler's workers can
-        unpickle; cloudpickle takes lambdas to them too.
+        As for :func:`curvewise.cdist`. The scheduler's workers must be able to unpickle a callable;
+        cloudpickle also transfers lambdas.
     block : int, optional
-        Curves per block, at least 1: a block has this many rows and columns. If not given, as many
-        as have some 32,000 points together, at most 2048: about a second of dtw or frechet a block.
+        Number of curves per block, at least 1: a block has this many rows and columns. By default a
+        block's curves have about 32,000 points together, and it has at most 2048 curves: about a
+        second of dtw or frechet for each block.
     store : path, optional
-        A folder for the matrix, which is then computed at once, on the scheduler in use, and
-        written block by block as a zarr array of float64. A call that was ended by whatever means,
-        SIGKILL too, is repeated to go on: only the blocks that are not there are computed. Stored
-        blocks are checked first. A warning names the damaged ones, which are computed again.
-        Workers of a cluster must see the same folder.
+        A folder for the matrix. The matrix is then computed at once, on the scheduler in use, and
+        written block by block as a zarr array of float64. If a call is interrupted, even by
+        SIGKILL, repeat it: it computes only the missing blocks. Stored blocks are checked first. A
+        warning names the damaged ones, which are computed again. Workers of a cluster must see the
+        same folder.
     {layout}
 
     Returns
     -------
     dask.array.Array, shape (k, l)
-        Lazy: ``.compute()`` runs it on the scheduler in use; with `store` it reads what is there.
-        Entry (i, j) has the bits that :func:`curvewise.cdist` gives it.
+        A lazy array: ``.compute()`` runs it on the scheduler in use; with `store` it reads the
+        stored blocks. Entry (i, j) is bitwise identical to that of :func:`curvewise.cdist`.
 
     Raises
     ------
     ValueError, TypeError
-        As for :func:`curvewise.cdist`, at once and not when the blocks are computed (except for a
-        `window` that admits no path); a `block` below 1; one of `out`, `progress` and `workers`. A
-        `store` that was begun for other curves or options, or by another version of curvewise, or
-        whose description is damaged; with one, a callable, of which nobody knows whether it is
-        still the same. If a stored block is damaged later, ``.compute()`` raises ValueError.
+        As for :func:`curvewise.cdist`, raised at once and not when the blocks are computed (except
+        for a `window` that does not admit a path). If `block` is below 1, or one of `out`,
+        `progress` and `workers` is given. If `store` was begun for other curves or options, or by
+        another version of curvewise, or its description is damaged. If `store` is given with a
+        callable, which may have changed since. If a stored block is damaged later, ``.compute()``
+        raises ValueError.
     ImportError
-        dask is not installed: ``pip install "curvewise[dask]"``. For a store: zarr is not,
-        ``pip install "curvewise[zarr]"``.
+        If dask is missing: ``pip install "curvewise[dask]"``. If zarr is missing for a store: ``pip
+        install "curvewise[zarr]"``.
 
     Notes
     -----
@@ -285,7 +287,7 @@ def _run(
     cutoff: float,
     options: dict[str, Any],
 ) -> Array:
-    """Compute some rows of the triangle, of which a part is wanted."""
+    """Compute some rows of the triangle and return the requested part."""
     curves = [curve for piece in parts for curve in piece.curves]
     ours, others = curves[rows.start : rows.stop], curves[rows.stop :]
     wanted = {"measure": measure, "cutoff": cutoff, "progress": watch() or False, **options}

@@ -1,4 +1,4 @@
-"""Pieces of a list of curves, of which the blocks of a matrix are made, and how large they are."""
+"""Pieces of a list of curves for the blocks of a matrix, and their sizes."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ __all__ = [
     "tokenize",
 ]
 
-# Points of the curves of a block's rows, and of its columns, where the caller does not say: 10^9
-# cells of dtw or frechet, about a second, which is long beside what a block costs the scheduler.
+# Default number of points of the curves of a block's rows, and of its columns. That is 10^9 cells
+# of dtw or frechet, about a second, which is long compared with the scheduler's overhead per block.
 _BLOCK_POINTS = 32_000
 _BLOCK_CURVES = 2048  # at most, of short curves: 32 MB of distances
 _LOCAL_ONLY = ("out", "progress", "workers")
@@ -60,7 +60,7 @@ def lazy_array(
     graph: dict[Any, Any], name: str, chunks: tuple[tuple[int, ...], ...], dtype: Any
 ) -> dask_array.Array:
     """Return the array whose blocks are the tasks (name, i, …) of a graph."""
-    # The constructor has no annotations of dask's.
+    # dask does not annotate the constructor.
     array: Callable[..., dask_array.Array] = dask_array.Array
     return array(HighLevelGraph.from_collections(name, graph), name, chunks, dtype=dtype)
 

@@ -1,4 +1,4 @@
-"""A figure of many curves, and of the one that stands for them."""
+"""A figure of many curves and of their representative curve."""
 
 from __future__ import annotations
 

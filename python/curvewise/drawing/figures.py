@@ -1,9 +1,8 @@
-"""What pictures of curves are made of: curves, the lines between them, and panels.
+"""Building blocks of figures: curves, connecting lines, and panels.
 
 The colours are those of palette.py. The number of artists does not depend on the number of points:
-each curve is one line, all lines between them are one collection. pyplot is never used, so any
-backend will do, and any format that matplotlib writes; matplotlib is imported when something is
-drawn, not when this module is.
+each curve is one line, and all connecting lines are one collection. The module never uses pyplot,
+so any backend and any format of matplotlib works. It imports matplotlib when something is drawn.
 """
 
 from __future__ import annotations
@@ -143,7 +142,7 @@ def draw_links(ax: Axes, links: Array, label: str) -> LineCollection:
 
 
 def evenly(count: int, most: int = MAX_LINKS) -> npt.NDArray[np.intp]:
-    """Return at most so many of the indices below `count`, the first and the last among them."""
+    """Return at most `most` of the indices below `count`, including both ends."""
     return np.linspace(0, count - 1, min(count, most)).round().astype(np.intp)
 
 

@@ -1,4 +1,4 @@
-"""What is known of parameters: intervals, correlations, and what the loops hardly notice."""
+"""Figures of the uncertainty: intervals, correlations, weak directions."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ class Intervals(NamedTuple):
     names : sequence of str
         The parameters.
     places : sequence of (from, to, value)
-        Where the ends of the interval and the value are between the bounds: 0 to 1.
+        The ends of the interval and the value, relative to the bounds: 0 to 1.
     texts : sequence of str
-        What stands beside each.
+        The text next to each interval.
     determined : sequence of bool
-        Those that are not are drawn in the other colour.
+        Whether each is determined; the others are drawn in another colour.
     level : float
         The probability.
     """

@@ -31,7 +31,7 @@ def alignment_figure(curves: Curves, path: npt.NDArray[np.int64]) -> Picture:
 
 
 def matching_figure(curves: Curves, walks: Array) -> Picture:
-    """Draw curves and the leashes between two walks along them, or the walks alone."""
+    """Draw curves and the pairs of two walks along them, or the walks alone."""
     return _linked(curves, walks, draw_matching, "vertex of")
 
 

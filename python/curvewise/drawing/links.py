@@ -68,7 +68,7 @@ def draw_pair(ax: Axes, ends: Sequence[Array], label: str) -> Line2D:
         *np.transpose(ends),
         color=ACCENT_COLOUR,
         linewidth=2,
-        marker="o",  # a distance of 0 has no length to be seen
+        marker="o",  # a distance of 0 would otherwise be invisible
         markersize=4,
         zorder=3,
         label=label,
@@ -87,7 +87,7 @@ def draw_walk(ax: Axes, walk: npt.NDArray[Any], place: str, labels: Labels) -> L
 
 
 def label_places(ax: Axes, place: str, labels: Labels) -> None:
-    """Label axes of which one goes along Q and the other along P."""
+    """Label axes; one of them is the place along Q and the other along P."""
     label_axes(ax, *(f"{place} {curve}" for curve in reversed(labels.curves)))
 
 
@@ -123,7 +123,7 @@ def draw_placement(
 
 def _evenly(matched: Array) -> Array:
     """Return parameters of a matching that are evenly spread along its path."""
-    shares = matched / np.maximum(matched[-1], 1)  # both curves count alike
+    shares = matched / np.maximum(matched[-1], 1)  # both curves have the same weight
     steps = np.abs(np.diff(shares, axis=0)).sum(axis=1)
     walked = np.concatenate([[0.0], np.cumsum(steps)])
     places = np.linspace(0, walked[-1], MAX_LINKS)

@@ -1,4 +1,4 @@
-"""Measured loops with simulated ones, and how the search for these converged or what it found."""
+"""Measured and simulated loops, with the convergence or the parameters."""
 
 from __future__ import annotations
 
@@ -36,20 +36,20 @@ def loops_and_convergence(
     names: Sequence[Sequence[str]],
     titles: Sequence[str],
 ) -> Picture:
-    """Draw simulations beside experiments, a panel for every loop, and the convergence.
+    """Draw simulations and experiments, a panel per loop, and the convergence.
 
     Parameters
     ----------
     experiments, simulations : sequence of ndarray, shape (n, d)
-        The measured curves, and for each of them the simulated one at the optimum.
+        The measured curves, and the simulated curve of each at the optimum.
     history : numpy.recarray
         Every evaluation, with its number, its value and whether it failed.
     objective : str
-        What the value is called on its axis.
+        The label of the value's axis.
     names : sequence of sequence of str
-        For each loop what its coordinates are called.
+        For each loop the names of its coordinates.
     titles : sequence of str
-        What the loops are called.
+        The names of the loops.
 
     Returns
     -------
@@ -60,11 +60,11 @@ def loops_and_convergence(
     Raises
     ------
     ImportError
-        Without matplotlib.
+        If matplotlib is missing.
 
     Notes
     -----
-    The first two coordinates are drawn of curves that have more.
+    For curves with more coordinates, the first two are drawn.
     """
     figure, panels, last = _panels(titles, (4.2, 3.4))
     for ax, P, Q, axes in zip(panels, experiments, simulations, names, strict=True):
@@ -90,9 +90,9 @@ def loops_and_places(
     experiments, names, titles
         As for `loops_and_convergence`.
     simulations : mapping of str to sequence of ndarray
-        By what they are called, a curve for every experiment.
+        The simulations by name, a curve for every experiment.
     places : mapping of str to mapping of str to float
-        By the same names where each parameter is between its bounds, 0 to 1.
+        By the same names, the place of each parameter between its bounds, 0 to 1.
     """
     figure, panels, last = _panels(titles, (4.6, 3.6))
     colours = dict(zip(simulations, series_colours(len(simulations)), strict=True))
@@ -126,7 +126,7 @@ def _panels(titles: Sequence[str], size: tuple[float, float]) -> tuple[Picture, 
     panels = figure.subplots(rows, columns, squeeze=False).ravel().tolist()
     for ax in panels[count:]:
         ax.remove()
-    # A lone loop that nobody has named needs no title.
+    # A single loop without a user-defined name needs no title.
     if count > 2 or not titles[0].startswith("Loop "):
         for ax, title in zip(panels, titles, strict=False):
             ax.set_title(title)

@@ -1,15 +1,15 @@
-"""A matplotlib Figure that a notebook shows as a picture, whatever else has been imported.
+"""A matplotlib Figure that notebooks always show as an image.
 
-matplotlib's own Figure is shown by Jupyter only once pyplot has been set up for it; before that a
-notebook prints ``<Figure size 1100x580 with 6 Axes>``. And a Figure that pyplot does not know is
-shown only as the value of a cell, not in the middle of one or before a semicolon. To have it known
-to pyplot would open windows in scripts, keep every picture of a loop in memory, and show it twice
-as the value of a cell. So a picture made while a cell runs waits for the cell's end, and is shown
-then unless it has been drawn by that time, to be seen or to be saved. Outside of notebooks nothing
-knows of a picture except its user.
+Jupyter shows matplotlib's own Figure only after pyplot has been set up for it; before that a
+notebook prints ``<Figure size 1100x580 with 6 Axes>``. A Figure that pyplot does not manage is
+shown only as the value of a cell, not in the middle of a cell or before a semicolon. Registration
+with pyplot would open windows in scripts, keep every figure of a loop in memory, and show a figure
+twice as the value of a cell. A figure that is made while a cell runs is therefore shown at the end
+of the cell, unless it has been drawn or saved by then. Outside notebooks only the user holds a
+reference to a figure.
 
-This module imports matplotlib: :func:`curvewise.drawing.figures.new_figure` imports it when a
-picture is drawn.
+This module imports matplotlib; :func:`curvewise.drawing.figures.new_figure` imports it when a
+figure is drawn.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The picture of a step pattern: the cells that each step visits, and what they weigh.
+"""The figure of a step pattern: the cells of each step, and their weights.
 
 As R's dtw draws it: the cell that is reached is at the top right, and each step leads there from
 the cell where it begins. Cost: a few artists for each step.

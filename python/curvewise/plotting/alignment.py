@@ -36,8 +36,8 @@ def plot_alignment(
 ) -> CurveArtists:
     """Draw which points a DTW or Fréchet coupling matches.
 
-    Curves in the plane are drawn as they are. Series (d = 1) are drawn against the index, with Q
-    moved away from P by the amount that its label gives.
+    Plane curves are drawn unchanged. Series (d = 1) are drawn against the index, with Q shifted
+    from P by the amount that its label gives.
 
     Parameters
     ----------
@@ -64,8 +64,7 @@ def plot_alignment(
     Raises
     ------
     ValueError, TypeError
-        Where `dtw_path` or `frechet_path` does, for d > 2, and for `every` < 1; before anything
-        is drawn.
+        As for `dtw_path` or `frechet_path`; if d > 2, or `every` < 1; before anything is drawn.
 
     Notes
     -----

@@ -1,8 +1,8 @@
-"""A moving picture of a warping: the pair of points that a path has come to, and those behind it.
+"""Animation of a warping path: the current pair of points, and earlier pairs.
 
-A frame shows the curves, the matched pairs so far in grey, and the pair of now in black; beside
-them the path through the table, as far as it has come. Time: that of the path, and some 0.1 s a
-frame. A GIF is written by matplotlib through Pillow, which matplotlib brings.
+A frame shows the curves, the matched pairs so far in grey, and the current pair in black. Next to
+them is the path through the table so far. Time: that of the path, and about 0.1 s for each frame.
+matplotlib writes a GIF through Pillow, which it requires anyway.
 """
 
 from __future__ import annotations
@@ -35,20 +35,20 @@ def animate_alignment(
     names: Sequence[str] | None = None,
     **options: Any,
 ) -> None:
-    """Write how a DTW or Fréchet coupling walks along two curves, as an animated GIF.
+    """Write an animated GIF of a DTW or Fréchet coupling of two curves.
 
     Parameters
     ----------
     P, Q : array_like, shape (n, d) and (m, d), or (n,) and (m,), d = 1 or 2
         The curves.
     file : path-like
-        What to write; what is there is replaced.
+        The file to write; an existing file is replaced.
     measure : {"dtw", "frechet"}
-        Whose path to walk along.
+        The measure of the path.
     frames : int, default 60
-        How many pictures, at least 2; not more than the path has pairs.
+        Number of frames, at least 2; not more than the pairs of the path.
     seconds : float, default 6
-        How long they take, to a whole number of frames a second.
+        Duration, rounded to a whole number of frames per second.
     normalized, names
         As in `plot_area`.
     **options
@@ -57,16 +57,16 @@ def animate_alignment(
     Raises
     ------
     ValueError, TypeError
-        Where `dtw_path` or `frechet_path` does; for d > 2, for frames or seconds out of range, and
-        where the step pattern admits no path.
+        As for `dtw_path` or `frechet_path`. If d > 2, frames or seconds are out of range, or the
+        step pattern does not admit a path.
     ImportError
-        Without matplotlib.
+        If matplotlib is missing.
     OSError
-        The file cannot be written.
+        If the file cannot be written.
 
     Notes
     -----
-    Time and memory of the path, and some 0.1 s a frame.
+    Time and memory of the path, and about 0.1 s for each frame.
 
     Examples
     --------

@@ -24,7 +24,7 @@ __all__ = ["plot_comparison"]
 
 
 class Compared(Protocol):
-    """What is drawn of a :class:`curvewise.Comparison`."""
+    """The attributes of a :class:`curvewise.Comparison` that are drawn."""
 
     @property
     def P(self) -> Array: ...

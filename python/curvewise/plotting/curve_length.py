@@ -41,8 +41,8 @@ def plot_curve_length(
     ax : matplotlib.axes.Axes
         Where to draw.
     scale : str
-        As in `curve_length`: it weighs the differences and does not move the points, but where
-        it is 0 there is no value and no picture.
+        As in `curve_length`. It weights the differences and does not move the points. If it is 0,
+        the value and the plot are undefined.
     normalized, names
         As in `plot_area`.
 
@@ -55,7 +55,7 @@ def plot_curve_length(
     Raises
     ------
     ValueError, TypeError
-        Where `curve_length` does, before anything is drawn.
+        As for `curve_length`, before anything is drawn.
 
     Notes
     -----

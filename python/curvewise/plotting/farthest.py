@@ -33,7 +33,7 @@ def plot_farthest(
     normalized: bool = False,
     names: Sequence[str] | None = None,
 ) -> CurveArtists:
-    """Draw each point's nearest on the other curve, and the pair that is farthest apart.
+    """Draw each point's nearest on the other curve, and the pair farthest apart.
 
     Parameters
     ----------
@@ -49,13 +49,13 @@ def plot_farthest(
     Returns
     -------
     CurveArtists
-        `between` is a LineCollection, each line from a point of P to the one of Q that is nearest
-        to it, or the other way round; `accent` the pair whose distance is the value.
+        `between` is a LineCollection; each line connects a point of P with the nearest point of Q,
+        or the reverse. `accent` is the pair whose distance is the value.
 
     Raises
     ------
     ValueError, TypeError
-        As for :func:`curvewise.hausdorff`, and for d > 2; before anything is drawn.
+        As for :func:`curvewise.hausdorff`, and if d > 2; before anything is drawn.
 
     Notes
     -----

@@ -1,4 +1,4 @@
-"""The continuous Fréchet distance: what it matches, and the free space that the matching is in."""
+"""The continuous Fréchet distance: its matching, and the free space."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ def plot_matching(
 ) -> CurveArtists:
     """Draw which points of the curves the continuous Fréchet distance matches.
 
-    Curves in the plane are drawn as they are. Series (d = 1) are drawn against the index, with Q
-    moved away from P by the amount that its label gives.
+    Plane curves are drawn unchanged. Series (d = 1) are drawn against the index, with Q shifted
+    from P by the amount that its label gives.
 
     Parameters
     ----------
@@ -51,13 +51,13 @@ def plot_matching(
     Returns
     -------
     CurveArtists
-        `between` is a LineCollection from points of P to points of Q: at most 80 leashes, evenly
-        spread along both curves. `accent` is the longest leash.
+        `between` is a LineCollection from points of P to points of Q: at most 80 pairs, evenly
+        spread along both curves. `accent` is the pair with the largest distance.
 
     Raises
     ------
     ValueError, TypeError
-        Where `frechet_continuous_path` does, and for d > 2; before anything is drawn.
+        As for `frechet_continuous_path`, and if d > 2; before anything is drawn.
 
     Notes
     -----
@@ -88,18 +88,19 @@ def plot_free_space(
 ) -> tuple[AxesImage, Line2D | None]:
     """Draw the free-space diagram of two short curves, and a path through it.
 
-    A point of the diagram is a point of P and one of Q; it is free, and drawn white, where a leash
-    of length `distance` reaches from one to the other. A leash is long enough where a path that
-    never goes down or back leads through the free space from corner to corner.
+    A point of the diagram is a point of P and one of Q. It is free, and drawn white, if their
+    distance is at most `distance`. The Fréchet distance is at most `distance` if a path that never
+    goes down or back leads through the free space from corner to corner.
 
     Parameters
     ----------
     P, Q : array_like, shape (n, d) and (m, d), or (n,) and (m,)
-        The curves, of any d. Of curves of more than some 100 points cells are too small to see.
+        The curves, of any d. For curves with more than about 100 points, the cells are too small to
+        see.
     ax : matplotlib.axes.Axes
         Where to draw: the vertices of P upwards, those of Q to the right.
     distance : float, optional
-        The length of the leash; the continuous Fréchet distance if not given.
+        The largest distance of free pairs; by default the continuous Fréchet distance.
     normalized : bool
         As in `plot_area`.
 
@@ -108,12 +109,12 @@ def plot_free_space(
     image : matplotlib.image.AxesImage
         The free space.
     path : matplotlib.lines.Line2D or None
-        The path of `frechet_continuous_path`, where the leash is long enough for it.
+        The path of `frechet_continuous_path`, if `distance` is large enough for it.
 
     Raises
     ------
     ValueError, TypeError
-        Where `frechet_continuous_path` does, before anything is drawn.
+        As for `frechet_continuous_path`, before anything is drawn.
 
     Notes
     -----

@@ -52,7 +52,7 @@ def measured_and_drawn(
 
 
 def warping_of(measure: str) -> Warping:
-    """Return the path and the table of a measure; refuse one that has none."""
+    """Return the path and table functions of a measure; raise if missing."""
     if not isinstance(measure, str) or measure not in WARPINGS:
         raise ValueError(f"unknown measure {measure!r}; choose from {', '.join(sorted(WARPINGS))}")
     return WARPINGS[measure]

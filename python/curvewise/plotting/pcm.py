@@ -43,12 +43,12 @@ def plot_pcm(
     -------
     CurveArtists
         `between` is a LineCollection from vertices of the shorter curve to their points on the
-        longer one (at most 80, evenly chosen); `accent` the stretch of the longer one in use.
+        longer one (at most 80, evenly chosen). `accent` is the mapped section of the longer one.
 
     Raises
     ------
     ValueError, TypeError
-        Where `pcm` does, before anything is drawn.
+        As for `pcm`, before anything is drawn.
 
     Notes
     -----

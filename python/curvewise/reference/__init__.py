@@ -1,17 +1,17 @@
 """All measures in plain numpy, written to be read: the oracle for the compiled library.
 
-Same names, arguments (except ``workers``), defaults, results and errors as :mod:`curvewise`, one
-module for each measure, and nothing compiled except numpy. Docstrings are those of
-``curvewise.measures``, for which alone that module is imported; those in the source here become
-the Notes. For every metric except minkowski (with p other than 1, 2 and inf) the
-values, tables and paths of dtw and frechet equal those of the compiled library bit for bit: every
-sum is written out in its order, and nothing is left to a library that may reorder it. The other
-measures agree to 1e-12 relative, where no decision (longest segment, simple or complex
-quadrilateral, shorter curve) hangs on rounding.
+The interface, results and errors are those of :mod:`curvewise`, without ``workers``, and with one
+module for each measure. Only numpy is compiled. Docstrings are copied from ``curvewise.measures``,
+which is imported only for that purpose; the docstrings in the source here become the Notes. The
+values, tables and paths of dtw and frechet are bitwise identical to those of the compiled library,
+for every metric except minkowski with p other than 1, 2 and inf. Every sum is therefore written out
+in its order, without library functions that may reorder it. The other measures agree to 1e-12
+relative, if decisions do not depend on rounding (longest segment, simple or complex quadrilateral,
+shorter curve).
 
-:mod:`curvewise.reference.nearest` has what is made of many distances: nearest neighbours, the runs
-of a long curve, and the mean. :mod:`curvewise.reference.materials` has the points of material, by
-many small steps.
+:mod:`curvewise.reference.nearest` has the functions of many distances: nearest neighbours,
+subsequences of a long curve, and the mean. :mod:`curvewise.reference.materials` has the
+material-point models, integrated with many small steps.
 
 Tables are stored whole, so memory is O(n m) where the compiled library needs O(n + m).
 

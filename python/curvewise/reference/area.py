@@ -1,14 +1,14 @@
 """The area between two curves: Algorithm 1 of the paper.
 
-The curve with fewer points is refined until both have the same number; between corresponding
-segments lie quadrilaterals, whose areas are added up. Whether a quadrilateral intersects itself
-("complex") is told by the signs of the cross products of its consecutive edges; the area of a
-simple one is half the cross product of its diagonals, which is Gauss's formula without its
-cancellation. Time O(n + (n - m) log m), memory O(n).
+The curve with fewer points is refined until both have the same number of points. Corresponding
+segments then form quadrilaterals, whose areas are added up. The signs of the cross products of
+consecutive edges tell whether a quadrilateral intersects itself ("complex"). The area of a simple
+one is half the cross product of its diagonals, which is Gauss's formula without its cancellation.
+Time O(n + (n - m) log m), memory O(n).
 
-With "matched" the curves are matched by a warping path instead (matching.py); areas have signs,
-which cancel within each of the pieces into which the path is cut. With "function" the strips
-between two functions of x are integrated instead (function_strips.py).
+With "matched", a warping path matches the curves instead (matching.py). Areas are signed then, and
+cancel within each section of the path. With "function" the strips between two functions of x are
+integrated instead (function_strips.py).
 """
 
 from __future__ import annotations
@@ -119,8 +119,8 @@ def _measured(quads: Array, crossing: Crossing) -> tuple[Array, Array]:
     if crossing == "split":
         is_complex = ~_is_simple(quads)
         split_areas = _areas_of_triangles(quads[is_complex])
-        # Where a corner lies on a side but for rounding, one of the triangles has no area, and the
-        # other is the quadrilateral's own.
+        # If a corner lies on a side, up to rounding, one of the triangles vanishes and the other
+        # equals the quadrilateral.
         areas[is_complex] = np.where(np.isnan(split_areas), areas[is_complex], split_areas)
     return quads, areas
 

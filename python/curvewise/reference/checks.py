@@ -1,7 +1,7 @@
-"""What is refused, and in which words: options first, then shapes, then the numbers.
+"""Checks of the input: options first, shapes, then numbers.
 
-Every check raises ValueError with one line that says what is wrong, where, and what to do. The
-compiled library uses the same words.
+Every check raises ValueError with one line that states the fault, its place, and the remedy. The
+compiled library uses the same messages.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def check_pair(
     on_sphere: bool = False,
     name: str = "Q",
 ) -> tuple[Array, Array]:
-    """Check P and Q, which goes by `name`, and return both with shape (n, d)."""
+    """Check P and Q, which is called `name`, and return both with shape (n, d)."""
     named = ((P, "P"), (Q, name))
     _check_columns(*named)
     if in_columns(P).shape[1] != in_columns(Q).shape[1]:

@@ -55,7 +55,7 @@ def _residuals(
 ) -> Array:
     """Return ln(1 + abs(Δ / scale)) in one coordinate."""
     if range_exponent(p, q) != 0:
-        # A quotient has no units: p is brought near 1, and nothing needs to be scaled back.
+        # A quotient is dimensionless: p is scaled close to 1, and nothing must be scaled back.
         exponent = math.frexp(np.abs(p).max())[1]
         p, q = times_power_of_two(p, -exponent), times_power_of_two(q, -exponent)
     divisor = _coordinate_scale(p, name, scale)

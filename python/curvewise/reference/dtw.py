@@ -151,13 +151,14 @@ def dtw_table(
 
 
 class _Table(NamedTuple):
-    """A filled table, with what is needed to read a distance or a path off it."""
+    """A filled table, with the data that give a distance or a path."""
 
     costs: Array  # c[i, j], in units of 2**exponent
     ground: Array  # d(P[i], Q[j]), in the same units; inf outside the window
     end: tuple[int, int]  # the cell in which the path ends
     exponent: int
-    path: Callable[[], npt.NDArray[np.int64]] | None = None  # where the steps have one of their own
+    # for steps with a separate path function
+    path: Callable[[], npt.NDArray[np.int64]] | None = None
 
     def restored(self, values: Any) -> Array:
         """Return values of the table in units of the curves."""
@@ -342,7 +343,7 @@ def _check_window(window: Any) -> Any:
 
 
 def checked_radius(window: Any, n: int, m: int) -> int | None:
-    """Return the radius of a window between so many points, or None."""
+    """Return the radius of a window for n and m points, or None."""
     radius = _check_window(window)
     if isinstance(radius, float):
         radius = int(radius * max(n, m))

@@ -1,9 +1,9 @@
 """Edit distances, and weighted dynamic time warping, by the table of reference/recurrence.py.
 
-Each says its steps: a match or change, a point of P left out, and one of Q, in this order; what
-lies before the first row and column; and what the last cell is divided by. Its function fills the
-table, of which callers get the value, and edit_path and edit_table the rest. Time and memory
-O(n m).
+Each distance defines its steps: a match or change, the removal of a point of P, and of one of Q, in
+this order. It also defines the border before the first row and column, and the divisor of the last
+cell. Its function fills the table; callers use its value, edit_path and edit_table the rest. Time
+and memory O(n m).
 """
 
 from __future__ import annotations

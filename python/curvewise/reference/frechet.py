@@ -1,14 +1,14 @@
-"""The discrete Fréchet distance: the shortest leash for two walks along the points.
+"""The discrete Fréchet distance, by dynamic programming.
 
-The table c[i, j] holds the shortest leash for a coupling that ends at (i, j):
+The table c[i, j] holds the smallest maximum distance of a coupling that ends at (i, j):
 
     c[i, j] = max(d(P[i], Q[j]), min(c[i-1, j], c[i, j-1], c[i-1, j-1]))
 
 (Eiter & Mannila, 1994). It is filled along anti-diagonals i + j = s, whose cells depend on earlier
-ones only. For the Euclidean distance, or arcs, the table is that of the squares, and roots are
-taken at the end: they are monotone, so max and min choose the same cells and the values have the
-same bits. The coupling is read off the squares too, because the rounding of roots can make two of
-them equal that are not. Time and memory O(n m).
+ones only. For the Euclidean distance, or arcs, the table holds squares, and roots are taken at the
+end. Roots are monotone, so max and min choose the same cells and the values are bitwise identical.
+The coupling is also read from the squares, because rounding can make the roots of different squares
+equal. Time and memory O(n m).
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ def frechet_table(
 
 
 class _Table(NamedTuple):
-    """A filled table, with what is needed to read a distance off it."""
+    """A filled table, with the data that give a distance."""
 
     leashes: Array  # c[i, j], or its square, in units of 2**exponent
     root: Root | None

@@ -1,15 +1,14 @@
-"""The continuous Fréchet distance: the shortest leash for two walks along the curves themselves.
+"""The continuous Fréchet distance, by exact free-space decisions.
 
-A leash of length r is long enough where a path that goes only up and to the right leads through
-the free space, the pairs of points at most r apart (Alt & Godau, 1995). The diagram has a cell for
-every edge of P and edge of Q, and the free space of a cell is convex: what is reached of a side of
-it is an interval that ends where the free part of that side ends. The value is the least double
-that is long enough, found by bisection on the bit patterns of doubles, whose order is that of
-their values.
+The distance is at most r if a monotone path leads through the free space, which is the set of pairs
+of points at most r apart (Alt & Godau, 1995). The diagram has a cell for every edge of P and edge
+of Q, and the free space of a cell is convex. The reachable part of a side is therefore an interval
+that ends with the free part of that side. The value is the smallest double that is an upper bound,
+found by bisection on the bit patterns of doubles, whose order is that of their values.
 
-Nothing is rounded. All coordinates and r are whole multiples of one power of two, and a position
-on an edge, times the square of its length, is a + s sqrt(c) with whole a and c and s of -1, 0 or
-1; two of these are compared by squaring. Time O(n m) a decision, of which a value takes 63; memory
+Nothing is rounded. All coordinates and r are integer multiples of one power of two. A position on
+an edge, times the square of its length, is a + s sqrt(c) with integers a and c, and s of -1, 0 or
+1. Two positions are compared by squaring. A value takes 63 decisions of time O(n m) each; memory
 O(n m).
 """
 
@@ -123,7 +122,7 @@ class _Diagram:
         self.strictly = strictly
 
     def is_free(self, i: int, j: int) -> bool:
-        """Tell whether the leash holds P[i] and Q[j]."""
+        """Return whether P[i] and Q[j] are at most r apart."""
         square = _dot(w := _minus(self.P[i], self.Q[j]), w)
         return square < self.square or (square == self.square and not self.strictly)
 
@@ -144,9 +143,10 @@ class _Diagram:
         return (low, high) if low < high or (low <= high and not self.strictly) else None
 
     def reached(self) -> tuple[list[list[_Part]], list[list[_Part]]]:
-        """Return what is reached of the lower side, and of the left side, of every cell.
+        """Return the reachable parts of the lower and the left side of every cell.
 
-        There is a row of lower sides, and a column of left sides, more than there are cells.
+        There is one more row of lower sides, and one more column of left sides, than there are
+        cells.
         """
         p, q = self.P, self.Q
         n, m = len(p) - 1, len(q) - 1  # edges
@@ -227,7 +227,7 @@ def _point(C: Array, parameter: float) -> list[Fraction]:
 
 
 def _is_coupled(P: Array, Q: Array, radius: float) -> bool:
-    """Tell whether a coupling of the vertices keeps the leash."""
+    """Return whether the discrete Fréchet distance is at most `radius`."""
     if math.isinf(radius):
         return True
     diagram = _Diagram(P, Q, radius)

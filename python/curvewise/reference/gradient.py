@@ -1,8 +1,8 @@
-"""The derivatives of measures by their curves, as what they are: limits of differences.
+"""Derivatives of measures by their curves, by finite differences.
 
-Central differences of fourth order, by steps of a ten-thousandth of the curve's extent. They agree
-with the compiled library's formulas to about 1e-9 of the largest derivative, where no kink lies
-within two steps; both are derived in different ways, so that one checks the other.
+They are central differences of fourth order, with steps of a ten-thousandth of the curve's extent.
+They agree with the compiled library's formulas to about 1e-9 of the largest derivative, if no kink
+lies within two steps. The two derivations are independent, so one checks the other.
 """
 
 from __future__ import annotations

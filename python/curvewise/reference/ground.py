@@ -1,4 +1,4 @@
-"""The ground distance of dtw and frechet: by a metric's name, or one's own.
+"""The ground distance of dtw and frechet: named or user-defined.
 
 All distances at once, in a table of shape (n, m). Time and memory O(n m).
 """
@@ -33,7 +33,7 @@ class Ground(NamedTuple):
     def checked(
         cls, P: Array, Q: Array, metric: GroundDistance, p: Order, radius: Radius
     ) -> Ground:
-        """Check it; of one's own that is a matrix, for these curves."""
+        """Check it; a user-defined matrix must also fit these curves."""
         if not is_own_metric(metric):
             return cls(*check_metric(cast(Metric, metric), p, radius))
         refuse_own_metric(p, radius)
@@ -55,7 +55,7 @@ class Ground(NamedTuple):
         return ground_distances(P[:, np.newaxis], Q, self.metric, self.order), exponent
 
     def before_root(self, P: Array, Q: Array) -> tuple[Array, Root | None, int]:
-        """Return the same, or what is under a root that may come last, and that root."""
+        """Return the same, or values before a monotone root, and that root."""
         if self.own is not None:
             return np.array(self.own(0, len(P), 0, len(Q))), None, 0
         P, Q, exponent = in_range(P, Q, self.metric)

@@ -1,7 +1,7 @@
-"""The Hausdorff distance between the points of two curves, off the table of all pairs.
+"""The Hausdorff distance between the points of two curves.
 
-For the Euclidean distance, or arcs, it is that of the squares, of which one root is taken at the
-end: it is monotone, so the bits are the same. Time and memory O(n m).
+For the Euclidean distance, or arcs, the table of all pairs holds squares, and one root is taken at
+the end. The root is monotone, so the result is bitwise identical. Time and memory O(n m).
 """
 
 from __future__ import annotations

@@ -1,10 +1,11 @@
-"""The Hausdorff distance between polygonal curves, by all places where it can be attained.
+"""The Hausdorff distance between polygonal curves, by candidate places.
 
-The squared distance of a point x + t u of an edge to a vertex of the other curve, or to the line
-through one of its edges, is a quadratic in t. The least distance to the other curve is greatest at
-an end of the edge, or where two of these quadratics are equal: between such places the nearest
-vertex or line is one and the same, and the distance to it convex. The distance to the curve is
-computed at all of them; at those that do not count it is less. Time O(n m^3), memory O(m^2).
+Let x + t u be a point of an edge. Its squared distance to a vertex of the other curve, or to the
+line through one of the other curve's edges, is a quadratic in t. The smallest distance to the other
+curve is greatest at an end of the edge, or at a place where two of these quadratics are equal.
+Between such places the nearest vertex or line is the same, and the distance to it is convex. The
+distance to the curve is computed at all of these places; superfluous places give smaller distances.
+Time O(n m^3), memory O(m^2).
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ def _of_points(x: Array, u: Array, Q: Array) -> list[list[float]]:
 
 
 def _of_lines(x: Array, u: Array, Q: Array) -> list[list[float]]:
-    """Return the same of the lines through the edges: of what is normal to them."""
+    """Return the same for the lines through the edges (normal components)."""
     quadratics = []
     for start, end in pairwise(Q):
         along = end - start
@@ -67,7 +68,7 @@ def _of_lines(x: Array, u: Array, Q: Array) -> list[list[float]]:
 
 
 def _roots(a: Array, b: Array, c: Array) -> Array:
-    """Return the real roots of a t^2 + 2 b t + c; none of a constant."""
+    """Return the real roots of a t^2 + 2 b t + c; an empty array for a constant."""
     with np.errstate(divide="ignore", invalid="ignore"):
         root = np.sqrt(np.maximum(b * b - a * c, 0.0))  # of equal roots, rounded
         q = -(b + np.copysign(root, b))

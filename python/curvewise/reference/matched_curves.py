@@ -1,18 +1,19 @@
-"""Two curves matched by a warping path, and cut into pieces: what `spacing="matched"` measures.
+"""Two curves matched by a warping path, for the matched area.
 
-A simulation has other increments than the test, and a test has noise. Refinement compares what
-lies beside each other only where both curves were sampled alike, and arc length only where neither
-has noise, which is length. Here both are sampled anew, at equal shares of their own arc lengths,
-and the warping path of dynamic time warping finds which samples belong together.
+The option is `spacing="matched"`. A simulation has other increments than the test, and a test has
+noise. Refinement compares corresponding places only if both curves were sampled in the same way.
+Arc length does so only if neither has noise, because noise adds length. Here both are resampled at
+equal fractions of their arc lengths, and the path of dynamic time warping finds corresponding
+samples.
 
-Coordinates are scaled by P's box. The path is that of :func:`dtw_path` with the ground distance
-abs(dx) + abs(dy), on coordinates rounded to 30 bits, so that no rounding error decides between two
-paths that cost the same. It is cut into pieces that are short, a tenth of the box, and long beside
-the spacing of noisy points. Areas within a piece are added with their signs, so that what noise
-sweeps to and fro cancels.
+Coordinates are scaled by P's bounding box. The path is that of :func:`dtw_path` with the ground
+distance abs(dx) + abs(dy), on coordinates rounded to 30 bits. Rounding errors therefore do not
+decide between two paths of equal cost. It is cut into sections that are short, a tenth of the box,
+but long compared with the spacing of noisy points. Areas within a section are added with their
+signs, so that the contributions of noise cancel.
 
-Time and memory O(n + m + k²), where k = 50 T samples are matched and T is how many widths and
-heights of its box P travels. Where T is above 280, samples are matched whose places differ by at
+Time and memory O(n + m + k²), where k = 50 T samples are matched and T is the number of widths and
+heights of its box that P travels. If T is above 280, the places of matched samples differ by at
 most 1e8 / k.
 """
 
@@ -72,7 +73,7 @@ def matched_curves(P: Array, Q: Array) -> MatchedCurves:
 
 
 def _in_box(curve: Array, P: Array, Q: Array) -> Array:
-    """Scale by the box of P; of Q, in a direction in which P has no extent."""
+    """Scale by the box of P; by that of Q in a direction in which P is flat."""
     scaled = np.empty(curve.shape)
     for c in range(2):
         box_of = Q if P[:, c].min() == P[:, c].max() else P

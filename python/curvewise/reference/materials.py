@@ -1,9 +1,9 @@
-"""Points of material as a textbook has them: return to the yield surface by many small steps.
+"""Material-point models: return to the yield surface in many small steps.
 
-An elastic trial; where it leaves the yield surface, the rest of the step is plastic, and the rate
-equations are integrated in the strain by the classical method of Runge and Kutta. Nothing of it is
-closed: the error is of fourth order in the step, some 1e-9 of the stress with a hundred steps
-between two points of a loop. O(n steps), 0.1 ms each.
+Each step begins with an elastic trial. If the trial leaves the yield surface, the rest of the step
+is plastic, and the classical Runge-Kutta method integrates the rate equations in the strain.
+Closed-form solutions are not used. The error is of fourth order in the step, about 1e-9 of the
+stress with a hundred steps between two points of a loop. O(n steps), 0.1 ms each.
 
 Chaboche and Voce: J. L. Chaboche, Int. J. Plasticity 2 (1986) 149-188. Yoshida and Uemori:
 Int. J. Plasticity 18 (2002) 661-686, uniaxial, with the constants of `*MAT_125` of LS-DYNA. A

@@ -1,9 +1,9 @@
-"""The nearest of many curves, and what goes with them, in plain numpy: as their definitions read.
+"""Nearest curves, subsequences and means, by their definitions.
 
-Nothing is left out and nothing is estimated: distances are those of this package, of every pair or
-of every run, and what is wanted is picked from them. Values and indices equal those of
-:class:`curvewise.Index`, :func:`curvewise.subsequence` and :func:`curvewise.dtw_mean`, bit for bit,
-where the measure's do.
+The code neither prunes nor estimates. It computes the distances of this package for every pair or
+every window, and selects the results from them. Values and indices are bitwise identical to those
+of :class:`curvewise.Index`, :func:`curvewise.subsequence` and :func:`curvewise.dtw_mean`, if those
+of the measure are.
 """
 
 from __future__ import annotations
@@ -65,9 +65,9 @@ def subsequence(
     radius: Radius = Default.radius,
     cutoff: float = np.inf,
 ) -> list[Subsequence]:
-    """Return the best run of Q, and again and again the best of the pieces that are left.
+    """Return the best subsequence of Q, then the best of the remaining sections.
 
-    Every piece is searched by itself, in a table of its own.
+    Every section is searched separately, in its own table.
     """
     metric, order = check_metric(metric, p, radius)
     P, Q = as_curve(P, "P"), as_curve(Q, "Q")

@@ -134,11 +134,11 @@ def _mapped_points(roles: _Roles, offset: float, longer: Array) -> Array:
 
 
 def _all_offsets(roles: _Roles) -> Array:
-    """Return, in ascending order, offsets among which is the best of all, to the tolerance.
+    """Return ascending offsets that include the best one, to the tolerance.
 
-    As long as no s_i + o passes a vertex of the longer curve, each mapped point moves along a
-    straight line, so that its distance from its vertex, and f with it, is convex in o. Each of
-    these pieces has one minimum, which the golden-section search finds.
+    While no s_i + o passes a vertex of the longer curve, each mapped point moves along a straight
+    line. Its distance from its vertex, and f with it, is then convex in o. Each of these intervals
+    has one minimum, which the golden-section search finds.
     """
     grid = _grid(roles, _GRID)
     breakpoints = np.subtract.outer(roles.t, roles.s).ravel()

@@ -2,12 +2,12 @@
 
     c[i, j] = min over steps of  c[i - rows, j - columns] + constant + sum of weight x cost
 
-added up in this order, where each cost is that of a cell on the way of the step, or one of its
-own. A step with an infinite cost is infinite, whatever the cost's weight. What comes before the
-first row and the first column is a border, infinite but where a recurrence says otherwise. Filled
-row by row, cell by cell, since nothing is faster to check. Time O(n m) times the number of costs,
-memory O(n m). The steps of named patterns are those that the library has: they are data, held to
-R's dtw by a test.
+added up in this order. Each cost belongs to a cell on the way of the step, or to the step itself. A
+step with an infinite cost is infinite, whatever the weight. The cells before the first row and the
+first column form a border, which is infinite unless a recurrence defines it. The table is filled
+row by row, cell by cell, which is the easiest order to check. Time O(n m) times the number of
+costs, memory O(n m). The steps of named patterns are those of the library: they are data, checked
+by a test against R's dtw.
 """
 
 from __future__ import annotations
@@ -72,9 +72,9 @@ def pattern_steps(
 def filled(
     recurrence: Recurrence, inside: npt.NDArray[np.bool_]
 ) -> tuple[Array, npt.NDArray[np.int64]]:
-    """Return c in the cells inside the window, and the step by which each was reached, or `START`.
+    """Return c inside the window, and each cell's last step or `START`.
 
-    A path starts in a cell if no path that comes from elsewhere is cheaper.
+    A path starts in a cell if every path from elsewhere is at least as expensive.
     """
     n, m = inside.shape
     # table[i + 1, j + 1] is c[i, j].
@@ -113,7 +113,10 @@ def found_path(
     taken: npt.NDArray[np.int64],
     end_of: EndOf = last_cell,
 ) -> npt.NDArray[np.int64]:
-    """Return the path of a filled table: one that steps admit where all are infinite, or none."""
+    """Return the path of a filled table; any admissible path if all are infinite.
+
+    Return an empty path if an admissible one does not exist.
+    """
     if table[end_of(table)] == np.inf:
         recurrence = recurrence.without_costs()
         table, taken = filled(recurrence, inside)

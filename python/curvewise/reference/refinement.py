@@ -26,7 +26,8 @@ def facing_curves(P: Array, Q: Array, spacing: Spacing, exponent: int) -> tuple[
 
     Both come out in units of 2**exponent. With "arc_length", after which both have more, A is P.
     """
-    # Before that: a coordinate that is small beside the other may vanish in these units.
+    # This comes first: a coordinate that is small compared with the other may vanish in these
+    # units.
     lengths = (
         [_relative_arc_lengths(curve, P) for curve in (P, Q)] if spacing == "arc_length" else []
     )
@@ -51,8 +52,8 @@ def _bisected(curve: Array, count: int, spacing: Spacing) -> Array:
 
 def _bisection_cuts(lengths: Array, count: int) -> list[tuple[int, float]]:
     """Return the cuts as pairs (segment, place h in it, 0 < h < 1)."""
-    # A part of a segment: its length (negative, because a heap has the smallest on top), then what
-    # decides among equals, the segment and its beginning; last, how often it was bisected.
+    # A part of a segment: its length (negative, because a heap has the smallest on top), then the
+    # tie-breakers, the segment and its beginning; last, the number of its bisections.
     parts = [(-length, segment, 0.0, 0) for segment, length in enumerate(lengths.tolist())]
     heapq.heapify(parts)
     cuts = []
@@ -108,7 +109,7 @@ class _Walk:
         return self.vertex == len(self.curve) - 1
 
     def next_u(self) -> float:
-        """Return where the next vertex is; behind the last there is none."""
+        """Return the place of the next vertex; infinity after the last."""
         return math.inf if self.at_end() else float(self.u[self.vertex + 1])
 
     def advance(self, u: float) -> Array:

@@ -1,4 +1,4 @@
-"""Soft-DTW as Cuturi & Blondel (2017) write it, by logarithms of sums of exponentials.
+"""Soft-DTW after Cuturi & Blondel (2017), by logarithms of sums of exponentials.
 
     r[i, j] = d[i, j] + softmin(r[i-1, j], r[i, j-1], r[i-1, j-1]),   d = |P[i] - Q[j]|^2
     softmin(a) = min(a) - gamma log(sum(exp(-(a - min(a)) / gamma)))

@@ -1,8 +1,9 @@
-"""The area that one of two closed curves encloses and the other does not, slab by slab.
+"""The area that exactly one of two closed curves encloses, slab by slab.
 
-The even-odd rule for the edges of both curves together is that of the symmetric difference. Between
-neighbouring x of points and of crossings edges have one order, and every second gap is enclosed.
-All pairs of edges are looked at for crossings: time O((n + m)² (n + m + k)), memory O((n + m)²).
+The even-odd rule for the edges of both curves together gives the symmetric difference. Between
+neighbouring x of points and of crossings, edges have a fixed order, and every second gap is
+enclosed. All pairs of edges are tested for crossings: time O((n + m)² (n + m + k)), memory O((n +
+m)²).
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""A table c[i, j] of two curves, filled from its first cell on, and a path traced back through it.
+"""The dynamic-programming table c[i, j] of two curves, and its path.
 
-What dtw and frechet have in common: c[i, j] is made of the ground distance d of P[i] and Q[j] and
-of c[i-1, j] (up), c[i, j-1] (left) and c[i-1, j-1] (diagonal), in a way that each says itself. The
-cells of an anti-diagonal i + j = s depend on earlier ones only, and are computed at once. Time and
-memory O(n m); a path takes O(n + m).
+dtw and frechet share this code. A cell c[i, j] depends on the ground distance d of P[i] and Q[j]
+and on three cells: up, left and diagonal. Each measure defines how. The cells of an anti-diagonal i
++ j = s depend on earlier ones only, and are computed at once. Time and memory O(n m); a path takes
+O(n + m).
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ def filled_table(
     With `open_begin` a path may begin in each cell of the first row.
     """
     n, m = ground.shape
-    # table[i + 1, j + 1] is c[i, j]: behind a border of inf the first row and column need no case
-    # of their own. Above an open first row the border is 0: a path may begin in each of its cells.
+    # table[i + 1, j + 1] is c[i, j]: with a border of inf, the first row and column need no special
+    # case. Above an open first row the border is 0: a path may begin in each of its cells.
     table = np.full((n + 1, m + 1), np.inf)
     if open_begin:
         table[0, :] = 0.0
@@ -53,8 +53,9 @@ def traced_path(
 ) -> npt.NDArray[np.int64]:
     """Trace the path back from the last row's column `end`.
 
-    ``is_diagonal(i, j)`` says of a cell behind the first row and column whether it was reached from
-    c[i-1, j-1]; if not, the smaller of the other two is taken, and of equal ones c[i-1, j].
+    ``is_diagonal(i, j)`` returns, for a cell behind the first row and column, whether it was
+    reached from c[i-1, j-1]. If not, the smaller of the other two is taken; of equal ones c[i-1,
+    j].
     """
     i, j = len(table) - 1, end
     path = [(i, j)]

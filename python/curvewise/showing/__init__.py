@@ -1,1 +1,1 @@
-"""What a result shows of itself, as text and in a notebook; knows no result by name."""
+"""Display of results as text and in notebooks, for any kind of result."""

@@ -1,9 +1,8 @@
-"""The base of every result: what it says and draws, as text, in a notebook and on a page.
+"""The base class of results: display as text, in notebooks and in reports.
 
-A result says which tables and paragraphs it consists of, and draws its picture of arrays; how these
-are shown is said here alone. In a notebook the picture is the one that `plot()` draws, as PNG
-within the text, so that the notebook keeps it. Without matplotlib the tables stand alone, with a
-sentence that says so. Cost: that of `plot()`.
+A result defines its tables and paragraphs, and draws its figure from arrays; only this module
+displays them. In a notebook, the figure of `plot()` is embedded as PNG, so that the notebook keeps
+it. Without matplotlib, the tables are shown with a note that it is missing. Cost: that of `plot()`.
 """
 
 from __future__ import annotations
@@ -28,11 +27,11 @@ class Table:
     Attributes
     ----------
     rows : sequence of sequence of str
-        As many cells in each.
+        The rows, all with the same number of cells.
     header : sequence of str
-        What the columns are called; none if empty.
+        The names of the columns; omitted if empty.
     narrowest : int
-        How many characters wide a column of numbers is at least, as text.
+        The least width of a column of numbers in characters, as text.
     """
 
     rows: Sequence[Sequence[str]]
@@ -45,7 +44,7 @@ class Table:
         return max((len(row[0]) for row in (self.header, *self.rows) if row), default=0)
 
     def text(self, first_width: int = 0) -> str:
-        """Return the table as lines, the first column at least so many characters wide."""
+        """Return the table as lines; `first_width` is the first column's least width."""
         rows = [self.header, *self.rows] if self.header else self.rows
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
         widths[0] = max(widths[0], first_width)
@@ -88,7 +87,7 @@ class Tabular(ABC):
 
     @abstractmethod
     def parts(self) -> Sequence[Table | str]:
-        """Return the tables and paragraphs that say what was found, in their order."""
+        """Return the tables and paragraphs of the result, in order."""
 
     def __str__(self) -> str:
         parts = self.parts()  # the first columns of all tables become equally wide
@@ -123,7 +122,7 @@ def paragraph(text: str) -> str:
 
 
 def _picture(plot: Callable[[], Picture], shows: str) -> str:
-    """Return a picture as an image of HTML, or a sentence that says why there is none."""
+    """Return a figure as an HTML image, or the reason for its absence."""
     try:
         png = plot().png()
     except (ImportError, ValueError) as error:
