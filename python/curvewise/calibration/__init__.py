@@ -22,6 +22,7 @@ from .methods.ask_tell import Answer, OpenSearch
 from .models.command import CommandModel, SolverError
 from .objective.cases import Case
 from .objective.criterion import MEASURES, Criterion
+from .objective.first_run import FirstRunWarning
 from .objective.noisy_tests import NoisyTestWarning
 from .objective.objective import Objective, Score
 from .problem.evaluations import Progress
@@ -44,6 +45,7 @@ __all__ = [
     "CommandModel",
     "Criterion",
     "CrossValidation",
+    "FirstRunWarning",
     "Fold",
     "Front",
     "Identification",

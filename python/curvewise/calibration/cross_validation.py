@@ -131,7 +131,7 @@ def cross_validate(
 
     Warns
     -----
-    NoisyTestWarning, WideBoundsWarning
+    NoisyTestWarning, FirstRunWarning, WideBoundsWarning
         As for :func:`identify`, once for all searches.
 
     Notes

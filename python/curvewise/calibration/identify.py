@@ -127,6 +127,9 @@ def identify(
     NoisyTestWarning
         If a test has noise that the measure does not average out ("curve_length", "pcm",
         "frechet").
+    FirstRunWarning
+        If the first simulation of a solver does not look like its test: other units, swapped
+        columns, the opposite sign.
     WideBoundsWarning
         If bounds span more than a decade; use :class:`Log` for them.
 

@@ -92,7 +92,7 @@ def identify_each(
 
     Warns
     -----
-    NoisyTestWarning, WideBoundsWarning
+    NoisyTestWarning, FirstRunWarning, WideBoundsWarning
         As for :func:`identify`, once for all searches.
 
     Notes

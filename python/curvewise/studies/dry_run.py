@@ -14,19 +14,16 @@ from pathlib import Path
 
 import numpy as np
 
-from ..calibration import SolverError
 from ..calibration.methods import method_of
 from ..calibration.models.pool import Outcome
 from ..calibration.problem.space import Space
-from ..comparing.units import other_units
+from ..comparing.units import unlike_its_test
 from ..curves.inputs import Array
 from ..curves.several_curves import points_of
 from .contents import AnyModel, Contents
 from .measured_tests import MeasuredTest
 
 __all__ = ["DryRun", "dry_run"]
-
-_LAST_LINES = 8  # of a log
 
 
 @dataclass(frozen=True)
@@ -62,14 +59,23 @@ class Read:
         return "\n".join([*lines, *(f"  {hint}" for hint in self.hints())])
 
     def hints(self) -> list[str]:
-        """Return what looks wrong: other units, another sign, a piece of the test."""
-        if self.test.is_number or self.simulation.shape[1] != np.shape(self.test.experiment)[1]:
+        """Return what looks wrong: swapped columns, other units, another sign."""
+        if self.test.is_number:
             return []
-        test, axes = np.asarray(self.test.experiment), self.test.axes
-        still = np.ptp(self.simulation, axis=0) == 0
-        found = [f"{axes[c]} of the simulation does not change" for c in np.flatnonzero(still)]
-        units = other_units(test, self.simulation, axes, "the test", "the simulation")
-        return [f"look: {hint}" for hint in (*found, *(f"{unit} see factors" for unit in units))]
+        test = np.asarray(self.test.experiment)
+        doubts = unlike_its_test(test, self.simulation, self.test.axes)
+        return [f"look: {doubt}{_key_to_see(doubt)}" for doubt in doubts]
+
+
+def _key_to_see(doubt: str) -> str:
+    """Return which key of the file answers a question."""
+    keys = {
+        "different units?": "factors",
+        "swapped columns?": "columns",
+        "direction?": "y",
+        "quantity?": "columns",
+    }
+    return next((f" see {key}" for end, key in keys.items() if doubt.endswith(end)), "")
 
 
 @dataclass(frozen=True)
@@ -171,10 +177,7 @@ def _run(
     """Run a model, store what comes, and return its folder, if it has one, and its curves."""
     before = set(place.iterdir()) if place.is_dir() else set()
     began = time.perf_counter()
-    try:
-        result = model(parameters)
-    except SolverError as error:
-        raise SolverError(f"{error}{_end_of_log(str(error))}") from None
+    result = model(parameters)
     seconds = time.perf_counter() - began
     made = set(place.iterdir()) - before if place.is_dir() else ()
     identity = study.identity(model)
@@ -182,12 +185,3 @@ def _run(
         store.register(identity)
         store.save(identity.text, parameters, Outcome(result, "", seconds))
     return next(iter(made), None), points_of(result)
-
-
-def _end_of_log(message: str) -> str:
-    """Return the last lines of the log that a message names."""
-    log = Path(message.rpartition("log: ")[2])
-    if "log: " not in message or not log.is_file():
-        return ""
-    lines = [line for line in log.read_text(encoding="latin-1").splitlines() if line.strip()]
-    return "".join(f"\n  | {line.rstrip()}" for line in lines[-_LAST_LINES:])

@@ -163,7 +163,11 @@ class StudyModel:
     ----------
     identity : str
         What a store knows its runs by.
+    is_solver : bool
+        True, as of a `CommandModel`.
     """
+
+    is_solver = True
 
     def __init__(
         self, command_model: CommandModel, values: tuple[DeckValue | DeckTable, ...]

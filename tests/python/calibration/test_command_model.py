@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -103,8 +104,10 @@ def test_garbage_is_an_error(tmp_path: Path, curve: str, message: str) -> None:
 
 def test_no_result_is_an_error(tmp_path: Path) -> None:
     model = python_model(tmp_path, "# <<E>>\n")
-    with pytest.raises(SolverError, match=r"FileNotFoundError.*curve.txt"):
+    with pytest.raises(SolverError, match=r"FileNotFoundError.*curve.txt") as caught:
         model({"E": 1.0})
+    first = str(caught.value).splitlines()[0]
+    assert re.search(r"\(\S*solver_scripts.py, line \d+, in read_curve\); log: ", first)
 
 
 def test_two_at_a_time(tmp_path: Path) -> None:

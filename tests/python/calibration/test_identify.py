@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import re
 import sys
 
 import numpy as np
@@ -294,7 +295,23 @@ def test_the_first_failure_is_logged(caplog):
     found = identify(fragile_line, EXPERIMENT, BOUNDS, **QUICK)
     assert len(found.failures) > 1
     (record,) = [r for r in caplog.records if r.levelname == "WARNING"]
-    assert record.message == f"evaluation {found.failures[0][0]} failed: ValueError: too steep"
+    number, message = found.failures[0]
+    assert record.message == f"evaluation {number} failed: {message}"
+    assert re.fullmatch(
+        r"ValueError: too steep \(\S+test_resuming.py, line \d+, in fragile_line\)", message
+    )
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_an_exception_has_the_line_of_the_users_code(workers):
+    with pytest.raises(RuntimeError, match=r"no simulation succeeded") as caught:
+        identify(stumbling, EXPERIMENT, BOUNDS, workers=workers, progress=False)
+    where = stumbling.__code__.co_firstlineno + 1
+    assert f"({__file__}, line {where}, in stumbling)" in str(caught.value)
+
+
+def stumbling(parameters):
+    return np.loadtxt("no such file")  # the innermost line is numpy's
 
 
 @pytest.mark.parametrize("missing", ["scipy", "tqdm"])

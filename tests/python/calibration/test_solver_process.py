@@ -23,6 +23,31 @@ from solver_scripts import (
 )
 
 from curvewise.calibration import CommandModel, SolverError
+from curvewise.calibration.models.process import end_of_log
+
+
+def log_of(error: SolverError) -> Path:
+    return Path(str(error).splitlines()[0].rpartition("log: ")[2])
+
+
+@pytest.mark.parametrize(
+    ("lines", "quoted"),
+    [
+        ([], []),
+        (["stop"], ["stop"]),
+        (["", "x" * 500, "", "diverged \xb2"], ["x" * 120, "diverged \ufffd"]),
+        ([f"increment {i}" for i in range(20000)], [f"increment {i}" for i in range(19994, 20000)]),
+        (
+            ["*ERROR reading *ELASTIC:", " <<E>>", "info", *"abcdef"],
+            ["*ERROR reading *ELASTIC:", " <<E>>", "...", *"abcdef"],
+        ),
+        ([*"abcdef", "some error"], [*"bcdef", "some error"]),
+    ],
+)
+def test_the_end_of_a_log_is_quoted(tmp_path: Path, lines: list[str], quoted: list[str]) -> None:
+    log = tmp_path / "command.log"
+    log.write_text("\n".join(lines), encoding="latin-1")
+    assert end_of_log(log).split("\n  | ") == ["", *quoted]
 
 
 def test_an_exit_code_keeps_the_log(tmp_path: Path) -> None:
@@ -30,9 +55,10 @@ def test_an_exit_code_keeps_the_log(tmp_path: Path) -> None:
     model = python_model(tmp_path, script + "sys.exit(3)\n")
     with pytest.raises(SolverError, match=r"ended with exit code 3 after .* s; log: ") as caught:
         model({"E": 1.5})
-    log = Path(str(caught.value).rpartition("log: ")[2])
+    log = log_of(caught.value)
     assert set(log.read_text().splitlines()) == {"negative volume 1.5", "stop"}
     assert (log.parent / "solver.py").exists()
+    assert {"  | negative volume 1.5", "  | stop"} == set(str(caught.value).splitlines()[1:])
     assert pickle.loads(pickle.dumps(caught.value)).args == caught.value.args
 
 
@@ -59,7 +85,7 @@ def test_a_time_out_ends_the_whole_process_group(tmp_path: Path) -> None:
     with pytest.raises(SolverError, match="took longer than 3 s and was stopped") as caught:
         model({"E": 1.0})
     assert pipe.all_gone(processes=2)
-    log = Path(str(caught.value).rpartition("log: ")[2])
+    log = log_of(caught.value)
     assert log.read_text() == "iteration 1\n"
 
 

@@ -197,3 +197,44 @@ def test_a_notebook_has_one_line_and_no_warning():
     said = subprocess.run(command, capture_output=True, check=True).stderr
     assert b"Warning" not in said
     assert said.count(b"\n") == 2
+
+
+class Solver:
+    """A model that counts as a solver, and fails at first."""
+
+    is_solver = True
+
+    def __init__(self, curves, failures, said):
+        self.curves, self.failures, self.said = curves, failures, said
+
+    def __call__(self, parameters):
+        self.said.append("run")
+        if len(self.said) <= self.failures:
+            raise ValueError("no licence")
+        return self.curves(model(parameters))
+
+
+def test_a_first_run_in_other_units_is_spoken_of_once(said):
+    test = NamedCurve(model(TRUE), ("strain", "stress"))
+    in_pascals = Solver(lambda curve: curve * (1.0, 1e6), 0, said)
+    identify(in_pascals, test, BOUNDS, max_runs=6, progress=False)
+    (warned,) = [one for one in said if one != "run"]
+    category, message, file = warned
+    assert (category, file) == (calibration.FirstRunWarning, __file__)
+    assert re.fullmatch(
+        r"the first simulation does not look like its test: stress of the test is \S+e-07 times "
+        r"that of the simulation; different units\? If so, stop .*",
+        message,
+    )
+    said.clear()
+    identify(lambda p: in_pascals(p), test, BOUNDS, max_runs=6, progress=False)
+    assert set(said) == {"run"}
+
+
+def test_a_first_run_is_looked_at_once_it_succeeds_and_test_by_test(said):
+    late = Solver(lambda curve: [curve, curve[:, ::-1]], 1, said)
+    identify(late, [model(TRUE)] * 2, BOUNDS, max_runs=8, progress=False)
+    (warned,) = [one for one in said if one != "run"]
+    assert warned[0] is calibration.FirstRunWarning
+    assert ": test 1: " in warned[1]
+    assert "swapped columns?" in warned[1]

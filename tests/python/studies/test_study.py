@@ -197,7 +197,28 @@ def test_a_check_asks_the_method_how_many_runs_it_takes(
 def test_a_check_sees_other_units(tmp_path: Path) -> None:
     text = STUDY.replace('y = "s / 1e6"', 'y = "s"')
     printed = str(Study.read(study_file(tmp_path, text)).check())
-    assert "look: s of the test is 1.29e+06 times that of the simulation; different" in printed
+    asked = "look: s of the test is 1.29e+06 times that of the simulation; different units?"
+    assert f"{asked} see factors" in printed
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "asked"),
+    [
+        ('x = "e"\ny = "f / 12.5"', 'x = "f / 12.5"\ny = "e"', "swapped columns? see columns"),
+        ('y = "f / 12.5"', 'y = "-f / 12.5"', "another direction? see y"),
+        ('y = "f / 12.5"', 'y = "0 * f"', "does not change; another quantity? see columns"),
+    ],
+)
+def test_a_check_and_a_search_ask_the_same(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], right: str, wrong: str, asked: str
+) -> None:
+    assert right in STUDY
+    path = study_file(tmp_path, STUDY.replace(right, wrong))
+    assert asked in str(Study.read(path).check())
+    assert main(["identify", str(path)]) == 0
+    said = capsys.readouterr().err.splitlines()[0]
+    assert said.startswith("curvewise: the first simulation does not look like its test: ")
+    assert asked.partition(" see")[0] in said
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,8 @@ import numpy as np
 
 from ...curves.inputs import Array, as_curve
 from .identity import fingerprint
-from .process import SolverError, run_solver
+from .process import SolverError, end_of_log, run_solver
+from .raised import named_with_place
 from .templates import check_names, read_templates
 
 __all__ = ["CommandModel", "SolverError"]
@@ -72,6 +73,8 @@ class CommandModel:
     ----------
     identity : str
         A text that differs between different models; a store identifies the model by it.
+    is_solver : bool
+        True: a search compares its first run with the tests (:class:`FirstRunWarning`).
 
     Raises
     ------
@@ -86,7 +89,7 @@ class CommandModel:
     A call raises `SolverError` if the program cannot be started, ends with an exit code other than
     0 or by a signal, takes longer than `timeout`, or prints more than 64 MiB. It also raises
     `SolverError` if `read` fails or returns something other than curves of finite numbers. The
-    folder is then kept, with the program's output in ``command.log``, which the error names.
+    folder is then kept, with the program's output in ``command.log``, whose end the error quotes.
     However a call ends (Ctrl-C included), all processes of the run's group end with it (on Windows:
     the program itself).
 
@@ -118,6 +121,8 @@ class CommandModel:
     >>> model({"E": 205.5}).tolist()
     [[0.0, 0.0], [1.0, 205.5]]
     """
+
+    is_solver = True
 
     def __init__(
         self,
@@ -232,7 +237,8 @@ class CommandModel:
             return _checked(curves, "the curve")
         except Exception as error:  # whatever the user's function stumbles over
             raise SolverError(
-                f"the results cannot be read: {type(error).__name__}: {error}; log: {folder / LOG}"
+                f"the results cannot be read: {named_with_place(error)}; log: {folder / LOG}"
+                f"{end_of_log(folder / LOG)}"
             ) from error
 
 

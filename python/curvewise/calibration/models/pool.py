@@ -35,11 +35,15 @@ from concurrent.futures import (
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, NamedTuple, TypeAlias
 
+from ..._bounds import OutsideModelError
+from .process import SolverError
+from .raised import named_with_place
+
 __all__ = ["Model", "ModelPool", "Outcome"]
 
 Model: TypeAlias = Callable[[dict[str, Any]], Any]
 
-_LONGEST_MESSAGE = 500
+_LONGEST_MESSAGE = 1500
 _PATIENCE = 5.0  # seconds that a model has to end after Ctrl-C before its process is ended
 
 
@@ -258,7 +262,12 @@ def _called(model: Model, parameters: dict[str, Any]) -> Outcome:
 
 
 def _message(error: Exception) -> str:
-    return " ".join(f"{type(error).__name__}: {error}".split())[:_LONGEST_MESSAGE]
+    """Return what an exception says, in one line; a solver's needs no place in Python."""
+    if isinstance(error, (SolverError, OutsideModelError)):
+        text = f"{type(error).__name__}: {error}"
+    else:
+        text = named_with_place(error)
+    return " ".join(text.split())[:_LONGEST_MESSAGE]
 
 
 def _result_of_executor(future: Future[Outcome]) -> Outcome:

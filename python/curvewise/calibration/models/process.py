@@ -15,7 +15,7 @@ import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-__all__ = ["SolverError", "run_solver"]
+__all__ = ["SolverError", "end_of_log", "run_solver"]
 
 # Bytes of output after which a program is stopped, and the size to which its log is then cut.
 _MOST_OUTPUT = 2**26
@@ -24,9 +24,16 @@ _LOOK = 0.1  # seconds between two looks at the log
 
 _GRACE = 2.0  # seconds between SIGTERM, on which solvers return their licence, and SIGKILL
 
+# What an error quotes of a log: its last lines, and before them the first lines that speak of an
+# error, with the line after each, where a solver names the cause and goes on.
+_LAST_LINES = 6
+_FIRST_ERRORS = 3
+_QUOTED_WIDTH = 120  # characters of a line
+_QUOTED_BYTES = 2**18  # of the log that are read
+
 
 class SolverError(RuntimeError):
-    """A run of the solver failed; the text says how, and where its log is."""
+    """A run of the solver failed; the text says how, names its log, and quotes the log's end."""
 
 
 def run_solver(
@@ -76,6 +83,7 @@ def run_solver(
         except subprocess.TimeoutExpired:
             raise SolverError(
                 f"{program} took longer than {timeout:g} s and was stopped; log: {log}"
+                f"{end_of_log(log)}"
             ) from None
         finally:
             _end_group(process)
@@ -88,7 +96,24 @@ def run_solver(
     if code != 0:
         how = f"was killed by signal {-code}" if code < 0 else f"ended with exit code {code}"
         seconds = time.monotonic() - begin
-        raise SolverError(f"{program} {how} after {seconds:.1f} s; log: {log}")
+        raise SolverError(f"{program} {how} after {seconds:.1f} s; log: {log}{end_of_log(log)}")
+
+
+def end_of_log(log: Path) -> str:
+    """Return the last lines of a log and its first errors, each on a line with a mark before it."""
+    with log.open("rb") as file:
+        file.seek(max(0, log.stat().st_size - _QUOTED_BYTES))
+        text = file.read().decode("utf-8", "replace")
+    lines = [line.rstrip()[:_QUOTED_WIDTH] for line in text.splitlines() if line.strip()]
+    errors = [i for i, line in enumerate(lines) if "error" in line.lower()][:_FIRST_ERRORS]
+    last = range(max(0, len(lines) - _LAST_LINES), len(lines))
+    chosen = sorted({*errors, *(i + 1 for i in errors if i + 1 < len(lines)), *last})
+    quoted = []
+    for before, i in zip([None, *chosen], chosen, strict=False):
+        if before is not None and i > before + 1:
+            quoted.append("...")
+        quoted.append(lines[i])
+    return "".join(f"\n  | {line}" for line in quoted)
 
 
 def _wait(process: subprocess.Popen[bytes], deadline: float, log: Path) -> int | None:

@@ -18,6 +18,7 @@ import numpy as np
 from ...curves.inputs import Array
 from ...curves.several_curves import as_points, curve_list
 from ..models.pool import Outcome
+from ..objective.first_run import warn_of_first_run
 from ..records.evaluation import Evaluation, Point, is_outside
 from ..surfaces.nearby_runs import Run
 from .problem import Problem
@@ -76,6 +77,7 @@ class Ledger:
         self._best: Point | None = None
         self._best_simulations: Any = None
         self._keeps_curves = False
+        self._has_looked = not any(getattr(one, "is_solver", False) for one in problem.callables)
         self._log_level = logging.WARNING  # of the first failure; all are kept anyway
 
     @property
@@ -171,6 +173,9 @@ class Ledger:
         if message and not is_outside(message):
             _log.log(self._log_level, "evaluation %d failed: %s", number, message)
             self._log_level = logging.DEBUG
+        if not (message or self._has_looked):
+            self._has_looked = True
+            warn_of_first_run(self.objective.experiments, self.objective.axes(), simulations)
         curves = None
         if self._keeps_curves and not message:
             curves = tuple(as_points(curve, "Q").copy() for curve in curve_list(simulations))
