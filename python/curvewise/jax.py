@@ -8,8 +8,8 @@ are computed in float64 of float32 coordinates, and returned as float32.
 
 dtw (metric euclidean, sqeuclidean or cityblock, and window), soft_dtw and soft_dtw_divergence are
 computed in JAX's operations, without a callback, where JAX has float64 and another device than the
-CPU: to about 1e-10 of these values, with nan for curves that are not finite. Tests run that way on
-the CPU; it has not been run on a GPU.
+CPU: to about 1e-10 of these values, with nan for curves that are not finite. Tests run these
+operations on the CPU, and on a GPU if there is one.
 
 A second derivative is refused, and JAX refuses derivatives forwards. Errors of shapes and options
 are those of numpy's functions; what is found out about the numbers, where a program is compiled,

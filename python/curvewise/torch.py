@@ -3,9 +3,9 @@
 Values and derivatives are those of :func:`curvewise.values_and_gradients`, to the bit, computed in
 float64 on the CPU by all its cores. dtw (metric euclidean, sqeuclidean or cityblock, and window),
 soft_dtw and soft_dtw_divergence of tensors on another device that has float64 are computed there,
-in PyTorch's operations, to about 1e-10 of these values. Tests run that way on the CPU; it has not
-been run on a GPU. For other measures and options a tensor is brought to the CPU, and the result
-back. A contiguous float64 tensor on the CPU is not copied. Errors are those of numpy's
+in PyTorch's operations, to about 1e-10 of these values. Tests run these operations on the CPU, and
+on a GPU if there is one. For other measures and options a tensor is brought to the CPU, and the
+result back. A contiguous float64 tensor on the CPU is not copied. Errors are those of numpy's
 functions. ``pip install "curvewise[torch]"``.
 
 Derivatives are found together with the values, where a curve asks for them; backwards they are only

@@ -41,6 +41,13 @@ def _with_float64():
     jax.config.update("jax_enable_x64", before)
 
 
+@pytest.fixture(autouse=True)
+def _compiled(monkeypatch):
+    """Compute with the compiled library if JAX sees a GPU too."""
+    if find_spec("jax"):
+        monkeypatch.setattr(curvewise.jax, "_stays", lambda: False)
+
+
 def curves_of(lengths: list[int], seed: int) -> list[np.ndarray]:
     random = np.random.default_rng(seed)
     return [random.normal(0.3, 1.0, (n, 2)).cumsum(axis=0) + 3 for n in lengths]
