@@ -29,8 +29,8 @@ _ORDER_AND_RADIUS = f"""\
 p : float, 1 <= p <= inf, optional
     The order of "minkowski"; 2 if not given.
 radius : float > 0, optional
-    Of the sphere of "haversine", in whose unit distances are; {EARTH_RADIUS}, the mean radius of
-    the Earth in metres, if not given."""
+    The radius of the sphere of "haversine", in the unit of the distances. The default is
+    {EARTH_RADIUS}, the mean radius of the Earth in metres."""
 _SHARED = {
     "measures": listed(measures()),
     "curves": """\
@@ -38,54 +38,54 @@ P, Q : array_like, shapes (n, d) and (m, d)
     The curves, of any d.""",
     "metric": f"""\
 metric : {listed(get_args(Metric))}
-    The ground distance between points; "haversine" is that along the great circle, of points
-    (longitude, latitude) in degrees.
+    The ground distance between points. "haversine" is the distance along the great circle, for
+    points (longitude, latitude) in degrees.
 {_ORDER_AND_RADIUS}""",
     "ground": f"""\
 metric : {listed(get_args(Metric))}, array_like of shape (n, m), or callable
-    The ground distance between points; "haversine" is that along the great circle, of points
-    (longitude, latitude) in degrees. Or one's own: the distances of all points of P and Q, or a
-    function that is given some points of each, of shapes (p, d) and (q, d), and returns theirs, of
-    shape (p, q); at least 0, or inf where points must not meet.
+    The ground distance between points. "haversine" is the distance along the great circle, for
+    points (longitude, latitude) in degrees. A user-defined distance is an array of the distances of
+    all points of P and Q, or a function. The function receives some points of each curve, of shapes
+    (p, d) and (q, d), and returns their distances, of shape (p, q). Distances are at least 0; inf
+    forbids a pair.
 {_ORDER_AND_RADIUS}""",
     "workers": """\
 workers : int
-    Threads for this call: at least 1, or -1 for one per core. Never changes the result.""",
+    Number of threads: at least 1, or -1 for one per core. The result does not change.""",
     "layout": """\
 layout : {"channels_first", "channels_last"}, optional
     Whether the points of an array are its columns, shape (d, n), as in aeon and sktime, or its
-    rows. If not given, its rows; a LayoutWarning is raised if there are more coordinates than
-    points.""",
+    rows. The default is rows, with a LayoutWarning if there are more coordinates than points.""",
     "prune": """\
 prune : bool
-    Whether to leave out what cannot matter of the table. Never changes the result.""",
+    Whether to skip table cells that cannot affect the result. The result does not change.""",
     "cutoff": """\
 cutoff : float >= 0, optional
-    A distance above it is inf, and is found to be so early.""",
+    Upper limit: return inf for distances above it, which takes less time.""",
     "missing": """\
 missing : {"refuse", "skip"}
-    Whether points with a nan are refused, or take no part; a warning then says how many.""",
+    Whether points with a nan raise an error, or are skipped with a warning of how many.""",
     "closed": """\
 closed : bool
-    Whether both curves are closed: where they begin does not matter. See Notes.""",
+    Whether both curves are closed, so that their first points do not matter. See Notes.""",
     "closed_notes": """\
-``closed=True``: a closed curve begins nowhere, and a point at its end that equals its first one
-only closes it. A walk goes once around both curves by steps of one point of either or of both,
-and returns to its first pair, which counts once. The value is that of the best walk:
-the least of all values for P from any of its points on, and Q from any of its points on.""",
+``closed=True``: the first point of a closed curve is arbitrary, and a last point that equals it
+only closes the curve. A walk goes once around both curves by steps of one point of either or of
+both, and returns to its first pair, which counts once. The value is that of the best walk: the
+least of all values over all first points of P and of Q.""",
     "invalid": """\
 ValueError
-    A curve is not finite or empty; the curves differ in d; an option is unknown or out of
+    If a curve is not finite or empty, the curves differ in d, or an option is unknown or out of
     range.
 TypeError
-    A curve does not hold real numbers.""",
+    If a curve does not hold real numbers.""",
     "own_distances": """\
-With a metric of one's own, in one thread and without pruning: a callable is asked once for each
-256 rows of the table (fewer where these are more than 2^21 pairs), so that memory stays
-O(n + m), and up to three times for a path. It need not be symmetric. Its exceptions pass
-through.""",
+A user-defined metric is computed in one thread and without pruning. A callable is called once for
+every 256 rows of the table (fewer if these are more than 2^21 pairs), so that memory stays
+O(n + m), and up to three times for a path. It need not be symmetric. Its exceptions are not
+caught.""",
 }
-# What the reference does not have: it computes the plain table of whole curves in one thread.
+# Parameters that the reference lacks: it computes the plain table of whole curves in one thread.
 _NOT_OF_THE_REFERENCE = ("workers", "prune", "cutoff", "missing")
 
 

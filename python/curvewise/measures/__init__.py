@@ -1,10 +1,10 @@
-"""The measures: what each means, its options, its cost and where it comes from.
+"""The measures: definition, options, cost and source of each.
 
 Every function takes two curves, ``P`` (the reference, e.g. the experiment) and ``Q`` (e.g. the
-simulation): anything ``numpy.asarray`` turns into an array of shape (n, d), or (n,) for d = 1, of
-finite real numbers. The two may have different n. Inputs are never changed. All work is done in
-float64 by the compiled library; :mod:`curvewise.reference` has the same functions in plain numpy,
-and :mod:`curvewise.measures.registry` says what else the package has to know of each measure.
+simulation). A curve is anything that ``numpy.asarray`` turns into an array of finite real numbers
+of shape (n, d), or (n,) for d = 1. The two may have different n. Inputs are never changed. The
+compiled library computes in float64. :mod:`curvewise.reference` has the same functions in plain
+numpy, and :mod:`curvewise.measures.registry` has further properties of each measure.
 
 "The paper" is Jekel, Venter, Venter, Stander & Haftka, "Similarity measures for identifying
 material parameters from hysteresis loops using inverse analysis", Int. J. Material Forming

@@ -68,9 +68,9 @@ class Alignment(Record, Result):
         Returns
         -------
         ndarray, shape (m, c) or (m,)
-            One row for each point of Q. A point of Q between two matched points that has no partner
-            itself gets a linear interpolation. Points before the first pair of the path and behind
-            the last are NaN. An alignment of :mod:`curvewise.reference` ends with the path.
+            One row for each point of Q. An unmatched point of Q between two matched points gets a
+            linear interpolation. Points before the first pair of the path and behind the last are
+            NaN. An alignment of :mod:`curvewise.reference` ends with the path.
 
         Raises
         ------

@@ -97,7 +97,7 @@ def average_along(
 
 
 def _rows(values: npt.ArrayLike, name: str, path: Path, size: int) -> Array:
-    """Return values as an array, and check that a path leads along so many rows."""
+    """Return values as an array, after checking that a path fits `size` rows."""
     if len(path) == 0:
         raise ValueError("the path is empty: the step pattern admits none between these curves")
     rows = as_numbers(values, name)

@@ -18,7 +18,7 @@ from .dtw import dtw_table
 
 __all__ = ["ArrayPackage", "has_diagonals", "values_of_diagonals"]
 
-_FAR = 1e300  # of cells that no path reaches; infinity has no derivative
+_FAR = 1e300  # the value of unreachable cells; infinity does not have a derivative
 
 
 class ArrayPackage(NamedTuple):

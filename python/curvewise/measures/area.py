@@ -26,76 +26,74 @@ def area(
     squared: bool = Default.squared,
     missing: Missing = Default.missing,
 ) -> float:
-    """Area between two curves in the plane.
+    """Compute the area between two curves in the plane.
 
-    By default the curve with fewer points is refined, its longest segment bisected again and
-    again, until both have the same number; the value is the sum of the areas of the quadrilaterals
-    between corresponding segments: the paper's Algorithm 1. It depends on how the curves were
-    sampled. ``spacing="matched"`` does not: choose it where a test is compared with a simulation
-    that has other increments. It is what ``preset="scaled"``, `Objective` and `identify` use.
-    ``spacing="function"`` is the area between two functions of x: choose it for curves whose x
-    never turns back.
+    By default, this is the paper's Algorithm 1. The longest segments of the curve with fewer points
+    are bisected until both curves have the same number of points. The value is the sum of the areas
+    of the quadrilaterals between corresponding segments. It depends on the sampling of the curves.
+    ``spacing="matched"`` does not: choose it to compare a test with a simulation that has other
+    increments. ``preset="scaled"``, `Objective` and `identify` use it. ``spacing="function"`` is
+    the area between two functions of x: choose it for curves whose x never reverses.
 
     Parameters
     ----------
     P, Q : array_like, shapes (n, 2) and (m, 2)
         The curves, each of at least 2 points.
     spacing : {"distance", "x", "arc_length", "matched", "function"}
-        What the refinement measures a segment by. "distance" is sqrt(dx² + dy²), the paper's
-        text. "x" is abs(dx), with which the paper's Table 4 was computed (within 1.4 %; on raw
-        stress and strain "distance" gives 174 where the table says 45.1, because stress
-        dominates the length): raw stress–strain loops want "x", or curves scaled by
-        :func:`normalize`. "arc_length" gives each curve a vertex wherever the other has one, by
-        relative arc length after scaling by P's box, so that the value does not depend on how
-        either curve was sampled, as long as they do not cross; not symmetric then, as P's box
-        scales. "matched" is no refinement, and survives noise too: see Notes. "function" is the
-        exact integral of abs(f - g) over the x that both curves span, where f and g are linear
-        between the points of P and of Q. The x of each curve must only rise or only fall. A curve
-        with several points at one x jumps there.
+        The definition of a segment's length for the refinement, or another method. With "distance"
+        it is sqrt(dx² + dy²), as in the paper's text. With "x" it is abs(dx), which reproduces the
+        paper's Table 4 within 1.4 %. On raw stress and strain "distance" gives 174 instead of the
+        table's 45.1, because stress dominates the length: use "x" for raw stress–strain loops, or
+        scale the curves by :func:`normalize`. The option "arc_length" gives each curve a vertex
+        wherever the other has one, by relative arc length after scaling by P's bounding box. The
+        value then does not depend on the sampling of either curve, as long as they do not cross. It
+        is not symmetric, because P's box scales. "matched" replaces the refinement and is robust to
+        noise too: see Notes. "function" is the exact integral of abs(f - g) over the x that both
+        curves span, where f and g are linear between the points of P and of Q. The x of each curve
+        must only rise or only fall. A curve with several points at one x jumps there.
     crossing : {"rearrange", "split"}
-        What becomes of a quadrilateral that intersects itself; without effect on
-        ``spacing="matched"`` and "function". "rearrange" (the paper) swaps two
-        vertices until it is simple: the value jumps where a quadrilateral turns complex. "split"
-        takes the two triangles at the crossing point, and does not jump there, which an optimiser
-        likes. With either, "distance" and "x" jump where another segment becomes the longest, and
-        "arc_length" where P's box loses a side.
+        The treatment of a quadrilateral that intersects itself; without effect on
+        ``spacing="matched"`` and "function". "rearrange" (the paper) swaps two vertices until it is
+        simple: the value jumps when a quadrilateral becomes complex. "split" uses the two triangles
+        at the crossing point and does not jump there, which suits optimisers. With either,
+        "distance" and "x" jump when another segment becomes the longest, and "arc_length" when P's
+        box becomes flat.
     squared : bool
-        Sum the squares of the areas instead (the paper's section 4, the analogue of
-        sum-of-squares); with "matched", those of the pieces. With "function" the value is the
+        Whether to sum the squares of the areas instead (the paper's section 4, the analogue of
+        sum-of-squares); with "matched", those of the sections. With "function" the value is the
         integral of (f - g)².
     {missing}
 
     Returns
     -------
     float
-        In units of x times units of y (squared: of that squared; with "function", of x times y
-        squared). Symmetric to rounding, except
-        with "arc_length" and "matched".
+        The area, in units of x times units of y (squared: the square of that; with "function", x
+        times y squared). Symmetric to rounding, except with "arc_length" and "matched".
 
     Raises
     ------
     ValueError
-        A curve is not finite, has fewer than 2 points or other than 2 coordinates; an unknown
-        option; with "function", the x of a curve turns back, or the curves have no span of x in
-        common.
+        If a curve is not finite, has fewer than 2 points or other than 2 coordinates. If an option
+        is unknown. With "function", if the x of a curve reverses, or the curves do not share a span
+        of x.
     TypeError
-        A curve does not hold real numbers.
+        If a curve does not hold real numbers.
 
     Notes
     -----
     Algorithm 1 of the paper; the cross product CD of its Eq. 6 is misprinted. Time
     O(n + m + abs(n - m) log m), memory O(n + m).
 
-    "matched": coordinates are scaled by P's box. Let T be how many widths and heights of the box P
-    travels, reversals of less than a third of it left out: 5 for a tension–compression–tension
-    loop. Each curve is sampled at 50 T equal shares of its arc length, and the samples are matched
-    by the warping path of :func:`dtw` with ``metric="cityblock"``; where T is above 280, with a
-    window of 2e6 / T, so that the path takes no longer than there. It is cut into 10 T equal
-    pieces. Between the ends of a piece the two curves, as they are, enclose a polygon; the value is
-    the sum of the absolute values of these areas by Gauss's formula. So areas within a piece, a
-    tenth of the box long, cancel where they have different signs, as those do that noise encloses.
-    Seven tension–compression loops against themselves, in per cent of what moving them up by 5 %
-    of their height gives (`benchmarks/validation/area_sampling.py`):
+    "matched": coordinates are scaled by P's bounding box. Let T be the number of widths and heights
+    of the box that P travels, without reversals of less than a third of it: 5 for a
+    tension–compression–tension loop. Each curve is sampled at 50 T equal fractions of its arc
+    length. The samples are matched by the warping path of :func:`dtw` with ``metric="cityblock"``.
+    If T is above 280, the path has a window of 2e6 / T, which limits its time. The path is cut into
+    10 T equal sections. Between the ends of a section, the two unscaled curves enclose a polygon.
+    The value is the sum of the absolute values of these areas by Gauss's formula. Areas of
+    different sign within a section, a tenth of the box long, cancel, as those due to noise do. The
+    table compares seven tension–compression loops with themselves, in per cent of the value for a
+    shift by 5 % of their range of y (`benchmarks/validation/area_sampling.py`):
 
     ==================  =======  =========  ============
     second curve        default  "matched"  moved up too
@@ -106,12 +104,12 @@ def area(
     1 % in x and y       20–326     10–28         97–107
     ==================  =======  =========  ============
 
-    The last column is that of "matched" for curves both changed and moved up: 100 would be perfect.
-    What thinned curves give is what they really leave out. Its limits: outliers by a third of the
-    height, at 1 % of the points and all to one side, add up to 30; where noise is above a tenth of
-    the height, an objective has several minima along a line; what changes sides within a tenth of
-    the box is not seen. Further vertices on the segments change nothing. Time O(n + m + (50 T)²),
-    memory O(n + m).
+    The last column is "matched" for curves that are both changed and shifted: 100 would be perfect.
+    The values of thinned curves are the area that they really omit. Limits: outliers by a third of
+    the range of y, at 1 % of the points and all to one side, add up to 30. If noise is above a
+    tenth of the range of y, an objective has several minima along a line. A curve that changes
+    sides within a tenth of the box is not detected. Further vertices on the segments do not change
+    the value. Time O(n + m + (50 T)²), memory O(n + m).
 
     Examples
     --------
@@ -152,11 +150,11 @@ def area_quads(
     -------
     AreaQuads
         ``quads``, shape (k, 4, 2), and ``areas``, (k,). Quadrilateral i is (A[i], A[i+1], B[i+1],
-        B[i]), where A is the curve with more points; one that was rearranged has its vertices in
-        the order whose area is given, one that was split in the original order. With "matched",
-        A is P, and an area is negative where it counts against its piece. With "function", A is
-        P, the quadrilaterals are strips between two values of x, and the first and the last of
-        these values are the common span.
+        B[i]), where A is the curve with more points. A rearranged quadrilateral has its vertices in
+        the order of the area; a split one in the original order. With "matched", A is P, and an
+        area is negative if it reduces the area of its section. With "function", A is P, the
+        quadrilaterals are strips between two values of x, and the first and the last of these
+        values are the common span.
 
     Raises
     ------

@@ -53,14 +53,14 @@ def erp(
     cutoff: SupportsFloat | None = Default.cutoff,
     missing: Missing = Default.missing,
 ) -> float:
-    """Edit distance with real penalty: points are matched, or left out at their distance to a gap.
+    """Compute the edit distance with real penalty.
 
     Parameters
     ----------
     {curves}
     {metric}
     gap : float
-        All coordinates of the point from which a point that is left out has its distance.
+        The coordinates of the reference point: an unmatched point costs its distance from it.
     {window}
     {cutoff}
     {missing}
@@ -68,7 +68,7 @@ def erp(
     Returns
     -------
     float
-        In units of the ground distance. Symmetric.
+        The distance, in units of the ground distance. Symmetric.
 
     Raises
     ------
@@ -76,11 +76,11 @@ def erp(
 
     Notes
     -----
-    Chen & Ng, "On the marriage of Lp-norms and edit distance" (2004): c[i, j] is the least of
-    c[i-1, j-1] + d(P[i], Q[j]), c[i-1, j] + d(P[i], gap) and c[i, j-1] + d(gap, Q[j]). Before the
-    first row and column are, as in aeon, the sums over all points of Q and of P: a path that
-    begins by leaving out points pays for all of that curve, where Chen & Ng add up as they go.
-    Exact. Time O(n m), memory O(n + m).
+    Chen & Ng, "On the marriage of Lp-norms and edit distance" (2004). The recurrence is ``c[i, j] =
+    min(c[i-1, j-1] + d(P[i], Q[j]), c[i-1, j] + d(P[i], gap), c[i, j-1] + d(gap, Q[j]))``. As in
+    aeon, the border before the first row and column holds the sums over all points of Q and of P. A
+    path that begins with unmatched points therefore pays for all of that curve. Chen & Ng add up
+    costs along the way instead. Exact. Time O(n m), memory O(n + m).
 
     Examples
     --------
@@ -106,15 +106,15 @@ def edr(
     cutoff: SupportsFloat | None = Default.cutoff,
     missing: Missing = Default.missing,
 ) -> float:
-    """Edit distance on real sequences: the share of points that are changed or left out.
+    """Compute the edit distance on real sequences.
 
     Parameters
     ----------
     {curves}
     {metric}
     epsilon : float >= 0, optional
-        Points nearer than this are equal. If not given, a quarter of the larger standard
-        deviation of all coordinates of P and of Q.
+        Points nearer than this are equal. The default is a quarter of the larger standard deviation
+        of all coordinates of P and of Q.
     {window}
     {cutoff}
     {missing}
@@ -130,10 +130,10 @@ def edr(
 
     Notes
     -----
-    Chen, Özsu & Oria, "Robust and fast similarity search for moving object trajectories" (2005):
-    c[i, j] is the least of c[i-1, j-1], plus 1 unless d(P[i], Q[j]) < epsilon, c[i-1, j] + 1 and
-    c[i, j-1] + 1. As in aeon, points may be left out for nothing before the first match. Exact.
-    Time O(n m), memory O(n + m).
+    Chen, Özsu & Oria, "Robust and fast similarity search for moving object trajectories" (2005).
+    The cell c[i, j] is the least of three values: c[i-1, j-1], plus 1 unless d(P[i], Q[j]) <
+    epsilon; c[i-1, j] + 1; and c[i, j-1] + 1. As in aeon, points before the first match may be
+    skipped without cost. Exact. Time O(n m), memory O(n + m).
 
     Examples
     --------
@@ -206,13 +206,13 @@ def msm(
     cutoff: SupportsFloat | None = Default.cutoff,
     missing: Missing = Default.missing,
 ) -> float:
-    """Move-split-merge: what it costs to move numbers, to split one in two, and to merge two.
+    """Compute the move-split-merge distance between two series.
 
     Parameters
     ----------
     {curves}
     cost : float >= 0
-        Of a split or a merge.
+        The cost of a split or a merge.
     {window}
     {cutoff}
     {missing}
@@ -220,7 +220,8 @@ def msm(
     Returns
     -------
     float
-        In units of the coordinates. Of several coordinates, the sum over each. Symmetric.
+        The distance, in units of the coordinates; for several coordinates, the sum over all.
+        Symmetric.
 
     Raises
     ------
@@ -229,9 +230,8 @@ def msm(
     Notes
     -----
     Stefan, Athitsos & Das, "The move-split-merge metric for time series" (2013). A split or merge
-    costs besides how far the number lies outside of its two neighbours. With several coordinates
-    each has a table of its own, as in aeon (``independent=True``). Exact. Time O(n m d), memory
-    O(n + m).
+    also costs the distance of the number from the interval of its two neighbours. Each coordinate
+    has its own table, as in aeon (``independent=True``). Exact. Time O(n m d), memory O(n + m).
 
     Examples
     --------
@@ -351,7 +351,7 @@ def wdtw(
 
 @filled(distances=listed(get_args(EditDistance)))
 def edit_path(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any) -> Alignment:
-    """Find a cheapest path of an edit distance: the cells of its table that it visits.
+    """Find a cheapest path of an edit distance through its table.
 
     Parameters
     ----------
@@ -360,24 +360,24 @@ def edit_path(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any)
     measure : {distances}
         The edit distance.
     **options
-        Those of its function.
+        The options of its function.
 
     Returns
     -------
     Alignment
         ``distance`` and ``path``, shape (k, 2). A step (1, 1) matches its points, or changes one
-        into the other; (1, 0) leaves out a point of P, (0, 1) one of Q. Among equal ones the
-        first of these is taken. The path begins where points have been left out at the start.
+        into the other. A step (1, 0) skips a point of P, and (0, 1) one of Q. Among equal ones the
+        first of these is taken. The path begins behind the points that are skipped at the start.
 
     Raises
     ------
     ValueError, TypeError
-        As for the function; and ValueError for msm of several coordinates, each of which has a
-        path of its own.
+        As for the function; also ValueError for msm of several coordinates, because each has its
+        own path.
 
     Notes
     -----
-    By halving the rows: time O(n m) some times, memory O((n + m) log n).
+    By recursive halving of the rows: a small multiple of time O(n m), memory O((n + m) log n).
 
     Examples
     --------

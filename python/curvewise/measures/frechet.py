@@ -36,7 +36,7 @@ def frechet(
     missing: Missing = Default.missing,
     closed: bool = Default.closed,
 ) -> float:
-    """Discrete Fréchet distance: the shortest leash for two walks along the points.
+    """Compute the discrete Fréchet distance between two curves.
 
     Parameters
     ----------
@@ -51,25 +51,25 @@ def frechet(
     Returns
     -------
     float
-        In units of the ground distance. Symmetric, where a metric of one's own is. Not below the
-        continuous Fréchet distance of the same metric (except for "sqeuclidean"), and above it by
-        at most the longest edge of either curve.
+        The distance, in units of the ground distance. Symmetric, if a user-defined metric is. Not
+        below the continuous Fréchet distance of the same metric (except for "sqeuclidean"), and
+        above it by at most the longest edge of either curve.
 
     Raises
     ------
     ValueError
-        A curve is not finite or empty; the curves differ in d; an option is unknown or out of
-        range; a distance of one's own is nan or negative, or their shape does not fit.
+        If a curve is not finite or empty, or the curves differ in d. If an option is unknown or out
+        of range. If a user-defined distance is nan or negative, or its shape does not fit.
     TypeError
-        A curve, or a distance of one's own, does not hold real numbers.
+        If a curve, or a user-defined distance, does not hold real numbers.
 
     Notes
     -----
     Eiter & Mannila (1994): c[i, j] = max(d(P[i], Q[j]), min(c[i-1, j], c[i, j-1],
     c[i-1, j-1])). Exact. Time O(n m), memory O(n + m).
 
-    {closed_notes} By bisection among distances, each decided in O(n m) by the points of Q from
-    which a pair can be reached; less where curves are alike, and memory O(n + m). Exact.
+    {closed_notes} It is found by bisection among distances. Each decision takes O(n m), by the
+    points of Q from which a pair can be reached; less for similar curves. Memory O(n + m). Exact.
 
     {own_distances}
 

@@ -1,7 +1,7 @@
-"""The continuous Fréchet distance, certified; a matching that attains it; and decisions about it.
+"""The exact continuous Fréchet distance, its matching, and its decisions.
 
-The free-space diagram of Alt & Godau (1995), searched by filters and boxes in the way of Bringmann,
-Künnemann & Nusser (2019). Near-linear time for curves that are alike, memory O(n + m).
+The free-space diagram of Alt & Godau (1995), searched with the filters and boxes of Bringmann,
+Künnemann & Nusser (2019). Near-linear time for similar curves, memory O(n + m).
 """
 
 from __future__ import annotations
@@ -46,43 +46,42 @@ def frechet_continuous(
     bounds: bool = False,
     workers: SupportsIndex = Default.workers,
 ) -> float | tuple[float, float]:
-    """Continuous Fréchet distance: the shortest leash for two walks along the curves themselves.
+    """Compute the continuous Fréchet distance between two curves.
 
     The curves are polygonal: the points and the straight edges between them. Unlike
-    :func:`frechet`, which walks from point to point, it does not depend on how a curve was
-    sampled: a straight line with two points and the same with 200 have distance 0.
+    :func:`frechet`, which pairs points, it does not depend on the sampling of a curve: a straight
+    line with two points and the same line with 200 have distance 0.
 
     Parameters
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
         The curves, of any d.
     bounds : bool, default False
-        Return both ends of the interval that holds the distance.
+        Whether to return both ends of the interval that contains the distance.
     {workers}
 
     Returns
     -------
     float, or tuple of two floats
-        The least double that is not below the distance, in units of the coordinates; with
-        `bounds`, the greatest double that is not above it, and that: they are equal or
-        neighbours. Symmetric. Not above :func:`frechet` before that is rounded, and below it by
-        at most the longest edge of either curve. inf where it is beyond the range of a double.
+        The distance in units of the coordinates, rounded up to the next double. With `bounds`, the
+        distance rounded down, and the distance rounded up: they are equal or neighbours. Symmetric.
+        Not above :func:`frechet` before that is rounded, and below it by at most the longest edge
+        of either curve. inf if it is beyond the range of a double.
 
     Raises
     ------
     ValueError
-        A curve is not finite or empty; the curves differ in d; an option is out of range.
+        If a curve is not finite or empty, the curves differ in d, or an option is out of range.
     TypeError
-        A curve does not hold real numbers.
+        If a curve does not hold real numbers.
 
     Notes
     -----
-    Certified: whatever rounded arithmetic cannot decide is decided in whole numbers, so that the
-    value is that of the real number however long the curves are and however far from the origin.
-    Alt & Godau (1995), with the filters and boxes of Bringmann, Künnemann & Nusser (2019). Time
-    about O((n + m) log(n + m)) for curves that are alike, some 60 n m steps at worst; memory
-    O(n + m). One pair is searched by one thread, whatever `workers` says; :func:`cdist` and
-    :func:`pdist` share pairs.
+    Exact, rounded up to the next double: decisions that rounded arithmetic cannot make use
+    integers. This holds for curves of any length and any distance from the origin. Alt & Godau
+    (1995), with the filters and boxes of Bringmann, Künnemann & Nusser (2019). Time about O((n + m)
+    log(n + m)) for similar curves, about 60 n m steps at worst; memory O(n + m). One thread
+    searches one pair, whatever `workers` is; :func:`cdist` and :func:`pdist` share pairs.
 
     Examples
     --------
@@ -98,7 +97,7 @@ def frechet_continuous(
 def frechet_continuous_path(
     P: CurveLike, Q: CurveLike, *, workers: SupportsIndex = Default.workers
 ) -> Matching:
-    """Continuous Fréchet distance with two walks that attain it.
+    """Compute the continuous Fréchet distance with two walks that attain it.
 
     Parameters
     ----------
@@ -109,9 +108,9 @@ def frechet_continuous_path(
     -------
     Matching
         ``distance`` and ``parameters``, shape (k, 2): vertex index plus fraction on P and on Q,
-        from (0, 0) to (n - 1, m - 1), neither ever decreasing. The leash is nowhere above
-        ``distance``, which is :func:`frechet_continuous`, or above it by the few units in the
-        last place that the rounding of the parameters takes.
+        from (0, 0) to (n - 1, m - 1), neither ever decreasing. The pair distance never exceeds
+        ``distance``. ``distance`` is :func:`frechet_continuous`, or above it by the few units in
+        the last place that the rounding of the parameters requires.
 
     Raises
     ------
@@ -120,10 +119,10 @@ def frechet_continuous_path(
 
     Notes
     -----
-    Of all such walks one that keeps to where the curves are close: backwards from the end, the
-    nearest point of the sides by which each cell can have been entered. About twice the time of
-    the distance; memory O(n + m) for the walks, and sqrt(n) times what a row of the free-space
-    diagram holds of separate pieces.
+    Of all such walks, one on which the curves stay close. It is traced backwards from the end, by
+    the nearest point of the sides through which each cell can be entered. About twice the time of
+    the distance; memory O(n + m) for the walks, and sqrt(n) times the separate parts of a row of
+    the free-space diagram.
 
     Examples
     --------
@@ -142,7 +141,7 @@ def frechet_continuous_path(
 def frechet_within(
     P: CurveLike, Q: CurveLike, distance: SupportsFloat, *, continuous: bool = True
 ) -> bool:
-    """Whether the Fréchet distance is at most a number.
+    """Return whether the Fréchet distance is at most a given number.
 
     Parameters
     ----------
@@ -151,26 +150,26 @@ def frechet_within(
     distance : float
         The number, at least 0.
     continuous : bool, default True
-        Whether the continuous distance is meant, or the discrete one, Euclidean.
+        Whether to use the continuous distance, or the discrete one, Euclidean.
 
     Returns
     -------
     bool
-        Certified: it is of the real number. (:func:`frechet` is rounded, and may lie below the
+        The exact decision for the real number. (:func:`frechet` is rounded, and may lie below the
         real number; :func:`frechet_continuous` never does.)
 
     Raises
     ------
     ValueError
-        `distance` is below 0 or nan; a curve is not finite or empty; the curves differ in d.
+        If `distance` is below 0 or nan, a curve is not finite or empty, or the curves differ in d.
     TypeError
-        A curve does not hold real numbers.
+        If a curve does not hold real numbers.
 
     Notes
     -----
-    Faster than the distance: one walk through the free-space diagram, or none where ends or boxes
-    of the curves are too far apart. Time about O((n + m) log(n + m)) for curves that are alike,
-    O(n m) at worst; memory O(n + m).
+    Faster than the distance: one walk through the free-space diagram, and even less if ends or
+    bounding boxes of the curves are too far apart. Time about O((n + m) log(n + m)) for similar
+    curves, O(n m) at worst; memory O(n + m).
 
     Examples
     --------

@@ -1,6 +1,6 @@
-"""A measure with its derivatives by one curve or by both, for optimisers that follow gradients.
+"""Measures with derivatives, for gradient-based optimisers.
 
-The path, the matching or the cuts that the value was found with are held, and what is left is
+The path, the matching or the cuts of the value are fixed, and the remaining expression is
 differentiated: O(n + m) beyond the value.
 """
 
@@ -25,7 +25,7 @@ __all__ = ["BY_BOTH_CURVES", "value_and_gradient", "values_and_gradients"]
 # All that have derivatives except the plain sum, which numpy has by itself.
 BY_BOTH_CURVES = tuple(name for name in get_args(Differentiable) if name != "sum_of_squares")
 
-# What the modules for other packages' arrays say of what there is not.
+# The messages of the modules for other packages' arrays about missing derivatives.
 NO_DERIVATIVE_OF_PCM = (
     "pcm has no derivative: which curve is mapped, and where, is the best of a row of offsets, and "
     "it jumps where another is; take area(spacing='matched') or curve_length"
@@ -42,8 +42,8 @@ def value_and_gradient(
 ) -> tuple[float, Array]:
     """Return a measure and its derivative by every coordinate of Q.
 
-    By the chain rule, the derivatives of a model's curve by its parameters then give those of the
-    measure: ``numpy.einsum("jc,jck->k", gradient, dQ)`` for dQ of shape (m, d, k).
+    By the chain rule, a model's Jacobian turns this into the measure's derivative by the
+    parameters: ``numpy.einsum("jc,jck->k", gradient, dQ)`` for dQ of shape (m, d, k).
 
     Parameters
     ----------
@@ -52,44 +52,44 @@ def value_and_gradient(
     measure : {measures}
         The measure.
     **options
-        Its options; of area not ``spacing="arc_length"`` and "function".
+        Options of the measure; for area not ``spacing="arc_length"`` and "function".
 
     Returns
     -------
     value : float
-        The measure, to rounding what its own function returns.
+        The measure, equal to its function's value up to rounding.
     gradient : ndarray, in Q's shape
         The derivative of the value by every coordinate of Q.
 
     Raises
     ------
     ValueError, TypeError
-        As for the measure; a measure that has no gradient here; options of sum_of_squares.
+        As for the measure; if the measure's gradient is not available, or an option of
+        sum_of_squares is given.
 
     Notes
     -----
     O(n + m) time and memory beyond the value; beyond the path for dtw, frechet and
-    frechet_continuous, and twice the path at ties of the last two; of soft_dtw up to three times
-    the time of its value, and O(n sqrt(m)) memory. soft_dtw has a derivative everywhere; those of
-    the others are exact where the path, the cuts of the refinement and the order of corners do not
-    change at once: dtw and frechet are optima over paths, whose derivative is that with the path
-    held (the envelope theorem). The derivative of frechet and of
+    frechet_continuous, and twice the path at ties of the last two. The measure `soft_dtw` takes up
+    to three times the time of its value, and O(n sqrt(m)) memory. It has a derivative everywhere.
+    The derivatives of the others are exact if the path, the cuts of the refinement and the order of
+    corners do not change at once. Both `dtw` and `frechet` are optima over paths, whose derivative
+    is that for a fixed path (the envelope theorem). The derivative of frechet and of
     frechet_continuous is that of the pair of points, or the critical event, that decides the value.
-    There is no derivative
+    Derivatives do not exist
 
-    - at ties: two paths that cost the same (dtw), two pairs of points or two critical events that
-      could each decide (frechet, frechet_continuous), two segments that are longest (area), two
-      paths, or equal points of Q (area with ``spacing="matched"``), two points of Q with the
-      largest abs(x) or abs(y), a place that lies on a vertex of Q, or equal neighbours
-      (curve_length);
+    - at ties: two paths of equal cost (dtw), two pairs of points or two critical events that could
+      each decide (frechet, frechet_continuous), two longest segments (area), two paths, or equal
+      points of Q (area with ``spacing="matched"``), two points of Q with the largest abs(x) or
+      abs(y), a place on a vertex of Q, or equal neighbours (curve_length);
     - where matched points coincide or a difference is 0, except for squares: a kink, as of abs(x).
 
-    There the result is the derivative to one side, or 0 for a term that vanishes. At a tie of
-    frechet or frechet_continuous it is the derivative of curves nearby, whose points are moved by
-    at most 2^-30 of the value: an element of Clarke's generalised gradient. The gradient of
-    frechet is 0 except at one point of Q, and jumps when another pair decides. area jumps with
-    ``crossing="rearrange"`` where quadrilaterals turn complex; "split" does not. `cutoff` is not
-    looked at.
+    At such places the result is the derivative to one side, or 0 for a term that vanishes. At a tie
+    of frechet or frechet_continuous it is the derivative of curves nearby, whose points are moved
+    by at most 2^-30 of the value: an element of Clarke's generalised gradient. The gradient of
+    frechet is 0 except at one point of Q, and jumps when another pair decides. The area with
+    ``crossing="rearrange"`` jumps when quadrilaterals become complex; "split" does not. The option
+    `cutoff` is ignored.
 
     Examples
     --------
@@ -114,7 +114,7 @@ def values_and_gradients(
     workers: SupportsIndex = Default.workers,
     **options: Any,
 ) -> tuple[Array, Array, Array]:
-    """Return a measure of many pairs, and its derivatives by every coordinate of both curves.
+    """Return a measure of many pairs, and its derivatives by both curves.
 
     Parameters
     ----------
@@ -136,15 +136,15 @@ def values_and_gradients(
     Raises
     ------
     ValueError, TypeError
-        As for the measure, naming the pair; shapes that do not make pairs; a measure that has no
-        gradient here.
+        As for the measure, naming the pair. If shapes do not make pairs, or the measure's gradient
+        is not available.
 
     Notes
     -----
-    Derivatives are those of :func:`value_and_gradient`, with its notes on where there are none: at
-    ties those by P and by Q are of the same path, or of the same pair of points. Time as there for
-    each pair, of which a thread takes one at a time; memory O(b (n + m) d), and what the pairs of
-    all threads take. Arrays of float64 in C order are not copied.
+    Derivatives, and the places where they do not exist, are those of :func:`value_and_gradient`. At
+    ties, the derivatives by P and by Q belong to the same path, or to the same pair of points. Time
+    as for that function for each pair, of one thread per pair; memory O(b (n + m) d), plus that of
+    the pairs of all threads. Arrays of float64 in C order are not copied.
 
     Examples
     --------

@@ -1,9 +1,9 @@
 """The Hausdorff distance between polygonal curves, and the points that attain it.
 
-How far the points of an edge are from one edge of the other curve is a convex function. The
+The distance between the points of an edge and one edge of the other curve is a convex function. The
 farthest point of an edge is an end, or a point where the nearest edge of the other curve changes
-(Alt, Behrends & Blömer 1995). Edges that cannot hold the farthest point are passed, nearest edges
-are found by a tree of boxes: near-linear time for curves that are alike, memory O(n + m).
+(Alt, Behrends & Blömer 1995). Edges that cannot hold the farthest point are skipped, and a tree of
+boxes finds nearest edges: near-linear time for similar curves, memory O(n + m).
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ def hausdorff_continuous(P: CurveLike, Q: CurveLike, *, directed: bool = Default
     Returns
     -------
     float
-        In units of the coordinates; at most 2^-46 times the largest coordinate away from the real
-        number. Symmetric, except with `directed`. The direction of a curve does not matter. inf if
-        it is beyond the range of a double.
+        The distance, in units of the coordinates. It differs from the real number by at most 2^-46
+        times the largest coordinate. Symmetric, except with `directed`. The direction of a curve
+        does not matter. inf if it is beyond the range of a double.
 
     Raises
     ------
@@ -51,8 +51,8 @@ def hausdorff_continuous(P: CurveLike, Q: CurveLike, *, directed: bool = Default
     Notes
     -----
     At most :func:`frechet_continuous`, and :func:`hausdorff` plus half of the longest edge. Alt,
-    Behrends & Blömer (1995), "Approximate matching of polygonal shapes". Nothing is sampled. Time
-    about O((n + m) log(n + m)) for curves that are alike, O(n m) at worst; memory O(n + m).
+    Behrends & Blömer (1995), "Approximate matching of polygonal shapes". The curves are not
+    sampled. Time about O((n + m) log(n + m)) for similar curves, O(n m) at worst; memory O(n + m).
 
     Examples
     --------

@@ -16,47 +16,47 @@ __all__ = ["pcm", "pcm_match"]
 
 
 def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> float:
-    """Partial curve mapping: the area to the best-matching part of the longer curve.
+    """Compute the partial curve mapping measure between two curves.
 
-    Both curves are scaled by P's bounding box. The vertices of the shorter one are laid onto the
-    longer one at equal arc length, starting at an offset along it; the value is the smallest
-    area between the two over all offsets.
+    It is the area to the best-matching part of the longer curve. Both curves are scaled by P's
+    bounding box. The vertices of the shorter one are mapped to the longer one at equal arc length,
+    starting at an offset along it. The value is the smallest area between the two over all offsets.
 
-    A short curve that agrees with a part of the other scores well by design: a simulation that
-    died early may score 0. :func:`pcm_match` says which part of the longer curve was covered.
+    A short curve that agrees with a part of the other has a small value by design: a simulation
+    that stopped early may have 0. :func:`pcm_match` reports the covered part of the longer curve.
 
     Parameters
     ----------
     P, Q : array_like, shapes (n, 2) and (m, 2)
         The curves, each of at least 2 different points.
     offsets : int >= 1, or "continuous"
-        The number of evenly spaced offsets (1: none), or the minimum over all offsets, to 1e-12
-        of the shorter length, or 1e-13 of the value where that is more; never above that of 200
-        offsets.
+        The number of evenly spaced offsets (1: only 0), or "continuous". The latter is the minimum
+        over all offsets, to 1e-12 of the shorter length or 1e-13 of the value, whichever is more.
+        It is never above that of 200 offsets.
 
     Returns
     -------
     float
-        Dimensionless. Not symmetric: P's box scales both. inf where a scaled length is beyond the
-        range of a double.
+        The area, dimensionless. Not symmetric: P's box scales both. inf if a scaled length is
+        beyond the range of a double.
 
     Raises
     ------
     ValueError
-        A curve is not finite, has fewer than 2 points, other than 2 coordinates or no length;
+        If a curve is not finite, has fewer than 2 points, other than 2 coordinates or length 0. If
         `offsets` is out of range.
     TypeError
-        A curve does not hold real numbers.
+        If a curve does not hold real numbers.
 
     Notes
     -----
-    Witowski & Stander (2012), as section 2.1 of the paper describes it. Time O(offsets (n + m));
-    "continuous" needs about 10³ evaluations of O(n + m) for curves that bend, and more where the
-    area has many equal minima: some 20 n for zigzags along one line (4 s for 2201 and 4401
-    points). After 2^20 of them the tolerance is doubled with every 2^14 more, so that there are
-    2.1 million at most for a curve of up to 10⁶ boxes in length; the `tolerance` of
-    :func:`pcm_match` is the one with which the search ended. Memory O(n + m). The error of
-    the grid is at most S (T - S) / (2 (offsets - 1)) for lengths S <= T.
+    Witowski & Stander (2012), as in section 2.1 of the paper. Time O(offsets (n + m)). The option
+    "continuous" needs about 10³ evaluations of O(n + m) for curves that bend. It needs more if the
+    area has many equal minima: about 20 n for zigzags along one line (4 s for 2201 and 4401
+    points). After 2^20 evaluations the tolerance is doubled after every 2^14 more. Curves of up to
+    10⁶ boxes in length therefore need at most 2.1 million evaluations. The `tolerance` of
+    :func:`pcm_match` is the final one. Memory O(n + m). The error of the grid is at most S (T - S)
+    / (2 (offsets - 1)) for lengths S <= T.
 
     Examples
     --------
@@ -69,7 +69,7 @@ def pcm(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> fl
 
 
 def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets) -> PcmMatch:
-    """Partial curve mapping, with where the shorter curve lies on the longer.
+    """Return the partial curve mapping, with the place of the shorter curve.
 
     Parameters
     ----------
@@ -80,10 +80,10 @@ def pcm_match(P: CurveLike, Q: CurveLike, *, offsets: Offsets = Default.offsets)
     -------
     PcmMatch
         ``value``, ``offset``, ``coverage`` (shorter length over longer), ``mapped`` ("P" or "Q",
-        the shorter curve), ``points``: for each of its vertices the point on the other curve, in
-        original units, and ``tolerance``: how far ``value`` may lie above the smallest area of all
-        offsets. Where a scaled length is beyond the range of a double, ``value`` and
-        ``tolerance`` are inf, ``offset`` and ``coverage`` are 0 and ``points`` are nan.
+        the shorter curve), ``points`` (for each of its vertices the point on the other curve,
+        unscaled), and ``tolerance``. The last is a bound for the excess of ``value`` over the
+        smallest area of all offsets. If a scaled length is beyond the range of a double, ``value``
+        and ``tolerance`` are inf, ``offset`` and ``coverage`` are 0 and ``points`` are nan.
 
     Raises
     ------

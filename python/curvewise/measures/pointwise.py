@@ -1,4 +1,4 @@
-"""Curves of equal shape compared entry by entry, and curves scaled alike. Time O(n d)."""
+"""Measures of curves of equal shape, and normalisation. Time O(n d)."""
 
 from __future__ import annotations
 
@@ -126,27 +126,27 @@ def mae(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> fl
 
 
 def normalize(P: CurveLike, *others: CurveLike) -> list[Array]:
-    """Scale curves by P's bounding box: P comes to lie in [0, 1] in every coordinate.
+    """Scale curves by P's bounding box, so that P lies in [0, 1].
 
     Parameters
     ----------
     P : array_like, shape (n, d) or (n,)
-        The curve whose minimum is subtracted and by whose extent is divided (not in a
-        coordinate in which it has none).
+        The curve that defines the scale: its minimum is subtracted and its range divides (except
+        for a coordinate in which it is constant).
     *others : array_like, shape (m, d) or (m,)
-        Curves to scale alike.
+        Curves to scale in the same way.
 
     Returns
     -------
     list of ndarray
-        P and the others, scaled, each in the shape it came in.
+        P and the others, scaled, each in its original shape.
 
     Raises
     ------
     ValueError
-        A curve is empty, not finite, or differs from P in d or in the names of its columns.
+        If a curve is empty, not finite, or differs from P in d or in the names of its columns.
     TypeError
-        A curve does not hold real numbers.
+        If a curve does not hold real numbers.
 
     Notes
     -----

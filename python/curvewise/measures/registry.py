@@ -1,8 +1,8 @@
-"""What the package knows of each measure, in one table.
+"""The table of all measures and their properties.
 
-The command line, compare, the batches, the pictures, the objectives of a calibration and the
-self-check go through this table, and have no list of measures of their own. What draws a measure,
-and its reference, are named and not imported, so that ``import curvewise`` stays fast.
+The command line, compare, the batches, the plots, the objectives of a calibration and the
+self-check use this table instead of separate lists of measures. The plotting function and the
+reference of a measure are named and not imported, so that ``import curvewise`` stays fast.
 """
 
 from __future__ import annotations
@@ -72,25 +72,25 @@ class MeasureInfo(NamedTuple):
     Attributes
     ----------
     name : str
-        The name by which users choose it, and that of the function in the reference.
+        The public name, and the name of the function in the reference.
     title : str
-        The title of its picture.
+        The title of its plot.
     function : callable
         The measure.
     planar : bool
         Whether it is for curves in the plane only, or for any dimension.
     symmetric : bool
-        Whether P and Q may change places, with the default options.
+        Whether P and Q may be exchanged, with the default options.
     picture : str
         The function of :mod:`curvewise.plotting` that draws it.
     warping : Warping, optional
-        The functions that return the path and the table, where there is a table.
+        The functions that return the path and the table, if the measure has a table.
     residuals : callable, optional
-        The function that returns the vector of which the measure is the norm, where it is one.
+        The function that returns the vector whose norm is the measure, if it is a norm.
     scales_itself : bool
-        Whether it always scales both curves by P's box, so that a preset need not.
+        Whether it always scales both curves by P's bounding box, so that a preset need not.
     by_default : bool
-        Whether compare computes it where it is not asked for.
+        Whether compare computes it by default.
     """
 
     name: MeasureName

@@ -1,7 +1,7 @@
-"""What the richer functions return: plain, immutable records of numpy arrays and numbers.
+"""Results of the functions: immutable records of numpy arrays and numbers.
 
-In a terminal they print their numbers, and of arrays the shapes; in a notebook a table and, where
-they know the curves, the picture of what was found.
+In a terminal they print their numbers, and the shapes of arrays. In a notebook they show a table
+and, if they hold the curves, a plot.
 """
 
 from __future__ import annotations
@@ -92,14 +92,14 @@ class Matching(Record, Result):
     Attributes
     ----------
     distance : float
-        The longest leash between the walks: the value of the measure or, where the rounding of
-        the parameters stretches it, the least double that is not below what they need.
+        The largest pair distance of the walks: the value of the measure. If rounding of the
+        parameters increases it, it is rounded up to the next double.
     parameters : ndarray, shape (k, 2)
         Pairs of a parameter of P and one of Q: the index of a vertex plus a fraction of the edge
-        behind it. Neither ever decreases; the first are 0 and the last the indices of the last
-        points. Between two rows both walks stay on one edge each, at steady speeds.
+        behind it. Neither ever decreases. The first are 0 and the last the indices of the last
+        points. Between two rows both walks stay on one edge each, at constant speeds.
     curves : tuple of two ndarrays, or None
-        Copies of P and Q, for the picture; not those of :mod:`curvewise.reference`.
+        Copies of P and Q, for the plot; None in results of :mod:`curvewise.reference`.
     """
 
     distance: float
@@ -107,14 +107,14 @@ class Matching(Record, Result):
     curves: Curves = field(default=None, repr=False, compare=False)
 
     def plot(self) -> Picture:
-        """Return a matplotlib Figure of the curves and the leashes between them.
+        """Return a matplotlib Figure of the curves and the matched pairs.
 
-        Where the curves are not known, or have more than two coordinates, of the parameters alone.
+        If the curves are missing, or have more than two coordinates, it shows the parameters alone.
 
         Raises
         ------
         ImportError
-            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+            If matplotlib is missing: ``pip install "curvewise[plot]"``.
         """
         return matching_figure(self.curves, self.parameters)
 
@@ -127,7 +127,7 @@ class Matching(Record, Result):
 
 @dataclass(frozen=True, repr=False)
 class PcmMatch(Record, Result):
-    """Where partial curve mapping places the shorter curve on the longer.
+    """Place at which partial curve mapping puts the shorter curve on the longer.
 
     Attributes
     ----------
@@ -137,19 +137,19 @@ class PcmMatch(Record, Result):
         Arc length (scaled) on the longer curve at which the shorter one starts.
     coverage : float
         Length of the shorter curve divided by that of the longer, at most 1 (to 1e-12). A small
-        coverage with a small value means that one curve is a piece of the other, not that
-        they agree.
+        coverage with a small value means that one curve is a part of the other, not that they
+        agree.
     mapped : {"P", "Q"}
-        Which curve is the shorter one, whose vertices are mapped onto the other.
+        The shorter curve, whose vertices are mapped onto the other.
     points : ndarray, shape (k, 2)
-        For every vertex of the mapped curve, its point on the other curve, in original units.
+        For every vertex of the mapped curve, its point on the other curve, unscaled.
     tolerance : float
-        How far `value` may lie above the smallest area of all offsets. For lengths S <= T and
-        ``offsets=k`` it is S (T - S) / (2 (k - 1)), or S (T - S) for ``offsets=1``; for
-        "continuous" 1e-12 S or 1e-13 `value`, whichever is more, unless the search took more than
-        2^20 evaluations: then it says with how much more the search ended.
+        A bound for the excess of `value` over the smallest area of all offsets. For lengths S <= T
+        and ``offsets=k`` it is S (T - S) / (2 (k - 1)), or S (T - S) for ``offsets=1``. For
+        "continuous" it is 1e-12 S or 1e-13 `value`, whichever is more; a search of more than 2^20
+        evaluations ends with a larger tolerance.
     curves : tuple of two ndarrays, or None
-        Copies of P and Q, for the picture; not those of :mod:`curvewise.reference`.
+        Copies of P and Q, for the plot; None in results of :mod:`curvewise.reference`.
     """
 
     value: float
@@ -240,20 +240,20 @@ class Subsequence(Record):
 
 @dataclass(frozen=True, repr=False)
 class DtwMean(Record, Result):
-    """The mean of curves under dtw, or under soft_dtw.
+    """The mean of curves under dtw or soft_dtw.
 
     Attributes
     ----------
     curve : ndarray, shape (n, d)
-        The mean, with as many points as the initial curve.
+        The mean; it has the number of points of the initial curve.
     costs : ndarray
-        The weighted sum of the dtw distances, with squared ground distances, or of soft_dtw from
-        the curves: of the initial curve, and of the mean after every move. It never rises.
+        The weighted sum of the dtw distances from the curves, with squared ground distances, or of
+        soft_dtw: for the initial curve, and for the mean after every step. It never rises.
     converged : bool
-        Whether the last move lowered the sum by no more than the tolerance.
+        Whether the last step lowered the sum by no more than the tolerance.
     curves : tuple of ndarrays
-        Copies of the curves for the picture, of many curves some; those of
-        :mod:`curvewise.reference` have none.
+        Copies of the curves for the plot (some of many curves); empty in results of
+        :mod:`curvewise.reference`.
     """
 
     curve: npt.NDArray[np.float64]

@@ -18,38 +18,39 @@ __all__ = ["soft_dtw", "soft_dtw_divergence"]
 def soft_dtw(
     P: CurveLike, Q: CurveLike, *, gamma: SupportsFloat = 1.0, window: Window = None
 ) -> float:
-    """Soft dynamic time warping: dtw with a smooth minimum, over squared Euclidean distances.
+    """Compute soft dynamic time warping: dtw with a smooth minimum.
 
     Parameters
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
         The curves, of any d.
     gamma : float > 0
-        How smooth the minimum is, in the unit of the squared coordinates: the smaller, the nearer
-        to ``dtw(P, Q, metric="sqeuclidean")``, which is the limit.
+        Smoothing parameter, in units of squared coordinates. For small values the result tends to
+        ``dtw(P, Q, metric="sqeuclidean")``.
     window : int >= 0 or 0 < float < 1, optional
         Sakoe–Chiba band, as for :func:`dtw`.
 
     Returns
     -------
     float
-        In squared units of the coordinates. Below dtw by at most gamma times the logarithm of the
-        number of warping paths, and so below 0 for curves that are alike: no distance. For one see
-        :func:`soft_dtw_divergence`. Symmetric.
+        The value, in squared units of the coordinates, with squared Euclidean ground distances. It
+        is below dtw by at most gamma times the logarithm of the number of warping paths, and so
+        negative for similar curves: it is not a distance. Use :func:`soft_dtw_divergence` for one.
+        Symmetric.
 
     Raises
     ------
     ValueError
-        A curve is not finite or empty; the curves differ in d; gamma is not finite and above 0; no
-        path fits the window (window = 0 and n != m).
+        If a curve is not finite or empty, or the curves differ in d. If gamma is not finite and
+        above 0. If no path fits the window (window = 0 and n != m).
     TypeError
-        A curve does not hold real numbers.
+        If a curve does not hold real numbers.
 
     Notes
     -----
     Cuturi & Blondel (2017): r[i, j] = d[i, j] + softmin(r[i-1, j], r[i, j-1], r[i-1, j-1]) with
-    softmin(a) = -gamma log(sum(exp(-a / gamma))). Computed as exp(-r / gamma), a mantissa and an
-    exponent without bounds, so that no gamma overflows: one exponential a cell. With
+    softmin(a) = -gamma log(sum(exp(-a / gamma))). It is computed as exp(-r / gamma), a mantissa and
+    an unbounded exponent, so that small gammas do not overflow: one exponential for each cell. With
     a gamma below 2^-900 of the squared distances the value is the limit, to rounding. Time O(n m),
     or the cells of the band; memory O(n + m). With derivatives (``value_and_gradient(P, Q,
     "soft_dtw")``) memory is O(n sqrt(m)), never the table.

@@ -1,9 +1,9 @@
-"""Step patterns: which steps a warping path takes, and how much each cell of a step weighs.
+"""Step patterns: the steps of a warping path, and the weights of their cells.
 
-The named ones stand in the compiled library (step_pattern.hpp), which compiles them into the steps
-of its sweep; this is how they are read, and how one of one's own is written. R's notation
-(Giorgino 2009): a row is a cell that a step visits, by its step, the rows and columns that it lies
-behind the step's end, and its weight; the first row of a step has the weight -1.
+The compiled library defines the named patterns (step_pattern.hpp) and compiles them into the steps
+of its recurrence. This module reads them and defines custom ones, in R's notation (Giorgino 2009).
+A row is a cell that a step visits: its step, the rows and columns that it lies behind the step's
+end, and its weight. The first row of a step has the weight -1.
 """
 
 from __future__ import annotations
@@ -134,7 +134,7 @@ def may_be_negative(step_pattern: object) -> bool:
 
 def _checked(rows: Iterable[Sequence[SupportsIndex | SupportsFloat]]) -> tuple[Row, ...]:
     try:
-        # What is no number is refused here, whatever its type.
+        # Values that are not numbers are refused here, whatever their type.
         checked = tuple((int(s), int(i), int(j), float(w)) for s, i, j, w in rows)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         raise ValueError("rows are of four numbers: step, rows, columns, weight") from None
