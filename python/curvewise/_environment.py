@@ -20,7 +20,7 @@ def check() -> None:
     Raises
     ------
     ImportError
-        This is not the main interpreter of the process.
+        If this is not the main interpreter of the process.
     """
     if _is_subinterpreter():
         raise ImportError(

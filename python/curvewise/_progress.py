@@ -21,7 +21,7 @@ def reporting(progress: bool | Report) -> Iterator[Report | None]:
     Raises
     ------
     ImportError
-        A bar is asked for and tqdm is not installed.
+        If a bar is requested and tqdm is missing.
     """
     if callable(progress):
         yield progress

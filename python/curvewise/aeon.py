@@ -124,7 +124,7 @@ def entries() -> list[dict[str, Any]]:
     Raises
     ------
     ImportError
-        Without aeon: ``pip install "curvewise[aeon]"``.
+        If aeon is missing: ``pip install "curvewise[aeon]"``.
 
     Examples
     --------

@@ -236,7 +236,7 @@ class Tracks:
         ValueError, TypeError
             As for :class:`curvewise.sklearn.CurveKMedoids`, and for :meth:`cdist`.
         ImportError
-            Without scikit-learn: ``pip install "curvewise[sklearn]"``.
+            If scikit-learn is missing: ``pip install "curvewise[sklearn]"``.
         """
         from .sklearn import CurveKMedoids
 

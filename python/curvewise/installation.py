@@ -49,7 +49,7 @@ def get_include() -> str:
     Raises
     ------
     FileNotFoundError
-        This is not an installed package, e.g. a source tree with a module copied into it.
+        If this is not an installed package, e.g. a source tree with a module copied into it.
 
     Notes
     -----

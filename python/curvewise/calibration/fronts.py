@@ -89,7 +89,7 @@ class Front(Result):
         Raises
         ------
         ImportError
-            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+            If matplotlib is missing: ``pip install "curvewise[plot]"``.
         """
         names = list(self.parameters[0])
         table = np.array([[one[name] for name in names] for one in self.parameters])

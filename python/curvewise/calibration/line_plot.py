@@ -87,9 +87,10 @@ def line_plot(
     Raises
     ------
     ValueError
-        `a` and `b` differ in their parameters; `points` is below 2; as for :class:`Objective`.
+        If `a` and `b` differ in their parameters, or `points` is below 2; as for
+        :class:`Objective`.
     ImportError
-        matplotlib or tqdm is missing.
+        If matplotlib or tqdm is missing.
 
     Notes
     -----

@@ -103,7 +103,7 @@ class Profile(Result):
         Raises
         ------
         ImportError
-            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+            If matplotlib is missing: ``pip install "curvewise[plot]"``.
         """
         return profile_of_a_parameter(
             self.name, self.values, self.objective, self.rise, self.interval, self.by_sensitivities
@@ -141,8 +141,8 @@ def profile(
     Raises
     ------
     ValueError
-        No such parameter, or the only one; an even number of points; a parameter that another one
-        stays below.
+        If the parameter does not exist, is the only one, or another one must stay below it. If
+        `points` is even.
 
     Notes
     -----

@@ -86,7 +86,7 @@ class Screening(Result):
         Raises
         ------
         ImportError
-            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+            If matplotlib is missing: ``pip install "curvewise[plot]"``.
         """
         return elementary_effects(self.names, self.titles, self.means, self.deviations)
 
@@ -111,7 +111,7 @@ def screening(found: Identification, *, paths: int = 10, seed: int = 0) -> Scree
     Raises
     ------
     ValueError
-        Fewer than 4 paths; fewer than two runs in a row that succeeded, for some parameter.
+        If `paths` is below 4. If, for some parameter, two consecutive runs never succeeded.
 
     Notes
     -----

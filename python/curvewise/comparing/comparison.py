@@ -163,9 +163,9 @@ class Comparison(Result):
         Raises
         ------
         ImportError
-            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+            If matplotlib is missing: ``pip install "curvewise[plot]"``.
         ValueError
-            Another number of names than of coordinates.
+            If the number of names differs from the number of coordinates.
         """
         from ..plotting import plot_comparison
 

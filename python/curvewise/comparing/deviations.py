@@ -114,7 +114,7 @@ def deviation(
     Raises
     ------
     ValueError
-        As the measure.
+        As for the measure.
 
     Notes
     -----

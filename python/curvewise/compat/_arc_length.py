@@ -181,9 +181,9 @@ def get_length(
     Raises
     ------
     ValueError
-        x and y of different lengths, or empty.
+        If x and y have different lengths, or are empty.
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
 
     Notes
     -----

@@ -51,9 +51,9 @@ def area_between_two_curves(exp_data: CurveLike, num_data: CurveLike) -> np.floa
     Raises
     ------
     ValueError
-        An array that is not (n, 2), or one curve has a single point and the other has more.
+        If an array is not (n, 2), or one curve has a single point and the other has more.
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
 
     See Also
     --------
@@ -153,9 +153,9 @@ def is_simple_quad(ab: CurveLike, bc: CurveLike, cd: CurveLike, da: CurveLike) -
     Raises
     ------
     ValueError
-        An edge that has not two coordinates.
+        If an edge does not have two coordinates.
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
 
     Notes
     -----
@@ -196,9 +196,9 @@ def poly_area(x: CurveLike, y: CurveLike) -> np.floating[Any]:
     Raises
     ------
     ValueError
-        x and y of different lengths, or empty.
+        If x and y have different lengths, or are empty.
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
 
     Notes
     -----
@@ -237,9 +237,9 @@ def get_arc_length(dataset: CurveLike) -> tuple[np.floating[Any], Array]:
     Raises
     ------
     ValueError
-        An array that is not (n, d).
+        If an array is not (n, d).
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
 
     Notes
     -----

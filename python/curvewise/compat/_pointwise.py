@@ -28,9 +28,9 @@ def mae(exp_data: CurveLike, num_data: CurveLike) -> np.floating[Any]:
     Raises
     ------
     ValueError
-        The shapes, or the labels of two pandas objects, differ.
+        If the shapes, or the labels of two pandas objects, differ.
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
 
     Notes
     -----
@@ -61,9 +61,9 @@ def mse(exp_data: CurveLike, num_data: CurveLike) -> np.floating[Any]:
     Raises
     ------
     ValueError
-        The shapes, or the labels of two pandas objects, differ.
+        If the shapes, or the labels of two pandas objects, differ.
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
 
     Notes
     -----

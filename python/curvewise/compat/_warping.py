@@ -52,12 +52,12 @@ def dtw(
     Raises
     ------
     ValueError
-        Curves without points or coordinates, or with different numbers of coordinates; an unknown
-        metric.
+        If curves lack points or coordinates, or differ in their number of coordinates, or the
+        metric is unknown.
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
     ImportError
-        scipy is needed and missing.
+        If scipy is required and missing.
 
     See Also
     --------
@@ -106,11 +106,11 @@ def frechet_dist(exp_data: CurveLike, num_data: CurveLike, p: float = 2) -> np.f
     Raises
     ------
     ValueError
-        Curves without points or coordinates, or with different numbers of coordinates.
+        If curves lack points or coordinates, or differ in their number of coordinates.
     TypeError
-        Complex numbers, text, objects or masked entries; a `p` that is not a number.
+        If input is complex, text, objects or masked, or `p` is not a number.
     ImportError
-        scipy is needed and missing.
+        If scipy is required and missing.
 
     See Also
     --------
@@ -153,9 +153,9 @@ def dtw_path(d: npt.ArrayLike) -> npt.NDArray[np.int64]:
     Raises
     ------
     ValueError
-        A table that is not (n, m), or is empty.
+        If the table is not (n, m), or is empty.
     TypeError
-        Complex numbers, text, objects or masked entries.
+        If input is complex, text, objects or masked.
 
     See Also
     --------

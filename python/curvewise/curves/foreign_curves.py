@@ -47,7 +47,8 @@ def opened(curve: Any, name: str) -> Any:
     Raises
     ------
     TypeError
-        What holds no curve, or several, or not in this memory, with what to write instead.
+        If the object does not hold exactly one curve in main memory; the message suggests an
+        alternative.
     """
     if isinstance(curve, _NATIVE):
         return curve

@@ -198,8 +198,9 @@ def as_curve_list(
     Raises
     ------
     TypeError, ValueError
-        Not a list of curves; a curve that :func:`as_curve` refuses, named ``XA[3]``; DataFrames
-        whose columns differ from those of the first curve; an unknown layout.
+        If the input is not a list of curves, or :func:`as_curve` refuses a curve (named ``XA[3]``).
+        If the columns of a DataFrame differ from those of the first curve. If the layout is
+        unknown.
     """
     converted = _converted(curves, name, None, keep_float32, layout)
     if layout is None:
@@ -215,7 +216,7 @@ def as_curve_lists(
     Raises
     ------
     TypeError, ValueError
-        As for :func:`as_curve_list`; DataFrames of XB whose columns differ from those of XA.
+        As for :func:`as_curve_list`. If the columns of a DataFrame of XB differ from those of XA.
     """
     rows = _converted(XA, "XA", None, keep_float32, layout)
     columns = None if XB is None else _converted(XB, "XB", XA, keep_float32, layout)

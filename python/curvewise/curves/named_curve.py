@@ -68,7 +68,7 @@ class NamedCurve(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     Raises
     ------
     ValueError
-        Another number of names than of columns.
+        If the number of names differs from the number of columns.
 
     Notes
     -----

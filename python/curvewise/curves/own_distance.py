@@ -39,7 +39,7 @@ def refuse_own_metric(p: object, radius: object) -> None:
     Raises
     ------
     ValueError
-        `p` or `radius` is given.
+        If `p` or `radius` is given.
     """
     for option, value in (("p", p), ("radius", radius)):
         if value is not None:
@@ -60,10 +60,10 @@ def block_distances(metric: Any, P: Array, Q: Array) -> BlockDistances:
     Raises
     ------
     ValueError
-        A shape that does not fit; a distance that is nan or negative. By the function that is
-        returned too.
+        If a shape does not fit, or a distance is nan or negative. The returned function raises it,
+        too.
     TypeError
-        Distances are not real numbers, or are masked.
+        If distances are not real numbers, or are masked.
     """
     if callable(metric):
         return _of_callable(metric, in_columns(P), in_columns(Q))

@@ -41,7 +41,8 @@ def check_reference_systems(
     Raises
     ------
     ValueError
-        Degrees with the distance of a plane, and the reverse; two reference systems.
+        If degrees are used with the distance of a plane, or the reverse. If there are two reference
+        systems.
 
     Warns
     -----

@@ -171,8 +171,8 @@ def trim(
     Raises
     ------
     TypeError, ValueError
-        No curve of at least two finite points; no such column; a value that is never reached. With
-        ``metric="haversine"`` as for :func:`resample`.
+        If `curve` does not have at least two finite points, the column does not exist, or a value
+        is never reached. With ``metric="haversine"`` as for :func:`resample`.
 
     Warns
     -----

@@ -33,7 +33,7 @@ def z_normalized(curve: CurveLike) -> Array:
     Raises
     ------
     TypeError, ValueError
-        No curve of finite numbers.
+        If the curve does not hold finite numbers.
 
     Notes
     -----

@@ -165,7 +165,7 @@ def pdist(
     Raises
     ------
     ValueError, TypeError, ImportError
-        As for :func:`cdist`; ValueError for a measure that is not symmetric.
+        As for :func:`cdist`; ValueError if a measure is not symmetric.
 
     Notes
     -----

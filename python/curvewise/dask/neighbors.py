@@ -61,7 +61,7 @@ def kneighbors(
     Raises
     ------
     ValueError, TypeError, ImportError
-        As for :func:`cdist`; ValueError for an `n_neighbors` that is too small or too large.
+        As for :func:`cdist`; ValueError if `n_neighbors` is too small or too large.
 
     Notes
     -----

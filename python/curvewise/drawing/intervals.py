@@ -78,7 +78,7 @@ def intervals_and_moves(
     Raises
     ------
     ImportError
-        Without matplotlib.
+        If matplotlib is missing.
     """
     figure = new_figure(figsize=(11, 7.4), layout="constrained")
     upper, lower = figure.subfigures(2, 1, squeeze=False)[:, 0]

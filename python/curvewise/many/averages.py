@@ -33,11 +33,11 @@ from .pairwise import Curves, LabelledCurves, _check_names, cdist
 
 __all__ = ["dtw_mean", "medoid", "soft_dtw_mean", "soft_mean"]
 
-# Curves of which the medoid is the initial mean, where the caller gives none: their distances take
-# about as long as a few rounds.
+# Number of curves whose medoid is the default initial mean: their distances take about as long as a
+# few rounds.
 _CURVES_FOR_START = 50
 
-# Of so many curves a mean keeps copies, for its picture.
+# A mean of up to this number of curves keeps copies for its plot.
 _CURVES_SHOWN = 50
 
 # Distances that are held at once.
@@ -59,25 +59,26 @@ def dtw_mean(
 ) -> DtwMean:
     """Compute the mean of curves under dtw: DTW barycentre averaging (DBA).
 
-    The curve with the smallest weighted sum of ``dtw(mean, curve, metric="sqeuclidean")``, or
-    rather a local minimum of that sum, which depends on the initial curve.
+    The mean is the curve with the smallest weighted sum of ``dtw(mean, curve,
+    metric="sqeuclidean")``. The result is a local minimum of that sum, which depends on the initial
+    curve.
 
     Parameters
     ----------
     curves : array_like, shape (k, n, d), or a sequence of curves
         The curves of a sequence may differ in length, not in d.
     initial : array_like, shape (n, d), optional
-        Where to begin, with as many points as the mean will have. If not given, the medoid of the
+        The initial mean; it has the number of points of the result. By default the medoid of the
         curves, or of 50 of them, evenly spaced in their list.
     weights : array_like, shape (k,), optional
-        How much each curve counts, at least 0; not all 0. A Series with the labels of the curves
-        may have them in any order.
+        The weight of each curve, at least 0; not all 0. A Series with the labels of the curves may
+        have them in any order.
     window : int >= 0, or float between 0 and 1, optional
         As for :func:`curvewise.dtw`.
     iterations : int >= 0
-        How often the mean is moved at most.
+        Maximum number of rounds.
     tolerance : float >= 0
-        Ends where a move lowers the sum by no more than this part of it.
+        The iteration ends if a round lowers the sum by no more than this fraction.
     {workers}
     progress : bool or callable
         As for :func:`curvewise.cdist`; counts cells, and ends early where the mean converges.
@@ -86,27 +87,27 @@ def dtw_mean(
     Returns
     -------
     DtwMean
-        The mean, the sum after every move, and whether it has converged.
+        The mean, the sum after every round, and whether it has converged.
 
     Raises
     ------
     ValueError
-        What dtw refuses, with the curve's place (``curves[3]``); no curves; an option or a weight
-        out of range.
+        If dtw refuses a curve, with the curve's place (``curves[3]``). If the list is empty, or an
+        option or a weight is out of range.
     TypeError
-        A curve does not hold real numbers.
+        If a curve does not hold real numbers.
     ImportError
-        ``progress=True`` without tqdm: ``pip install "curvewise[progress]"``.
+        If ``progress=True`` and tqdm is missing: ``pip install "curvewise[progress]"``.
 
     Warns
     -----
     UserWarning
-        The sum still fell by more than `tolerance` as the last of the `iterations` ended.
+        If the sum still fell by more than `tolerance` in the last of the `iterations`.
 
     Notes
     -----
     Each round finds the best path from the mean to every curve, and moves each point of the mean to
-    the weighted mean of the points that are matched to it: neither can raise the sum. Time O(n m) a
+    the weighted mean of its matched points. Neither step can raise the sum. Time O(n m) for each
     curve and round; memory O(n + m) and a few paths. Petitjean, Ketterlin & Gançarski (2011).
 
     Examples
@@ -155,21 +156,21 @@ def soft_dtw_mean(
     initial : array_like, shape (n, d), optional
         As for :func:`curvewise.dtw_mean`.
     weights : array_like, shape (k,), optional
-        How much each curve counts, at least 0; not all 0. A Series with the labels of the curves
-        may have them in any order.
+        The weight of each curve, at least 0; not all 0. A Series with the labels of the curves may
+        have them in any order.
     window : int >= 0, or float between 0 and 1, optional
         As for :func:`curvewise.dtw`.
     iterations : int >= 0
-        How often the mean is moved at most.
+        Maximum number of rounds.
     tolerance : float >= 0
-        Ends where a move lowers the sum by no more than this part of it.
+        The iteration ends if a round lowers the sum by no more than this fraction.
     {workers}
     {layout}
 
     Returns
     -------
     DtwMean
-        The mean, the sum after every move, and whether it has converged.
+        The mean, the sum after every round, and whether it has converged.
 
     Raises
     ------
@@ -332,27 +333,28 @@ def medoid(
     curves : array_like, shape (k, n, d), or a sequence of curves
         The curves of a sequence may differ in length, not in d.
     measure : {measures}
-        A measure by its name. Where it is not symmetric, the others are P and the medoid is Q.
+        A measure by its name. If it is not symmetric, the other curves are P and the medoid is Q.
     {workers}
     progress : bool or callable
         As for :func:`curvewise.cdist`; counts pairs.
     {layout}
     **options
-        Those of the measure's own function.
+        Options of the measure's own function.
 
     Returns
     -------
     int
-        Its index, or its label if the curves have labels; of equal sums the first.
+        Its index, or its label if the curves have labels; the first of equal sums.
 
     Raises
     ------
     ValueError, TypeError, ImportError
-        As for :func:`curvewise.cdist`; ValueError where there are no curves, or two of one label.
+        As for :func:`curvewise.cdist`; ValueError if the list is empty, or two curves have the same
+        label.
 
     Notes
     -----
-    Time: that of all pairs, each computed once where the measure is symmetric. Memory: some 10^6
+    Time: that of all pairs, each computed once if the measure is symmetric. Memory: about 10^6
     distances at a time.
 
     Examples

@@ -1,12 +1,12 @@
 """Clusters around medoids, from a matrix of all distances: FasterPAM.
 
-Medoids are chosen one by one, each as the curve that lowers the sum of distances to the nearest
-medoid most (BUILD of Kaufman & Rousseeuw 1990), and then exchanged. For each curve that is none, in
-turn, the change of the sum by its taking the place of each of the k medoids is found at once, in
-O(n); the best exchange is made as soon as it lowers the sum (Schubert & Rousseeuw, "Fast and eager
-k-medoids clustering", Information Systems 101, 2021). The end is where no exchange does. Cost
-O(n^2 k) for the first medoids and O(n^2) for each time that all curves had their turn; memory
-O(n k) beside the matrix.
+Medoids are chosen one by one, each as the curve that most lowers the sum of distances to the
+nearest medoid (BUILD of Kaufman & Rousseeuw 1990). Then they are exchanged. For each curve that is
+not a medoid, in turn, the change of the sum for the exchange with each of the k medoids is computed
+at once, in O(n). The best exchange is made as soon as it lowers the sum. See Schubert & Rousseeuw,
+"Fast and eager k-medoids clustering", Information Systems 101, 2021. The search ends when no
+exchange lowers the sum. Cost O(n^2 k) for the first medoids and O(n^2) for each pass over all
+curves; memory O(n k) in addition to the matrix.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ __all__ = ["Clusters", "k_medoids"]
 
 Places = npt.NDArray[np.int64]
 
-# An exchange has to lower the sum by more than its rounding, so that none is made back and forth.
+# An exchange must lower the sum by more than its rounding, so that exchanges do not cycle.
 _ROUNDING = 1e-12
-_ROWS = 256  # of the matrix that are looked at together
+_ROWS = 256  # rows of the matrix that are processed together
 
 
 class Clusters(NamedTuple):
-    """Medoids in ascending order, for each curve the place of its own, and the sum of distances."""
+    """Medoids in ascending order, each curve's medoid, and the sum of distances."""
 
     medoids: Places
     labels: Places
@@ -72,12 +72,12 @@ def k_medoids(distances: Array, count: int, rounds: int) -> Clusters:
 
 
 def _first_medoids(distances: Array, count: int) -> Places:
-    """Return medoids, each of which lowers the sum most when those before it are given."""
+    """Return medoids; each lowers the sum most, given those before it."""
     n = len(distances)
     nearest = np.full(n, np.inf)
     chosen: list[int] = []
     for _ in range(count):
-        # Where there is none yet, the sum itself; no difference with inf.
+        # The sum itself for the first medoid, to avoid a difference with inf.
         sums = [
             np.minimum(distances[i : i + _ROWS], nearest).sum(axis=1) for i in range(0, n, _ROWS)
         ]
@@ -103,8 +103,8 @@ class _Nearest:
     def best_exchange(self, distances: Array) -> tuple[float, int]:
         """Return how the sum changes if a curve replaces the best medoid, and which that is.
 
-        Whoever's medoid stays goes to the curve where it is nearer; whoever's leaves goes to the
-        curve or to the second nearest medoid. What both have in common is added up once.
+        A curve whose medoid stays moves to the new medoid if that is nearer. A curve whose medoid
+        leaves moves to the new or to its second nearest medoid. The common part is added up once.
         """
         gained = np.minimum(distances - self.first, 0.0)
         lost = np.minimum(np.maximum(distances, self.first), self.second) - self.first

@@ -1,7 +1,8 @@
-"""The nearest of many curves: an index, and what is built on it.
+"""Nearest neighbours among many curves, with an index.
 
-An :class:`Index` answers which of its curves are nearest to others, exactly, with the names, shapes
-and conventions of ``sklearn.neighbors.NearestNeighbors``. The work is done by the compiled library.
+An :class:`Index` finds which of its curves are nearest to others, exactly. Its names, shapes and
+conventions are those of ``sklearn.neighbors.NearestNeighbors``. The compiled library computes the
+answers.
 """
 
 from __future__ import annotations
@@ -44,9 +45,9 @@ GraphMode = Literal["connectivity", "distance"]
 
 @filled()
 class Index:
-    """Many curves, ready to be searched for those that are nearest to others.
+    """Index of many curves for exact nearest-neighbour queries.
 
-    The answers are those of :func:`curvewise.cdist` and a stable sort, bit for bit, for any number
+    The answers are bitwise identical to :func:`curvewise.cdist` and a stable sort, for any number
     of threads: of equal distances the curve with the smaller index comes first. Methods have the
     names, shapes and conventions of ``sklearn.neighbors.NearestNeighbors``.
 
@@ -56,34 +57,34 @@ class Index:
         The curves of a sequence may differ in length, not in d. They are copied. They may have
         labels, as for :func:`curvewise.cdist`.
     measure : {measures}
-        A measure by its name. A curve that is asked for is P, one of the index is Q.
+        A measure by its name. A query curve is P, a curve of the index is Q.
     {layout}
-        It is valid for all curves that are added or looked for, too.
+        It applies to all curves that are added or queried, too.
     **options
-        Those of the measure's own function, except ``workers`` and ``cutoff``.
+        Options of the measure's own function, except ``workers`` and ``cutoff``.
 
     Raises
     ------
     ValueError
-        What the measure refuses, with the curve's place (``curves[3]``); curves of different d; an
-        unknown measure or option value; two curves with the same label; tracks in degrees without
-        ``metric="haversine"``.
+        If the measure refuses a curve, with the curve's place (``curves[3]``). If curves differ in
+        d, two curves have the same label, or a measure or option value is unknown. If tracks are in
+        degrees without ``metric="haversine"``.
     TypeError
-        A curve does not hold real numbers; an option that the measure does not have.
+        If a curve does not hold real numbers, or the measure does not have an option.
 
     Notes
     -----
-    dtw, frechet and frechet_continuous have lower bounds: the distances of the curves' ends, how
-    far their boxes reach beyond each other, and the sum, or the maximum, of the distances of each
-    curve's points to boxes around runs of the other. Curves are looked at in the order of their
-    bounds, and only those whose bound is not above the k-th best distance so far are computed, as
-    far as the cutoff lets them go (Seidl & Kriegel, "Optimal multi-step k-nearest neighbor search",
-    1998; with a window the bound is that of Keogh & Ratanamahatana, 2005, with several boxes for
-    one). What this saves depends on the curves: nearly everything where they form groups, nothing
-    where all are equally far apart. The other measures, and dtw and frechet with "minkowski",
-    compute every pair. Memory: at most 1.5 times that of the points in float64 from 128 numbers a
-    curve on, and little more than once from 1,000 on; some twice for frechet_continuous, and three
-    times for "haversine".
+    Lower bounds exist for dtw, frechet and frechet_continuous. They use the distances of the
+    curves' ends and the distance between their bounding boxes. They also use the sum (or the
+    maximum) of the distances of each curve's points to boxes around sections of the other. Curves
+    are processed in the order of their bounds. Only those whose bound is at most the k-th best
+    distance so far are computed, up to that cutoff. See Seidl & Kriegel, "Optimal multi-step
+    k-nearest neighbor search", 1998. With a window the bound is that of Keogh & Ratanamahatana
+    (2005), with several boxes instead of one. The savings depend on the curves: nearly everything
+    if they form groups, nothing if all are equally distant. The other measures, and dtw and frechet
+    with "minkowski", compute every pair. Memory: at most 1.5 times that of the points in float64
+    for curves of at least 128 numbers, and little more than once for at least 1,000. It is about
+    twice for frechet_continuous, and three times for "haversine".
 
     Examples
     --------
@@ -117,7 +118,7 @@ class Index:
         self._index = CompiledIndex(given, self._measure, options)
         # Later curves have the same number of coordinates, which settles their layout.
         self._layout: Layout | None = "channels_last" if given and layout is None else layout
-        self._searching: list[int] = []  # threads; one stands as often as it searches
+        self._searching: list[int] = []  # threads; a thread appears once for each of its searches
 
     def __len__(self) -> int:
         return self._index.size()
@@ -132,25 +133,25 @@ class Index:
         return partial(Index, layout="channels_last", **self._options), arguments, state
 
     def add(self, curves: Curves | LabelledCurves) -> None:
-        """Add curves behind those there are.
+        """Add curves behind the existing ones.
 
         Parameters
         ----------
         curves : array_like, shape (k, n, d), or a sequence of curves
-            All are added, or, where one is refused, none. With labels if those there are have
-            labels, and otherwise without.
+            All curves are added, or, if one is refused, no curve. The curves must have labels if
+            the existing ones have labels, and otherwise not.
 
         Raises
         ------
         ValueError, TypeError
-            As for :class:`Index`; ValueError where some would have labels and others not, or a
-            label that is there.
+            As for :class:`Index`. ValueError also if only some curves would have labels, or a label
+            exists already.
         RuntimeError
-            The progress function of a search in this index calls it.
+            If the progress function of a search in this index calls this method.
 
         Notes
         -----
-        O(n) time a curve. Waits for searches that run in other threads.
+        O(n) time for each curve. Waits for searches that run in other threads.
         """
         if get_ident() in self._searching:
             raise RuntimeError(
@@ -184,17 +185,17 @@ class Index:
         workers: SupportsIndex = Default.workers,
         progress: bool | Report = False,
     ) -> Any:
-        """Find the curves of the index that are nearest to each of some others.
+        """Find the nearest curves of the index for each query curve.
 
         Parameters
         ----------
         X : array_like, shape (q, n, d), or a sequence of curves, optional
-            What to look for. If not given, the curves of the index, none of which is then a
-            neighbour of itself.
+            The query curves. By default the curves of the index; a curve does not count as its own
+            neighbour then.
         n_neighbors : int
-            How many to find for each, from 1 to the number of curves.
+            Number of neighbours of each query, from 1 to the number of curves.
         return_distance : bool
-            Whether to return the distances besides the indices.
+            Whether to return the distances in addition to the indices.
         {workers}
         progress : bool or callable
             True shows a bar (tqdm). A callable is called in this thread with (done, total), as
@@ -203,26 +204,26 @@ class Index:
         Returns
         -------
         distances : ndarray, shape (q, n_neighbors)
-            In ascending order; only where asked for.
+            The distances in ascending order; only if requested.
         indices : ndarray of int64, shape (q, n_neighbors)
-            Those of the neighbours; of equal distances the smaller index comes first. Where the
-            curves of the index have labels, these in their place. Both are DataFrames, with the
-            labels of X as their index, where the curves of the index or of X have labels.
+            The indices of the neighbours; of equal distances the smaller index comes first. If the
+            curves of the index have labels, these replace the indices. If the curves of the index
+            or of X have labels, both results are DataFrames with the labels of X as their index.
 
         Raises
         ------
         ValueError
-            What the measure refuses, with the curve's place (``X[3]``); an `n_neighbors` that is
+            If the measure refuses a curve, with the curve's place (``X[3]``), or `n_neighbors` is
             too small or too large.
         TypeError
-            A curve does not hold real numbers.
+            If a curve does not hold real numbers.
         ImportError
-            ``progress=True`` without tqdm: ``pip install "curvewise[progress]"``.
+            If ``progress=True`` and tqdm is missing: ``pip install "curvewise[progress]"``.
 
         Notes
         -----
-        Time: for each query a cheap bound of every curve, and the pairs that are left, O(n m)
-        each. Threads share the queries: a single one is not divided. Ctrl-C as for
+        Time: for each query a cheap bound of every curve, and O(n m) for each remaining pair.
+        Threads share the queries: a single query is not divided. Ctrl-C as for
         :func:`curvewise.cdist`.
         """
         distances, indices, names = self._nearest(X, n_neighbors, workers, progress)
@@ -250,7 +251,7 @@ class Index:
             The largest distance of a neighbour. It may be negative for a step pattern that has a
             negative weight.
         return_distance : bool
-            Whether to return the distances besides the indices.
+            Whether to return the distances in addition to the indices.
         sort_results : bool
             Whether the neighbours come in ascending order of their distances, those of equal
             distance by index, or all by index.
@@ -300,19 +301,19 @@ class Index:
         X, n_neighbors, workers, progress
             As for :meth:`kneighbors`.
         mode : {"connectivity", "distance"}
-            What stands for a neighbour: 1, or its distance, which may be 0.
+            The entry of a neighbour: 1, or its distance, which may be 0.
 
         Returns
         -------
         scipy.sparse.csr_matrix, shape (q, k)
             Row i has the neighbours of X[i], without labels. With "distance", estimators of
-            scikit-learn with ``metric="precomputed"`` take it, as long as they ask for no more
-            neighbours.
+            scikit-learn with ``metric="precomputed"`` accept it, if they need no more neighbours.
 
         Raises
         ------
         ValueError, TypeError, ImportError
-            As for :meth:`kneighbors`; ValueError for an unknown mode; ImportError without scipy.
+            As for :meth:`kneighbors`; ValueError if the mode is unknown; ImportError if scipy is
+            missing.
 
         Notes
         -----
@@ -383,7 +384,7 @@ class Index:
         workers: SupportsIndex,
         progress: bool | Report,
     ) -> tuple[Array, Places, Labels]:
-        """Return the distances and places of neighbours, and the labels of what they are of."""
+        """Return distances and places of neighbours, and labels of the queries."""
         queries, names = self._queries(X)
         which = "the other curves of the index" if X is None else "the curves of the index"
         count = checked_count(n_neighbors, len(self) - (X is None), which)
@@ -392,7 +393,7 @@ class Index:
         return distances, indices, names
 
     def _queries(self, X: Curves | LabelledCurves | None) -> tuple[list[Array] | None, Labels]:
-        """Return what is asked for and, where the answer is to have labels, those of its rows."""
+        """Return the queries and, for an answer with labels, the labels of its rows."""
         if X is None:
             return None, self._labels
         check_reference_systems(self._options, known=self._crs, X=X)

@@ -1,11 +1,12 @@
-"""Where in a long curve one occurs that differs by a shift and a scale: z-normalised windows.
+"""Search for z-normalised occurrences of a curve in a long one.
 
-Rakthanmanon et al., "Searching and mining trillions of time series subsequences under dynamic time
-warping" (2012), for curves of any dimension and for several answers that do not overlap. Each
-window is bounded by the envelope of what is looked for (Keogh & Ratanamahatana 2005), and windows
-are looked at in the order of their bounds (Seidl & Kriegel 1998), up to the best distance so far.
-Time O(n) a window for its bound, and O(n m) for each window whose bound does not settle it; O(m)
-memory and some megabytes.
+The occurrences may differ by a shift and a scale. The algorithm is that of Rakthanmanon et al.,
+"Searching and mining trillions of time series subsequences under dynamic time warping" (2012). It
+is extended to curves of any dimension and to several answers that do not overlap. The envelope of
+the query gives a lower bound for each window (Keogh & Ratanamahatana 2005). Windows are processed
+in the order of their bounds (Seidl & Kriegel 1998), up to the best distance so far. Time O(n) for
+the bound of each window, and O(n m) for each window that its bound does not exclude; O(m) memory
+and some megabytes.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ _SORTED_FIRST = 1024
 
 
 def _in_order(bounds: Array) -> Iterator[int]:
-    """Yield the places of the bounds, the least first: few are looked at, and few are sorted."""
+    """Yield the indices of the bounds, the least first; few are usually needed."""
     rest = np.arange(len(bounds))
     some = _SORTED_FIRST
     while rest.size > 0:
@@ -92,7 +93,7 @@ class NormalizedRuns:
                 return
 
     def _compute(self, batch: list[int], limit: float) -> None:
-        """Compute distances as far as they are at most `limit`; of others that is a bound."""
+        """Compute distances up to `limit`; larger ones are replaced by lower bounds."""
         (row,) = cdist(
             [self.P],
             list(normalized_windows(self.Q, len(self.P), batch)),

@@ -33,10 +33,11 @@ __all__ = ["Prepared"]
 
 @filled()
 class Prepared:
-    """A curve P ready to be compared with many: checked, packed and scaled once.
+    """A curve P prepared for comparison with many curves.
 
-    ``Prepared(P, measure, **options)(Q)`` has the bits of ``measure(P, Q, **options)``. May be
-    called from several threads at once. P is copied: changing the array later changes nothing.
+    ``Prepared(P, measure, **options)(Q)`` is bitwise identical to ``measure(P, Q, **options)``. P
+    is checked, packed and scaled only once. The object may be called from several threads at once.
+    P is copied: later changes of the array have no effect.
 
     Parameters
     ----------
@@ -45,7 +46,7 @@ class Prepared:
     measure : {measures}
         A measure by its name.
     **options
-        Those of the measure's own function, except ``workers``.
+        Options of the measure's own function, except ``workers``.
 
     Raises
     ------
@@ -54,8 +55,8 @@ class Prepared:
 
     Notes
     -----
-    What is saved per call is of the order of O(n): the checks and the packing of P, for pcm its
-    scaling and arc lengths, for curve_length its arc lengths.
+    Each call saves work of O(n): the checks and the packing of P, for pcm its scaling and arc
+    lengths, for curve_length its arc lengths.
 
     Examples
     --------
@@ -93,22 +94,22 @@ class Prepared:
         Parameters
         ----------
         Q : array_like, shape (m, d); or an array of shape (k, m, d), or a list or tuple of curves
-            A list or tuple is a list of curves if its first element has as many array dimensions
-            as P. So is whatever has labels for its curves, as for :func:`cdist`.
+            A list or tuple is a list of curves if its first element has the same number of array
+            dimensions as P. Labelled collections, as for :func:`cdist`, are also lists of curves.
         workers : int
-            Threads for a list, as for :func:`cdist`.
+            Number of threads for a list, as for :func:`cdist`.
 
         Returns
         -------
         float, or ndarray of shape (k,), or Series
-            As Q is one curve, several, or several with labels.
+            A float for one curve, an array for several, and a Series for several with labels.
 
         Raises
         ------
         ValueError, TypeError
             As for the measure, and for :func:`cdist`.
         """
-        if isinstance(Q, np.ndarray) and Q.ndim < 3:  # the usual case, which has no names
+        if isinstance(Q, np.ndarray) and Q.ndim < 3:  # the usual case, without names
             return self._prepared.value(as_curve(Q, "Q"))
         check_reference_systems(self._options, Q=Q)
         Q, labels = unlabelled(Q, "Q")

@@ -1,25 +1,25 @@
-"""Lower bounds of what z-normalised windows are away from a curve.
+"""Lower bounds of the distance between z-normalised windows and a curve.
 
-A point of a window may be matched to some points of the curve only; their box is its envelope, and
-what the window's points lie beyond theirs, added up, is not above dtw (Keogh & Ratanamahatana
-2005), and the largest not above frechet. The compiled library finds it for all windows of a block
-with a mean and a deviation of its own, and what is lost to rounding is taken off. With n points a
-window and no number above X, and g = (n + d + 16) 2^-52, which is above what rounding can do to
-sums of n numbers in any order, relatively, twice over:
+A point of a window may be matched to some points of the curve only; their box is its envelope. The
+excesses of the window's points beyond their envelopes give a lower bound (Keogh & Ratanamahatana
+2005): their sum for dtw, the largest for frechet. The compiled library computes it for all windows
+of a block with one mean and deviation. The effect of rounding is subtracted. Let n be the number of
+points of a window, X the largest number, and g = (n + d + 16) 2^-52. This g is more than twice the
+relative rounding error of sums of n numbers in any order:
 
 - Two means differ by g X at most, for each is within g X / 2 of the true one.
-- The root of the mean square about a number changes by no more than the number does, and its
-  rounding is g / 2 of it, which is at most 2 X: two deviations differ by 3 g X at most.
-- Two windows (x - mean) / deviation then differ, as root mean square, by 5 g X / deviation at most
-  and terms of higher order; eta = 8 g X / deviation leaves room for these.
-- No norm of d coordinates is above the sum of these. So with eta added up over the coordinates,
-  the sum of n distances differs by n eta at most, and so does the largest; the root of a sum of
-  squares by sqrt(n) eta.
+- The root of the mean square about a number changes by at most the change of the number. Its
+  rounding is g / 2 of its value, which is at most 2 X. Two deviations differ by 3 g X at most.
+- Two windows (x - mean) / deviation then differ, as root mean square, by at most 5 g X / deviation
+  and terms of higher order. The value eta = 8 g X / deviation covers these.
+- A norm of d coordinates is at most the sum of these. Let eta be added up over the coordinates. The
+  sum of n distances then differs by n eta at most, and so does the largest; the root of a sum of
+  squares differs by sqrt(n) eta.
 - The rest, (1 - 4 g), is for the rounding of distances and of their sums.
 
-A window that hardly moves, beside its level, has a large eta. It is normalised as the measure
-normalises it, and nothing but the last step is left to do. The same goes for blocks with numbers
-whose squares leave the range of a double, and for metrics that the library has no bounds of.
+A window that barely varies, compared with its level, has a large eta. It is normalised exactly as
+in the measure, so that only the last step remains. The same is done for blocks with numbers whose
+squares leave the range of a double, and for metrics without bounds in the library.
 """
 
 from __future__ import annotations

@@ -56,39 +56,38 @@ def subsequence(
     window: SupportsIndex | None = None,
     workers: SupportsIndex = Default.workers,
 ) -> list[Subsequence]:
-    """Find the runs of Q that are most like P.
+    """Find the subsequences of Q that are most similar to P.
 
-    The first answer is the best of all runs of consecutive points of Q: what ``dtw(P, Q,
-    open_begin=True, open_end=True)`` finds. Each later one is the best run of what the answers
-    before it have left of Q, where every piece that is left is searched as if it were all of Q. So
-    the answers do not overlap, and their distances never fall. Of equal distances the run that ends
-    first is the better.
+    The first answer is the best of all sections of consecutive points of Q: the result of ``dtw(P,
+    Q, open_begin=True, open_end=True)``. Each later one is the best section of the rest of Q, where
+    every remaining part is searched as if it were all of Q. The answers therefore do not overlap,
+    and their distances never fall. Of equal distances the section that ends first is the better.
 
     Parameters
     ----------
     P, Q : array_like, shapes (n, d) and (m, d)
-        What is looked for, e.g. a cycle, and where, e.g. a long record; of any d.
+        The query, e.g. a cycle, and the curve to search, e.g. a long record; of any d.
     k : int >= 1
-        The most answers to return.
+        Maximum number of answers.
     measure : {warpings}
-        dtw has the step pattern "symmetric1", and no window except with `normalize`.
+        The measure; dtw uses the step pattern "symmetric1", and a window only with `normalize`.
     {metric}
     cutoff : float >= 0, optional
-        Runs with a distance above it are no answers.
+        Upper limit of the answers' distances.
     path : bool
-        Whether the answers come with their paths.
+        Whether to return the answers with their paths.
     normalize : bool
-        Look for runs that differ by a shift and a scale, too: every run has as many points as P,
-        and both are compared after :func:`curvewise.curves.z_normalized`.
+        Whether to find sections that differ by a shift and a scale, too. Every section then has the
+        length of P, and both are compared after :func:`curvewise.curves.z_normalized`.
     window : int >= 0, optional
-        With `normalize` and dtw, the half-width of the Sakoe-Chiba band; 0 compares point by
-        point. No limit if not given.
+        With `normalize` and dtw, the half-width of the Sakoe-Chiba band; 0 compares point by point.
+        Unlimited by default.
     {workers}
 
     Returns
     -------
     list of Subsequence
-        The best first; fewer than `k` where Q has no more runs, or none within the cutoff.
+        The best first; fewer than `k` if Q is exhausted, or the cutoff excludes the rest.
 
     Raises
     ------
@@ -96,15 +95,15 @@ def subsequence(
 
     Notes
     -----
-    Exact. One sweep of the table, O(n m) time, which carries along where in Q every path began;
-    after each answer, only the ends behind it whose paths began before its end are swept again.
-    Memory O(n + m). A path takes that of dtw_path, or frechet_path, for its run.
+    Exact. The table is filled once, in O(n m) time, together with the start in Q of every path.
+    After each answer, only the ends behind it whose paths began before its end are computed again.
+    Memory O(n + m). A path takes that of dtw_path, or frechet_path, for its section.
 
     With `normalize`, the search of Rakthanmanon et al. ("Searching and mining trillions of time
-    series subsequences under dynamic time warping", 2012): every window gets a lower bound in O(n)
-    by the envelope of P, and only those are computed whose bound is not above the best distance.
-    Mean and deviation are those of the window's own numbers, in two passes; of a coordinate that
-    stands still in a window, the normalised one is 0. Memory O(m).
+    series subsequences under dynamic time warping", 2012). Every window gets a lower bound in O(n)
+    by the envelope of P, and only windows whose bound is at most the best distance are computed.
+    Mean and deviation are computed from the window's numbers, in two passes. A coordinate that is
+    constant in a window is normalised to 0. Memory O(m).
 
     Examples
     --------

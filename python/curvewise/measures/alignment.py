@@ -47,7 +47,7 @@ class Alignment(Record, Result):
         Raises
         ------
         ImportError
-            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+            If matplotlib is missing: ``pip install "curvewise[plot]"``.
         """
         return alignment_figure(self.curves, self.path)
 

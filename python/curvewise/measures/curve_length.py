@@ -36,10 +36,10 @@ def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.sca
     Raises
     ------
     ValueError
-        A curve is not finite, has fewer than 2 points, other than 2 coordinates or no length;
-        the scale is 0 (for "mean", to rounding); an unknown option.
+        If a curve is not finite, has fewer than 2 points, other than 2 coordinates or length 0. If
+        the scale is 0 (for "mean", to rounding). If an option is unknown.
     TypeError
-        A curve does not hold real numbers.
+        If a curve does not hold real numbers.
 
     Notes
     -----

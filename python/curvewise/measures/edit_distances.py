@@ -414,7 +414,7 @@ def edit_table(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any
     ValueError, TypeError
         As for the function.
     MemoryError
-        The table does not fit.
+        If the table does not fit in memory.
 
     Notes
     -----

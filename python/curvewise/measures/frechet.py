@@ -206,7 +206,7 @@ def frechet_table(
     ValueError, TypeError
         As for :func:`frechet`.
     MemoryError
-        The table does not fit.
+        If the table does not fit in memory.
 
     Notes
     -----

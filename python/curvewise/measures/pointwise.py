@@ -33,9 +33,9 @@ def sum_of_squares(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.mis
     Raises
     ------
     ValueError
-        The shapes differ; a curve is empty or not finite.
+        If the shapes differ, or a curve is empty or not finite.
     TypeError
-        A curve does not hold real numbers.
+        If a curve does not hold real numbers.
 
     Notes
     -----

@@ -166,9 +166,9 @@ class PcmMatch(Record, Result):
         Raises
         ------
         ImportError
-            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+            If matplotlib is missing: ``pip install "curvewise[plot]"``.
         ValueError
-            The curves are not known: the match is that of :mod:`curvewise.reference`.
+            If the curves are missing: the match is that of :mod:`curvewise.reference`.
         """
         if self.curves is None:
             raise ValueError("the match does not know its curves; take that of curvewise.pcm_match")
@@ -267,7 +267,7 @@ class DtwMean(Record, Result):
         Raises
         ------
         ImportError
-            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+            If matplotlib is missing: ``pip install "curvewise[plot]"``.
         """
         return bunch_figure(self.curves, self.curve, "mean")
 

@@ -117,7 +117,7 @@ class StepPattern(Result):
         Raises
         ------
         ImportError
-            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+            If matplotlib is missing: ``pip install "curvewise[plot]"``.
         """
         return steps_figure(self.steps())
 

@@ -54,7 +54,7 @@ def plot_area(
     Raises
     ------
     ValueError, TypeError
-        Where `area` does, before anything is drawn.
+        As for `area`, before anything is drawn.
 
     Notes
     -----

@@ -64,9 +64,9 @@ def plot_comparison(comparison: Compared, *, names: Sequence[str] | None = None)
     Raises
     ------
     ImportError
-        Without matplotlib.
+        If matplotlib is missing.
     ValueError
-        Another number of names than of coordinates.
+        If the number of names differs from the number of coordinates.
 
     Notes
     -----

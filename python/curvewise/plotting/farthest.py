@@ -121,7 +121,7 @@ def plot_farthest_of_lines(
     Raises
     ------
     ValueError, TypeError
-        As for :func:`curvewise.hausdorff_continuous`, and for d > 2. Nothing is drawn then.
+        As for :func:`curvewise.hausdorff_continuous`, and if d > 2; before anything is drawn.
 
     Notes
     -----

@@ -58,7 +58,7 @@ def plot_table(
     Raises
     ------
     ValueError, TypeError, MemoryError
-        Where `dtw_table` or `frechet_table` does, before anything is drawn.
+        As for `dtw_table` or `frechet_table`, before anything is drawn.
 
     Notes
     -----

@@ -55,7 +55,7 @@ class Global(Method, name="global", keeps_curves=False, needs_squares=False):
     Raises
     ------
     ValueError
-        An option that cannot be.
+        If an option is out of its range.
 
     Notes
     -----

@@ -178,9 +178,9 @@ class CommandModel:
         Raises
         ------
         SolverError
-            The run failed; the text names its log.
+            If the run failed; the message names its log.
         ValueError
-            A parameter is missing, unknown, not finite, or does not fit its field.
+            If a parameter is missing, unknown, not finite, or does not fit its field.
 
         Notes
         -----

@@ -53,7 +53,7 @@ def model_identity(model: Any, version: str | None) -> ModelIdentity:
     Raises
     ------
     ValueError
-        There is neither an identity nor a version.
+        If neither an identity nor a version exists.
     """
     own = getattr(model, "identity", None)
     if isinstance(own, str) and own:

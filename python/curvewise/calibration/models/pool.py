@@ -122,7 +122,7 @@ class ModelPool:
         Raises
         ------
         RuntimeError
-            The caller's executor has broken down.
+            If the given executor has broken down.
         """
         if self._executor is not None or self._pool is not None:
             for values in calls:

@@ -61,8 +61,8 @@ class Case:
     Raises
     ------
     ValueError
-        When the case is used: as for :class:`Objective`; if the weight is negative, or sigma is not
-        positive.
+        If the weight is negative, or sigma is not positive; when the case is used, as for
+        :class:`Objective`.
 
     Examples
     --------

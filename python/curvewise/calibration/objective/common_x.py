@@ -74,7 +74,8 @@ def differences(P: Array, Q: Array, *, abscissa: Abscissa = 0) -> Array:
     Raises
     ------
     ValueError
-        Q is not finite, turns back in x, or does not cover P; or, point by point, has not P's x.
+        If Q is not finite, reverses in x, or does not cover P. Point by point, if its x differs
+        from P's.
     """
     if not np.isfinite(Q).all():
         raise ValueError("the simulation is not finite")

@@ -199,10 +199,10 @@ class Objective:
         Raises
         ------
         ValueError
-            The number of simulations, their dimension, or the names of their columns are not those
-            of the experiments.
+            If the number of simulations, their dimension, or the names of their columns differ from
+            those of the experiments.
         TypeError
-            A simulation does not hold real numbers.
+            If a simulation does not hold real numbers.
         """
         score = self.predicted(simulations)
         self.failures += len(score.failures)
@@ -274,7 +274,7 @@ class Objective:
         Raises
         ------
         ValueError
-            The measure is not "curve_length" or "sum_of_squares"; as for `score`.
+            If the measure is not "curve_length" or "sum_of_squares"; as for `score`.
         """
         if any(measure not in LEAST_SQUARES for measure in self.measures):
             raise ValueError(

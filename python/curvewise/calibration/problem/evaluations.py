@@ -135,9 +135,9 @@ class Evaluations(Ledger):
         Raises
         ------
         SearchEndedError
-            The limit is reached, or the callback asks for it.
+            If the limit is reached, or the callback requests it.
         RuntimeError
-            No simulation of the first batch has succeeded.
+            If no simulation of the first batch has succeeded.
         """
         if batch := self.missing(units):
             self._run(batch)

@@ -189,7 +189,7 @@ class Ledger:
         Raises
         ------
         RuntimeError
-            No simulation of the first batch has succeeded.
+            If no simulation of the first batch has succeeded.
         """
         is_first = not self._done
         for evaluation, simulations in batch:
@@ -210,7 +210,7 @@ class Ledger:
         Raises
         ------
         SearchEndedError
-            One of them is beyond the limit.
+            If one of them is beyond the limit.
         """
         points = [self.space.point(unit) for unit in units]
         if any(point not in self._done for point in points):

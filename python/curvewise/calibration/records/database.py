@@ -64,9 +64,9 @@ class Database:
     Raises
     ------
     ValueError
-        The file is something else than a store.
+        If the file is not a store.
     StoreError
-        It cannot be made, or is damaged. Every method may raise this.
+        If it cannot be created, or is damaged. Every method may raise this.
     """
 
     def __init__(self, path: Path) -> None:

@@ -58,7 +58,7 @@ class SimulationStore:
     ValueError
         If the version is not a text; at the first use, if the file is not a store.
     StoreError
-        At a use, if the file cannot be created, read or written, or is damaged.
+        If the file cannot be created, read or written, or is damaged; raised when it is used.
 
     Notes
     -----
@@ -157,7 +157,7 @@ class SimulationStore:
         Raises
         ------
         ValueError
-            The store has runs under this identity and another fingerprint.
+            If the store has runs under this identity and another fingerprint.
         """
         with self._database.transaction():
             self._database.write("models", [model])

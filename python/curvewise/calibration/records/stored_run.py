@@ -63,7 +63,7 @@ def encoded(outcome: Outcome) -> tuple[str, bytes]:
     Raises
     ------
     TypeError, ValueError
-        The model returned something else than curves of real numbers.
+        If the model returned something other than curves of real numbers.
     """
     if outcome.message:
         return "null", b""

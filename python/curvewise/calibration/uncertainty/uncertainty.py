@@ -191,7 +191,7 @@ class Uncertainty(Result):
         Raises
         ------
         ImportError
-            matplotlib is not installed: ``pip install "curvewise[plot]"``.
+            If matplotlib is missing: ``pip install "curvewise[plot]"``.
         """
         optimum = self.optimum
         objective, space = optimum.problem.objective, optimum.problem.space
