@@ -1,9 +1,10 @@
-"""The command line: a parser made of the commands, and what becomes of their errors.
+"""The command line: its parser, and the handling of errors.
 
-Exit status: 0; 1 for data that cannot be compared, a file that cannot be read or written, curves
-outside their limits, and a failed self-check, with one line on standard error; 2 for wrong usage;
-130 after Ctrl-C and 141 after a closed pipe, quietly. What only some commands need (matplotlib
-first of all) is imported by them, so that the others start fast and run without it.
+Exit status: 0 for success. 1 for data that cannot be compared, a file that cannot be read or
+written, curves outside their limits, and a failed self-check, with one line on standard error. 2
+for wrong usage. 130 after Ctrl-C and 141 after a closed pipe, without a message. A command imports
+its special requirements itself (above all matplotlib), so that the others start fast and run
+without them.
 """
 
 from __future__ import annotations
@@ -93,7 +94,7 @@ def _show_warning(message: Warning | str, *_: Any, **__: Any) -> None:
 
 
 def _discard_output() -> None:
-    """Send what is still buffered nowhere, or Python reports it again when it exits."""
+    """Discard the output buffer; otherwise Python reports it again when it exits."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 

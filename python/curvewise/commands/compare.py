@@ -158,7 +158,7 @@ def _refusals(comparison: Comparison, files: list[str]) -> list[str]:
 
 
 def _all_values(comparison: Comparison, files: list[str]) -> list[float]:
-    """Return the values; raise ValueError if a measure has none."""
+    """Return the values; raise ValueError if one is missing."""
     if missing := _refusals(comparison, files):
         raise ValueError(missing[0])
     return list(comparison.values.values())
@@ -185,7 +185,7 @@ def _in_json(comparison: Comparison) -> dict[str, Any]:
 
 
 def _json_numbers(values: Mapping[str, float]) -> dict[str, float | None]:
-    """JSON has no infinity and no nan: a value beyond the range of a double, or none, is null."""
+    """Return values for JSON, which lacks infinity and nan: null replaces them."""
     return {name: value if math.isfinite(value) else None for name, value in values.items()}
 
 

@@ -1,7 +1,7 @@
-"""``curvewise identify study.toml``: a study from the shell, checked, run, interrupted, resumed.
+"""``curvewise identify study.toml``: check, run and resume a study.
 
-What is imported here is light; the study itself comes with scipy when it is run. Where standard
-error is no terminal, as in a batch job, the bar gives way to a line for every batch of runs.
+The imports of this module are light; scipy is imported when a study runs. If standard error is not
+a terminal, as in a batch job, the bar is replaced by a line for every batch of runs.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def _run(study: Study) -> int:
     if len(study.tests) > 1:
         print(", ".join(f"curve {i}: {test.name}" for i, test in enumerate(study.tests)))
     is_terminal = sys.stderr.isatty()
-    is_short = study.material is not None  # of hundreds of runs in seconds nobody wants lines
+    is_short = study.material is not None  # lines are useless for hundreds of runs in seconds
     quiet = is_terminal or is_short or len(study.search.measures) > 1
     try:
         with warnings.catch_warnings(), failures_unlogged() if is_short else nullcontext():

@@ -1,11 +1,11 @@
 """Check the compiled library on this machine against the numpy reference.
 
-Every kernel (recurrence, ground distance, dimension, output) is run on a few hundred generated
-pairs whose sizes straddle SIMD vectors and strips, half of them on small integers, where ties
-abound. What must have the same bits is compared with ``==``, the rest to 1e-12; the continuous
-Fréchet distance by exact decisions about it and the double below it. The reference takes most of
-the time, some ten seconds; an instruction-set level whose results are, to the last bit, those of a
-level that it has confirmed needs no reference of its own.
+Every kernel (recurrence, ground distance, dimension, output) runs on a few hundred generated pairs.
+Their sizes straddle SIMD vectors and strips. Half of them have small integers, for which ties are
+frequent. Results that must be bitwise identical are compared with ``==``, the others to 1e-12. The
+continuous Fréchet distance is checked by exact decisions about it and the double below it. The
+reference takes most of the time, about ten seconds. An instruction-set level needs no reference run
+if its results are bitwise identical to those of a confirmed level.
 """
 
 from __future__ import annotations
@@ -48,17 +48,17 @@ def run(stream: TextIO) -> bool:
     Parameters
     ----------
     stream : text file
-        Where one line for each check is written, e.g. ``sys.stdout``.
+        The stream for the report, one line for each check, e.g. ``sys.stdout``.
 
     Returns
     -------
     bool
-        True where every comparison held.
+        True if every comparison succeeded.
 
     Notes
     -----
-    The level of a process is chosen once, so each level other than the one in use is checked in a
-    process of its own. Some ten seconds in all.
+    A process selects its level once, so each level other than the one in use is checked in a
+    separate process. About ten seconds in all.
 
     Examples
     --------

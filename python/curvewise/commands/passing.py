@@ -26,7 +26,7 @@ class Outcome(NamedTuple):
     tube: Tube | None
 
     def failures(self) -> list[str]:
-        """Return what is above its limit, by name."""
+        """Return the names of the values above their limits."""
         checks = () if self.measures is None else self.measures.checks
         above = [check.measure for check in checks if not check.passed]
         return [*above, "tube"] if self.tube is not None and not self.tube else above

@@ -1,9 +1,9 @@
-"""What the commands are told of their files: columns, units, sheets, how tests are prepared.
+"""Options of the commands for reading and preparing their files.
 
 The options are made from their declarations (`files.file_options`). A command that reads several
 files of one kind takes each option once for all files, or once for each, in their order
-(`add_repeated`, `said_of_each`); a command that reads A and B takes an ending of the option for one
-of them (`add_for_two`, `said_of_two`).
+(`add_repeated`, `said_of_each`). A command that reads A and B takes the option with a suffix for
+one of them (`add_for_two`, `said_of_two`).
 """
 
 from __future__ import annotations
@@ -75,13 +75,13 @@ _SETTINGS: dict[str, dict[str, Any]] = {
 
 
 class Said(NamedTuple):
-    """What is said of one file.
+    """The options for one file.
 
     Attributes
     ----------
     columns : list of str or int, or None
     factors : list of str or float, or None
-        Numbers and units, as they were written.
+        The given numbers and units.
     reading : Reading
     preparation : dict
         Keywords of `curvewise.fitting.prepare`.
@@ -102,7 +102,7 @@ class Said(NamedTuple):
 
 
 def add_repeated(command: argparse.ArgumentParser) -> None:
-    """Add the options that are said of a file, once for all files or once for each."""
+    """Add the file options, once for all files or once for each."""
     group = command.add_argument_group(
         "files", "Give an option once for all files, or once for each file, in their order."
     )
@@ -111,7 +111,7 @@ def add_repeated(command: argparse.ArgumentParser) -> None:
 
 
 def add_for_two(command: argparse.ArgumentParser) -> None:
-    """Add the options that are said of a file, of A and B together or of one of them."""
+    """Add the file options, for A and B together or for one of them."""
     group = command.add_argument_group(
         "files",
         "An option is said of both files; with the ending -a or -b, such as --columns-b, of one.",
@@ -138,7 +138,7 @@ def _add(
 
 
 def said_of_each(arguments: argparse.Namespace, count: int) -> list[Said]:
-    """Return what is said of each of so many files by the options of `add_repeated`."""
+    """Return the options of each of `count` files from `add_repeated`."""
     given = vars(arguments)
     each: list[dict[str, Any]] = [{} for _ in range(count)]
     for option in _OPTIONS_OF_TESTS:
@@ -158,7 +158,7 @@ def said_of_each(arguments: argparse.Namespace, count: int) -> list[Said]:
 
 
 def said_of_two(arguments: argparse.Namespace) -> list[Said]:
-    """Return what is said of A and of B by the options of `add_for_two`."""
+    """Return the options of A and of B from `add_for_two`."""
     given = vars(arguments)
     both: list[dict[str, Any]] = [{}, {}]
     for option in _OPTIONS:
@@ -180,7 +180,7 @@ def _said(values: Mapping[str, Any]) -> Said:
 
 @contextlib.contextmanager
 def warnings_printed() -> Iterator[None]:
-    """Print what is warned of, once each, where no error says more."""
+    """Print each warning once, unless an error says more."""
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", UserWarning)
         yield
@@ -191,16 +191,16 @@ def warnings_printed() -> Iterator[None]:
 def prepared_file(
     file: str, said: Said, units: str = "MPa", asked: Callable[[Any], None] | None = None
 ) -> tuple[Array | PreparedTest, list[str]]:
-    """Read the columns of a file and prepare the test; return as well what the columns are called.
+    """Read the columns of a file and prepare the test; return their names, too.
 
-    A file of which nothing is said of its preparation is a curve as it was read.
+    Without preparation options, the result is the raw curve.
 
     Parameters
     ----------
     file : str
     said : Said
     units : str
-        Unit of stresses.
+        The unit of stresses.
     asked : callable, optional
         Called with strain and stress before their zero is corrected; it may raise ValueError.
     """

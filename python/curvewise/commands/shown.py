@@ -15,7 +15,7 @@ __all__ = ["failures_unlogged", "print_table", "require_matplotlib", "write_pict
 
 
 def print_table(comparison: Comparison, names: list[str], columns: list[str]) -> None:
-    """Print what was compared, the values, and the deviations."""
+    """Print the files, the values, and the deviations."""
     curves = comparison.P, comparison.Q
     for letter, name, curve, of in zip("PQ", names, curves, columns, strict=True):
         print(f"{letter}  {name}, {len(curve)} points{of}")

@@ -1,7 +1,7 @@
-"""What is wrong with a study only when its tests, models, measures and method come together.
+"""Checks of a study that need tests, models, measures and method together.
 
-Objective, models and plan are made as a search would make them, and what they refuse is placed at
-the key that it is about. Cost: that of scaling the tests, and of reading the templates.
+Objective, models and plan are created in the same way as by a search. Their errors are attributed
+to the corresponding keys. Cost: that of scaling the tests, and of reading the templates.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ __all__ = ["check_together"]
 
 
 def check_together(study: Contents, source: Source) -> None:
-    """Note what is wrong only when tests, measures and method come together.
+    """Record errors that only tests, measures and method together show.
 
     Parameters
     ----------
     study : Contents
-        What the file says.
+        The content of the file.
     source : Source
-        The file, where problems are noted.
+        The file; it collects the errors.
     """
     if study.has_cases and len(study.search.measures) > 1:
         named = [i for i, test in enumerate(study.tests) if test.own or test.is_number]
@@ -35,7 +35,7 @@ def check_together(study: Contents, source: Source) -> None:
     if study.has_cases and "failure_value" in study.search.comparison:
         source.problem(("search", "failure_value"), "does not go with tests of their own kinds")
     models: dict[str, AnyModel] = {}
-    try:  # in a folder that is there: reading a study makes none
+    try:  # in an existing folder: reading a study does not create one
         models = study.study_models(kept_in=source.folder)
     except (OSError, ValueError) as error:
         source.problem(("model",) if "" in study.models else ("models",), str(error))
@@ -48,7 +48,7 @@ def check_together(study: Contents, source: Source) -> None:
         except (TypeError, ValueError) as error:
             _place_objective_error(study, source, key, str(error))
         try:
-            # Of cases, identify knows no common measure that is a sum of squares.
+            # For cases, identify does not support a common measure that is a sum of squares.
             method.check("area" if study.has_cases else measure)
         except ValueError as error:
             source.problem(("search", "method"), f"does not go together: {error}")

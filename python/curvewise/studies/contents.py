@@ -1,6 +1,6 @@
-"""All that a study file says, once it is checked, and what of it is asked of a search.
+"""The checked content of a study file, and its models, cases and objective.
 
-Models, cases and objective are made of it here; `Study` is this, and what can be done with it.
+`Study` adds the actions.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Contents:
 
     @property
     def material(self) -> MaterialModel | None:
-        """The material in the place of a solver, if there is one."""
+        """The material that replaces a solver, if there is one."""
         model = next(iter(self.models.values()), None)
         return model if isinstance(model, MaterialModel) else None
 
@@ -117,7 +117,7 @@ class Contents:
         return cases
 
     def objective(self, models: Mapping[str, AnyModel], measure: str) -> Objective:
-        """Return what is minimised."""
+        """Return the objective to minimise."""
         if self.has_cases:
             return Cases(self.cases(models)).objective()
         return Objective([test.experiment for test in self.tests], self.criterion(measure))

@@ -1,7 +1,8 @@
-"""Where a curve comes from: a file of a test, or what a solver has written into a run's folder.
+"""The source of a curve: a test's file, or a solver's result file.
 
-Either whole columns of a file, times factors; or named quantities, of which formulas make x and y.
-Text, Excel and MATLAB are read by curvewise.read_curve, solvers' files by curvewise.solvers.
+A solver's result file is in the folder of a run. A source selects whole columns of a file, times
+factors; or named quantities, from which formulas compute x and y. curvewise.read_curve reads text,
+Excel and MATLAB; curvewise.solvers reads solvers' files.
 """
 
 from __future__ import annotations
@@ -66,26 +67,26 @@ class Quantity:
 
 @dataclass(frozen=True)
 class CurveSource:
-    """A file, what of it is read, and what is made of that.
+    """A file, the selected data, and their conversion to a curve.
 
     Parameters
     ----------
     file : str
-        Absolute, or in the folder that `read` is given.
+        The absolute path, or a path in the folder that `read` receives.
     format : str
         One of `FORMATS`.
     names : tuple of str
-        What formulas call the columns or quantities.
+        The names of the columns or quantities in formulas.
     columns : tuple of (str or int), or of Quantity
-        Where each of them comes from; empty for the first two columns of a file.
+        The source of each of them; empty for the first two columns of a file.
     factors : tuple of float
-        What they are multiplied by; empty for 1.
+        Their factors; empty for 1.
     formulas : tuple of Formula
-        Of the names: x and y, or one whose value is a number; empty for the columns as they are.
+        Formulas of the names: x and y, or one whose value is a number; empty for the raw columns.
     first_point : tuple of float
-        A point that is put before the others; empty for none.
+        A point that is put before the others, or ().
     reading : Reading
-        The sheet of a workbook, and what else is said of how a file is read.
+        The sheet of a workbook, and other options for reading the file.
     """
 
     file: str
@@ -117,7 +118,8 @@ class CurveSource:
         Raises
         ------
         ValueError, OSError
-            The file cannot be read, does not hold what is asked for, or a formula has no value.
+            If the file cannot be read or lacks the requested data, or the value of a formula is
+            undefined.
         """
         columns = self._columns(folder)
         if self.factors:
@@ -135,7 +137,7 @@ class CurveSource:
         return curve
 
     def _columns(self, folder: Path) -> Array:
-        """Return what is read, a column each."""
+        """Return the data, one column for each name."""
         path = folder / self.file
         if folder.name and not glob.glob(os.fspath(path)):
             there_are = sorted(item.name for item in folder.iterdir()) if folder.is_dir() else []

@@ -1,4 +1,4 @@
-"""One run of every model of a study, before the search: what was written, read and computed.
+"""One run of every model of a study before the search, and its report.
 
 What goes wrong in a study goes wrong here: a deck that the solver refuses, a set that is called
 differently, units. Cost: one run of every model.
@@ -80,24 +80,24 @@ def _key_to_see(doubt: str) -> str:
 
 @dataclass(frozen=True)
 class DryRun:
-    """What came of one run of every model of a study.
+    """Result of one run of every model of a study.
 
     Attributes
     ----------
     parameters : dict of str to float
-        With which it was made.
+        The parameters of the runs.
     folders : tuple of Path
-        Of every run: the deck, the log, and what the solver has written.
+        The folders of the runs, with the deck, the log, and the solver's files.
     read : tuple of Read
-        What was read for every test.
+        The data that were read for every test.
     values : dict of str to float
         The objective by measure.
     seconds : float
-        What one set of parameters takes.
+        The time of one set of parameters.
     runs : int
-        How many sets of parameters the study takes at least.
+        The least number of parameter sets of the study.
     workers : int
-        How many of them run at a time.
+        The number of parallel runs.
     """
 
     parameters: dict[str, float]

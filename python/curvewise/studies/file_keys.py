@@ -38,6 +38,6 @@ _KINDS = {option.name: option.kind for option in _OPTIONS}
 
 
 def said(option: str) -> Any:
-    """Return the key of an option that is said of a file."""
+    """Return the key of a file option."""
     kind = _KINDS[option]
     return key(_READERS[kind], False if kind in ("flag", "stresses") else None)

@@ -1,9 +1,9 @@
 """Formulas of a study file: "force / (area * (1 + ux))", "E / (2 * (1 + nu))".
 
-Numbers, names, + - * / ** (or ^), brackets, and the functions of a pocket calculator, of numbers or
-of whole columns. A parser of its own in the place of Python's, as parameters have names such as
-"yield" and "lambda", and since a formula should be able to do nothing else. Recursive descent; cost
-linear in the text, and in the columns when it is evaluated.
+Formulas consist of numbers, names, + - * / ** (or ^), brackets, and the functions of a pocket
+calculator, for numbers or whole columns. A separate parser replaces Python's, because parameters
+have names such as "yield" and "lambda", and because a formula must not be able to do anything else.
+It uses recursive descent; the cost is linear in the text, and in the columns when it is evaluated.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _TOKEN = re.compile(
     r"|(?P<sign>\*\*|[-+*/^(),])|(?P<end>\Z)|(?P<other>\S))"
 )
 _DEEPEST = 100  # brackets within brackets
-_LONGEST = 500  # characters: what is longer, a search would not like to evaluate either
+_LONGEST = 500  # characters: longer formulas would also be slow to evaluate in a search
 
 
 def _largest(*columns: Any) -> Any:
@@ -68,30 +68,31 @@ _OPERATIONS: dict[str, Callable[..., Any]] = {
     "**": operator.pow,
 }
 
-# A number, a name, or an operation with the trees of what it is done to.
+# A number, a name, or an operation with the trees of its operands.
 _Tree: TypeAlias = "float | str | tuple[Any, ...]"
 
 
 class Formula:
-    """A formula of names, as a function of their values.
+    """A formula as a function of the values of its names.
 
     Parameters
     ----------
     text : str
-        The formula. ``max`` and ``min`` of one column are numbers, of several the largest and the
-        smallest at every point; ``first``, ``last``, ``mean`` and ``sum`` are numbers.
+        The formula. ``max`` and ``min`` of one column are numbers; of several columns they are the
+        largest and the smallest at every point. ``first``, ``last``, ``mean`` and ``sum`` are
+        numbers.
 
     Attributes
     ----------
     text : str
-        As given.
+        The given text.
     names : tuple of str
-        What has to have a value.
+        The names that need a value.
 
     Raises
     ------
     ValueError
-        It is no formula; the message says where.
+        If it is not a formula; the message shows where.
 
     Examples
     --------
@@ -125,7 +126,7 @@ class Formula:
 
 
 def undefined_names(formula: Formula, known: Iterable[str]) -> list[str]:
-    """Return what to say of each name in a formula that is none of those that there are."""
+    """Return an error for each unknown name in a formula."""
     names = list(known)
     listed = ", ".join(names) or "(nothing)"
     return [

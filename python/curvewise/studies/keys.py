@@ -1,9 +1,9 @@
-"""The keys of a study file: each is a described field of a dataclass, and one reader reads all.
+"""The keys of a study file: described fields of dataclasses, with one reader.
 
-A field made by `key`, `key_at` or `table` says how its value is read, what stands in the place of a
-value that is missing or wrong, and what to write where the key has to be there. `Table.read` makes
-the dataclass of a table: it notes every wrong key with its line, goes on with the default, so that
-the rest of the file is checked too, and refuses the keys that are described nowhere.
+A field made by `key`, `key_at` or `table` defines how its value is read, the default for a missing
+or wrong value, and the advice for a missing required key. `Table.read` creates the dataclass of a
+table. It records every wrong key with its line and continues with the default, so that the rest of
+the file is checked too. It refuses undescribed keys.
 """
 
 from __future__ import annotations
@@ -57,12 +57,12 @@ def key(read: Callable[[Any], Any], default: Any = None, *, required: str = "") 
     Parameters
     ----------
     read : callable
-        Makes what is meant of the file's value; raises ValueError with the rest of a sentence that
-        begins with the key.
+        Converts the file's value; raises ValueError with the rest of a sentence that begins with
+        the key.
     default : object
-        In the place of what is missing or wrong.
+        The value if the key is missing or wrong.
     required : str
-        What to write, where the key has to be there.
+        Advice for a missing required key.
     """
     return key_at(lambda source, path, value: read(value), default, required=required)
 
@@ -78,9 +78,9 @@ def table(read: ReadAt) -> Any:
 
 
 def described(kind: type) -> dict[str, Mapping[str, Any]]:
-    """Return the keys that a dataclass describes, with what it says of each.
+    """Return the keys that a dataclass describes, with their descriptions.
 
-    An underscore at the end of a field, which Python's words need, is not part of the key.
+    A final underscore of a field, which avoids a Python keyword, does not belong to the key.
     """
     found = {item.name: item.metadata for item in fields(kind) if "read" in item.metadata}
     return {name.rstrip("_"): {**how, "field": name} for name, how in found.items()}
@@ -92,18 +92,18 @@ class Table:
     Parameters
     ----------
     source : Source
-        The file, where problems are noted.
+        The file; it collects the errors.
     path : tuple of str and int
-        Where the table is.
+        The place of the table.
     values : mapping, or None
-        What is in it, None where the table is missing; anything else is a problem.
+        The content of the table; None if it is missing. Any other value is an error.
 
     Attributes
     ----------
     given : mapping
-        What the file gives, in its order.
+        The keys and values of the file, in order.
     wrong : set of str
-        The keys with which something is wrong.
+        The keys with errors.
     """
 
     def __init__(self, source: Source, path: KeyPath, values: Any) -> None:
@@ -130,7 +130,7 @@ class Table:
         kind : type
             The dataclass.
         **known : object
-            Those of its fields that are no keys.
+            The fields that are not keys.
         """
         keys = described(kind)
         for name, how in keys.items():
@@ -152,13 +152,13 @@ class Table:
         return kind(**known)
 
     def problem(self, key: str, message: str) -> None:
-        """Note what is wrong with a key; with the table itself if the key is empty."""
+        """Record an error of a key, or of the table itself if the key is empty."""
         self.wrong.add(key)
         self.source.problem((*self.path, key) if key else self.path, message)
 
 
 def reader(wanted: str, fits: Callable[[Any], Any], made: Callable[[Any], T]) -> Callable[[Any], T]:
-    """Return what reads a value that fits, and says what is wanted in the place of another."""
+    """Return a reader of fitting values; others raise an error with advice."""
 
     def read(value: Any) -> T:
         if not fits(value):
@@ -169,7 +169,7 @@ def reader(wanted: str, fits: Callable[[Any], Any], made: Callable[[Any], T]) ->
 
 
 def as_it_is(value: Any) -> Any:
-    """Read what is checked elsewhere."""
+    """Return the value unchanged; it is checked elsewhere."""
     return value
 
 

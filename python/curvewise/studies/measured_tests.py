@@ -51,7 +51,7 @@ _column = keys.name_or_number("the name of a column")
 
 @dataclass(frozen=True)
 class Columns:
-    """What of a file makes a curve: keys that the file of a test and that of a run have alike."""
+    """The parts of a file that make a curve; shared keys of tests and results."""
 
     columns: Any = key(keys.as_it_is)
     x: Formula | None = key(_formula)
@@ -80,7 +80,7 @@ class Output(Columns):
 
 def _output(source: Source, path: KeyPath, values: Any) -> CurveSource | None:
     """Return where a test's simulation is, or None where something is wrong, or nothing given."""
-    if values is None:  # of a material, which needs none
+    if values is None:  # for a material, which does not need one
         return None
     table = Table(source, path, values)
     output = table.read(Output)
@@ -104,9 +104,9 @@ class MeasuredTest(Comparison, Columns):
     experiment : ndarray, or float
         The measured curve, or a number.
     output : CurveSource
-        Where its simulation is in a run's folder.
+        The source of its simulation in a run's folder.
     prepared : PreparedTest, or None
-        The measured curve with what was done to it, if anything was.
+        The measured curve with its preparation, if there was any.
     """
 
     file: Path | None = key_at(keys.path)
@@ -134,7 +134,7 @@ class MeasuredTest(Comparison, Columns):
 
     @property
     def own(self) -> dict[str, Any]:
-        """What it has in the place of settings of [search], as arguments of `Case`."""
+        """Settings that override those of [search], as arguments of `Case`."""
         return self.given("sigma", *described(Comparison))
 
 
@@ -163,7 +163,7 @@ def read_test(
     else:
         _check_model(table, models)
     if models is not None and "output" not in table.given:
-        _output(source, (*table.path, "output"), {})  # says what has to be there
+        _output(source, (*table.path, "output"), {})  # reports the missing keys
     if test.output is not None and test.output.is_number != test.is_number:
         if test.is_number:
             table.problem(
@@ -189,7 +189,7 @@ def read_test(
 
 
 def _check_for_material(table: Table) -> None:
-    """Note what a test that drives a material has no use for."""
+    """Record keys of a test that are useless if it drives a material."""
     for name, why in (
         ("output", "is about what a solver writes, and [model] has a material"),
         ("model", "chooses one of several solvers, and [model] has a material"),
@@ -200,7 +200,7 @@ def _check_for_material(table: Table) -> None:
 
 
 def _prepared(table: Table, test: MeasuredTest, curve: Array) -> Array | PreparedTest:
-    """Return a measured curve as its keys have it prepared; as it is where they say nothing."""
+    """Return a measured curve, prepared as its keys require."""
     given = {name: getattr(test, name) for name in _PREPARATION}
     if test.cycle_column is None and not any(given.values()):
         return curve

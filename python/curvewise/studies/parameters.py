@@ -27,7 +27,7 @@ def _pair(value: Any) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class SearchedParameter:
-    """A parameter of which more is said than its bounds."""
+    """A parameter with further keys in addition to its bounds."""
 
     bounds: tuple[float, float] = key(_pair, (0.0, 1.0), required="bounds = [low, high]")
     scale: str = key(keys.choice(("linear", "log")), "linear")
@@ -51,7 +51,7 @@ def read_parameters(source: Source, given: Any) -> tuple[dict[str, Any], dict[st
             Space({"_another": (0.0, 1.0), **bounds})  # which may not be of fixed ones alone
         except ValueError as error:
             table.problem(parameter, str(error).replace(f"bounds[{parameter!r}] ", ""))
-            bounds[parameter] = (0.0, 1.0)  # for what is checked beside it
+            bounds[parameter] = (0.0, 1.0)  # for the checks that follow
     return bounds, start
 
 
@@ -82,7 +82,7 @@ def _bounds(
 def complete_start(
     source: Source, bounds: dict[str, Any], start: dict[str, float]
 ) -> dict[str, float]:
-    """Return a start for every parameter that is searched for, or none at all."""
+    """Return a start for every searched parameter, or None."""
     try:
         space = Space(bounds)
         if not start:

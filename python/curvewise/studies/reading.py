@@ -1,8 +1,8 @@
-"""From the tables of a study file to a study: every key checked, all problems named at once.
+"""Reads a study: checks every key and reports all errors at once.
 
-First each table alone, then what they say of each other: formulas of names, templates of
-parameters, tests of models, measures of tests. Files of tests and templates are read here, so that
-nothing but the solver itself is left to fail when a search begins. Cost: that of reading them.
+First each table is checked alone, then their relations: names in formulas, parameters in templates,
+models of tests, measures of tests. The files of tests and the templates are read here, so that only
+the solver itself can fail later. Cost: that of reading them.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def read_contents(source: Source) -> Contents:
 
 
 def _of_material(source: Source, file: StudyFile) -> Contents:
-    """Return what a file says that has a material in the place of a command."""
+    """Return the content of a file with a material instead of a command."""
     given, start = read_parameters(source, file.parameters) if file.parameters else ({}, {})
     model = read_material(source, ("model",), file.model)
     tests = _tests(source, file.tests, None)

@@ -55,7 +55,7 @@ def _measures(value: Any) -> tuple[str, ...]:
 
 
 def _samples(value: Any) -> int | None:
-    """Read how often the noise is drawn: true for intervals without draws, false for none."""
+    """Read the number of noise samples: true is 0 samples, false is None."""
     if isinstance(value, bool):
         return 0 if value else None
     wanted = f"true, false, or the number of samples, {_FEWEST_SAMPLES} or more"
@@ -75,9 +75,10 @@ def _store(source: Source, path: KeyPath, value: Any) -> Path:
 
 @dataclass(frozen=True)
 class SearchSettings(Comparison):
-    """The table [search]: `measures` has its measure, too, and `start` is that of the parameters.
+    """The table [search], with its measure and the start of the parameters.
 
-    How often the noise is drawn for the uncertainty is None where there is to be none.
+    `measures` includes the measure, and `start` is that of the parameters. The number of noise
+    samples for the uncertainty is None if the uncertainty is switched off.
     """
 
     measures: tuple[str, ...] = key(_measures, ())
@@ -93,12 +94,12 @@ class SearchSettings(Comparison):
 
     @property
     def comparison(self) -> dict[str, Any]:
-        """What is given of how all tests are compared, except the measure."""
+        """The given settings for the comparison of all tests, except the measure."""
         return self.given("preset", "part", "min_coverage", "failure_value", "options")
 
     @property
     def keywords(self) -> dict[str, Any]:
-        """What is given of how to search, as arguments of `identify`."""
+        """The given settings of the search, as arguments of `identify`."""
         return self.given("method", "seed", "workers", "max_runs")
 
 

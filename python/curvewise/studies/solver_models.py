@@ -69,7 +69,8 @@ def _values(source: Source, path: KeyPath, given: Any) -> tuple[DeckValue, ...]:
     values = Table(source, path, given)
     found = []
     for name, value in values.given.items():
-        formula = Formula("0")  # for what is checked beside a formula that is none
+        # a placeholder, so that the other checks of an invalid formula continue
+        formula = Formula("0")
         try:
             keys.name(name)
             formula = Formula(str(value) if isinstance(value, (int, float)) else keys.text(value))

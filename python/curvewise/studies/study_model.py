@@ -1,7 +1,7 @@
-"""The model of a study: a CommandModel, what its templates need beside the parameters, and curves.
+"""The model of a study: a CommandModel with values, tables and curves.
 
-Values of formulas, and tables whose rows are formulas (a hardening curve of its law), take the
-place of the few lines of Python that would otherwise stand between parameters and deck.
+Values of formulas, and tables whose rows are formulas (a hardening curve from its law), replace the
+few lines of Python that would otherwise connect parameters and deck.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class DeckValue:
 
 
 def _line(source: Source, path: KeyPath, value: Any) -> tuple[Formula, ...]:
-    """Read a list of formulas; each that is none is a problem of its own."""
+    """Read a list of formulas; each invalid one is a separate error."""
     line = []
     for text in keys.texts(value):
         try:
@@ -71,15 +71,15 @@ class DeckTable:
     Parameters
     ----------
     name : str
-        Of its placeholder.
+        The name of its placeholder.
     over : str
-        What the formulas call the numbers.
+        The name of the numbers in the formulas.
     points : tuple of float
-        The numbers, one a line.
+        The numbers, one for each line.
     line : tuple of Formula
-        What stands in a line.
+        The formulas of a line.
     format, separator : str
-        Of the numbers, and between them.
+        The format of the numbers, and their separator.
     """
 
     name: str
@@ -123,7 +123,7 @@ class OutputReader:
         self, sources: tuple[CurveSource, ...], success: tuple[str, str] | None = None
     ) -> None:
         self.sources, self.success = sources, success
-        self.text = repr((sources, success))  # by which a store tells readers apart
+        self.text = repr((sources, success))  # identifies the reader in a store
 
     def __call__(self, folder: Path) -> list[Array]:
         """Return the curves; raise where the run is not complete."""
@@ -157,14 +157,14 @@ class StudyModel:
     command_model : CommandModel
         Fills in the templates, runs the solver, reads the curves.
     values : tuple of (DeckValue or DeckTable)
-        What the templates need beside the parameters, each made of what stands before it.
+        Further values for the templates; each formula may use the earlier ones.
 
     Attributes
     ----------
     identity : str
-        What a store knows its runs by.
+        The text that identifies its runs in a store.
     is_solver : bool
-        True, as of a `CommandModel`.
+        True, as for a `CommandModel`.
     """
 
     is_solver = True

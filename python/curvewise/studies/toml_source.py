@@ -1,9 +1,8 @@
-"""A TOML file with the line of every key, and all that is wrong with it.
+"""A TOML file with the line of every key, and a list of its errors.
 
-tomllib, which is Python's own from 3.11 on, gives values without their lines. A second walk over
-the text, which is valid TOML by then, finds where each key, each table and each item of an array
-begins. What is wrong is collected, so that one look at the file mends all of it.
-Cost: linear in the file.
+tomllib, part of Python from 3.11 on, returns values without their lines. A second pass over the
+text, which is valid TOML by then, finds the beginning of each key, each table and each item of an
+array. Errors are collected, so that all of them can be fixed at once. Cost: linear in the file.
 """
 
 from __future__ import annotations
@@ -48,7 +47,7 @@ class StudyError(ValueError):
 
 
 class Source:
-    """The content of a TOML file, where it stands, and what is wrong with it.
+    """The content of a TOML file, its place, and its errors.
 
     Parameters
     ----------
@@ -58,18 +57,18 @@ class Source:
     Attributes
     ----------
     values : dict
-        What tomllib makes of it.
+        The values that tomllib returns.
     folder : Path
-        Where it is: what paths in it are relative to.
+        The folder of the file; relative paths in the file start there.
 
     Raises
     ------
     StudyError
-        The file is no TOML, or no regular file of at most 16 MiB.
+        If the file is not TOML, or not a regular file of at most 16 MiB.
     OSError
-        It cannot be read.
+        If it cannot be read.
     ImportError
-        Python 3.10 without tomli.
+        If tomli is missing on Python 3.10.
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -118,7 +117,7 @@ class Source:
         self._found.append((line, f"{self.path}, line {line}: {text}"))
 
     def _refuse_long_numbers(self, path: KeyPath, value: Any) -> None:
-        """Note whole numbers beyond 64 bits: none of TOML, though tomllib reads them."""
+        """Record integers beyond 64 bits, which tomllib reads but TOML forbids."""
         if isinstance(value, dict):
             for key, item in value.items():
                 self._refuse_long_numbers((*path, key), item)
@@ -129,12 +128,12 @@ class Source:
             self.problem(path, "is a whole number beyond 64 bits; write it with a point or an e")
 
     def resolved(self, value: Any) -> Path:
-        """Return a path, with ~ and variables filled in, from the file's own folder on.
+        """Return a path relative to the file's folder; fill in ~ and variables.
 
         Raises
         ------
         ValueError
-            It is no text, or the environment has no such variable.
+            If it is not a text, or the environment lacks the variable.
         """
         if not isinstance(value, str) or not value.strip():
             raise ValueError(f"is {value!r}; give a path")
@@ -147,7 +146,7 @@ class Source:
 
     @property
     def problems(self) -> list[str]:
-        """What is wrong, in the order of the lines."""
+        """The errors, in the order of their lines."""
         return [text for _, text in sorted(self._found, key=lambda problem: problem[0])]
 
     def raise_problems(self) -> None:
@@ -165,7 +164,7 @@ def dotted(path: KeyPath) -> str:
 
 
 def _syntax_error(path: Path, message: str, text: str) -> str:
-    """Return tomllib's message with the line first, and what is most often behind it."""
+    """Return tomllib's message, line first, with its most frequent cause."""
     found = re.search(r"\s*\(at line (\d+), column \d+\)$", message)
     lines = text.split("\n")
     number = int(found[1]) if found else len(lines)
@@ -259,7 +258,7 @@ class _Locator:
                 self._tokens.pop()
 
     def _items(self, closing: str) -> Iterator[int]:
-        """Count what stands between brackets, each item being read before the next."""
+        """Count the items between brackets; each is read before the next."""
         for item in count():
             if not self._next_line() or self._take(closing):
                 return

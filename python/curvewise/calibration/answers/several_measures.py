@@ -115,17 +115,17 @@ class SeveralMeasures(Mapping[str, Identification], Result):
         )
 
     def report(self, path: str | os.PathLike[str]) -> None:
-        """Write all identifications down as one page of HTML; see :meth:`Identification.report`.
+        """Write one HTML report of all identifications.
 
         Parameters
         ----------
         path : path-like
-            The file; what is there is replaced.
+            The file; an existing file is replaced.
 
         Raises
         ------
         ImportError, ValueError, OSError
-            As :meth:`Identification.report`.
+            As for :meth:`Identification.report`.
         """
         write_report(path, [one.record() for one in self._identifications.values()])
 

@@ -1,9 +1,10 @@
-"""A search as one page of HTML: what was searched, what was found, and how to repeat it.
+"""Report of a search as one HTML page.
 
-The page is made of what a search has written down (search_record.py) and of nothing else, no clock
-and no random number, so that the page of a store is the page of the search that filled it, bit for
-bit. Its figures are drawn in the browser by plotly.js, which the page carries: it opens without a
-network. plotly is needed: ``pip install "curvewise[report]"``.
+The page shows the problem, the results, and how to repeat the search. It depends only on the record
+of the search (search_record.py), not on a clock or random numbers. A page made from a store is
+therefore bitwise identical to the page of the search that filled it. The browser draws the figures
+with plotly.js, which the page contains: it opens without a network. plotly is needed: ``pip install
+"curvewise[report]"``.
 """
 
 from .page import page, write_report

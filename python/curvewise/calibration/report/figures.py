@@ -110,7 +110,7 @@ def convergence(evaluations: Sequence[Evaluation], objective: str) -> Figure:
         at = np.nonzero(failed)[0][evenly(int(failed.sum()), _MOST_DOTS)]
         marks = _trace(number[at], [0.98] * len(at), "failed", Q_COLOUR, "markers", size=9)
         marks["marker"]["symbol"] = "line-ns-open"
-        # On an axis of their own: their value, a penalty, would flatten everything else.
+        # Failures have a separate axis: their value, a penalty, would flatten everything else.
         said = "evaluation %{x} failed<extra></extra>"
         traces.append(marks | {"yaxis": "y2", "hovertemplate": said})
         layout["yaxis2"] = {"overlaying": "y", "range": [0, 1], "visible": False}
@@ -165,9 +165,9 @@ def _bars(
 
 
 def sensitivities(names: Sequence[str], titles: Sequence[str], table: Any) -> Figure:
-    """Return how far each loop moves as a parameter goes through its bounds, a row a parameter.
+    """Return each loop's sensitivity to each parameter, a row per parameter.
 
-    On a logarithmic scale: what a loop hardly notices is worth seeing beside what it does.
+    The scale is logarithmic, so that small sensitivities are visible next to large ones.
     """
     per_cents = 100.0 * np.asarray(table)
     traces = []
@@ -211,7 +211,7 @@ def correlations(names: Sequence[str], table: Sequence[Sequence[float]]) -> Figu
 def _line(
     curve: Array, name: str, colour: str, most: int, *, mode: str = "lines", **look: Any
 ) -> dict[str, Any]:
-    """Return a curve, thinned to at most so many points."""
+    """Return a curve, thinned to at most `most` points."""
     shown = evenly(len(curve), most)
     x, y = xy_of(curve)
     return _trace(x[shown], y[shown], name, colour, mode, **look)
@@ -242,7 +242,7 @@ def _trace(
 
 
 def _written(value: Any) -> str | float | None:
-    """Return a number with seven digits; JSON has no infinity, and nothing is drawn there."""
+    """Return a number with seven digits; None for infinity, which JSON lacks."""
     if value is None or isinstance(value, str):
         return value
     return float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else None
@@ -251,7 +251,7 @@ def _written(value: Any) -> str | float | None:
 def _figure(
     traces: list[dict[str, Any]], x: str = "", y: str = "", title: str = "", **layout: Any
 ) -> Figure:
-    """Return traces with a layout; what is given of the layout is put into that of every figure."""
+    """Return traces with a layout; the given layout extends that of every figure."""
     axis = {"zeroline": False, "gridcolor": "#E6E6E6", "linecolor": "#808080", "mirror": True}
     axis |= {"ticks": "outside", "automargin": True}
     usual: dict[str, Any] = {

@@ -1,4 +1,4 @@
-"""Sections of a page that say what was done to the tests before the search, with a picture each."""
+"""Sections of a report on the preparation of the tests, with a figure each."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ __all__ = ["Note", "note_section"]
 
 
 class Note(NamedTuple):
-    """What a page says of one test before the searches.
+    """A report's section on the preparation of one test.
 
     Attributes
     ----------
     title : str
         Its heading.
     sentences : sequence of str
-        A paragraph each.
+        The paragraphs.
     curves : tuple of ndarray, shape (n, 2)
-        The beginning of the test before and after.
+        The beginning of the test before and after the preparation.
     axes : sequence of str
-        What the coordinates are called; none if that is not known.
+        The names of the coordinates; empty if they are unknown.
     """
 
     title: str

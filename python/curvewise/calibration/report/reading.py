@@ -16,9 +16,9 @@ def records_of(path: str | os.PathLike[str]) -> dict[int, SearchRecord]:
     Raises
     ------
     ValueError
-        The file is no store, or one without searches.
+        If the file is not a store, or does not contain searches.
     OSError
-        There is no such file, or it cannot be read.
+        If the file does not exist, or cannot be read.
     """
     os.stat(path)  # a store that is not there would be made
     with SimulationStore(path) as store:

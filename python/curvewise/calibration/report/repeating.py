@@ -14,10 +14,10 @@ _OF_A_CASE: dict[str, Any] = {"weight": 1.0, "sigma": None}
 
 
 def code_to_repeat(record: SearchRecord) -> str:
-    """Return the call of `identify` that makes the search again.
+    """Return the call of `identify` that repeats the search.
 
-    The model and the tests stand for themselves: they are named in the table beside it. Parameters
-    that follow from others by a function stand as comments.
+    The model and the tests appear by name; the table next to the code lists them. Parameters that
+    follow from others by a function are comments.
     """
     settings, details = record.settings, record.details
     method = settings["method_call"]

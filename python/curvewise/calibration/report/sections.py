@@ -56,7 +56,7 @@ def overview(searches: Sequence[ShownSearch]) -> str:
 
 
 def _with_error(name: str, parameters: dict[str, float], errors: dict[str, float]) -> str:
-    """Return a value with its error in per cent, as far as they are known."""
+    """Return a value with its error in per cent, if known."""
     if name not in parameters:
         return ""
     share = per_cent(errors[name], parameters[name]) if name in errors else ""
@@ -108,7 +108,7 @@ def _parameters(search: ShownSearch, add: AddFigure) -> str:
 
 
 def _side_by_side(*places: str) -> str:
-    """Return the places of figures beside each other, as many as the page is wide."""
+    """Return the places of figures in rows that fit the page."""
     return "\n".join(['<div class="figures">', *places, "</div>"])
 
 
