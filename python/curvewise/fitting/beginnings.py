@@ -1,10 +1,10 @@
-"""Where tests begin: a material point begins at zero strain and stress, without slack.
+"""The beginning of tests: a material point starts at zero strain and stress.
 
-The first loading has a straight part, from 0.4 to 0.7 of the offset yield stress. Its line, strain
-over stress by least squares, and the first point say by which strain a test misses the origin. A
-test that misses it by more than a share of the yield strain, and more than noise, is doubtful: a
-fit makes up for it by a yield stress near 0. Model error looks the same in the first points, so the
-command asks and Python warns. O(n) time.
+The first loading has a straight section, from 0.4 to 0.7 of the offset yield stress. Its line,
+strain over stress by least squares, and the first point determine how far in strain a test misses
+the origin. A test is doubtful if this offset exceeds a fraction of the yield strain, and the noise:
+a fit compensates for it by a yield stress near 0. Model error looks the same in the first points,
+so the command asks and Python warns. O(n) time.
 """
 
 from __future__ import annotations
@@ -30,11 +30,12 @@ __all__ = [
     "warn_of_beginnings",
 ]
 
-# Shares of the offset yield stress: the straight part, and what is left of stress in a test that
-# begins unloaded.
+# Fractions of the offset yield stress: the straight section, and the remaining stress of a test
+# that begins unloaded.
 _STRAIGHT = (0.4, 0.7)
 _UNLOADED = 0.5
-# Shares of the yield strain by which a test may miss the origin: refused, and spoken of.
+# Limits of a test's offset from the origin, as fractions of the yield strain: for refusal and for a
+# note.
 _MOST, _SEEN = 0.08, 0.012
 _MOST_TOE, _SEEN_TOE = 0.12, 0.03
 _NOISE = 4.0  # times its standard error
@@ -50,29 +51,29 @@ class BeginningWarning(UserWarning):
 
 
 class Beginning(NamedTuple):
-    """Where a test begins.
+    """The beginning of a test.
 
     Attributes
     ----------
     strain, stress : float
         The first point.
     modulus : float
-        That of unloading, or of first loading where nothing is unloaded.
+        The modulus of unloading, or of the first loading if the test never unloads.
     limit : float
         Offset yield stress.
     sign : float
-        -1.0 where the test begins with compression.
+        -1.0 if the test begins with compression.
     elastic : tuple of float
         Stresses between which the first loading is straight, both positive.
     zero : float
-        The strain at which the line through the straight part has no stress.
+        The strain at which the line through the straight section has zero stress.
     noise : float
         Scatter of the strains about this line.
     error : float
         Standard error of `zero`.
     early, early_error : float
-        The strain by which the points before the straight part miss the elastic line through the
-        origin, and its standard error.
+        The offset in strain of the points before the straight section from the elastic line through
+        the origin, and its standard error.
     """
 
     strain: float
@@ -89,7 +90,7 @@ class Beginning(NamedTuple):
 
     @property
     def missed(self) -> float:
-        """The strain by which the first point misses the elastic line through the origin."""
+        """Offset in strain of the first point from the elastic line of the origin."""
         return self.strain - self.stress / self.modulus
 
     def share(self, strain: float) -> float:
@@ -144,7 +145,7 @@ def check_beginnings(tests: Sequence[Any], units: str) -> str:
     tests : sequence of array_like
         Strain and stress of each.
     units : str
-        Of the stresses.
+        The unit of the stresses.
 
     Returns
     -------
@@ -154,7 +155,7 @@ def check_beginnings(tests: Sequence[Any], units: str) -> str:
     Raises
     ------
     BeginningError
-        A test misses the origin; the message says by how much, and what to do.
+        If a test misses the origin; the message states the strain, and the remedy.
     """
     said = []
     for i, test in enumerate(tests):
@@ -187,7 +188,7 @@ def warn_of_beginnings(tests: Sequence[Any], units: str, *, level: int) -> str:
 
 
 def cut_toe(test: Any, elastic: Sequence[float] = ()) -> Array:
-    """Return a test whose straight part goes through the origin, from this part on.
+    """Return a test from its straight section on, shifted through the origin.
 
     Parameters
     ----------

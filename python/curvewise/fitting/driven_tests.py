@@ -1,9 +1,9 @@
-"""Tests made ready for a fit: thinned, driving a point of material, and how they are compared.
+"""Tests of a fit: thinned, and driving a material-point model.
 
-A test of thousands of points says no more of a material than some hundreds, its turns among them.
-A dense, noisy test is averaged first (`curves.averaging`).
-With the last cycle alone, what comes before it is driven by its turns, and so are cycles that a
-record leaves out (`recorded_cycles`). Cost: linear in the tests.
+A test of thousands of points determines no more than some hundreds of them with its reversals. A
+dense, noisy test is averaged first (`curves.averaging`). If only the last cycle is compared, the
+earlier part is driven by its reversals. The same holds for cycles that a record leaves out
+(`recorded_cycles`). Cost: linear in the tests.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ CYCLES: tuple[str, ...] = get_args(Cycles)
 
 # The simulation has the strains of the test, though these turn back.
 _POINT_BY_POINT: dict[str, dict[str, Any]] = {"sum_of_squares": {"abscissa": "points"}}
-# A run takes 0.1 ms: what is saved in starts is dear. Ten came within 0.05 % of the best of scipy's
-# least_squares from fifty places, on thirteen measured tests.
+# A run takes 0.1 ms, so fewer starts save little time. Ten starts were within 0.05 % of the best of
+# scipy's least_squares from fifty places, on thirteen measured tests.
 _MANY_STARTS = {"sum_of_squares": LeastSquares(starts=10, most_starts=20)}
 
 
 class DrivenTests(NamedTuple):
-    """What is compared of some tests, and the model that they drive.
+    """The compared part of some tests, and the model that they drive.
 
     Attributes
     ----------
     model : DrivenModel
     compared : tuple of ndarray
-        Strain and stress of each test, point by point as the model has them.
+        Strain and stress of each test, point by point like the model's.
     """
 
     model: DrivenModel
@@ -46,7 +46,7 @@ class DrivenTests(NamedTuple):
     def of(
         cls, material: Material, tests: Sequence[Any], *, cycles: str = "all", points: int = 300
     ) -> DrivenTests:
-        """Return them thinned to about so many points; see `fit_material`."""
+        """Return the tests, thinned to about `points` points; see `fit_material`."""
         if cycles not in CYCLES:
             raise ValueError(f"cycles is {cycles!r}; give {' or '.join(map(repr, CYCLES))}")
         driven = [driven_test(test, f"tests[{i}]", cycles, points) for i, test in enumerate(tests)]

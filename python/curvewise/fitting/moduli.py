@@ -1,4 +1,4 @@
-"""What is given of parameters: their names and units, beside the modulus that tests show. O(n)."""
+"""Checks of given parameters: names, and units by the modulus. O(n)."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from ..materials.readings import reading_of
 
 __all__ = ["check_units", "checked_names", "modulus_of"]
 
-# A factor by which no modulus is off in the same unit; kN/mm2 and psi are 1000 and 145 MPa's.
+# A factor above all errors of a modulus in the right unit; kN/mm2 and psi are 1000 and 145 MPa's.
 _OTHER_UNIT = 30.0
 # Units in which people give moduli; a factor between two of them, and how near it must be.
 _UNITS = ("GPa", "ksi", "psi", "MPa", "kPa", "Pa")
 _OTHER_MODULUS, _SAME = 3.0, 1.35
-# Yield stresses that are none, as shares of the largest stress.
+# Limits of plausible yield stresses, as fractions of the largest stress.
 _MOST_YIELD, _LEAST_YIELD = 1.2, 300.0
 
 
 def checked_names(
     names: Sequence[str], fixed: Mapping[str, float] | None, bounds: Bounds | None
 ) -> tuple[dict[str, float], dict[str, Any]]:
-    """Return what is fixed and what has bounds, or raise ValueError for a name that cannot be."""
+    """Return fixed and bounded parameters; raise ValueError for an unknown name."""
     known, own = dict(fixed or {}), dict(bounds or {})
     for option, given in (("fixed", known), ("bounds", own)):
         if unknown := [name for name in given if name not in names]:
@@ -50,13 +50,13 @@ def check_units(bounds: Bounds, tests: Sequence[Any], units: str) -> None:
     tests : sequence of array_like, shape (n, 2)
         Strain and stress.
     units : str
-        Of the stresses.
+        The unit of the stresses.
 
     Raises
     ------
     ValueError
-        A modulus is far from the one that the tests show, or would be that one in another unit; a
-        yield stress is above the largest stress, or far below it.
+        If a modulus is far from that of the tests, or equals it in another unit. If a yield stress
+        is above the largest stress, or far below it.
     """
     read = modulus_of(tests)
     for name in ("E", "Ea"):
@@ -85,7 +85,7 @@ def check_units(bounds: Bounds, tests: Sequence[Any], units: str) -> None:
 
 
 def _ends(given: Any) -> tuple[float, float]:
-    """Return the ends of bounds, or a number twice; 0 and 0 where there are none."""
+    """Return the ends of bounds, or a number twice; 0 and 0 without bounds."""
     if given is None or isinstance(given, Tied):
         return 0.0, 0.0
     if isinstance(given, (Log, Below)):

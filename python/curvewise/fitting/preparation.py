@@ -1,4 +1,4 @@
-"""Tests made ready for a fit or a comparison, with a record of what was done.
+"""Preparation of tests for a fit or a comparison, with a record of its steps.
 
 Forces become stresses and extensions strains; a wrong zero and a toe are corrected; engineering
 values become true ones. `prepare` is what the commands and studies call. O(n) time.
@@ -29,7 +29,7 @@ _FIRST = 0.01  # strain up to which the beginning of a test is drawn
 
 @dataclass(frozen=True, eq=False)
 class PreparedTest:
-    """A test that has been prepared: a curve for every function that takes one.
+    """A prepared test: a curve for every function that takes one.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class PreparedTest:
     before : ndarray, shape (m, 2)
         Strain and stress before zero, toe and true values.
     steps : tuple of str
-        What was done, a sentence each.
+        The steps, a sentence each.
     cycle_numbers : ndarray of int, shape (n,), or None
         The cycle that each point belongs to, if the record leaves out cycles.
     """
@@ -112,7 +112,7 @@ def prepare(
     cycle_numbers: Any = None,
     units: str = "MPa",
 ) -> PreparedTest:
-    """Prepare a test: stresses of forces, zero, toe, true values.
+    """Prepare a test: stresses from forces, zero, toe, true values.
 
     The steps are done in the order of the parameters.
 
@@ -122,35 +122,35 @@ def prepare(
         Strain [-] or extension, and stress or force. A curve from :func:`curvewise.read_curve`
         knows the units of its columns, which are converted.
     area : float, optional
-        Cross section that the force is divided by: in mm² if the column names a unit of force.
+        The divisor of the force, a cross section: in mm² if the column names a unit of force.
     gauge_length : float, optional
-        Length that the extension is divided by: in mm if the column names a unit of length.
+        The divisor of the extension, a length: in mm if the column names a unit of length.
     zero : bool, default False
-        Make the first point the origin.
+        Whether to make the first point the origin.
     toe : bool or (low, high), default False
-        Cut the toe: the strain is shifted so that the line between two stresses of the first
-        loading goes through the origin, and the points before it are left out. If True, the
+        Whether to cut the toe. The strain is shifted so that the line between two stresses of the
+        first loading passes through the origin, and the points before it are left out. If True, the
         stresses are 0.4 and 0.7 of the offset yield stress.
     true : bool, default False
-        Turn engineering strain and stress into true ones
+        Whether to convert engineering strain and stress to true ones
         (:func:`curvewise.curves.engineering_to_true`).
     cycle_numbers : array_like, shape (n,), optional
-        Number of the cycle of each point, which does not fall. If the record leaves out cycles, a
-        fit runs the material through these: each repeats the reversals of the cycle before.
+        Number of the cycle of each point, never decreasing. If the record leaves out cycles, a fit
+        drives the material through these: each repeats the reversals of the cycle before.
     units : str, default "MPa"
         Unit of the stresses.
 
     Returns
     -------
     PreparedTest
-        The curve, and a sentence for each step. It is taken wherever a curve is.
+        The curve, and a sentence for each step. Every function that takes a curve accepts it.
 
     Raises
     ------
     TypeError, ValueError
-        No curve of two finite columns; an area or a gauge length that is not positive, or of a
-        column that is neither a force nor an extension; as `shift_to_origin` and
-        `engineering_to_true` say; cycle numbers that fall, or of another length.
+        If `test` does not have two finite columns. If an area or a gauge length is not positive, or
+        its column is neither a force nor an extension. If cycle numbers fall, or have another
+        length. As for `shift_to_origin` and `engineering_to_true`.
 
     Notes
     -----
@@ -253,7 +253,7 @@ def _of_extension(name: str, gauge_length: float) -> tuple[float, str]:
 
 
 def _without_toe(points: Array, toe: bool | Sequence[float], units: str) -> tuple[Array, str]:
-    """Return a test without its toe, and what was done in words."""
+    """Return a test without its toe, and a sentence about this step."""
     limits = () if isinstance(toe, bool) else tuple(map(float, toe))
     if len(limits) not in (0, 2):
         raise ValueError(f"toe has {len(limits)} stresses; give two, low and high, or none")

@@ -31,7 +31,7 @@ __all__ = [
 Numbers: TypeAlias = "npt.NDArray[np.int64]"
 
 _MOST = 100_000  # cycles that are run through
-_HARDLY = 1e-6  # by which a counter may be below a whole number
+_HARDLY = 1e-6  # tolerance of a counter below a whole number
 _FEWEST = 40  # points of a part of a record
 
 
@@ -97,7 +97,7 @@ def said_of_cycles(numbers: Numbers) -> str:
 
 
 def whole_record(test: Any) -> Any:
-    """Return a test with strain and stress of the cycles that it leaves out; as it is otherwise."""
+    """Return a test, with strain and stress of omitted cycles."""
     numbers = getattr(test, "cycle_numbers", None)
     if numbers is None or not _left_out(numbers).any():
         return test
@@ -106,18 +106,18 @@ def whole_record(test: Any) -> Any:
 
 
 def driven_test(test: Any, name: str, cycles: str, points: int) -> DrivenTest:
-    """Return a test as it drives a material, thinned to about so many points.
+    """Return a test for driving a material, thinned to about `points` points.
 
     Parameters
     ----------
     test : array_like, shape (n, 2)
         Strain and stress; a `PreparedTest` may have cycle numbers.
     name : str
-        What messages call it.
+        The name of the test in messages.
     cycles : {"all", "last"}
         As for `fit_material`.
     points : int
-        About how many are compared.
+        Approximate number of compared points.
     """
     whole = whole_record(test)
     if cycles == "last":

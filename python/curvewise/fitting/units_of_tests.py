@@ -31,8 +31,8 @@ __all__ = ["Doubt", "UnitsWarning", "doubt_of", "warn_of_units"]
 Asking: TypeAlias = Literal["command", "study", "python"]
 
 _PLAUSIBLE = (1e3, 1e6)  # MPa: moduli that are not asked about
-_FRACTION = 0.5  # strains beyond it are none
-_USUAL = (3e4, 4.5e5)  # MPa: moduli by which a unit explains one that is asked about
+_FRACTION = 0.5  # the largest plausible strain
+_USUAL = (3e4, 4.5e5)  # MPa: range of moduli of usual materials
 _EXPLAINING = {1.0: "", 1e-2: "per cent", 1e-3: "mm/m", 1e-6: "µm/m"}
 _STRESS_UNITS = {
     "": "",
@@ -68,20 +68,20 @@ class UnitsWarning(UserWarning):
 
 
 class Doubt(NamedTuple):
-    """What is asked about the units of a test.
+    """A question about the units of a test.
 
     Attributes
     ----------
     found : str
-        What seems to be.
+        The observation.
     factors : tuple of str
-        What strain and stress would be multiplied by if so: numbers, or letters.
+        The factors of strain and stress in that case: numbers, or letters.
     where : str
-        What the letters are, or nothing.
+        The definition of the letters, or "".
     is_other : bool
         Whether a column is neither strain nor stress, in any unit.
     sizes : tuple of str
-        What has to be known of the specimen: its area, its gauge length.
+        The required data of the specimen: its area, its gauge length.
     """
 
     found: str
@@ -121,14 +121,14 @@ class Doubt(NamedTuple):
 
 
 def doubt_of(test: Any, units: str) -> Doubt | None:
-    """Return what has to be asked about a test: names with other units first, then its modulus.
+    """Return the question about a test, by its names or its modulus.
 
     Parameters
     ----------
     test : array_like
-        Strain and stress; a curve that was read from a file knows the names of its columns.
+        Strain and stress; a curve that was read from a file has the names of its columns.
     units : str
-        Of the stresses of the fit.
+        The unit of the stresses of the fit.
     """
     names = known_names(test)
     known = _by_names(names, units) if len(names) == 2 else None
@@ -181,13 +181,13 @@ def _seems(what: str, name: str, unit: str) -> str:
 
 
 def _by_modulus(test: Any, units: str) -> Doubt | None:
-    """Return what the slope of a test says, if it is none of a usual material in these units."""
+    """Return a question if the slope of a test does not suit a usual material."""
     target = in_mpa(units)
     if target is None:
         return None
     try:
         points = strain_and_stress(test, "test")
-        # Strains that are no fractions are refused when they are read.
+        # Strains that are not fractions are refused when they are read.
         scale = 1e-6 if np.abs(points[:, 0]).max() > _FRACTION else 1.0
         moduli = reading_of(points * (scale, 1.0), "test").moduli
     except ValueError:  # not a test that a fit takes, which says so

@@ -1,11 +1,12 @@
-"""Bounds that were assumed: moved where a fit ends at one.
+"""Assumed bounds, widened if a fit ends at one.
 
-Bounds read off tests are wide, and still an assumption. Where a parameter ends at one, the search
-goes on from there with that bound ten times as wide, and so on until no parameter is at one; then
-all is searched once more in the wider bounds. What is gained says whether the first bound decided
-anything: where it is next to nothing, the parameter runs to infinity, since the tests do not
-determine it (what hardens along a line has no saturation). Cost: of a search, and some ten to sixty
-runs a widening, where a parameter is at a bound. A limit of runs is one for all of these searches.
+Bounds derived from tests are wide, but still an assumption. If a parameter ends at one, the search
+continues from there with that bound ten times as wide, until no parameter is at a bound. Then
+everything is searched again in the wider bounds. The gain shows whether the first bound mattered.
+If it is negligible, the parameter tends to infinity, because the tests do not determine it
+(hardening along a line does not saturate). Cost: that of a search, and about ten to sixty runs for
+each widening, if a parameter is at a bound. A limit of runs applies to all of these searches
+together.
 """
 
 from __future__ import annotations
@@ -28,19 +29,19 @@ _MOST_WIDENINGS = 4
 
 @dataclass(frozen=True)
 class Beyond:
-    """What lies beyond the bounds at which a fit had ended first.
+    """Result of widening the bounds at which a fit ended first.
 
     Attributes
     ----------
     sides : dict of str to str
-        "lower" or "upper", for each parameter at a bound that is no limit.
+        "lower" or "upper", for each parameter at a bound that is not a limit.
     gain : float
-        The share by which the value has fallen in wider bounds.
+        The relative reduction of the value in wider bounds.
     still : dict of str to str
-        The same as `sides`, at the end: empty, unless bounds that are 10,000 times as wide are too
-        narrow, or no run was left.
+        The same as `sides`, at the end. It is empty, unless bounds that are 10,000 times as wide
+        are too narrow, or the limit of runs was reached.
     runs : int
-        Of the model, in all these searches.
+        The number of model runs in all these searches.
     """
 
     sides: dict[str, str]
@@ -133,7 +134,7 @@ def _said(sides: dict[str, str]) -> str:
 
 
 def _assumed(found: Identification, kept: Collection[str]) -> dict[str, str]:
-    """Return the parameters at a bound that was assumed and is no limit, with the side."""
+    """Return the parameters at an assumed bound, not a limit, with the side."""
     space = found.problem.space
     limits = space.at_limits(found.parameters)
     at_bounds = space.at_bounds(found.parameters)
@@ -141,7 +142,7 @@ def _assumed(found: Identification, kept: Collection[str]) -> dict[str, str]:
 
 
 def _further(given: Any, side: str) -> Any:
-    """Return bounds of which one is ten times as wide."""
+    """Return bounds with one side ten times as wide."""
     is_plain = not isinstance(given, (Log, Below))
     low, high = given if is_plain else (given.low, given.high)
     if side == "upper":

@@ -67,8 +67,9 @@ class ChabocheVoce(Material):
             "Q": (-1.2 * span.highest_yield, 4.0 * span.stress),
             "b": Log(0.02 / span.path, 200.0 / span.path),
         }
-        # The rates are shared out, the first the fastest, so that back stresses do not change
-        # places: from what saturates within a thousandth of a branch to what is nearly a line.
+        # The range of rates is divided among the back stresses, the first the fastest, so that they
+        # do not change places. It extends from saturation within a thousandth of a branch to almost
+        # a line.
         slowest, fastest = 0.02 / span.longest_branch, 2000.0 / span.shortest_branch
         for k in range(self.backstresses):
             first, last = (1.0 - (k + f) / self.backstresses for f in (1.15, -0.15))

@@ -1,8 +1,8 @@
-"""What a loop says by itself: modulus, offset yield stress, stresses and plastic strains reached.
+"""Estimates from a loop: modulus, yield stress, stresses, plastic strains.
 
-Read off so that bounds can be laid around it, not as results: the modulus by a straight line
-through what is unloaded after the first turn (through the first loading, where nothing is
-unloaded), the yield stress where the first loading leaves this line by an offset. O(n) time.
+They define bounds, and are not results. The modulus is the slope of a line through the unloading
+after the first reversal (through the first loading, if the test never unloads). The yield stress is
+where the first loading leaves this line by an offset. O(n) time.
 """
 
 from __future__ import annotations
@@ -41,19 +41,19 @@ _MOST_STRAIN = 0.5  # beyond it a column of strains is in per cent
 
 
 class Reading(NamedTuple):
-    """What was read off one test.
+    """The estimates from one test.
 
     Attributes
     ----------
     moduli : tuple of float
-        Of the first loading and of unloading after each turn, as far as these are straight.
+        Of the first loading and of unloading after each reversal, if these are straight.
     yield_stress : float
         At an offset of 0.2 %, or of a quarter of the first loading's plastic strain if that is
         less.
     stress : float
         The largest, in tension or compression.
     branch, path : float
-        Plastic strain: the most in one direction, and all of it, in every direction.
+        Plastic strain: the most in one direction, and the sum over all directions.
     """
 
     moduli: tuple[float, ...]
@@ -64,7 +64,7 @@ class Reading(NamedTuple):
 
 
 class Span(NamedTuple):
-    """What several tests say together: the least and the largest of what was read off each."""
+    """The joint range of the estimates from several tests."""
 
     lowest_yield: float
     highest_yield: float
@@ -91,20 +91,20 @@ def strain_and_stress(experiment: object, name: str) -> Array:
 
 
 def reading_of(experiment: object, name: str) -> Reading:
-    """Return what a test says by itself.
+    """Return the estimates from one test.
 
     Parameters
     ----------
     experiment : array_like, shape (n, 2)
         Strain [-] and stress, from the unloaded state.
     name : str
-        What it is called in errors.
+        The name of the test in errors.
 
     Raises
     ------
     ValueError
-        No strain and stress; strains in per cent; a test that is elastic, or whose stress does not
-        rise with the strain.
+        If the test does not hold strain and stress, or has strains in per cent. If it is elastic,
+        or its stress does not rise with the strain.
     """
     points = strain_and_stress(experiment, name)
     largest = float(np.abs(points[:, 0]).max())
@@ -133,21 +133,23 @@ def reading_of(experiment: object, name: str) -> Reading:
 
 
 def thinned(experiment: object, name: str, points: int = 300) -> Array:
-    """Return a test with about as many points, its reversals among them, noise in strain averaged.
+    """Return a test with about `points` points, including its reversals.
 
-    The points are evenly spaced in each branch along what strain and stress go together, each by
-    its range and without its noise: the knee and the elastic part have their share. A test with
-    fewer points is unchanged. A test whose noise exceeds its step of strain is averaged first.
+    Noise in strain is averaged. The points are evenly spaced in each branch along the path of
+    strain and stress, each by its range and without its noise. The knee and the elastic part
+    therefore have enough points. A test with fewer points is unchanged. A test whose noise exceeds
+    its step of strain is averaged first.
     """
     test = strain_and_stress(experiment, name)
     return _evenly(*_averaged(test, len(test), points), points)
 
 
 def thinned_cycle(experiment: object, name: str, points: int = 300) -> tuple[Array, slice]:
-    """Return a test up to the end of its last complete cycle, and where in it that cycle is.
+    """Return a test up to its last complete cycle, and that cycle's place.
 
-    The turns are enough of what comes before the cycle: between two of them the strain runs one
-    way, and a step of a point of material may be as long. The cycle is thinned as `thinned` does.
+    The part before the cycle is reduced to its reversals: between two of them the strain is
+    monotonic, and a step of a material-point model may be that long. The cycle is thinned as in
+    `thinned`.
     """
     test = strain_and_stress(experiment, name)
     try:
@@ -169,7 +171,7 @@ def _averaged(test: Array, rows: int, points: int) -> tuple[Array, Turns]:
 
 
 def _evenly(test: Array, turns: Turns, points: int) -> Array:
-    """Return about so many points of a test, evenly spaced in each branch."""
+    """Return about `points` points of a test, evenly spaced in each branch."""
     if len(test) <= points:
         return test
     travel = np.zeros(len(test))
@@ -189,7 +191,7 @@ def _plastic(branch: Array, modulus: float) -> Array:
 
 
 def _unloading(branch: Array) -> Array:
-    """Return the points of a branch that unload what it begins with."""
+    """Return the points of a branch that unload from its beginning."""
     if branch[0, 1] == 0.0:
         return branch[:0]
     return _between(branch, 1.0 - branch[:, 1] / branch[0, 1], *_UNLOADED)

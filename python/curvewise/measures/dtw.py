@@ -44,41 +44,40 @@ def dtw(
     missing: Missing = Default.missing,
     closed: bool = Default.closed,
 ) -> float:
-    """Dynamic time warping: the smallest sum of ground distances along a warping path.
+    """Compute dynamic time warping between two curves.
 
     Parameters
     ----------
     {curves}
     {ground}
     step_pattern : str or StepPattern
-        "symmetric2" counts a diagonal step twice; it is R's default, with which the paper's
-        tables were made. The others of R's dtw: "asymmetric", "symmetricP0", "symmetricP05",
-        "symmetricP1", "symmetricP2", the same four as "asymmetricP0" and so on, "typeIa" to
-        "typeId", "typeIas" to "typeIds", "typeIIa" to "typeIId", "typeIIIc", "typeIVc", "rigid",
-        "mori2006"; or a ``StepPattern`` of one's own.
+        "symmetric2" counts a diagonal step twice; it is R's default, which the paper's tables use.
+        The others of R's dtw are "asymmetric", "symmetricP0", "symmetricP05", "symmetricP1",
+        "symmetricP2", the same four as "asymmetricP0" and so on, "typeIa" to "typeId", "typeIas" to
+        "typeIds", "typeIIa" to "typeIId", "typeIIIc", "typeIVc", "rigid", "mori2006". A custom
+        pattern is a ``StepPattern``.
     penalty : float >= 0
-        What each step costs besides that does not go forward by as many points of P as of Q, in
-        units of the ground distance.
+        Cost added to each step that advances by different numbers of points in P and Q, in units of
+        the ground distance.
     window : int >= 0 or 0 < float < 1, optional
-        Sakoe–Chiba band: abs(i (m-1) - j (n-1)) <= window (max(n, m) - 1), that is
-        abs(i - j) <= window where n = m. No limit where n = 1 or m = 1. A fraction is one of
-        max(n, m), cut to a whole number.
+        Sakoe–Chiba band: abs(i (m-1) - j (n-1)) <= window (max(n, m) - 1), that is abs(i - j) <=
+        window if n = m. Unlimited if n = 1 or m = 1. A fraction is one of max(n, m), rounded down.
     open_begin, open_end : bool
-        Subsequence DTW: P is matched to a part of Q, which may begin, or end, anywhere. Without a
-        window. With "symmetric1" without a penalty, the cheapest part counts, not normalised by
-        length. `open_end` also works with every step pattern that `normalize` accepts. The end is
-        then where the cost divided by the weight of paths to it is least, as in R's dtw.
+        Subsequence DTW: P is matched to a part of Q, which may begin, or end, anywhere. Not allowed
+        with a window. With "symmetric1" without a penalty, the cheapest part counts, not normalised
+        by length. `open_end` also works with every step pattern that `normalize` accepts. The end
+        is then where the cost divided by the weight of paths to it is least, as in R's dtw.
         `open_begin` needs a pattern normalised by N, such as "asymmetric".
     relax : sequence of four int >= 0, optional
         Numbers of points that may be left out: at the beginning of P, the end of P, the beginning
-        of Q and the end of Q. The cheapest path counts, not normalised by length. At least one
-        pair of points is matched. Needs "symmetric1", with or without a penalty, and excludes
+        of Q and the end of Q. The cheapest path counts, not normalised by length. At least one pair
+        of points is matched. Requires "symmetric1", with or without a penalty, and excludes
         `window`, open ends and `normalize`.
     normalize : bool
-        Divide by the sum of the step weights, where all paths have the same: n + m with
-        "symmetric2", else what the pattern says (``StepPattern.normalization``). A distance
-        per step, which does not grow with the number of points. Not with "symmetric1" and others
-        whose paths differ in length, as in R's dtw and dtw-python.
+        Whether to divide by the sum of the step weights, which must be the same for all paths: n +
+        m with "symmetric2", else that of the pattern (``StepPattern.normalization``). The result is
+        a distance per step, which does not grow with the number of points. Not allowed with
+        "symmetric1" and other patterns whose paths differ in length, as in R's dtw and dtw-python.
     {workers}
     {prune}
     {cutoff}
@@ -88,35 +87,37 @@ def dtw(
     Returns
     -------
     float
-        In units of the ground distance; not divided by the length of the path unless
-        ``normalize``; inf where the step pattern has no path between curves so different in
-        length. Symmetric, except with open ends and where the step pattern is not.
+        The smallest sum of ground distances along a warping path, in units of the ground distance.
+        It is not divided by the length of the path unless ``normalize``. It is inf if the step
+        pattern does not admit a path between curves of so different lengths. Symmetric, except with
+        open ends or an asymmetric step pattern.
 
     Raises
     ------
     ValueError
-        A curve is not finite or empty; the curves differ in d; an option is unknown or out of
-        range; no path fits the window (window = 0 and n != m); a distance of one's own is nan or
-        negative, or their shape does not fit.
+        If a curve is not finite or empty, or the curves differ in d. If an option is unknown or out
+        of range. If no path fits the window (window = 0 and n != m). If a user-defined distance is
+        nan or negative, or its shape does not fit.
     TypeError
-        A curve, or a distance of one's own, does not hold real numbers.
+        If a curve, or a user-defined distance, does not hold real numbers.
 
     Notes
     -----
-    Sakoe & Chiba (1978): c[i, j] = min(min(c[i-1, j], c[i, j-1]) + d, c[i-1, j-1] + w d), with
-    w = 1 for "symmetric1" and 2 for "symmetric2"; open ends: Müller (2007), Tormene et al. (2009).
+    Sakoe & Chiba (1978): c[i, j] = min(min(c[i-1, j], c[i, j-1]) + d, c[i-1, j-1] + w d), with w =
+    1 for "symmetric1" and 2 for "symmetric2". Open ends: Müller (2007), Tormene et al. (2009).
     Exact. Time O(n m), or the cells of the band; memory O(n + m). With another pattern or a
-    penalty, in one thread and without pruning, O(n m) times the number of weights: c[i, j] is the
-    least, over the steps of the pattern, of c where the step begins, plus the penalty, plus the
-    weighted distances of the cells that it visits, added in this order.
+    penalty, in one thread and without pruning, O(n m) times the number of weights. Then c[i, j] is
+    the least value over the steps of the pattern. A step's value is c at its beginning, plus the
+    penalty, plus the weighted distances of the cells that it visits, added in this order.
 
-    {closed_notes} By divide and conquer over where Q begins (Maes, "On a cyclic string-to-string
-    correction problem", 1990): time O(n m log m), memory n m bytes; the value is exact but for the
-    order in which distances are added. Only the metric, missing and cutoff apply.
+    {closed_notes} It is found by divide and conquer over the beginning of Q (Maes, "On a cyclic
+    string-to-string correction problem", 1990). Time O(n m log m), memory n m bytes. The value is
+    exact except for the order in which distances are added. Only the metric, missing and cutoff
+    apply.
 
     {own_distances}
 
-    What other packages call DTW, in these options:
+    This table gives the options for the DTW of other packages:
 
     =============================================  ===========================================
     dtw-python, R's dtw: ``distance``              ``step_pattern="symmetric2"``
@@ -323,7 +324,7 @@ def dtw_table(
     ValueError, TypeError
         As for :func:`dtw`.
     MemoryError
-        The table does not fit.
+        If the table does not fit in memory.
 
     Notes
     -----

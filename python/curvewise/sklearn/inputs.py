@@ -81,7 +81,7 @@ def _reference_system(estimator: Any, X: Any, known: Any) -> Any:
 
 
 def _is_list_of_curves(X: Any) -> bool:
-    """Return whether X is no table of rows: tables, and errors, are scikit-learn's to check."""
+    """Return whether X is a list of curves; scikit-learn checks tables."""
     if isinstance(X, np.ndarray):
         return X.ndim == 3 or (X.ndim == 1 and X.dtype == object)
     if not isinstance(X, list | tuple) or len(X) == 0:

@@ -52,11 +52,12 @@ class _Mean:
     Attributes
     ----------
     options : tuple of str
-        What it can be told; () for all options of the measure.
+        Its options; () for all options of the measure.
     distances : callable
-        Of (curves, centers, workers, **options): the distances, shape (k, number of centers).
+        A function of (curves, centers, workers, **options) that returns the distances, shape (k,
+        number of centers).
     moved : callable
-        Of (center, its curves, workers, **options): the center, nearer to its curves.
+        A function of (center, its curves, workers, **options) that returns an improved center.
     """
 
     options: tuple[str, ...]
@@ -109,41 +110,42 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
     Parameters
     ----------
     n_clusters : int
-        How many clusters.
+        Number of clusters.
     measure : {"dtw", "soft_dtw", "frechet"}
-        What a mean is: that of :func:`curvewise.dtw_mean` (DTW barycentre averaging), whose sum is
-        of ``dtw(curve, mean, metric="sqeuclidean")``; that of :func:`curvewise.soft_dtw_mean`; or
-        the medoid under frechet, for which :class:`CurveKMedoids` finds smaller sums where all
-        distances can be had.
+        The kind of mean. "dtw" is that of :func:`curvewise.dtw_mean` (DTW barycentre averaging),
+        whose sum is of ``dtw(curve, mean, metric="sqeuclidean")``. "soft_dtw" is that of
+        :func:`curvewise.soft_dtw_mean`. "frechet" is the medoid under frechet;
+        :class:`CurveKMedoids` finds smaller sums if all distances can be computed.
     options : dict, optional
-        For dtw "window", for soft_dtw "gamma" and "window", for frechet those of its function.
+        Options: for dtw "window", for soft_dtw "gamma" and "window", for frechet those of its
+        function.
     n_init : int
-        From how many choices of first centres to begin; the smallest sum counts.
+        Number of choices of first centres; the smallest sum counts.
     max_iter : int
-        How often the centres are moved at most.
+        Maximum number of rounds.
     tol : float >= 0
-        Ends where a move lowers the sum by no more than this part of it.
+        The iteration ends if a round lowers the sum by no more than this fraction.
     random_state : int, RandomState or None
         Draws the first centres.
     workers : int
-        Threads for a call: at least 1, or -1 for one per core. Never changes a result.
+        Number of threads for a call: at least 1, or -1 for one per core. Does not change a result.
     {layout}
 
     Attributes
     ----------
     cluster_centers_ : list of ndarray
-        The means; each has as many points as the curve that it began at.
+        The means; each has the number of points of its initial curve.
     labels_ : ndarray of int64, shape (k,)
         The cluster of each curve; of equally near ones the first.
     inertia_ : float
         The sum of the distances from the means.
     n_iter_ : int
-        How often they were moved.
+        Number of rounds.
 
     Warns
     -----
     ConvergenceWarning
-        The sum still fell by more than `tol` after `max_iter` moves.
+        If the sum still fell by more than `tol` after `max_iter` rounds.
 
     Notes
     -----

@@ -41,16 +41,16 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
     Parameters
     ----------
     n_neighbors : int
-        How many neighbours vote.
+        Number of neighbours that vote.
     measure : str
         A measure by its name, see :func:`curvewise.available_measures`.
     options : dict, optional
-        Those of the measure's own function, e.g. ``{"window": 10}``.
+        Options of the measure's own function, e.g. ``{"window": 10}``.
     weights : {"uniform", "distance"}
         Whether every neighbour has one vote, or one over its distance; neighbours at distance 0
         then vote alone.
     workers : int
-        Threads for a call: at least 1, or -1 for one per core. Never changes a result.
+        Number of threads for a call: at least 1, or -1 for one per core. Does not change a result.
     {layout}
 
     Attributes
@@ -62,9 +62,10 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
 
     Notes
     -----
-    Curves are an array of shape (k, n, d), a sequence of curves of different lengths, or, as
-    elsewhere in scikit-learn, an array of shape (k, n) whose rows are curves with d = 1; such rows
-    must have as many points as those that were fitted. Of classes with equal votes the first wins.
+    Curves are an array of shape (k, n, d), or a sequence of curves of different lengths. As
+    elsewhere in scikit-learn, they may also be an array of shape (k, n) whose rows are curves with
+    d = 1. Such rows must have the same number of points as those of the fit. Of classes with equal
+    votes the first wins.
 
     Examples
     --------

@@ -2,10 +2,10 @@
 
 Every increment has a summary with its time, then tables under "THE FOLLOWING TABLE IS PRINTED FOR
 ...", which name their set or type of element, with a head of columns (NODE FOOT- U1 RF1, or
-ELEMENT PT FOOT- S11) and a row for each node or integration point. The deck's echo at the top says
-the same of tables that are to come ("... AT EVERY 1 INCREMENT"), which is passed over. Written from
-Abaqus' documentation and public listings, and tested on samples written by hand: there is no
-Abaqus on the machines where curvewise is made. Cost: linear in the file.
+ELEMENT PT FOOT- S11) and a row for each node or integration point. The deck's echo at the top has
+similar lines for later tables ("... AT EVERY 1 INCREMENT"), which are skipped. Written from Abaqus'
+documentation and public listings, and tested on hand-written samples, because Abaqus is not
+available for development. Cost: linear in the file.
 """
 
 from __future__ import annotations
@@ -34,20 +34,20 @@ def read_abaqus_dat(path: str | os.PathLike[str]) -> SolverOutput:
     Returns
     -------
     SolverOutput
-        The variable is "nodes", or "elements", or "elements C3D8" where the file says their type;
-        components are called as in Abaqus (U1, RF2, S11).
+        The variable is "nodes", or "elements", or "elements C3D8" if the file states their type;
+        components have their Abaqus names (U1, RF2, S11).
 
     Raises
     ------
     ValueError
-        A row is not made of numbers; the message has its line.
+        If a row does not consist of numbers; the message has its line.
     OSError
-        The file cannot be read.
+        If the file cannot be read.
 
     Notes
     -----
-    Linear in the size of the file. Tables that are cut into several because they have too many
-    columns are kept apart by their columns. Times are the total times.
+    Linear in the size of the file. A table that is split because it has too many columns remains
+    several tables, distinguished by their columns. Times are the total times.
 
     Examples
     --------

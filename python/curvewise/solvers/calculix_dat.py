@@ -1,7 +1,7 @@
 """CalculiX's .dat: what ``*NODE PRINT`` and ``*EL PRINT`` have the solver write.
 
-A table begins with a line such as " forces (fx,fy,fz) for set PULLED and time  0.5000000E+00" (in
-CalculiX 2.20 sometimes without the blank before "for"); rows of node, or element and integration
+A table begins with a line such as " forces (fx,fy,fz) for set PULLED and time 0.5000000E+00" (in
+CalculiX 2.20 sometimes without the space before "for"). Rows of node, or element and integration
 point, and values follow. A total has values alone. Cost: linear in the file.
 """
 
@@ -15,7 +15,7 @@ from .solver_output import Row, SolverOutput, as_number, as_whole, lines_of
 __all__ = ["read_calculix_dat"]
 
 _TITLE = re.compile(r"\s*(.*?)\s*(?:\(([^)]*)\))?\s*for set (\S+) and time\s+(\S+)")
-# Words of a title's brackets that number a row, and are no components.
+# Words in a title's brackets that number a row and are not components.
 _LABELS = ("elem", "integ.pnt.", "node")
 
 

@@ -1,9 +1,9 @@
 """CalculiX's .frd: what ``*NODE FILE`` and ``*EL FILE`` have the solver write, as text.
 
-Records of fixed columns, told apart by their first number: 100C begins the results of a time, -4
-names a variable, -5 a component, -1 is a node with up to six values of 12 columns, -2 goes on with
-more of them, -3 ends a block (CalculiX GraphiX manual, "Result Format"). Nodes and elements of the
-mesh are passed over. Cost: linear in the file.
+Records have fixed columns and are distinguished by their first number. The record 100C begins the
+results of a time, -4 names a variable, and -5 a component. The record -1 is a node with up to six
+values of 12 columns, -2 continues with more values, and -3 ends a block. See the CalculiX GraphiX
+manual, "Result Format". Nodes and elements of the mesh are skipped. Cost: linear in the file.
 """
 
 from __future__ import annotations
@@ -30,20 +30,20 @@ def read_calculix_frd(path: str | os.PathLike[str]) -> SolverOutput:
     Returns
     -------
     SolverOutput
-        Variables and components are called as in the file: DISP (D1, D2, D3), FORC (F1, ...),
-        STRESS (SXX, ...), PE. There are no sets: give the node.
+        Variables and components have their names in the file: DISP (D1, D2, D3), FORC (F1, ...),
+        STRESS (SXX, ...), PE. The file lacks sets: give the node.
 
     Raises
     ------
     ValueError
-        The file is binary, or a row is not made of numbers.
+        If the file is binary, or a row does not consist of numbers.
     OSError
-        The file cannot be read.
+        If the file cannot be read.
 
     Notes
     -----
-    Linear in the size of the file. It has six digits, where .dat has seven, and values of elements
-    are extrapolated to the nodes.
+    Linear in the size of the file. It has six digits instead of the seven of .dat, and values of
+    elements are extrapolated to the nodes.
 
     Examples
     --------

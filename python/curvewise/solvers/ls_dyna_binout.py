@@ -28,29 +28,30 @@ def read_ls_dyna_binout(
     Parameters
     ----------
     path : path-like
-        The file, or a pattern for its parts: "binout*", of a parallel run.
+        The file, or a pattern for its parts: "binout*", for a parallel run.
     branches : sequence of str, optional
-        Which to read, such as "nodout", "rcforc" or "elout/solid". By default all.
+        The branches to read, such as "nodout", "rcforc" or "elout/solid". By default all.
 
     Returns
     -------
     SolverOutput
-        A variable for each branch; components are called as in the file (x_displacement, x_force);
-        numbers are those of its ids (of rcforc each id has a master and a slave: points 1 and 0).
+        A variable for each branch; components have their names in the file (x_displacement,
+        x_force). Numbers are those of its ids (for rcforc each id has a master and a slave: points
+        1 and 0).
 
     Raises
     ------
     ImportError
-        lasso-python is not installed: ``pip install "curvewise[ls-dyna]"``.
+        If lasso-python is missing: ``pip install "curvewise[ls-dyna]"``.
     ValueError
-        There is no such branch; the message lists those that there are.
+        If the branch does not exist; the message lists the existing ones.
     OSError
-        No file has this name.
+        If no file has this name.
 
     Notes
     -----
-    Components whose number of values is not that of the ids (stresses at several integration
-    points) are numbered from 1 in the order of the file.
+    If the number of values of a component differs from the number of ids (stresses at several
+    integration points), they are numbered from 1 in the order of the file.
 
     Examples
     --------

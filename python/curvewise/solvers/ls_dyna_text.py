@@ -1,11 +1,11 @@
 """LS-DYNA's ASCII files nodout and elout (``*DATABASE_NODOUT``, ``*DATABASE_ELOUT``, BINARY = 1).
 
-Each time begins with a spaced-out title that ends with "( at time 1.0000000E-03 )". nodout then has
-a head of columns and a row for every node, in columns of 12 that touch where numbers are negative.
-elout has a line "element-material" for every element, and below it a line for every integration
-point with a word for its state and the stresses. Written from LS-DYNA's manual and public listings,
-and tested on samples written by hand: there is no LS-DYNA where curvewise is made. Cost: linear in
-the file.
+Each time begins with a spaced-out title that ends with "( at time 1.0000000E-03 )". In nodout, a
+head of columns follows, and a row for every node, in columns of 12 that touch if numbers are
+negative. In elout, a line "element-material" follows for every element. Below it is a line for
+every integration point with a word for its state and the stresses. Written from LS-DYNA's manual
+and public listings, and tested on hand-written samples, because LS-DYNA is not available for
+development. Cost: linear in the file.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ def read_ls_dyna_nodout(path: str | os.PathLike[str]) -> SolverOutput:
     Raises
     ------
     ValueError
-        A row is not made of numbers; the message has its line.
+        If a row does not consist of numbers; the message has its line.
     OSError
-        The file cannot be read.
+        If the file cannot be read.
 
     Notes
     -----
@@ -99,16 +99,17 @@ def read_ls_dyna_elout(path: str | os.PathLike[str]) -> SolverOutput:
     Returns
     -------
     SolverOutput
-        Variables "stress" (sig-xx, sig-yy, sig-zz, sig-xy, sig-yz, sig-zx, then of solids effsg
-        and yield, of shells plastic-strain) and "strain" (eps-xx, ...), by element and integration
-        point; of the strains of shells point 1 is the lower surface and 2 the upper one.
+        The variables are "stress" and "strain", by element and integration point. Components of
+        "stress" are sig-xx, sig-yy, sig-zz, sig-xy, sig-yz, sig-zx, then effsg and yield for
+        solids, and plastic-strain for shells. Components of "strain" are eps-xx, ...; for shells
+        point 1 is the lower surface and 2 the upper one.
 
     Raises
     ------
     ValueError
-        A row is not made of numbers; the message has its line.
+        If a row does not consist of numbers; the message has its line.
     OSError
-        The file cannot be read.
+        If the file cannot be read.
 
     Notes
     -----
@@ -153,7 +154,7 @@ def read_ls_dyna_elout(path: str | os.PathLike[str]) -> SolverOutput:
 
 
 def _components(variable: str, count: int) -> tuple[str, ...]:
-    """Return what the values of a row are, by how many there are."""
+    """Return the names of the values of a row, by their number."""
     if variable == "strain":
         return _STRAINS if count == len(_STRAINS) else ()
     rest = {0: (), 1: ("plastic-strain",), 2: ("effsg", "yield")}

@@ -3,13 +3,12 @@
     abaqus python odb_to_csv.py deck.odb history.csv
     abaqus python odb_to_csv.py deck.odb history.csv RF2 U2
 
-writes every history of the database (``*OUTPUT, HISTORY``), or those of the variables named, as
-columns of one CSV file: the time, then one column for each variable and place, called "RF2 NODE
-TOP.1". All steps follow one another. Not imported by curvewise: Abaqus up to 2023 runs Python 2.7,
-so this is written for both: types stand in comments, and Abaqus' modules are imported where they
-are needed. Written from Abaqus' scripting reference; it has not been run, as there is no Abaqus
-where curvewise is made.
-Cost: linear in what is written.
+This writes every history of the database (``*OUTPUT, HISTORY``), or those of the named variables,
+as columns of one CSV file. The first column is the time; then follows one column for each variable
+and place, called "RF2 NODE TOP.1". All steps follow one another. curvewise does not import this
+module. Abaqus up to 2023 runs Python 2.7, so the code suits both versions: types are in comments,
+and Abaqus' modules are imported when they are needed. Written from Abaqus' scripting reference; it
+has not been run, because Abaqus is not available for development. Cost: linear in the output.
 """
 
 import collections

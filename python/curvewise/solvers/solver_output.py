@@ -1,9 +1,9 @@
-"""Tables that a solver has printed at one time after the other, and the history of one number.
+"""Tables of a solver at successive times, and the history of one number.
 
-A table has a variable ("displacements"), a set of nodes or elements where the deck named one, the
-names of its components ("vx"), and a row for every node, or for every element and integration
-point. Readers add rows line by line; a history picks one component of one row, or combines rows.
-Time and memory are linear in what was printed, some 3 s for 10⁶ rows.
+A table has a variable ("displacements"), a set of nodes or elements if the deck named one, and the
+names of its components ("vx"). It has a row for every node, or for every element and integration
+point. Readers add rows line by line; a history selects one component of one row, or combines rows.
+Time and memory are linear in the output, about 3 s for 10⁶ rows.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _LISTED = 8  # numbers and tables in a message
 
 @dataclass(frozen=True)
 class Row:
-    """Which row of a table: a node or an element, and its integration point; 0 for none."""
+    """A row's key: a node or an element, and its integration point; 0 if missing."""
 
     number: int
     point: int = 0
@@ -43,7 +43,7 @@ class Row:
 
 @dataclass
 class _Table:
-    """What was printed of one variable for one set."""
+    """The rows of one variable for one set."""
 
     variable: str
     set_name: str
@@ -70,14 +70,14 @@ class _Table:
 
 
 class SolverOutput:
-    r"""What a solver has written to a file: tables of numbers, at one time after the other.
+    r"""A solver's output file: tables of numbers at successive times.
 
-    Made by the readers of :mod:`curvewise.solvers`; prints as a list of what there is.
+    The readers of :mod:`curvewise.solvers` create it; it prints as a list of its contents.
 
     Parameters
     ----------
     file : path-like
-        The name that messages give.
+        The file's name in messages.
 
     Examples
     --------
@@ -135,24 +135,24 @@ class SolverOutput:
         component : str
             Its name in the file, such as "vx", "RF2" or "sig-xx"; "time" for the times themselves.
         variable, set_name : str, optional
-            Which table, where several have the component. Capitals do not matter.
+            The table, if several have the component. Capitals do not matter.
         number : int, optional
-            The node or the element, where the table has several.
+            The node or the element, if the table has several.
         point : int, optional
-            The integration point, where the element has several.
+            The integration point, if the element has several.
         combine : {"sum", "mean", "max", "min"}, optional
-            Of all rows that `number` and `point` leave: reaction forces are a sum.
+            How to combine all rows that `number` and `point` leave: reaction forces are a sum.
 
         Returns
         -------
         ndarray, shape (times,)
-            In the units of the file.
+            The history, in the units of the file.
 
         Raises
         ------
         ValueError
-            There is no such component, variable, set, node or point, or there are several and
-            nothing says which; the message lists what there is.
+            If the component, variable, set, node or point does not exist, or the choice is
+            ambiguous; the message lists the existing ones.
 
         Notes
         -----
@@ -248,12 +248,12 @@ def _listed(items: Sequence[object]) -> str:
 
 
 def as_number(text: str, place: str) -> float:
-    """Return a number that Fortran has written.
+    """Return a number in Fortran's format.
 
     Raises
     ------
     ValueError
-        It is none; `place` says where it stands.
+        If it is not a number; `place` names its position.
     """
     try:
         return float(text)

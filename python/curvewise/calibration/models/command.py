@@ -86,12 +86,12 @@ class CommandModel:
 
     Notes
     -----
-    A call raises `SolverError` if the program cannot be started, ends with an exit code other than
-    0 or by a signal, takes longer than `timeout`, or prints more than 64 MiB. It also raises
-    `SolverError` if `read` fails or returns something other than curves of finite numbers. The
-    folder is then kept, with the program's output in ``command.log``, whose end the error quotes.
-    However a call ends (Ctrl-C included), all processes of the run's group end with it (on Windows:
-    the program itself).
+    A call raises `SolverError` if the program cannot be started, or ends with an exit code other
+    than 0 or by a signal. The same holds if it takes longer than `timeout`, or prints more than 64
+    MiB. It also raises `SolverError` if `read` fails or returns something other than curves of
+    finite numbers. The folder is then kept, with the program's output in ``command.log``, whose end
+    the error quotes. However a call ends (Ctrl-C included), all processes of the run's group end
+    with it (on Windows: the program itself).
 
     A store identifies the model by its `identity`: the text of its templates, its command and
     environment, and the code of `read` (but not of the functions that it calls). The identity does

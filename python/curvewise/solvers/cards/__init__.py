@@ -1,7 +1,7 @@
 """Material cards: a material's numbers as the lines that a solver reads.
 
-One record a solver (`FORMATS`): what it calls the models, and what it does not have. What is read
-back are the cards of Abaqus and CalculiX, whose files have the same keywords.
+`FORMATS` has one record for each solver, with its names of the models and its limitations. Cards of
+Abaqus and CalculiX can be read back; their files have the same keywords.
 """
 
 from __future__ import annotations
@@ -51,29 +51,29 @@ def read_card(path: str | os.PathLike[str], *, name: str | None = None) -> Solve
     Parameters
     ----------
     path : path-like
-        A card that :meth:`curvewise.materials.Material.card` has written; of Abaqus any input file
-        with combined hardening by parameters.
+        A card that :meth:`curvewise.materials.Material.card` has written; for Abaqus also any input
+        file with combined hardening by parameters.
     name : str, optional
-        The material, needed where a file of Abaqus has several.
+        The name of the material, required if a file of Abaqus has several.
 
     Returns
     -------
     SolverCard
-        Its parameters are the doubles that were written.
+        The card; its parameters are the doubles that were written.
 
     Raises
     ------
     ValueError
-        There is no such material, or one without these keywords; or the numbers of a card of
-        CalculiX are not those that its comments state.
+        If the material does not exist, or lacks these keywords. If the numbers of a card of
+        CalculiX differ from those in its comments.
     OSError
-        The file cannot be read.
+        If the file cannot be read.
 
     Notes
     -----
     Linear in the size of the file. Abaqus' numbers are those of its data lines. CalculiX's tables
-    do not tell the parameters; they stand in the comments, and the sum of the moduli is held
-    against them.
+    do not determine the parameters; they are read from the comments and checked by the sum of the
+    moduli.
 
     Examples
     --------

@@ -1,8 +1,8 @@
 """Abaqus: combined hardening by its parameters.
 
-Abaqus has C, gamma, Q and b as they are here: dX = C (sigma - X) / sigma0 dp - gamma X dp, which is
-C d(eps_p) - gamma X dp under uniaxial load, and sigma0 + Q (1 - exp(-b p)). A data line has up to
-eight numbers of up to 20 characters each.
+Abaqus uses the same C, gamma, Q and b. The law is dX = C (sigma - X) / sigma0 dp - gamma X dp,
+which is C d(eps_p) - gamma X dp under uniaxial load. The yield stress is sigma0 + Q (1 - exp(-b
+p)). A data line has up to eight numbers of up to 20 characters each.
 """
 
 from __future__ import annotations

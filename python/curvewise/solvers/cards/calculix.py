@@ -24,7 +24,7 @@ from .overlay import Path, best_overlay, with_increments
 __all__ = ["FORMAT", "card_of"]
 
 _WIDTH = 20  # ccx reads 20 characters of a field
-_CHORDS = 24  # of a curve that saturates: their error is below 0.1 % of what it grows by
+_CHORDS = 24  # for a saturating curve: their error is below 0.1 % of its increase
 _FAR = 100.0  # plastic strain at which the line of kinematic hardening ends
 _TITLE = re.compile(r"curvewise card for CalculiX: (\w+)$")
 _PARAMETER = re.compile(r"(\w+) = ([^\s:]+)")

@@ -20,9 +20,9 @@ class Block(NamedTuple):
     Attributes
     ----------
     keyword : str
-        In capitals and without blanks, "*CYCLICHARDENING".
+        The keyword in capitals and without spaces, "*CYCLICHARDENING".
     options : dict of str to str
-        Names as the keyword, values as they are.
+        The options; names like the keyword, values unchanged.
     numbers : list of float
         All numbers below, line by line.
     """

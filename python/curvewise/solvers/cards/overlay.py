@@ -1,16 +1,18 @@
-"""A material as an overlay of layers that CalculiX has: several elements on the same nodes.
+"""A material as an overlay of CalculiX's layers: elements on the same nodes.
 
-Besseling's overlay: layers share the strain and add their stresses. A layer of the modulus E and
-the yield strain y yields at E y (1 + R (1 - exp(-r p))), p being its own plastic strain; once
-softer layers yield, the sum has a rounded curve and yields early after a reversal. For given y, R
-and r all stresses are linear in E. So the best layers among a few dozen are non-negative least
-squares (Lawson & Hanson), whose answer has few that are not zero; the equations are weighted anew
-some times so that the largest error falls (Lawson), and layers that hardly carry anything are left
-out while the error allows it. Layers are integrated as CalculiX does, for finite strains with
-radial return (Simo & Hughes 1998, 9.3), at the contraction that the material has, where the sum of
-lateral stresses has to vanish. What is fitted is the difference of axial and lateral stress, which
-hardly depends on what of the latter is left. Cost: 80 increments a branch, and 12 least-squares
-problems for each layer left out: about a second for a loop.
+In Besseling's overlay, layers share the strain and add their stresses. A layer has the modulus E,
+the yield strain y and the plastic strain p. It yields at E y (1 + R (1 - exp(-r p))). Once softer
+layers yield, the sum has a rounded curve and yields early after a reversal. For given y, R and r
+all stresses are linear in E. The best layers among a few dozen are therefore a problem of
+non-negative least squares (Lawson & Hanson), whose solution has few non-zero layers. The equations
+are reweighted several times to reduce the largest error (Lawson). Layers with a negligible
+contribution are removed while the error allows it.
+
+Layers are integrated as in CalculiX, for finite strains with radial return (Simo & Hughes 1998,
+9.3), at the material's lateral contraction. The sum of lateral stresses must vanish. The fitted
+quantity is the difference of axial and lateral stress, which barely depends on the remaining
+lateral stress. Cost: 80 increments for each branch, and 12 least-squares problems for each removed
+layer: about a second for a loop.
 
 J. F. Besseling, "A theory of elastic, plastic, and creep deformations of an initially isotropic
 material showing anisotropic strain hardening, creep recovery, and secondary creep", Journal of
@@ -44,7 +46,7 @@ _GOOD = 3e-3  # of the loop's height: no need to be better
 
 
 class Path(NamedTuple):
-    """Strains along and across that a material goes through from 0, and its stress."""
+    """Strains along and across that a material undergoes from 0, and its stress."""
 
     axial: Array
     lateral: Array
@@ -124,7 +126,7 @@ def _candidates(paths: Sequence[Path], first: float, own: tuple[float, float]) -
 
 
 class _Equations:
-    """What the sum of layers shall be along the paths: linear in the layers' moduli."""
+    """The target of the sum of layers along the paths, linear in their moduli."""
 
     def __init__(
         self,
