@@ -78,6 +78,12 @@ py::dict changed_options(const Options& options) {
     return changed;
 }
 
+// "; did you mean 'dtw'?", or nothing.
+std::string did_you_mean(const py::handle& given, const py::list& known) {
+    const py::object function = py::module_::import("curvewise._names").attr("did_you_mean");
+    return function(py::make_tuple(given), known).cast<std::string>();
+}
+
 }  // namespace
 
 bool is_text(const py::object& given, const char* text) {
@@ -87,9 +93,13 @@ bool is_text(const py::object& given, const char* text) {
 void refuse_choice(const char* option, const py::object& given, const char* const* names,
                    std::size_t count) {
     std::string list;
-    for (std::size_t i = 0; i < count; ++i) list += (i == 0 ? "" : ", ") + std::string(names[i]);
+    py::list known;
+    for (std::size_t i = 0; i < count; ++i) {
+        list += (i == 0 ? "" : ", ") + std::string(names[i]);
+        known.append(names[i]);
+    }
     throw py::value_error("unknown " + std::string(option) + " " + repr(given) + "; choose from " +
-                          list);
+                          list + did_you_mean(given, known));
 }
 
 std::ptrdiff_t whole_number(const char* option, const py::object& given,
@@ -242,13 +252,17 @@ bool are_defaults(const py::tuple& values, const py::tuple& defaults) {
 
 void refuse_unknown_option(const char* measure, const py::dict& given, const py::dict& valid) {
     std::string list;
+    py::list known;
     for (const auto& [name, value] : valid) {
         list += (list.empty() ? "" : ", ") + name.cast<std::string>();
+        known.append(name);
     }
+    known.append("workers");  // of the call, where other packages have n_jobs
     for (const auto& [name, value] : given) {
         if (valid.contains(name)) continue;
         throw py::type_error(std::string(measure) + " has no option " +
-                             py::repr(name).cast<std::string>() + "; it has " + list);
+                             py::repr(name).cast<std::string>() + "; it has " + list +
+                             did_you_mean(name, known));
     }
     throw py::type_error("the options of " + std::string(measure) +
                          " changed while they were read");

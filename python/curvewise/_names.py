@@ -1,11 +1,30 @@
-"""What a misspelt name was meant to be."""
+"""What a misspelt name was meant to be, and which names of a module a shell completes."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from difflib import get_close_matches
 
-__all__ = ["did_you_mean"]
+__all__ = ["did_you_mean", "names_alone"]
+
+# What other packages call it, without capitals, blanks, hyphens and underscores.
+_ELSEWHERE = {
+    "band": "window",
+    "discretefrechet": "frechet",
+    "l1": "cityblock",
+    "l2": "euclidean",
+    "linf": "chebyshev",
+    "manhattan": "cityblock",
+    "maximum": "chebyshev",
+    "njobs": "workers",
+    "numworkers": "workers",
+    "psi": "relax",
+    "sakoechibaradius": "window",
+    "squared": "sqeuclidean",
+    "squaredeuclidean": "sqeuclidean",
+    "taxicab": "cityblock",
+    "threads": "workers",
+}
 
 
 def did_you_mean(
@@ -27,7 +46,9 @@ def did_you_mean(
     found = []
     for name in names:
         if isinstance(name, str) and name not in known:
-            found += [plain[near] for near in get_close_matches(_plain(name), plain, n=1)]
+            elsewhere = _ELSEWHERE.get(_plain(name))
+            near = get_close_matches(_plain(name), plain, n=1)
+            found += [elsewhere] if elsewhere in known else [plain[one] for one in near]
     listed = ", ".join(shown(name) for name in dict.fromkeys(found))
     return f"; did you mean {listed}?" if listed else ""
 
@@ -35,3 +56,9 @@ def did_you_mean(
 def _plain(name: str) -> str:
     """Return a name without the characters that are most often confused."""
     return name.lower().replace("-", "").replace("_", "").replace(" ", "")
+
+
+def names_alone(names: Iterable[str]) -> Callable[[], list[str]]:
+    """Return a module's ``__dir__``: its public names, and not what it imports."""
+    listed = sorted(names)
+    return lambda: listed

@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._core import earth_radius, measures
+from ._names import did_you_mean
 
 __all__ = [
     "EARTH_RADIUS",
@@ -135,7 +136,10 @@ class Default:
 def check_choice(option: str, value: object, choices: Collection[str]) -> None:
     """Refuse a `value` that is not one of the strings in `choices`."""
     if not (isinstance(value, str) and value in choices):
-        raise ValueError(f"unknown {option} {value!r}; choose from {', '.join(choices)}")
+        raise ValueError(
+            f"unknown {option} {value!r}; choose from {', '.join(choices)}"
+            f"{did_you_mean([value], choices)}"
+        )
 
 
 def check_closed(options: Mapping[str, object]) -> None:

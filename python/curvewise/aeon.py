@@ -21,7 +21,7 @@ from typing import Any, NamedTuple, SupportsFloat, SupportsIndex, TypeAlias
 import numpy as np
 
 from ._extras import extra
-from ._names import did_you_mean
+from ._names import did_you_mean, names_alone
 from .curves.inputs import Array
 from .curves.layouts import with_known_layout
 from .many.pairwise import cdist
@@ -64,6 +64,7 @@ __all__ = [
     "wdtw_distance",
     "wdtw_pairwise_distance",
 ]
+__dir__ = names_alone(__all__)
 
 Series: TypeAlias = Any
 """An array of shape (n_channels, n_timepoints) or (n_timepoints,)."""

@@ -17,10 +17,12 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from ._names import names_alone
 from .curves.checks import check_finite
 from .curves.named_curve import NamedCurve
 
 __all__ = ["hysteresis_pair", "kinematic_hardening"]
+__dir__ = names_alone(__all__)
 
 # Strain amplitude of the pair's cycle, and where its branches end: tension, compression, tension.
 _AMPLITUDE = 0.02

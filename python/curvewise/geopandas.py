@@ -16,6 +16,7 @@ from typing import Any, SupportsIndex
 import numpy as np
 
 from ._extras import extra
+from ._names import names_alone
 from ._options import Default
 from .curves.inputs import Array
 from .curves.labels import check_distinct
@@ -30,6 +31,7 @@ with extra("geopandas", "curvewise.geopandas needs geopandas"):
     import pandas
 
 __all__ = ["Tracks"]
+__dir__ = names_alone(__all__)
 
 
 @pandas.api.extensions.register_dataframe_accessor("curvewise")

@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING
 
 from ._core import __file__ as compiled_file
 from ._core import build_info as compiled_build_info
+from ._names import names_alone
 
 if TYPE_CHECKING:
     from ._core import BuildInfo
 
 __all__ = ["build_info", "get_cmake_dir", "get_include"]
+__dir__ = names_alone(__all__)
 
 
 def build_info() -> BuildInfo:

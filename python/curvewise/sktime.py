@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._extras import extra
+from ._names import names_alone
 from ._options import Default
 from .curves.inputs import Array
 from .many.pairwise import cdist
@@ -27,6 +28,7 @@ with extra("sktime", "curvewise.sktime needs sktime"):
     from sktime.dists_kernels.base import BasePairwiseTransformerPanel
 
 __all__ = ["CurveDistance", "CurveKNeighborsTimeSeriesClassifier"]
+__dir__ = names_alone(__all__)
 
 Panel = list[Any]
 """One DataFrame a series, in which sktime hands over every other format."""

@@ -23,6 +23,7 @@ import numpy as np
 
 from ._extras import extra
 from ._loss_texts import documented_loss
+from ._names import names_alone
 from .curves.layouts import ask_about_curves
 from .measures.anti_diagonals import ArrayPackage, has_diagonals, values_of_diagonals
 from .measures.gradient import NO_DERIVATIVE_OF_PCM, NO_SECOND_DERIVATIVE
@@ -49,6 +50,7 @@ __all__ = [
     "soft_dtw",
     "soft_dtw_divergence",
 ]
+__dir__ = names_alone(__all__)
 
 Curves: TypeAlias = Tensor | Sequence[Tensor]
 

@@ -9,6 +9,7 @@ needed: ``pip install "curvewise[calibration]"``.
 """
 
 from .._bounds import Below, Log, OutsideModelError, Tied
+from .._names import names_alone
 from . import methods
 from .answers.identification import Identification
 from .answers.several_measures import SeveralMeasures
@@ -78,3 +79,4 @@ __all__ = [
     "rescore",
     "screening",
 ]
+__dir__ = names_alone(__all__)

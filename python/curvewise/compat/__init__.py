@@ -34,6 +34,7 @@ scipy is needed only for metrics that the compiled library does not have, and fo
 ``dtw`` and ``frechet_dist``: ``pip install "curvewise[compat]"``.
 """
 
+from .._names import names_alone
 from ._arc_length import curve_length_measure, get_length, normalizeTwoCurves, pcm
 from ._area import area_between_two_curves, get_arc_length, is_simple_quad, makeQuad, poly_area
 from ._pointwise import mae, mse
@@ -55,5 +56,6 @@ __all__ = [
     "pcm",
     "poly_area",
 ]
+__dir__ = names_alone(__all__)
 
 __version__ = "1.5.0"  # of the package whose names and numbers these are; programs print it

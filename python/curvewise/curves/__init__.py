@@ -7,6 +7,7 @@ loading. docs/preparing_curves.md and docs/hysteresis_loops.md show them on test
 
 from __future__ import annotations
 
+from .._names import names_alone
 from .backbone import backbone
 from .common_span import common_span
 from .cycles import loop_energy, loops, peaks_and_valleys
@@ -36,3 +37,4 @@ __all__ = [
     "turning_points",
     "z_normalized",
 ]
+__dir__ = names_alone(__all__)

@@ -138,6 +138,9 @@ def advice(curve: Any, array: np.ndarray[Any, Any], name: str) -> str:
         return _advice_on_columns(curve)
     if array.ndim == 1 and len(array) and hasattr(array[0], "__geo_interface__"):
         return f": shapely.get_coordinates({name}) has the points as rows"
+    for place, value in np.ndenumerate(array):
+        if value is None:
+            return f", but {name}{list(place)} is None: leave it out, or write nan"
     return ""
 
 

@@ -97,6 +97,8 @@ def as_numbers(curve: Any, name: str, keep_float32: bool = False) -> Array:
     """
     if type(curve) is np.ndarray and curve.dtype is _FLOAT64 and 1 <= curve.ndim <= 2:
         return _aligned(curve)
+    if curve is None:
+        raise TypeError(f"{name} is None; give a curve")
     values = opened(curve, name)
     _refuse_masked(values, curve, name)
     try:
@@ -106,7 +108,7 @@ def as_numbers(curve: Any, name: str, keep_float32: bool = False) -> Array:
         raise ValueError(
             f"{name} is ragged; a curve is n points with the same number of coordinates each"
         ) from error
-    except TypeError as error:  # in the words of its package
+    except (TypeError, RuntimeError) as error:  # in the words of its package
         raise TypeError(f"{name}, a {type(curve).__name__}, gives no array: {error}") from error
     _refuse_masked(array, curve, name)
     array = np.asarray(array)

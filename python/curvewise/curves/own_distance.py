@@ -7,6 +7,7 @@ for both. Time that of the callable, and O(p q) for a block of p and q points; m
 
 from __future__ import annotations
 
+import numbers
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
@@ -89,16 +90,42 @@ def _of_matrix(matrix: npt.NDArray[Any], n: int, m: int) -> BlockDistances:
 def _of_callable(metric: Callable[[Array, Array], Any], P: Array, Q: Array) -> BlockDistances:
     def blocks(row: int, rows: int, column: int, columns: int) -> Array:
         p, q = P[row : row + rows], Q[column : column + columns]
-        found = _as_float64(_real_numbers(metric(p, q), "what metric returns"))
+        try:
+            answer = metric(p, q)
+        except (TypeError, ValueError) as error:
+            if not _is_of_two_points(metric, p[0], q[0]):
+                raise
+            raise ValueError(
+                f"metric takes two points, and is called with blocks of them, of shapes {p.shape} "
+                f"and {q.shape}; {_instead(rows, columns)}"
+            ) from error
+        found = _as_float64(_real_numbers(answer, "what metric returns"))
         if found.shape != (rows, columns):
             raise ValueError(
                 f"metric returns shape {found.shape} for blocks of points of shapes {p.shape} and "
-                f"{q.shape}; return the distance of every pair, shape {(rows, columns)}"
+                f"{q.shape}; {_instead(rows, columns)}"
             )
         _check(found, "metric of P[{}] and Q[{}]", row, column)
         return found
 
     return blocks
+
+
+def _is_of_two_points(metric: Callable[[Array, Array], Any], p: Array, q: Array) -> bool:
+    """Say whether a function that refuses blocks returns a number for two points."""
+    try:
+        return isinstance(metric(p, q), numbers.Real)
+    except Exception:
+        return False
+
+
+def _instead(rows: int, columns: int) -> str:
+    """Return what a callable has to return, and how one of two points does so."""
+    return (
+        f"return the distance of every pair, shape {(rows, columns)}: of a function f of two "
+        "points, metric=lambda p, q: [[f(a, b) for b in q] for a in p] does so, and "
+        "numpy.linalg.norm(p[:, None] - q, axis=2) is fast"
+    )
 
 
 def _real_numbers(given: Any, name: str) -> npt.NDArray[Any]:

@@ -11,7 +11,9 @@ larger than memory, and an interrupted call continues from the stored blocks. Ne
 found in one index for each block of the curves, and merged.
 """
 
+from .._names import names_alone
 from .matrix import cdist, pdist
 from .neighbors import kneighbors
 
 __all__ = ["cdist", "kneighbors", "pdist"]
+__dir__ = names_alone(__all__)

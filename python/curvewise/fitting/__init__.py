@@ -5,6 +5,7 @@ What ``curvewise fit`` does, as functions: :func:`prepare`, :func:`fit_material`
 
 from __future__ import annotations
 
+from .._names import names_alone
 from .beginnings import BeginningWarning
 from .material_fit import MaterialFit, fit_material
 from .preparation import PreparedTest, prepare
@@ -18,3 +19,4 @@ __all__ = [
     "fit_material",
     "prepare",
 ]
+__dir__ = names_alone(__all__)

@@ -9,10 +9,10 @@ so is a measure whose ground distance is a callable.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import combinations, product
-from typing import Any, SupportsFloat, SupportsIndex, TypeAlias, get_args, overload
+from typing import Any, Protocol, SupportsFloat, SupportsIndex, TypeAlias, get_args, overload
 
 import numpy as np
 
@@ -33,10 +33,31 @@ from ..measures.step_pattern import may_be_negative
 __all__ = ["Curves", "LabelledCurves", "Measure", "available_measures", "cdist", "pdist"]
 
 Measure: TypeAlias = MeasureName | Callable[..., float]
-Curves: TypeAlias = Sequence[CurveLike] | Array
-"""k curves: an array of shape (k, n, d), or a sequence of curves of different lengths."""
-LabelledCurves: TypeAlias = Mapping[Any, CurveLike]
-"""Curves by their labels; the collections of pandas, whose types are not known, count too."""
+
+
+class Grouped(Protocol):
+    """A groupby of pandas."""
+
+    @property
+    def ngroups(self) -> int:
+        """The number of groups."""
+
+    def __iter__(self) -> Iterator[Any]:
+        """Iterate over the labels and the groups."""
+
+
+class Indexed(Protocol):
+    """A Series of curves, or a GeoDataFrame of lines."""
+
+    @property
+    def iloc(self) -> Any:
+        """The rows by their places."""
+
+
+Curves: TypeAlias = Sequence[CurveLike] | Iterator[CurveLike] | Array
+"""k curves: an array of shape (k, n, d), or curves of different lengths, of a generator too."""
+LabelledCurves: TypeAlias = Mapping[Any, CurveLike] | Grouped | Indexed
+"""Curves by their labels."""
 
 
 def available_measures() -> list[str]:
@@ -319,6 +340,8 @@ def _called_by_pairs(
 
 def _check_names(measure: Any, options: Mapping[str, Any]) -> str:
     """Return the measure's name; explain measures and ground distances to who mixes them up."""
+    if "workers" in options:  # of an Index or a Prepared; cdist and pdist have a parameter
+        raise TypeError("workers is an option of the calls that compute; give it to them")
     names = available_measures()
     metrics = get_args(Metric)
     if isinstance(measure, str) and measure in metrics:
@@ -347,7 +370,14 @@ def _check_symmetric(name: str, options: dict[str, Any]) -> None:
 
 def _checked_out(out: Array | None, shape: tuple[int, ...], name: str) -> Array:
     if out is None:
-        return np.empty(shape)
+        try:
+            return np.empty(shape)
+        except MemoryError as error:
+            raise MemoryError(
+                f"{name} of these curves returns {8e-9 * math.prod(shape):,.0f} GB, which do not "
+                f"fit into memory: curvewise.dask.{name} with store='distances.zarr' writes them "
+                "to disk, and curvewise.Index finds the nearest curves without them"
+            ) from error
     if not isinstance(out, np.ndarray):
         raise TypeError(f"out is of type {type(out).__name__}; give a numpy array")
     if out.shape != shape:

@@ -7,11 +7,13 @@ tension and compression in seconds. ``material.driven_by(loops)`` is a model for
 
 from __future__ import annotations
 
+from .._names import names_alone
 from .chaboche_voce import ChabocheVoce
 from .material import DrivenModel, Material, Parameter
 from .yoshida_uemori import YoshidaUemori
 
 __all__ = ["MATERIALS", "ChabocheVoce", "DrivenModel", "Material", "Parameter", "YoshidaUemori"]
+__dir__ = names_alone(__all__)
 
 MATERIALS: dict[str, type[Material]] = {
     "chaboche-voce": ChabocheVoce,

@@ -13,6 +13,7 @@ material parameters from hysteresis loops using inverse analysis", Int. J. Mater
 
 from __future__ import annotations
 
+from .._names import names_alone
 from . import edit_distances
 from .area import area, area_quads
 from .curve_length import curve_length, curve_length_residuals
@@ -62,3 +63,4 @@ __all__ = [
     "value_and_gradient",
     "values_and_gradients",
 ]
+__dir__ = names_alone(__all__)

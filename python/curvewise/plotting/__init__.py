@@ -11,6 +11,7 @@ analysis", Int. J. Material Forming (2018), and their like for the other measure
 
 from __future__ import annotations
 
+from .._names import names_alone
 from ..drawing.figures import CurveArtists
 from .alignment import plot_alignment
 from .animation import animate_alignment
@@ -36,3 +37,4 @@ __all__ = [
     "plot_pcm",
     "plot_table",
 ]
+__dir__ = names_alone(__all__)

@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING
 
 from .. import measures as _measures
 from .._docstrings import inherit
+from .._names import names_alone
 from . import nearest as nearest
 
 if TYPE_CHECKING:  # the same names and signatures; a test compares them one by one
@@ -43,3 +44,4 @@ for _found in iter_modules(globals()["__path__"]):
         inherit(globals()[_name], getattr(_measures, _name))
         __all__.append(_name)
 __all__.sort()
+__dir__ = names_alone(__all__)

@@ -4,8 +4,10 @@ The conventions are those of scikit-learn 1.6 and later (``pip install "curvewis
 that pipelines, grid searches and cross-validation take them.
 """
 
+from .._names import names_alone
 from .k_means import CurveKMeans
 from .k_medoids import CurveKMedoids
 from .neighbors import CurveKNeighborsClassifier
 
 __all__ = ["CurveKMeans", "CurveKMedoids", "CurveKNeighborsClassifier"]
+__dir__ = names_alone(__all__)

@@ -7,6 +7,7 @@ study file (:mod:`curvewise.studies`) does so without Python. `read_card` reads 
 that :meth:`curvewise.materials.Material.card` has written.
 """
 
+from .._names import names_alone
 from .abaqus_dat import read_abaqus_dat
 from .calculix_dat import read_calculix_dat
 from .calculix_frd import read_calculix_frd
@@ -27,3 +28,4 @@ __all__ = [
     "read_ls_dyna_elout",
     "read_ls_dyna_nodout",
 ]
+__dir__ = names_alone(__all__)

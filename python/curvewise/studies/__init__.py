@@ -5,6 +5,7 @@ names the measured curves, the solver's command and its templates, how its outpu
 parameters, and how to search; docs/study.md has every key.
 """
 
+from .._names import names_alone
 from .dry_run import DryRun
 from .formulas import Formula
 from .result_files import StudyResult
@@ -12,3 +13,4 @@ from .study import Study
 from .toml_source import StudyError
 
 __all__ = ["DryRun", "Formula", "Study", "StudyError", "StudyResult"]
+__dir__ = names_alone(__all__)

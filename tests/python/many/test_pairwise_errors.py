@@ -55,9 +55,8 @@ VALUES = {
     "window=0 admits no path between 3 and 2 points; use at least 1": lambda: cdist(
         [GOOD], [GOOD[:2]], window=0
     ),
-    f"unknown metric 'manhattan'; choose from {', '.join(get_args(Metric))}": lambda: cdist(
-        [GOOD], metric="manhattan"
-    ),
+    f"unknown metric 'manhattan'; choose from {', '.join(get_args(Metric))}"
+    "; did you mean 'cityblock'?": lambda: cdist([GOOD], metric="manhattan"),
     "'euclidean' is a ground distance, between points; the measure is of curves, one of "
     f"{ALL_MEASURES}: use measure='dtw', metric='euclidean' for example": lambda: cdist(
         [GOOD], [GOOD], "euclidean"
@@ -68,6 +67,9 @@ VALUES = {
     ),
     f"unknown measure 'no_such'; choose from {ALL_MEASURES}": lambda: cdist(
         [GOOD], measure="no_such"
+    ),
+    f"unknown measure 'dwt'; choose from {ALL_MEASURES}; did you mean 'dtw'?": lambda: Index(
+        [GOOD], "dwt"
     ),
     "pdist needs a symmetric measure, and 'curve_length', scale='range' is not: use cdist, "
     "which computes both directions": lambda: pdist([GOOD], "curve_length", scale="range"),
@@ -108,6 +110,15 @@ TYPES = {
     "frechet has no option 'window'; it has metric, p, radius, prune": lambda: cdist(
         [GOOD], measure="frechet", window=3
     ),
+    "frechet has no option 'n_jobs'; it has metric, p, radius, prune; did you mean 'workers'?": (
+        lambda: pdist([GOOD], "frechet", n_jobs=2)
+    ),
+    "workers is an option of the calls that compute; give it to them": lambda: Index(
+        [GOOD], workers=2
+    ),
+    "edr has no option 'epsilo'; it has metric, p, radius, epsilon, window; did you mean "
+    "'epsilon'?": lambda: Prepared(GOOD, "edr", epsilo=1),
+    "XA[1] is None; give a curve": lambda: cdist([GOOD, None]),
     "XA is of type str; give a list of curves": lambda: cdist("curves.csv"),
     "XA is of type int; give a list of curves": lambda: cdist(3),
     "XB[0] is complex; a curve is real: give real and imaginary as columns": lambda: cdist(
@@ -135,6 +146,21 @@ def test_a_frame_is_no_list_of_curves():
     said = NO_LIST.replace("list(XA)", "dict(XA.items())")
     with pytest.raises(ValueError, match=f"^{re.escape(said)}$"):
         cdist(FRAME.assign(y=[0.0, 1.0]))
+
+
+def test_a_matrix_that_is_too_large_says_what_to_do(monkeypatch):
+    def refuse(shape):
+        raise MemoryError("Unable to allocate")
+
+    curves = [[0.0]] * 3000
+    monkeypatch.setattr("curvewise.many.pairwise.np.empty", refuse)
+    message = (
+        r"^pdist of these curves returns 0 GB, .* curvewise\.dask\.pdist with store='distances"
+    )
+    with pytest.raises(MemoryError, match=message):
+        pdist(curves)
+    with pytest.raises(MemoryError, match=r"^cdist of these .* curvewise\.dask\.cdist with"):
+        cdist(curves)
 
 
 class Degrees:

@@ -68,8 +68,14 @@ def bad_types() -> Iterator[tuple[str, str, Any, str, type[Exception]]]:
         ("complex", [1j, 2], "{} is complex; a curve is real: give real and imaginary as columns"),
         ("text", ["a", "b"], "{} has dtype <U1; a curve holds real numbers"),
         ("bytes", [b"ab", b"c"], "{} has dtype |S2; a curve holds real numbers"),
-        ("objects", [object(), None], "{} has dtype object; a curve holds real numbers"),
-        ("none", None, "{} has dtype object; a curve holds real numbers"),
+        ("objects", [object(), 1.0], "{} has dtype object; a curve holds real numbers"),
+        ("none", None, "{} is None; give a curve"),
+        (
+            "none-within",
+            [1.0, None],
+            "{0} has dtype object; a curve holds real numbers, but {0}[1] is None: leave it out, "
+            "or write nan",
+        ),
         ("dates", dates, "{} has dtype datetime64[D]; a curve holds real numbers"),
         ("masked", masked, "{} is a masked array with masked entries; drop or fill them first"),
         ("masked rows", [masked] * 3, "{} is a list with masked entries; drop or fill them first"),
@@ -174,7 +180,8 @@ def compare_shape_cases() -> Iterator[tuple[str, Case]]:
 def unknown(option: str, choices: str, valid: str) -> Iterator[tuple[str, Case]]:
     wrong = {"foo": "foo", "case": valid.upper(), "none": None, "number": 3, "list": [valid]}
     for label, value in {**wrong, "surrogate": valid + "\ud800"}.items():
-        message = f"unknown {option} {value!r}; choose from {choices}"
+        meant = f"; did you mean {valid!r}?" if label in ("case", "surrogate") else ""
+        message = f"unknown {option} {value!r}; choose from {choices}{meant}"
         yield f"{option}-{label}", Case(good(), good(4), {option: value}, message)
 
 

@@ -241,6 +241,36 @@ def test_what_is_no_curve_is_refused_with_the_line_to_write(kind: str, module: M
     assert str(caught.value) == message
 
 
+def test_tensors_are_as_what_stands_for_them() -> None:
+    torch = package("torch")
+    tensor = torch.tensor(P)
+    assert curvewise.dtw(tensor, tensor.float()) == 0.0
+    with pytest.raises(TypeError, match=r"^P is a tensor that requires a gradient; give P.detach"):
+        curvewise.dtw(tensor.clone().requires_grad_(), Q)
+    with pytest.raises(TypeError, match=r"^P is a tensor that has dtype bfloat16; give P.float\("):
+        curvewise.dtw(tensor.bfloat16(), Q)
+    nested = torch.nested.nested_tensor([tensor, tensor[1:]], layout=torch.jagged)
+    assert curvewise.cdist(nested, [Q])[1, 0] == curvewise.dtw(P[1:], Q)
+    with pytest.raises(TypeError, match=r"^P, a NestedTensor, gives no array: "):
+        curvewise.dtw(nested, Q)
+
+
+@pytest.mark.parametrize(
+    ("curve", "message"),
+    [
+        (None, "P is None; give a curve"),
+        ([1.0, None], "P has dtype object; a curve holds real numbers, but P[1] is None: leave"),
+        ([[1, 2], [3, None]], "P has dtype object; a curve holds real numbers, but P[1, 1] is No"),
+    ],
+)
+def test_none_has_its_place(curve: Any, message: str) -> None:
+    for module in (curvewise, reference):
+        with pytest.raises(TypeError, match=f"^{re.escape(message)}"):
+            module.dtw(curve, Q)
+    with pytest.raises(TypeError, match=re.escape(message[2:]).replace("P", r"X\[1\]")):
+        curvewise.pdist([P, curve])
+
+
 def test_an_empty_line_has_no_points() -> None:
     with pytest.raises(ValueError, match=r"^P has shape \(0, 2\); dtw needs at least 1 point$"):
         curvewise.dtw(package(SHAPES).LineString(), Q)

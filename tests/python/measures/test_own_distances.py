@@ -7,6 +7,8 @@ numbers.
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -283,6 +285,37 @@ def test_errors_of_a_metric(
     package: Any, measure: str, metric: Any, error: type[Exception], match: str
 ) -> None:
     refused(error, match, lambda: getattr(package, measure)([0, 1, 2], [0, 2], metric=metric))
+
+
+@pytest.mark.parametrize("package", [curvewise, reference])
+@pytest.mark.parametrize(
+    ("metric", "match"),
+    [
+        (lambda a, b: np.linalg.norm(a - b), r"^metric returns shape \(\) for blocks of points of"),
+        (lambda a, b: np.abs(a - b).sum(axis=-1), r"^metric returns shape \(\d,\) for blocks of"),
+        (math.dist, r"^metric takes two points, and is called with blocks of them, of shapes"),
+        (lambda a, b: float(np.hypot(*(a - b))), r"^metric takes two points, and is called with"),
+    ],
+)
+def test_a_metric_of_two_points_is_told_how_to_take_blocks(
+    package: Any, metric: Any, match: str
+) -> None:
+    P, Q = random_pair(5, 5, 2, seed=1)
+    with pytest.raises(ValueError, match=match) as caught:
+        package.dtw(P, Q, metric=metric)
+    advice = re.search(r"metric=(lambda p, q: .*) does so", str(caught.value))
+    assert advice is not None
+    blocks = eval(advice[1], {"f": metric})  # what the message says to write
+    fast = eval(
+        f"lambda p, q: {re.search('numpy.linalg.*2.', str(caught.value))[0]}", {"numpy": np}
+    )
+    expected = package.dtw(P, Q, metric="euclidean")
+    assert package.dtw(P, Q, metric=fast) == pytest.approx(expected)
+    assert package.dtw(P, Q, metric=blocks) == pytest.approx(
+        package.dtw(P, Q, metric=[[metric(a, b) for b in Q] for a in P])
+    )
+    with pytest.raises(TypeError, match=r"unsupported operand type\(s\) for -"):  # its own error
+        package.dtw(P, Q, metric=lambda a, b: a.sum - 1.0)
 
 
 @pytest.mark.parametrize("package", [curvewise, reference])

@@ -266,9 +266,18 @@ def test_lengths_that_are_known_at_run_time() -> None:
 
 
 @pytest.mark.skipif(find_spec("torch") is None, reason='no torch: pip install "curvewise[torch]"')
-def test_nested_tensors() -> None:
+@pytest.mark.filterwarnings("ignore:The PyTorch API of nested tensors is in prototype stage")
+@pytest.mark.parametrize("layout", ["strided", "jagged"])
+def test_nested_tensors(layout) -> None:
     import torch
 
     P, Q = ([torch.tensor(C) for C in curves_of(lengths, 2)] for lengths in LENGTHS)
-    nested = [torch.nested.nested_tensor(curves) for curves in (P, Q)]
-    assert torch.equal(curvewise.torch.dtw(*nested), curvewise.torch.dtw(P, Q))
+    kind = getattr(torch, layout)
+    nested = [torch.nested.nested_tensor(C, layout=kind, requires_grad=True) for C in (P, Q)]
+    values = curvewise.torch.dtw(*nested)
+    assert torch.equal(values, curvewise.torch.dtw(P, Q))
+    values.sum().backward()
+    for curves, place in zip(nested, (1, 2), strict=True):
+        for k, slopes in enumerate(curves.grad.unbind()):
+            expected = loss_and_gradients(P[k].numpy(), Q[k].numpy(), "dtw", {})[place]
+            assert (slopes.numpy() == expected).all()

@@ -317,6 +317,14 @@ def test_submodules_are_reachable_and_imported_late(names: list[str]) -> None:
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
+@pytest.mark.parametrize("name", [n for n in dir(curvewise) if isinstance(n, str)])
+def test_a_shell_completes_public_names_alone(name: str) -> None:
+    module = getattr(curvewise, name)
+    if inspect.ismodule(module):
+        assert dir(module) == sorted(module.__all__)
+        assert not [public for public in dir(module) if public.startswith("_")]
+
+
 def test_an_attribute_that_is_not_there_is_an_error() -> None:
     with pytest.raises(AttributeError, match="module 'curvewise' has no attribute 'no_such'"):
         _ = curvewise.no_such

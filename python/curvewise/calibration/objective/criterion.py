@@ -16,7 +16,7 @@ import numpy as np
 
 from ..._docstrings import filled, listed
 from ..._names import did_you_mean
-from ..._options import Default, Missing, Preset
+from ..._options import Default, Missing, Preset, check_choice
 from ...measures import registry
 from ...measures.registry import PRESETS, Condition
 
@@ -127,10 +127,10 @@ class Criterion:
         **options: Any,
     ) -> None:
         if not callable(measure):
-            _check_choice("measure", measure, MEASURES)
-        _check_choice("preset", preset, tuple(PRESETS))
-        _check_choice("part", part, ("experiment", "simulation"))
-        _check_choice("missing", missing, get_args(Missing))
+            check_choice("measure", measure, MEASURES)
+        check_choice("preset", preset, tuple(PRESETS))
+        check_choice("part", part, ("experiment", "simulation"))
+        check_choice("missing", missing, get_args(Missing))
         _check_options(measure, options, _SETTINGS)
         if not 0.0 <= min_coverage <= 1.0:
             raise ValueError(f"min_coverage is {min_coverage}; it must be from 0 to 1")
@@ -247,14 +247,6 @@ def _arguments(settings: Mapping[str, Any]) -> list[str]:
         if name != "measure" and (name not in _SETTINGS or value != _SETTINGS[name])
     ]
     return [repr(settings["measure"]), *given]
-
-
-def _check_choice(name: str, given: object, known: Sequence[str]) -> None:
-    if given not in known:
-        raise ValueError(
-            f"unknown {name} {given!r}; choose from {', '.join(known)}"
-            f"{did_you_mean([given], known)}"
-        )
 
 
 def _check_options(
