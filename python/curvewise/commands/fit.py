@@ -104,6 +104,11 @@ def _add_output(command: argparse.ArgumentParser) -> None:
         choices=list(FORMATS),
         help="write a material card for each of these solvers",
     )
+    command.add_argument(
+        "--accept-undetermined",
+        action="store_true",
+        help="write cards even if the tests do not determine the modulus or the yield stress",
+    )
     command.add_argument("--name", default="material", help="of the material, in the card")
     command.add_argument(
         "--units", default="MPa", help="of the stresses, on axes and in cards; MPa by default"
@@ -164,7 +169,12 @@ def _in_units(arguments: argparse.Namespace) -> tuple[dict[str, float], dict[str
 
 
 def _fit(arguments: argparse.Namespace) -> int:
-    from ..fitting import BeginningWarning, UnitsWarning, fit_material
+    from ..fitting import (
+        BeginningWarning,
+        UndeterminedCardError,
+        UnitsWarning,
+        fit_material,
+    )
 
     require_matplotlib()
     kind = MATERIALS[arguments.material]
@@ -194,8 +204,19 @@ def _fit(arguments: argparse.Namespace) -> int:
     print(fit)
     names = [Path(file).name for file in files]
     written = fit.write(arguments.output, names=names)
-    written += fit.write_cards(arguments.output, arguments.card, name=arguments.name)
+    refusal = ""
+    try:
+        written += fit.write_cards(
+            arguments.output,
+            arguments.card,
+            name=arguments.name,
+            accept_undetermined=arguments.accept_undetermined,
+        )
+    except UndeterminedCardError as error:  # the rest is there to be looked at
+        refusal = str(error)
     print("\nwritten:", ", ".join(map(str, written)))
+    if refusal:
+        raise ValueError(refusal)
     return 0
 
 

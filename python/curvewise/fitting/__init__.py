@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from .._names import names_alone
 from .beginnings import BeginningWarning
+from .doubtful import UndeterminedCardError
 from .material_fit import MaterialFit, fit_material
 from .preparation import PreparedTest, prepare
 from .units_of_tests import UnitsWarning
@@ -15,6 +16,7 @@ __all__ = [
     "BeginningWarning",
     "MaterialFit",
     "PreparedTest",
+    "UndeterminedCardError",
     "UnitsWarning",
     "fit_material",
     "prepare",

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import csv
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -30,6 +30,7 @@ from ..curves.turns import turning_points
 from ..materials import DrivenModel, Material
 from .beginnings import warn_of_beginnings
 from .driven_tests import Cycles, DrivenTests, fit_criterion, fit_method
+from .fit_cards import CardsOfFit
 from .moduli import check_units, checked_names, modulus_of
 from .preparation import PreparedTest
 from .recorded_cycles import whole_record
@@ -45,7 +46,7 @@ _SAME_MODULUS = 0.1
 
 
 @dataclass(frozen=True, eq=False)
-class MaterialFit:
+class MaterialFit(CardsOfFit):
     """A material with the parameters that fit its tests best.
 
     Attributes
@@ -83,16 +84,6 @@ class MaterialFit:
     beginning: str = ""
     prepared: tuple[PreparedTest, ...] = field(default=(), repr=False)
     cycles: Cycles = "all"
-
-    @property
-    def material(self) -> Material:
-        """What was fitted."""
-        return self.model.material
-
-    @property
-    def parameters(self) -> dict[str, float]:
-        """The parameters that were found."""
-        return self.found.parameters
 
     def __str__(self) -> str:
         said = (
@@ -158,48 +149,6 @@ class MaterialFit:
             "Where E is known, give it (curvewise fit: --fix E=206e3; "
             "fit_material: fixed={'E': 206e3})"
         )
-
-    def card(self, solver: str, *, name: str = "material") -> str:
-        """Return the material card of a solver, with the intervals as comments.
-
-        Parameters
-        ----------
-        solver, name
-            As for :meth:`curvewise.materials.Material.card`.
-
-        Raises
-        ------
-        ValueError
-            The solver has no such material.
-        """
-        return self.material.card(
-            self.parameters,
-            solver,
-            name=name,
-            units=self.units,
-            intervals=self._intervals,
-            along=list(self.model.strains),
-        )
-
-    @property
-    def _intervals(self) -> dict[str, tuple[float, float]]:
-        return {} if self.uncertainty is None else self.uncertainty.intervals
-
-    def write_cards(
-        self, folder: str | os.PathLike[str], solvers: Iterable[str], *, name: str = "material"
-    ) -> list[Path]:
-        """Write the card of each solver into a folder, as card_<solver>.txt; see `card`.
-
-        Returns
-        -------
-        list of Path
-            What was written.
-        """
-        written = []
-        for solver in solvers:
-            written.append(Path(folder, f"card_{solver}.txt"))
-            written[-1].write_text(self.card(solver, name=name), encoding="utf-8")
-        return written
 
     def write(self, folder: str | os.PathLike[str], *, names: Sequence[str] = ()) -> list[Path]:
         """Write parameters.csv, report.html and fit.png into a folder, which is made.

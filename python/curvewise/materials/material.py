@@ -10,7 +10,7 @@ from __future__ import annotations
 import datetime
 import hashlib
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any, NamedTuple, TypeAlias
@@ -24,14 +24,12 @@ from ..curves.inputs import Array, as_curve
 from ..curves.several_curves import curve_list
 from ..installation import build_info
 from ..solvers.cards import CardContent, card_text
+from .card_paths import CYCLES, paths_of
 from .readings import Reading, Span, reading_of, strain_and_stress
 
 __all__ = ["DrivenModel", "Material", "Parameter", "Part"]
 
 Part: TypeAlias = "slice | npt.NDArray[np.int64]"
-
-# Cycles that a card of CalculiX follows where nobody says which: they grow to 3 %.
-_CYCLES = (np.array([0.005, -0.005, 0.01, -0.01, 0.02, -0.02, 0.03, -0.03]),)
 
 
 class Parameter(NamedTuple):
@@ -195,6 +193,7 @@ class Material(ABC):
         units: str = "MPa",
         poisson: float = 0.3,
         intervals: Mapping[str, tuple[float, float]] | None = None,
+        undetermined: Collection[str] = (),
         date: str | None = None,
         along: Any = None,
     ) -> str:
@@ -213,6 +212,8 @@ class Material(ABC):
             Poisson's ratio, between -1 and 0.5: uniaxial tests do not tell it.
         intervals : mapping of str to (low, high), optional
             Written beside the parameters, such as the `intervals` of an `Uncertainty`.
+        undetermined : collection of str, optional
+            Parameters that the comments mark as NOT DETERMINED.
         date : str, optional
             Of the fit; today's by default.
         along : array_like of shape (n,), or sequence of such, optional
@@ -268,11 +269,12 @@ class Material(ABC):
         for argument, (text, what_to_do) in needed.items():  # a second line would be a keyword
             if not text.isprintable() or not text.strip():
                 raise ValueError(f"{argument} is {text!r}; {what_to_do}")
-        if wrong := [parameter for parameter in intervals or {} if parameter not in numbers]:
-            raise ValueError(
-                f"intervals has {wrong[0]!r}{did_you_mean(wrong, numbers)} (the parameters: "
-                f"{', '.join(numbers)})"
-            )
+        for argument, given in {"intervals": intervals or {}, "undetermined": undetermined}.items():
+            if wrong := [parameter for parameter in given if parameter not in numbers]:
+                raise ValueError(
+                    f"{argument} has {wrong[0]!r}{did_you_mean(wrong, numbers)} (the parameters: "
+                    f"{', '.join(numbers)})"
+                )
         content = CardContent(
             model=type(self).__name__,
             described=repr(self),
@@ -287,7 +289,8 @@ class Material(ABC):
                 parameter: (float(low), float(high))
                 for parameter, (low, high) in (intervals or {}).items()
             },
-            along=_CYCLES if along is None else _paths(along),
+            undetermined=frozenset(undetermined),
+            along=CYCLES if along is None else paths_of(along),
             stress=lambda strain: self.stress(strain, numbers),
         )
         return card_text(content, solver)
@@ -380,16 +383,3 @@ class DrivenModel:
     def _paths(self) -> Iterator[tuple[Array, Part]]:
         parts = self.parts or [slice(None)] * len(self.strains)
         return zip(self.strains, parts, strict=True)
-
-
-def _paths(along: Any) -> tuple[Array, ...]:
-    """Return the paths of strain in `along`, one or several."""
-    one = np.ndim(along[0]) == 0 if len(along) else True
-    paths = tuple(as_curve(path, "along") for path in ([along] if one else along))
-    for path in paths:
-        if path.ndim != 1 or np.ptp(path) == 0.0:
-            raise ValueError(
-                f"along has a path of shape {path.shape}; give strains that change, shape (n,), or "
-                "several such"
-            )
-    return paths

@@ -57,6 +57,7 @@ class MaterialModel:
     growth: str | None = key(_one_of_its_own("growth"))
     cycles: Cycles = key(keys.choice(CYCLES), "all")
     cards: tuple[str, ...] = key(_cards, ())
+    accept_undetermined: bool = key(keys.flag, False)
     name: str = key(keys.text, "material")
     units: str = key(keys.text, "MPa")
     driven: DrivenModel | None = None

@@ -13,14 +13,17 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..calibration import Identification, SeveralMeasures, Uncertainty
-from ..fitting import MaterialFit
+from ..curves.foreign_curves import warn
+from ..fitting import MaterialFit, UndeterminedCardError
 from ..installation import build_info
 from .contents import Contents
+from .material_models import MaterialModel
 
 __all__ = ["StudyResult", "file_name", "write_results"]
 
@@ -92,7 +95,7 @@ def write_results(study: Contents, found: StudyResult) -> None:
                 np.savetxt(path, curve, delimiter=",", fmt="%.10g")
     if found.fit is not None and study.material is not None:
         found.fit.write(folder, names=[test.name for test in study.tests])
-        found.fit.write_cards(folder, study.material.cards, name=study.material.name)
+        _write_cards(study.material, found.fit, folder)
         return
     drawn = found.several or next(iter(found.identifications.values()))
     figure = drawn.plot()
@@ -101,6 +104,19 @@ def write_results(study: Contents, found: StudyResult) -> None:
             title, xlabel, ylabel = map(_label, (test.name, test.axes[0], test.axes[-1]))
             ax.set(title=title, xlabel=xlabel, ylabel=ylabel)
     figure.savefig(folder / "loops.png", dpi=120)
+
+
+def _write_cards(material: MaterialModel, fit: MaterialFit, folder: Path) -> None:
+    """Write the cards; warn of those that are refused, since the search must not be lost."""
+    try:
+        fit.write_cards(
+            folder,
+            material.cards,
+            name=material.name,
+            accept_undetermined=material.accept_undetermined,
+        )
+    except UndeterminedCardError as error:
+        warn(UserWarning(f"{error}; in a study: accept_undetermined = true in [model]"))
 
 
 def _contents(study: Contents, found: StudyResult) -> dict[str, Any]:

@@ -257,9 +257,9 @@ def test_the_command_goes_from_a_file_to_a_card(tmp_path: Path, capsys) -> None:
     command = ["fit", test, "--factors", "0.01", "1", "--backstresses", "1"]
     output = tmp_path / "out"
     assert main([*command, "--card", "abaqus", "--output", str(output)]) == 0
-    assert "card_abaqus.txt" in capsys.readouterr().out
+    assert "card_abaqus.inp" in capsys.readouterr().out
     assert "stress [MPa]" in (output / "report.html").read_text(encoding="utf-8")
-    found = read_card(output / "card_abaqus.txt").parameters
+    found = read_card(output / "card_abaqus.inp").parameters
     assert found["C1"] == pytest.approx(80e3, rel=0.05)
 
 

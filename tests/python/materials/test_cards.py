@@ -130,6 +130,27 @@ def test_comments_say_what_the_card_is() -> None:
     assert "// Poisson's ratio 0.3 is given, not fitted\n" in card
 
 
+@pytest.mark.parametrize("solver", FORMATS)
+def test_every_card_marks_what_is_not_determined(solver: str, tmp_path: Path) -> None:
+    material = ChabocheVoce()
+    card = material.card(STEEL, solver, undetermined=["b", "C2"], intervals={"C2": (1, 9e3)})
+    comment = FORMATS[solver].comment
+    marked = [line for line in card.splitlines() if "NOT DETERMINED:" in line]
+    assert [line.partition(" = ")[0] for line in marked[:2]] == [f"{comment} b", f"{comment} C2"]
+    assert marked[0].startswith(f"{comment} b = 8.0 NOT DETERMINED: rate")
+    assert " (1.0 to 9000.0) NOT DETERMINED: " in marked[1]
+    assert marked[2] == (
+        f"{comment} NOT DETERMINED: the tests leave it open; use the card for loads like theirs"
+    )
+    assert len(marked) == 3
+    assert body(card, solver) == body(material.card(STEEL, solver), solver)
+    if solver in ("abaqus", "calculix"):
+        (tmp_path / "card.inp").write_text(card)
+        assert read_card(tmp_path / "card.inp").parameters == STEEL
+    with pytest.raises(ValueError, match=r"undetermined has 'c1'; did you mean 'C1'\? \(the param"):
+        material.card(STEEL, solver, undetermined=["c1"])
+
+
 @given(st.floats(allow_nan=False, allow_infinity=False), st.integers(12, 24))
 def test_a_field_keeps_the_double_or_all_digits_that_it_can(value, width) -> None:
     text = as_field(value, width)

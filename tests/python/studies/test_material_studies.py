@@ -56,8 +56,8 @@ def test_the_study_finds_what_fit_finds_and_writes_the_same_files(tmp_path: Path
     results = tmp_path / "study_results"
     written = (results / "parameters.csv").read_text(encoding="utf-8")
     assert written == (tmp_path / "fit" / "parameters.csv").read_text(encoding="utf-8")
-    assert read_card(results / "card_abaqus.txt").parameters == fit.parameters
-    assert "*MATERIAL, NAME=STEEL" in (results / "card_abaqus.txt").read_text(encoding="utf-8")
+    assert read_card(results / "card_abaqus.inp").parameters == fit.parameters
+    assert "*MATERIAL, NAME=STEEL" in (results / "card_abaqus.inp").read_text(encoding="utf-8")
     found = json.loads((results / "result.json").read_text())["found"]["sum_of_squares"]
     assert {n: row["value"] for n, row in found["parameters"].items()} == fit.parameters
     assert {"fit.png", "report.html", "result.csv", "simulation_loop.csv"} <= {
@@ -104,7 +104,7 @@ def test_bounds_of_ones_own_beside_those_of_the_tests(tmp_path: Path) -> None:
 
 
 def test_the_last_cycle_weights_and_another_measure(tmp_path: Path) -> None:
-    text = STUDY.replace('name = "STEEL"', 'cycles = "last"')
+    text = STUDY.replace('name = "STEEL"', 'cycles = "last"\naccept_undetermined = true')
     study = Study.read(write(tmp_path, text))
     np.testing.assert_array_equal(study.tests[0].experiment, LOOP[120:])
     text = text.replace("[parameters]", '[search]\nmeasure = "area"\nmax_runs = 4\n[parameters]')

@@ -49,4 +49,5 @@ FORMAT = CardFormat(
     },
     write=_write,
     lacks={"YoshidaUemori": "it needs a user material there; LS-DYNA has it as *MAT_125"},
+    suffix=".mac",
 )

@@ -40,6 +40,8 @@ class CardContent:
         Poisson's ratio, which no uniaxial test tells.
     intervals : mapping of str to (low, high)
         Of the parameters that have one.
+    undetermined : frozenset of str
+        Parameters that the tests do not determine.
     along : sequence of ndarray
         Paths of strain on which the card shall follow the material.
     stress : callable
@@ -56,6 +58,7 @@ class CardContent:
     date: str
     poisson: float
     intervals: Mapping[str, tuple[float, float]]
+    undetermined: frozenset[str]
     along: Sequence[Array]
     stress: Callable[[Array], Array]
 
@@ -137,6 +140,8 @@ class CardFormat:
         Models whose modulus can decay.
     width : int or None
         Characters of a field, where they are limited.
+    suffix : str
+        What the name of a card's file ends in.
     """
 
     solver: str
@@ -147,6 +152,7 @@ class CardFormat:
     lacks: Mapping[str, str]
     decaying: frozenset[str] = frozenset()
     width: int | None = None
+    suffix: str = ".inp"
 
     def text(self, content: CardContent) -> str:
         """Return the card, or raise a ValueError that says what the solver does not have."""
@@ -171,9 +177,14 @@ class CardFormat:
             interval = content.intervals.get(name)
             within = f" ({interval[0]!r} to {interval[1]!r})" if interval else ""
             unit = content.units[name]
+            mark = " NOT DETERMINED" if name in content.undetermined else ""
             lines.append(
-                f"{name} = {value!r}{'' if unit == '-' else ' ' + unit}{within}: "
+                f"{name} = {value!r}{'' if unit == '-' else ' ' + unit}{within}{mark}: "
                 f"{content.meanings[name]}"
+            )
+        if content.undetermined:
+            lines.append(
+                "NOT DETERMINED: the tests leave it open; use the card for loads like theirs"
             )
         lines.append(f"Poisson's ratio {content.poisson!r} is given, not fitted")
         if self.width:

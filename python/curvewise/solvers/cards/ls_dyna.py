@@ -105,4 +105,5 @@ FORMAT = CardFormat(
     lacks={},
     decaying=frozenset({"YoshidaUemori"}),
     width=_WIDTH,
+    suffix=".k",
 )

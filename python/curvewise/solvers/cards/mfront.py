@@ -50,4 +50,5 @@ FORMAT = CardFormat(
     },
     write=_write,
     lacks={"YoshidaUemori": "its brick has no bounding surface; LS-DYNA has it as *MAT_125"},
+    suffix=".mfront",
 )

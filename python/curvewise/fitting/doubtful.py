@@ -1,0 +1,91 @@
+"""Numbers of a fit that only the bounds of its search support: a card with them is refused.
+
+Whoever reads a card takes Young's modulus and the initial yield stress for properties of the
+material. Hardening parameters make up for each other: a card whose back stresses are undetermined
+one by one may follow the tests well. So the rule is about the first two. One of them is *doubtful*
+if the tests do not determine it and its interval reaches a bound of the search or is wider than its
+value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ..calibration import Uncertainty
+from ..calibration.problem.tables import digits
+
+__all__ = ["UndeterminedCardError", "check_doubts", "doubts_of"]
+
+_ALONE = ("E", "yield", "Y")
+_REACHED = 1e-6  # part of the bounds' range
+
+
+class UndeterminedCardError(ValueError):
+    """A card would hold a modulus or a yield stress that only the search's bounds support.
+
+    Examples
+    --------
+    >>> from curvewise.fitting import UndeterminedCardError
+    >>> issubclass(UndeterminedCardError, ValueError)
+    True
+    """
+
+
+def doubts_of(
+    uncertainty: Uncertainty | None, bounds: Mapping[str, tuple[float, float]], units: str
+) -> dict[str, str]:
+    """Return why a modulus or a yield stress is doubtful, by name; empty if none is.
+
+    Parameters
+    ----------
+    uncertainty : Uncertainty or None
+    bounds : mapping of str to (low, high)
+        Those of the search.
+    units : str
+        Unit of stress.
+    """
+    if uncertainty is None:
+        return {}
+    found = {}
+    for name in _ALONE:
+        if uncertainty.determined.get(name, True):
+            continue
+        value, (low, high) = uncertainty.parameters[name], uncertainty.intervals[name]
+        least, most = bounds[name]
+        near = _REACHED * (most - least)
+        said = (
+            f"{name} = {digits(value, 3)} {units}, {100.0 * uncertainty.level:g} % interval "
+            f"{digits(low, 3)} to {digits(high, 3)}"
+        )
+        if low <= least + near or high >= most - near:
+            side, bound = ("lower", least) if low <= least + near else ("upper", most)
+            found[name] = f"{said}, which reaches the {side} bound {digits(bound, 3)}"
+        elif high - low > value:
+            found[name] = f"{said}, which is wider than the value"
+    return found
+
+
+def check_doubts(doubts: Mapping[str, str], solvers: str) -> None:
+    """Refuse cards with doubtful numbers, and say what to do.
+
+    Parameters
+    ----------
+    doubts : mapping of str to str
+        As `doubts_of` returns them.
+    solvers : str
+        For which the cards are.
+
+    Raises
+    ------
+    UndeterminedCardError
+        There are doubts.
+    """
+    if not doubts:
+        return
+    reasons = "; ".join(doubts.values())
+    raise UndeterminedCardError(
+        f"no card for {solvers}: the tests do not determine {' and '.join(doubts)} ({reasons}); "
+        f"give what is known (--fix {next(iter(doubts))}=VALUE; fixed=), add a test with unloading "
+        "and small cycles, fit fewer back stresses, or accept it (--accept-undetermined; "
+        "accept_undetermined=True)"
+    )
