@@ -20,21 +20,22 @@ install(FILES fortran/curvewise.f90 DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/curv
 
 install(EXPORT curvewise NAMESPACE curvewise:: DESTINATION ${curvewise_cmakedir}
   FILE curvewiseTargets.cmake)
+# What a C or Fortran compiler must add to link a static library that is C++ inside.
+set(curvewise_runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+list(FILTER curvewise_runtime INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|c\\+\\+abi|m)$")
+list(REMOVE_DUPLICATES curvewise_runtime)
 configure_package_config_file(cmake/curvewiseConfig.cmake.in curvewiseConfig.cmake
   INSTALL_DESTINATION ${curvewise_cmakedir} NO_SET_AND_CHECK_MACRO)
-write_basic_package_version_file(curvewiseConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+write_basic_package_version_file(curvewiseConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/curvewiseConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/curvewiseConfigVersion.cmake
   DESTINATION ${curvewise_cmakedir})
 
-# What a C or Fortran compiler must add to link a static library that is C++ inside.
 set(curvewise_pc_cflags)
 set(curvewise_pc_libs)
 if(curvewise_type STREQUAL STATIC_LIBRARY)
-  set(runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
-  list(FILTER runtime INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|c\\+\\+abi|m)$")
-  list(REMOVE_DUPLICATES runtime)
+  set(runtime ${curvewise_runtime})
   list(TRANSFORM runtime PREPEND " -l")
   list(JOIN runtime "" curvewise_pc_libs)
   string(APPEND curvewise_pc_libs " ${CMAKE_THREAD_LIBS_INIT}")

@@ -23,6 +23,7 @@
 #include <stddef.h>
 
 #include "curvewise/export.h"
+#include "curvewise/version.hpp" /* CURVEWISE_VERSION_MAJOR, _MINOR and _PATCH */
 
 #ifdef __cplusplus
 extern "C" {

@@ -135,10 +135,8 @@ double largest_magnitude(const CurveView& curve, const std::string& name, runtim
 
 }  // namespace
 
-CheckedCurve::CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller)
-    : curve(curve),
-      name(std::move(name)),
-      largest(largest_magnitude(this->curve, this->name, poller)) {}
+CheckedCurve::CheckedCurve(const CurveView& view, std::string view_name, runtime::Poller& poller)
+    : curve(view), name(std::move(view_name)), largest(largest_magnitude(curve, name, poller)) {}
 
 void CheckedCurve::put_on_sphere() {
     check_on_sphere(curve, name);

@@ -47,12 +47,12 @@ class CurveList {
 // A curve of doubles found finite, and on the sphere where that is asked for, with the largest
 // |coordinate|. Refers to the caller's points.
 struct CheckedCurve {
-    CheckedCurve(const CurveView& curve, std::string name, runtime::Poller& poller);
+    CheckedCurve(const CurveView& view, std::string view_name, runtime::Poller& poller);
     // Asked here, and not in a call: where no measure of a kind is on the sphere, it costs nothing.
     template <class Name>
-    CheckedCurve(const CurveView& curve, Name&& name, runtime::Poller& poller, bool on_sphere)
-        : CheckedCurve(curve, std::string(std::forward<Name>(name)), poller) {
-        if (on_sphere) put_on_sphere();
+    CheckedCurve(const CurveView& view, Name&& view_name, runtime::Poller& poller, bool is_geo)
+        : CheckedCurve(view, std::string(std::forward<Name>(view_name)), poller) {
+        if (is_geo) put_on_sphere();
     }
 
     CurveView curve;

@@ -61,15 +61,16 @@ class FlowSeries {
     }
     // One term more.
     void extend() {
-        const int k = order_++;
-        const double weight = length_ / (k + 1), signed_weight = kind_.sign * weight;
+        const std::size_t k = order_++;
+        const double weight = length_ / static_cast<double>(k + 1),
+                     signed_weight = kind_.sign * weight;
         u_[k + 1] = (k == 0 ? 1.0 : 0.0) - u_[k];
         if (kind_.grows) grow(k, signed_weight);
         u_[k + 1] = (0.5 * weight) * u_[k + 1];
         p_[k + 1] = signed_weight * u_[k];
         if (kind_.softens) soften(k, signed_weight);
     }
-    int order() const noexcept { return order_; }
+    std::size_t order() const noexcept { return order_; }
     // Adds terms until the last two are below a tolerance; returns up to which share of `length`
     // they are.
     double extend_to(double tolerance) {
@@ -78,7 +79,9 @@ class FlowSeries {
             extend();
             last = last_terms();
         } while (order_ < 2 || (!(last <= tolerance) && order_ < most_terms));
-        return last <= tolerance ? 1.0 : 0.9 * std::pow(tolerance / last, 1.0 / (order_ - 1));
+        return last <= tolerance
+                   ? 1.0
+                   : 0.9 * std::pow(tolerance / last, 1.0 / static_cast<double>(order_ - 1));
     }
     // Adds terms until the last two of every slope are below a tolerance, of the largest. Where u
     // stands still hardly a term of its own is left, and those of a slope, which has yet to die
@@ -97,7 +100,7 @@ class FlowSeries {
     };
     Sum at(double share) const {
         Sum sum{u_[order_], p_[order_], kind_.softens ? rise_[order_] : Number(0.0)};
-        for (int k = order_ - 1; k >= 0; --k) {
+        for (std::size_t k = order_; k-- > 0;) {
             sum.u = sum.u * share + u_[k];
             sum.p = sum.p * share + p_[k];
             if (kind_.softens) sum.rise = sum.rise * share + rise_[k];
@@ -106,7 +109,7 @@ class FlowSeries {
     }
 
    private:
-    static constexpr int most_terms = 24;
+    static constexpr std::size_t most_terms = 24;
     using Terms = std::array<Number, most_terms + 1>;
 
     double last_terms() const noexcept {
@@ -118,7 +121,7 @@ class FlowSeries {
     bool are_small(const Terms& terms, double tolerance) const noexcept {
         for (std::size_t i = 0; i < terms[0].slopes.size(); ++i) {
             double largest = 0.0;
-            for (int k = 0; k <= order_; ++k) {
+            for (std::size_t k = 0; k <= order_; ++k) {
                 largest = std::max(largest, std::abs(terms[k].slopes[i]));
             }
             const double last = std::abs(terms[order_].slopes[i]);
@@ -127,12 +130,12 @@ class FlowSeries {
         }
         return true;
     }
-    void grow(int k, double signed_weight) {
+    void grow(std::size_t k, double signed_weight) {
         speed_[k] = product(u_, growth_, k);
         bend_[k] = -growth_[k];
         if (kind_.is_power || k == 0) bend_[k] += start_[EXPONENT] * base_[k];
         Number pull = speed_[0] * u_[k], rate = speed_[0] * bend_[k];
-        for (int i = 1; i <= k; ++i) {
+        for (std::size_t i = 1; i <= k; ++i) {
             pull += speed_[i] * u_[k - i];
             rate += speed_[i] * bend_[k - i];
         }
@@ -142,7 +145,7 @@ class FlowSeries {
         scaled_[k] = product(u_, base_, k);
         base_[k + 1] = -signed_weight * product(scaled_, base_, k);
     }
-    void soften(int k, double signed_weight) {
+    void soften(std::size_t k, double signed_weight) {
         relative_[k] = product(u_, compliance_, k);
         excess_[k] = (k == 0 ? 1.0 : 0.0) - start_[LIMIT] * compliance_[k];
         slope_[k] = size_[k] - product(size_, u_, k) + left_[k];
@@ -151,15 +154,15 @@ class FlowSeries {
         left_[k + 1] = -signed_weight * (start_[DECAY] * product(u_, left_, k));
         rise_[k + 1] = signed_weight * product(relative_, slope_, k);
     }
-    static Number product(const Terms& a, const Terms& b, int k) {
+    static Number product(const Terms& a, const Terms& b, std::size_t k) {
         Number sum = a[0] * b[k];
-        for (int i = 1; i <= k; ++i) sum += a[i] * b[k - i];
+        for (std::size_t i = 1; i <= k; ++i) sum += a[i] * b[k - i];
         return sum;
     }
     FlowStart<Number> start_{};
     FlowKind kind_{};
     double length_ = 0.0;
-    int order_ = 0;
+    std::size_t order_ = 0;
     Terms u_, p_, growth_, base_, speed_, bend_, scaled_;
     Terms size_, left_, compliance_, rise_, relative_, excess_, slope_;
 };
@@ -170,7 +173,7 @@ template <class Number>
 struct ForSlopes {
     using Few = Number;
 };
-template <int N>
+template <std::size_t N>
 struct ForSlopes<Dual<N>> {
     using Few = Dual<LEFT>;
 };
@@ -191,11 +194,12 @@ template <class Number>
 Number chained(const Number& found, const FlowStart<Number>& /*start*/) {
     return found;
 }
-template <int N>
+template <std::size_t N>
 Dual<N> chained(const Dual<LEFT>& found, const FlowStart<Dual<N>>& start) {
     Dual<N> result(found.value);
     for (std::size_t j = 0; j < LEFT; ++j) {
-        for (int i = 0; i < N; ++i) result.slopes[i] += found.slopes[j] * start[j].slopes[i];
+        for (std::size_t i = 0; i < N; ++i)
+            result.slopes[i] += found.slopes[j] * start[j].slopes[i];
     }
     return result;
 }

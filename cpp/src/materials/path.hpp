@@ -144,7 +144,7 @@ void integrate(const Material& material, const Parameters& parameters, double mo
         return;
     }
     constexpr std::size_t directions = 8;
-    using Number = Dual<static_cast<int>(directions)>;
+    using Number = Dual<directions>;
     for (std::size_t first = 0; first < count; first += directions) {
         const std::size_t width = std::min(directions, count - first);
         std::vector<Number> seeded(parameters.values(), parameters.values() + count);

@@ -134,17 +134,17 @@ struct Course {
         begin = height(u, bound);
     }
     // The stress without Y.
-    static Number height(const Number& u, const Bound& bound) {
-        return bound.size * u * (value_of(u) < 0.0 ? -u : u) + bound.centre;
+    static Number height(const Number& u, const Bound& at) {
+        return at.size * u * (value_of(u) < 0.0 ? -u : u) + at.centre;
     }
     // The strain by what the stress has risen by: of a constant modulus.
-    Number strain(const Number& u, const Number& p, const Bound& bound) const {
-        return p + (height(u, bound) - begin) / k.modulus.initial;
+    Number strain(const Number& u, const Number& p, const Bound& at) const {
+        return p + (height(u, at) - begin) / k.modulus.initial;
     }
-    FlowState<double> rates(double u, double p, const typename Branch<double>::Bound& bound) const {
+    FlowState<double> rates(double u, double p, const typename Branch<double>::Bound& at) const {
         const double speed = std::abs(u) * unit, left = 1.0 - u;
-        const double steepness = k.C * left * bound.size + bound.centre_slope;
-        return {0.5 * (left - bound.R_slope / bound.size * u * speed), speed,
+        const double steepness = k.C * left * at.size + at.centre_slope;
+        return {0.5 * (left - at.R_slope / at.size * u * speed), speed,
                 speed * (1.0 + steepness / branch.modulus(p))};
     }
     FlowState<double> rates() const { return rates(state.u, state.p, bound); }

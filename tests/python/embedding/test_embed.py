@@ -61,10 +61,11 @@ def test_find_package(kind, prefix, tmp_path) -> None:
     assert_tool_right(output(tmp_path / "build" / "tool"))
 
 
-def test_find_package_refuses_another_major_version(prefix, tmp_path) -> None:
+@pytest.mark.parametrize("version", ["0.0", "0.2", "1.0"])
+def test_find_package_refuses_another_minor_version(version, prefix, tmp_path) -> None:
     folder = write_page(tmp_path / "tool", "main.cpp", "find_package/CMakeLists.txt")
     project = folder / "CMakeLists.txt"
-    project.write_text(project.read_text().replace("curvewise 0.1", "curvewise 1.0"))
+    project.write_text(project.read_text().replace("curvewise 0.1", f"curvewise {version}"))
     done = run(*configure(folder, tmp_path, f"-DCMAKE_PREFIX_PATH={prefix('static')}"))
     assert done.returncode != 0
     assert "compatible with requested version" in done.stdout

@@ -201,6 +201,14 @@ def test_fortran_project(prefix, tmp_path) -> None:
     assert numbers(output(tmp_path / "build" / "model")) == FORTRAN_VALUES
 
 
+def test_c_project(prefix, tmp_path) -> None:
+    """A project of C alone links the runtime of C++ that is in the static library."""
+    folder = write_page(tmp_path / "tool", "c/CMakeLists.txt")
+    shutil.copy(EXAMPLES / "c_program.c", folder)
+    build(folder, tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix('static')}")
+    assert numbers(output(tmp_path / "build" / "tool")) == C_VALUES
+
+
 EIGEN_VALUES = {
     "column_and_row_major": curvewise.dtw(P, Q),
     "strided_map": curvewise.dtw(P, Q),

@@ -5,15 +5,15 @@
 #include "sweep.inl.hpp"
 
 // Bit k: whether lane k of d is at most lane k of the threshold.
-#if defined(__AVX512F__)
+#if defined(EIGEN_VECTORIZE_AVX512)
 inline std::uint64_t at_most(const Pack& d, const Pack& threshold) noexcept {
     return _mm512_cmp_pd_mask(d, threshold, _CMP_LE_OQ);
 }
-#elif defined(__AVX__)
+#elif defined(EIGEN_VECTORIZE_AVX)
 inline std::uint64_t at_most(const Pack& d, const Pack& threshold) noexcept {
     return static_cast<std::uint64_t>(_mm256_movemask_pd(_mm256_cmp_pd(d, threshold, _CMP_LE_OQ)));
 }
-#elif defined(__SSE2__)
+#elif defined(EIGEN_VECTORIZE_SSE2)
 inline std::uint64_t at_most(const Pack& d, const Pack& threshold) noexcept {
     return static_cast<std::uint64_t>(_mm_movemask_pd(_mm_cmple_pd(d, threshold)));
 }

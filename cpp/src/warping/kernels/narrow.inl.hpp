@@ -37,9 +37,12 @@ std::ptrdiff_t narrow(NarrowRows& rows) noexcept {
     for (std::ptrdiff_t t = first; t <= last; ++t) step(boundary[t]);
     const std::uint8_t* const end =
         rows.codes + (rows.columns + width - 1 - first) * code_bytes(width);
-    do {
-        step(infinity);
-    } while (codes < end && (at_most(cells, most) | at_most(diagonal, most)) != 0);
+    // At least one more, unless a single lane has met the last column.
+    if (width > 1 || codes < end) {
+        do {
+            step(infinity);
+        } while (codes < end && (at_most(cells, most) | at_most(diagonal, most)) != 0);
+    }
     const std::ptrdiff_t count = (codes - rows.codes) / code_bytes(width);
     rows.last = first + count - width;
     return count;

@@ -1,6 +1,8 @@
 // The SIMD vector of doubles of the level that a kernel is compiled for: Eigen's packet, so that
 // the same source serves SSE2, AVX2, AVX-512 and NEON. Included inside the anonymous namespace of
-// the kernel of each level, before the other .inl.hpp files.
+// the kernel of each level, before the other .inl.hpp files. Eigen's own macros say which vectors
+// it has: none if the host defines EIGEN_DONT_VECTORIZE, or on processors that it has no packets
+// for.
 
 namespace simd = Eigen::internal;
 using Pack = simd::packet_traits<double>::type;
@@ -11,7 +13,7 @@ inline Pack load(const double* from) noexcept { return simd::ploadu<Pack>(from);
 inline void store(double* to, const Pack& pack) noexcept { simd::pstoreu(to, pack); }
 
 // The lanes one further, the last one first; and `lanes` with the first lane of `other`.
-#if defined(__AVX512F__)
+#if defined(EIGEN_VECTORIZE_AVX512)
 inline Pack turn(const Pack& lanes) noexcept {
     const __m512i bits = _mm512_castpd_si512(lanes);
     return _mm512_castsi512_pd(_mm512_alignr_epi64(bits, bits, 7));
@@ -19,14 +21,14 @@ inline Pack turn(const Pack& lanes) noexcept {
 inline Pack with_first_of(const Pack& other, const Pack& lanes) noexcept {
     return _mm512_mask_blend_pd(1, lanes, other);
 }
-#elif defined(__AVX__)
+#elif defined(EIGEN_VECTORIZE_AVX)
 inline Pack turn(const Pack& lanes) noexcept {
     return _mm256_shuffle_pd(_mm256_permute2f128_pd(lanes, lanes, 1), lanes, 5);
 }
 inline Pack with_first_of(const Pack& other, const Pack& lanes) noexcept {
     return _mm256_blend_pd(lanes, other, 1);
 }
-#elif defined(__SSE2__)
+#elif defined(EIGEN_VECTORIZE_SSE2)
 inline Pack turn(const Pack& lanes) noexcept { return _mm_shuffle_pd(lanes, lanes, 1); }
 inline Pack with_first_of(const Pack& other, const Pack& lanes) noexcept {
     return _mm_move_sd(lanes, other);
@@ -47,19 +49,19 @@ inline Pack with_first_of(const Pack& other, const Pack& lanes) noexcept {
 #endif
 
 // The lanes of a vector, each moved to the next, behind a lane of `first`, in which all are equal.
-#if defined(__AVX512F__)
+#if defined(EIGEN_VECTORIZE_AVX512)
 inline Pack moved_up(const Pack& pack, const Pack& first) noexcept {
     return _mm512_castsi512_pd(
         _mm512_alignr_epi64(_mm512_castpd_si512(pack), _mm512_castpd_si512(first), 7));
 }
-#elif defined(__AVX__)
+#elif defined(EIGEN_VECTORIZE_AVX)
 // By an insertion and a shuffle within halves, which take less than half as long as a permutation
 // of all lanes does.
 inline Pack moved_up(const Pack& pack, const Pack& first) noexcept {
     const __m256d halves = _mm256_insertf128_pd(first, _mm256_castpd256_pd128(pack), 1);
     return _mm256_shuffle_pd(halves, pack, 0b0101);
 }
-#elif defined(__SSE2__)
+#elif defined(EIGEN_VECTORIZE_SSE2)
 inline Pack moved_up(const Pack& pack, const Pack& first) noexcept {
     return _mm_unpacklo_pd(first, pack);
 }
@@ -71,6 +73,8 @@ inline Pack moved_up(const Pack& pack, const Pack& first) noexcept {
     return load(lanes);
 }
 #endif
-inline Pack moved_up(const Pack& pack, double first) noexcept {
+// A template, since a pack of one lane is a double: then the function above is all.
+template <class Lanes, std::enable_if_t<!std::is_same_v<Lanes, double>, int> = 0>
+Pack moved_up(const Lanes& pack, double first) noexcept {
     return moved_up(pack, simd::pset1<Pack>(first));
 }

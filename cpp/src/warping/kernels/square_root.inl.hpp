@@ -29,7 +29,7 @@ class DividerRoot {
     Pack x_;
 };
 
-#if defined(__AVX512F__)
+#if defined(EIGEN_VECTORIZE_AVX512)
 
 // From a reciprocal root to 14 bits, in two steps.
 class FastRoot {
@@ -59,7 +59,7 @@ using UniformRoot = FastRoot;
 constexpr bool mixes_roots = true;
 constexpr bool multiplies_roots = true;  // faster than by the divider alone
 
-#elif defined(__AVX2__) && defined(__FMA__)
+#elif defined(EIGEN_VECTORIZE_AVX2) && defined(EIGEN_VECTORIZE_FMA)
 
 // From a reciprocal root to 4.8 bits, which is an integer less half the bits of x (Robertson, A
 // brief history of InvSqrt, 2012): r lies between -0.0346 and 0.0338, where the polynomial of r,
