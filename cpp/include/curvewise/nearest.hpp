@@ -18,8 +18,9 @@
 /// Time: for N curves of n points, N cheap bounds a query, and the distances that are left, O(n^2)
 /// each. Memory: at most 1.5 times that of the points from 128 numbers a curve on, and little more
 /// than once from 1,000 on; some twice for frechet_continuous, and three times for dtw and frechet
-/// on the sphere. All functions may be called from any number of threads; add() waits for searches
-/// that run.
+/// on the sphere. All functions may be called from any number of threads; add()
+/// prepares its curves while searches run. Then it waits for searches that began before it, and
+/// later searches wait for it.
 #pragma once
 
 #include <cstddef>

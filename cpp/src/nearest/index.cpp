@@ -2,12 +2,10 @@
 // among threads. A query is one thread's, so that the number of threads changes nothing.
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <exception>
 #include <functional>
 #include <mutex>
 #include <set>
-#include <shared_mutex>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -17,6 +15,7 @@
 #include "curvewise/nearest.hpp"
 #include "nearest/neighbor_search.hpp"
 #include "pairwise/batch.hpp"
+#include "runtime/fair_mutex.hpp"
 #include "runtime/workers.hpp"
 
 namespace curvewise {
@@ -29,7 +28,9 @@ using curves::LoadedCurve;
 using nearest::NeighborSearch;
 using pairwise::TargetQuery;
 using pairwise::Targets;
+using runtime::FairMutex;
 using runtime::Poller;
+using runtime::Use;
 
 // What is asked: of curve `i` of the queries, by what is left out of the targets, or -1.
 using Answer = std::function<void(NeighborSearch& search, TargetQuery& query, std::size_t i,
@@ -112,22 +113,48 @@ class Holders {
     std::vector<std::thread::id> threads_;
 };
 
-// A lock, whose thread is among the holders as long as this is there.
-template <class Lock>
-class Access {
+// As long as this is there, its thread is among the holders.
+class Holder {
    public:
-    Access(Lock lock, Holders& holders) : lock_(std::move(lock)), holders_(holders) {
-        holders_.add();
-    }
-    Access(const Access&) = delete;
-    Access(Access&&) = delete;
-    Access& operator=(const Access&) = delete;
-    Access& operator=(Access&&) = delete;
-    ~Access() { holders_.remove(); }
+    explicit Holder(Holders& holders) : holders_(holders) { holders_.add(); }
+    Holder(const Holder&) = delete;
+    Holder(Holder&&) = delete;
+    Holder& operator=(const Holder&) = delete;
+    Holder& operator=(Holder&&) = delete;
+    ~Holder() { holders_.remove(); }
 
    private:
-    Lock lock_;
     Holders& holders_;
+};
+
+// The mutex of an index. A thread that has it, and calls from a report, need not have it twice.
+class Lock {
+   public:
+    // Waits for those before it; throws Stopped where that is asked for meanwhile.
+    Lock(FairMutex& mutex, Holders& holders, Use use, Poller& poller)
+        : mutex_(holders.have_this_thread() ? nullptr : &mutex), use_(use) {
+        if (mutex_ != nullptr && !mutex_->lock(use, [&] { return poller.poll(); })) throw Stopped();
+    }
+    Lock(const Lock&) = delete;
+    Lock(Lock&&) = delete;
+    Lock& operator=(const Lock&) = delete;
+    Lock& operator=(Lock&&) = delete;
+    ~Lock() {
+        if (mutex_ != nullptr) mutex_->unlock(use_);
+    }
+
+   private:
+    FairMutex* mutex_;
+    Use use_;
+};
+
+// A lock, whose thread is among the holders.
+struct Access {
+    Access(FairMutex& mutex, Holders& holders, Use use, Poller& poller)
+        : lock(mutex, holders, use, poller), holder(holders) {}
+
+    Lock lock;
+    Holder holder;
 };
 
 }  // namespace
@@ -141,25 +168,17 @@ class Index::State {
 
     void add(const std::vector<CurveView>& curves, Control* control) {
         Poller poller(control);
-        if (holders_.have_this_thread()) {
+        if (holders_.have_this_thread() || adding_.have_this_thread()) {
             throw std::logic_error(
                 "add was called by the report of a call of the same index, for whose end it would "
                 "wait; add the curves after that call");
         }
-        const auto access = locked<std::unique_lock<std::shared_timed_mutex>>(poller);
-        check_like_first({curves, "curves"});
-        const std::unique_ptr<Targets> added = measure_->make_targets();
-        std::int64_t total = 0;
-        for (const CurveView& curve : curves) total += curve.size();
-        poller.begin(total);
-        added->reserve(curves.size());
-        for (std::size_t i = 0; i < curves.size(); ++i) {
-            const std::string name = CurveList(curves, "curves").name_of(i);
-            const CurveInDoubles curve(curves[i], poller);
-            added->add(checked_curve(curve.view(), name, poller), poller);
-            if (poller.count_steps(curves[i].size())) throw Stopped();
-        }
-        poller.finish();  // the last that may throw Stopped
+        const Holder adding(adding_);
+        check_like_first({curves, "curves"}, poller);
+        const std::unique_ptr<Targets> added = prepared(curves, poller);
+        const Access access(mutex_, holders_, Use::alone, poller);
+        check_like_first({curves, "curves"});  // another thread may have added the first meanwhile
+        poller.finish();                       // the last that may throw Stopped
         for (const CurveView& curve : curves) sizes_.insert(curve.size());
         targets_->make_room(*added);
         targets_->take(*added);  // does not fail
@@ -167,13 +186,13 @@ class Index::State {
 
     std::size_t size() const {
         Poller poller(nullptr);
-        const auto access = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
+        const Access access(mutex_, holders_, Use::shared, poller);
         return static_cast<std::size_t>(targets_->size());
     }
 
     std::vector<CurveView> curves() const {
         Poller poller(nullptr);
-        const auto access = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
+        const Access access(mutex_, holders_, Use::shared, poller);
         std::vector<CurveView> views;
         for (std::ptrdiff_t j = 0; j < targets_->size(); ++j) {
             views.push_back(targets_->curve(j).curve);
@@ -185,7 +204,7 @@ class Index::State {
     void kneighbors(const std::vector<CurveView>* X, std::ptrdiff_t count, double* distances,
                     std::int64_t* indices, const SearchOptions& options, Control* control) const {
         Poller poller(control);
-        const auto access = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
+        const Access access(mutex_, holders_, Use::shared, poller);
         check_count(count, X == nullptr);
         ask(X, options, poller,
             [=](NeighborSearch& search, TargetQuery& query, std::size_t i, std::int64_t all_steps,
@@ -202,7 +221,7 @@ class Index::State {
                                                         double radius, const SearchOptions& options,
                                                         Control* control) const {
         Poller poller(control);
-        const auto access = locked<std::shared_lock<std::shared_timed_mutex>>(poller);
+        const Access access(mutex_, holders_, Use::shared, poller);
         curves::check_limit("radius", radius, measure_->may_be_negative());
         std::vector<std::vector<Neighbor>> results(
             X == nullptr ? static_cast<std::size_t>(targets_->size()) : X->size());
@@ -220,16 +239,20 @@ class Index::State {
     }
 
    private:
-    // The mutex, once those who have it let go; throws Stopped where that is asked for meanwhile.
-    // A thread that has it, and calls from a report, need not have it twice.
-    template <class Lock>
-    Access<Lock> locked(Poller& poller) const {
-        constexpr std::chrono::milliseconds nap(20);
-        Lock lock(mutex_, std::defer_lock);
-        while (!holders_.have_this_thread() && !lock.try_lock_for(nap)) {
-            if (poller.poll()) throw Stopped();
+    // Made ready without the lock, while others search.
+    std::unique_ptr<Targets> prepared(const std::vector<CurveView>& curves, Poller& poller) const {
+        std::unique_ptr<Targets> added = measure_->make_targets();
+        std::int64_t total = 0;
+        for (const CurveView& curve : curves) total += curve.size();
+        poller.begin(total);
+        added->reserve(curves.size());
+        for (std::size_t i = 0; i < curves.size(); ++i) {
+            const std::string name = CurveList(curves, "curves").name_of(i);
+            const CurveInDoubles curve(curves[i], poller);
+            added->add(checked_curve(curve.view(), name, poller), poller);
+            if (poller.count_steps(curves[i].size())) throw Stopped();
         }
-        return {std::move(lock), holders_};
+        return added;
     }
 
     void ask(const std::vector<CurveView>* X, const SearchOptions& options, Poller& poller,
@@ -276,6 +299,10 @@ class Index::State {
     }
 
     // The shapes of a list, which must agree with those of the index.
+    void check_like_first(const CurveList& list, Poller& poller) const {
+        const Access access(mutex_, holders_, Use::shared, poller);
+        check_like_first(list);
+    }
     void check_like_first(const CurveList& list) const {
         if (targets_->size() == 0) {
             check_shapes(measure_->requirements(), list);
@@ -295,8 +322,9 @@ class Index::State {
     }
 
     std::unique_ptr<const pairwise::BatchMeasure> measure_;
-    mutable std::shared_timed_mutex mutex_;
+    mutable FairMutex mutex_;
     mutable Holders holders_;  // of it
+    Holders adding_;           // the threads that add, most of the time without the mutex
     std::set<std::ptrdiff_t> sizes_;
     std::unique_ptr<Targets> targets_;
 };
