@@ -1,4 +1,4 @@
-"""Where a parameter may be: what `identify` is given, and what a material reads off its tests."""
+"""Bounds of parameters for `identify`, also derived from tests by a material."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class Tied:
     Parameters
     ----------
     function : callable
-        Of the dict of parameters listed before it.
+        A function of the dict of parameters listed before it.
 
     Examples
     --------

@@ -15,7 +15,7 @@ __all__ = ["extra", "foreign_reader", "required"]
 def extra(name: str, needed: str, advice: str = "") -> Iterator[None]:
     """Say how to install the extra `name` where an import inside the block fails.
 
-    `needed` begins the message, e.g. "a picture needs matplotlib", and `advice` ends it.
+    The message begins with `needed`, e.g. "a plot needs matplotlib", and ends with `advice`.
     """
     try:
         yield

@@ -1,4 +1,4 @@
-"""What a misspelt name was meant to be, and which names of a module a shell completes."""
+"""Close matches of misspelt names, and the names that a shell completes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far a long call is: a bar, or a function of the caller's."""
+"""Progress of a long call: a bar, or a user-defined function."""
 
 from __future__ import annotations
 

@@ -82,7 +82,7 @@ class _Distance(NamedTuple):
     defaults : mapping
         The options of the measure that are others there.
     names : mapping
-        What its options are called there, and here.
+        The names of its options in aeon, and here.
     has_window : bool
         Whether it takes a window.
     has_path : bool

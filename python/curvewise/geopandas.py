@@ -220,13 +220,13 @@ class Tracks:
         Parameters
         ----------
         n_clusters : int
-            How many.
+            Number of clusters.
         measure : str
             A measure by its name, see :func:`curvewise.available_measures`.
         workers : int
             Threads: at least 1, or -1 for one per core. Never changes a result.
         **options
-            Those of the measure, lengths in metres.
+            The options of the measure, lengths in metres.
 
         Returns
         -------
@@ -268,7 +268,7 @@ class Tracks:
         return {"metric": "haversine", **options}
 
     def _beside(self, other: Any) -> Any:
-        """Return other tracks' curves, which have to be in the same reference system."""
+        """Return other tracks' curves, which must be in the same reference system."""
         others = other if isinstance(other, Tracks) else Tracks(other)
         if others.crs != self.crs:
             raise ValueError(

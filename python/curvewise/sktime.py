@@ -50,14 +50,14 @@ class CurveDistance(BasePairwiseTransformerPanel):  # type: ignore[misc]  # unty
     measure : str
         A measure by its name, see :func:`curvewise.available_measures`.
     options : dict, optional
-        Those of the measure's own function, e.g. ``{"window": 10}``.
+        Options of the measure's own function, e.g. ``{"window": 10}``.
     workers : int
         Threads for a call: at least 1, or -1 for one per core. Never changes a result.
 
     Notes
     -----
-    What sktime's and aeon's dtw call distance is ``options={"metric": "sqeuclidean"}``. Instances
-    go wherever sktime takes a distance: ``KNeighborsTimeSeriesClassifier(distance=...)``,
+    For the DTW distance of sktime and aeon, use ``options={"metric": "sqeuclidean"}``. Instances
+    can replace any distance in sktime: ``KNeighborsTimeSeriesClassifier(distance=...)``,
     ``TimeSeriesKMedoids(metric=...)``, sums and products of distances. Errors, cost and source are
     those of :func:`curvewise.cdist`.
 
@@ -115,11 +115,11 @@ class CurveKNeighborsTimeSeriesClassifier(BaseClassifier):  # type: ignore[misc]
     Parameters
     ----------
     n_neighbors : int
-        How many neighbours vote.
+        Number of neighbours that vote.
     measure : str
         A measure by its name, see :func:`curvewise.available_measures`.
     options : dict, optional
-        Those of the measure's own function, e.g. ``{"window": 10}``.
+        Options of the measure's own function, e.g. ``{"window": 10}``.
     weights : {"uniform", "distance"}
         Whether every neighbour has one vote, or one over its distance; neighbours at distance 0
         then vote alone.

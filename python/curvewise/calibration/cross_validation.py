@@ -66,14 +66,14 @@ class Fold:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CrossValidation(Tabular):
-    """What `cross_validate` returns: a fold for every loop.
+    """Result of `cross_validate`: a fold for every loop.
 
     Attributes
     ----------
     folds : tuple of Fold
         In the order of the loops.
     measure, preset
-        As asked for.
+        The arguments of the call.
     """
 
     folds: tuple[Fold, ...]

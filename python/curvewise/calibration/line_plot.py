@@ -71,7 +71,7 @@ def line_plot(
     a, b : mapping of str to float
         The ends of the line, with the same parameters.
     points : int, default 101
-        How many points of the line, with its ends.
+        Number of points of the line, including its ends.
     measures : sequence of str, callable or Criterion, optional
         For experiments: by default all five in the plane, frechet and dtw otherwise.
     workers : int, default 1

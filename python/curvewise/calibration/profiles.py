@@ -54,7 +54,8 @@ class Profile(Result):
     parameters : tuple of dict of str to float
         All parameters at each of them.
     interval : (float, float)
-        Where the objective has risen by `rise`; the first or last of `values` if it has not.
+        The interval in which the objective rises by less than `rise`; the first or last of `values`
+        if it stays below.
     is_open : (bool, bool)
         Whether the interval extends beyond `values` on either side.
     by_sensitivities : (float, float)
@@ -123,15 +124,16 @@ def profile(
     Parameters
     ----------
     found : Identification
-        What a search has found.
+        The result of a search.
     name : str
         A parameter that was searched for.
     points : int, default 7
-        How many values, the optimum among them; odd, at least 5.
+        Number of values, including the optimum; odd, at least 5.
     level : float, default 0.95
         The probability of the interval.
     method : method, optional
-        What searches for the others: by default :class:`TrustRegion` from the values next to them.
+        The method for the other parameters: by default :class:`TrustRegion`, starting at the values
+        next to them.
 
     Returns
     -------

@@ -24,7 +24,7 @@ __all__ = ["Rescored", "rescore"]
 
 @dataclass(frozen=True, eq=False)
 class Rescored:
-    """What `rescore` returns.
+    """Result of `rescore`.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Rescored:
     failures : tuple of (int, str)
         Number of every run that failed, and why.
     measure, preset
-        As asked for.
+        The arguments of the call.
     """
 
     parameters: dict[str, float]

@@ -97,11 +97,11 @@ def screening(found: Identification, *, paths: int = 10, seed: int = 0) -> Scree
     Parameters
     ----------
     found : Identification
-        What a search has found: whose model, tests, bounds, store and workers are taken.
+        The result of a search; its model, tests, bounds, store and workers are used.
     paths : int, default 10
-        How many places the parameters are changed from, at least 4.
+        Number of places from which the parameters are changed, at least 4.
     seed : int, default 0
-        Of the places.
+        Seed of the places.
 
     Returns
     -------

@@ -77,7 +77,7 @@ class Comparison(Result):
 
     @property
     def notes(self) -> list[str]:
-        """What looks wrong: coordinates in which one curve is more than 20 times the other.
+        """Warnings: coordinates in which one curve is more than 20 times the other.
 
         Per cent against a fraction, for example. With area's ``spacing="function"``, also the x
         over which it integrates. `str` and a notebook show the notes below the values.
@@ -99,10 +99,11 @@ class Comparison(Result):
 
     @property
     def deviations(self) -> Deviations:
-        """How far apart the points are that each measure compares, in units of y.
+        """Distances between the points that each measure compares, in units of y.
 
-        Of the measures that compare points: not of curve_length. Computed when asked for: dtw and
-        frechet need their paths. A dict of :class:`curvewise.comparing.deviations.Deviation`.
+        For the measures that compare points, that is, not for curve_length. They are computed on
+        first use: dtw and frechet need their paths. A dict of
+        :class:`curvewise.comparing.deviations.Deviation`.
         """
         found = {
             name: deviation(name, condition, self.P, self.Q)
@@ -157,8 +158,7 @@ class Comparison(Result):
         Parameters
         ----------
         names : sequence of str, optional
-            What the coordinates are called on the axes; by default what the curves' columns were
-            called, else x and y.
+            The labels of the axes; by default the names of the curves' columns, else x and y.
 
         Raises
         ------
@@ -173,7 +173,7 @@ class Comparison(Result):
 
     @property
     def picture_shows(self) -> str:
-        """What the picture shows, for those who do not see it."""
+        """The alternative text of the figure."""
         return f"The curves, and what {', '.join(self.values)} saw in them"
 
     def parts(self) -> Sequence[Table | str]:

@@ -1,4 +1,4 @@
-"""What a measure's value means in units of y: how far apart the points are that it compares.
+"""Values of measures in units of y: distances between the compared points.
 
 A value of 0.072 says little; "29 MPa in the mean, 3 % of the height, 88 MPa at most" says what a
 plot shows. Every measure but curve_length compares points of P with points of Q.
@@ -101,7 +101,7 @@ def deviation(
     measure : str
         One of the registry.
     condition : Condition
-        How it is computed.
+        The conditions of its computation.
     P, Q : ndarray
         The curves, not scaled.
     part : {"experiment", "simulation"}

@@ -80,7 +80,7 @@ class Verdict:
     def __str__(self) -> str:
         return "\n".join(map(str, self.checks))
 
-    # What a test runner prints of an assertion.
+    # A test runner prints it in an assertion.
     __repr__ = __str__
 
     def to_list(self) -> list[dict[str, Any]]:

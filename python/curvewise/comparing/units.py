@@ -49,8 +49,8 @@ def other_units(P: Array, Q: Array, axes: Sequence[str], p_name: str, q_name: st
 def unlike_its_test(test: Array, simulation: Array, axes: Sequence[str]) -> list[str]:
     """Return what looks wrong with a simulation: swapped columns, other units, another sign.
 
-    Each is a question with what to look at. There is none for numbers, nor for a simulation of
-    other dimensions.
+    Each is a question with what to look at. Numbers, and simulations of other dimensions, are not
+    checked.
 
     Parameters
     ----------

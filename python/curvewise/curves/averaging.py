@@ -47,7 +47,7 @@ class _Branch(NamedTuple):
     driving : ndarray, shape (n,)
         The smoothed driving column at `rows`.
     parts : ndarray of int, shape (n,)
-        How many blocks the quadratic has that smoothed a block.
+        Number of blocks in the quadratic that smoothed a block.
     means : ndarray, shape (n, d - 1)
         Means of the other columns.
     """

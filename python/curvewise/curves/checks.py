@@ -1,4 +1,4 @@
-"""What the functions of this package ask of a curve and of its turning points."""
+"""Checks of a curve and of its turning points."""
 
 from __future__ import annotations
 

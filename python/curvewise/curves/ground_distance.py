@@ -173,7 +173,7 @@ def _minkowski(points: _Points, order: float) -> Array:
 
 
 class _Row(NamedTuple):
-    """What the measures ask of a metric."""
+    """The properties of a metric that the measures use."""
 
     distances: Callable[[_Points, float], Array]
     degree: int  # the power of a common factor with which a distance grows

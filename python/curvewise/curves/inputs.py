@@ -194,8 +194,8 @@ def as_curve_list(
 ) -> list[Array]:
     """Return the curves of an array of shape (k, n, d), or of a sequence, as a list of arrays.
 
-    Labels are left out: who keeps them asks labels.py for them first. float32 as for
-    :func:`as_numbers`. Without a `layout`, one in doubt is asked about: see layouts.py.
+    Labels are dropped: callers that keep them call labels.py first. float32 as for
+    :func:`as_numbers`. Without a `layout`, a doubtful one causes a warning: see layouts.py.
 
     Raises
     ------

@@ -28,7 +28,7 @@ __all__ = [
     "renamed",
 ]
 
-_LONGEST = 32  # characters of a file's name that a picture shows
+_LONGEST = 32  # characters of a file's name in a plot
 
 
 class Labels(NamedTuple):
@@ -72,7 +72,7 @@ class NamedCurve(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
 
     Notes
     -----
-    Nothing is computed. It prints, calculates and pickles as a plain array does.
+    It prints, calculates and pickles like a plain array.
 
     Examples
     --------

@@ -21,7 +21,7 @@ __all__ = ["BlockDistances", "block_distances", "is_own_metric", "refuse_own_met
 BlockDistances: TypeAlias = Callable[[int, int, int, int], Array]
 """Of rows first_row, ..., first_row + rows - 1 and columns likewise: shape (rows, columns)."""
 
-# Of a matrix, so that Ctrl-C is heard in between, and a copy is small.
+# Entries of a matrix per check, so that Ctrl-C works in between, and a copy is small.
 _CHECKED_AT_ONCE = 2**20
 
 

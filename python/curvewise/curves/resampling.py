@@ -155,8 +155,8 @@ def trim(
         on it first has the value `stop`; `stop` may be below `start`. By default the curve's own
         ends.
     by : int or array_like of shape (n,), default 0
-        The column, by its index from 0, or values given for the points, such as their times. They
-        may turn back: of a loop, ``trim(loop, 0.0, 0.02)`` is the first loading.
+        The column, by its index from 0, or values of the points, such as their times. They may
+        reverse: for a loop, ``trim(loop, 0.0, 0.02)`` is the first loading.
     metric : {"euclidean", "haversine"}, optional
         Between which points the two ends are interpolated: on a straight line, the default, or with
         "haversine" on a great circle, of longitudes and latitudes in degrees. `by` is then a value
@@ -277,7 +277,8 @@ def _places(
         if places[-1] < places[0]:
             places = -places
         back = np.maximum.accumulate(places) - places
-        # The mean of points that noise turns back is one of coordinates, not of the sphere.
+        # Points of a noisy reversing column are averaged in coordinates, which is invalid on the
+        # sphere.
         allowed = 0.0 if metric == "haversine" else _NOISE
         if back.max() > allowed * (places[-1] - places[0]):
             raise ValueError(

@@ -33,7 +33,7 @@ _COSINE = (
     1.667912805508616e-30,
     -2.766732424324131e-36,
 )
-# Of (asin(s) / s - 1) / s**2, by powers of s**2.
+# Coefficients of (asin(s) / s - 1) / s**2, by powers of s**2.
 _ARCSINE = (
     0.16666666666666669,
     0.07499999999998412,

@@ -1,4 +1,4 @@
-"""How far a coordinate travels, to and fro: what areas are divided by, and curves cut into.
+"""Distance that a coordinate travels: divides areas, and defines sections.
 
 Coordinates are rounded to 30 bits first, so that no rounding error decides what a reversal is.
 Time O(n).

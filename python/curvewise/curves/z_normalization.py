@@ -55,7 +55,7 @@ def normalized_windows(curve: Array, points: int, starts: slice | Sequence[int])
 
     `curve` has shape (n, d), the result (starts, points, d).
     """
-    # Coordinates first, so that sums run over numbers that lie side by side.
+    # Coordinates first, so that sums run over adjacent numbers.
     windows = np.array(sliding_window_view(curve.T, points, axis=1)[:, starts], order="C")
     is_constant = windows[..., 0] == windows[..., -1]
     candidates = windows[is_constant]

@@ -41,11 +41,11 @@ def kneighbors(
     Parameters
     ----------
     X : array_like, shape (q, n, d), or a sequence of curves
-        What to look for.
+        The query curves.
     curves : array_like, shape (k, n, d), or a sequence of curves
         Where.
     n_neighbors : int
-        How many to find for each, from 1 to the number of `curves`.
+        Number of neighbours of each query, from 1 to the number of `curves`.
     measure, **options
         As for :class:`curvewise.Index`.
     block : int, optional
@@ -65,9 +65,9 @@ def kneighbors(
 
     Notes
     -----
-    An index of each block of `curves` is asked for the neighbours of each block of X, and the best
-    of all blocks are kept. Each block has to find its own nearest, so that more is computed than by
-    a single index: blocks should be as large as a worker's memory allows.
+    The index of each block of `curves` is queried with each block of X, and the best of all blocks
+    are kept. Each block must find its own nearest curves, so more is computed than with a single
+    index: blocks should be as large as a worker's memory allows.
 
     Examples
     --------

@@ -36,7 +36,7 @@ class TimeColumnWarning(UserWarning):
     found : str
         Which file, and which columns.
     wanted : list of str
-        Those that are called strain and stress, or the two columns after time.
+        The columns called strain and stress, or the two columns after time.
     """
 
     def __init__(self, found: str, wanted: list[str]) -> None:
@@ -109,8 +109,8 @@ def _likely(names: list[str]) -> list[str]:
 def choose_names(header: Sequence[Sequence[Any]], columns: Sequence[str | int] | None) -> list[str]:
     """Return the row of a header that has the columns' names.
 
-    It is one that has all names that are asked for, if there is any, and the one with the most
-    cells: the first of several.
+    It is the row with all requested names, if one exists, or the row with the most cells: the first
+    of several.
     """
     rows = [[str(cell).strip() for cell in row] for row in header]
     asked = asked_names(columns)
@@ -122,7 +122,7 @@ def choose_names(header: Sequence[Sequence[Any]], columns: Sequence[str | int] |
 
 
 def names_in(row: Sequence[Any], asked: set[str], to_the_letter: bool) -> bool:
-    """Say whether a row has all names that are asked for, to the letter or nearly."""
+    """Return whether a row has all requested names, exactly or approximately."""
     cells = {str(cell).strip() for cell in row}
     if to_the_letter:
         return asked <= cells
@@ -130,7 +130,7 @@ def names_in(row: Sequence[Any], asked: set[str], to_the_letter: bool) -> bool:
 
 
 def asked_names(columns: Sequence[str | int] | None) -> set[str]:
-    """Return the columns that are asked for by a name."""
+    """Return the columns that match a requested name."""
     texts = {column.strip() for column in columns or () if isinstance(column, str)}
     return {text for text in texts if not text.isdecimal()}
 
@@ -160,7 +160,7 @@ def _find_column(file: str, names: list[str], width: int, column: str | int) -> 
 
 
 def _near_column(file: str, names: list[str], width: int, column: str) -> int:
-    """Return the index of the only column whose name is nearly the one asked for."""
+    """Return the index of the only column with a close match of the name."""
     wanted = bare_name(column)
     found = [i for i, name in enumerate(names) if wanted and name and bare_name(name) == wanted]
     if len(found) == 1:

@@ -26,7 +26,7 @@ __all__ = [
     "units_row",
 ]
 
-# What strains of each unit are multiplied by.
+# Factors of strains in each unit.
 STRAINS = {
     **dict.fromkeys(("-", "1", "mm/mm", "m/m", "in/in", "μm/μm"), 1.0),
     **dict.fromkeys(("%", "percent", "per cent", "prozent", "pct"), 1e-2),

@@ -43,27 +43,34 @@ def read_curve(
     The end of the name selects the format: .xlsx, .xlsm, .xls and .ods are workbooks, .mat is
     MATLAB's, and everything else is text, one point per line:
 
-    Separator Semicolon, tab, ``|``, comma or spaces, whichever best turns the first 200 lines into
-    numbers; or the separator of a first line such as "sep=;". Cells may be quoted. If numbers are
-    separated by tabs, spaces never separate cells, so that an empty cell is kept. Lines without a
-    header are refused if their cells are ambiguous, such as "1 000,5". Decimal sign A point; or a
-    comma if the separator is a semicolon, a tab or spaces ("1,5;2,5"), or if cells are quoted.
-    ("1,5" on its own is two columns.) The first number that is valid with only one of the signs
-    decides. With decimal commas, "1.000" and "1.000,5" have points between thousands. Ambiguous
-    files, such as "1,234" with "0.5", are refused: give `decimal`. Fortran exponents, "1.5D-03",
-    are accepted. The minus sign may be U+2212 or a dash. Spaces of any width and apostrophes may
-    stand between thousands. Header All lines before the first one that holds a number. Lines before
-    them that begin with a text and hold one number, such as "Width;12,5", also belong to the header
-    if a line of names follows. The column names are the line with the most cells, the first among
-    equals; or the line that has all names in `columns`, possibly further down, above a second
-    table. Names that are separated by spaces count only if there is one for every column. Lines
-    with more cells than names are refused, and so is a second table whose names are not requested.
-    A row that looks like numbers, such as "0,1 %;10 MPa", is not a header. A row of units sets the
-    units. Ignored Empty lines (separators alone too), lines that begin with #, % or //, and columns
-    that are not requested. Below the last point, rows that are empty in the requested columns.
-    Encoding UTF-8, or UTF-16 with a byte order mark. Otherwise GBK if all bytes above ASCII are
-    pairs and most of these are common Chinese characters, else Windows-1252 or Latin-1. `encoding`
-    overrides this. Lines end with CR, LF or CRLF.
+    Separator
+        Semicolon, tab, ``|``, comma or spaces, whichever best turns the first 200 lines into
+        numbers; or the separator of a first line such as "sep=;". Cells may be quoted. If numbers
+        are separated by tabs, spaces never separate cells, so that an empty cell is kept. Lines
+        without a header are refused if their cells are ambiguous, such as "1 000,5".
+    Decimal sign
+        A point; or a comma if the separator is a semicolon, a tab or spaces ("1,5;2,5"), or if
+        cells are quoted. ("1,5" on its own is two columns.) The first number that is valid with
+        only one of the signs decides. With decimal commas, "1.000" and "1.000,5" have points
+        between thousands. Ambiguous files, such as "1,234" with "0.5", are refused: give
+        `decimal`. Fortran exponents, "1.5D-03", are accepted. The minus sign may be U+2212 or a
+        dash. Spaces of any width and apostrophes may separate thousands.
+    Header
+        All lines before the first one that holds a number. Lines before them that begin with a
+        text and hold one number, such as "Width;12,5", also belong to the header if a line of
+        names follows. The column names are the line with the most cells, the first among equals;
+        or the line that has all names in `columns`, possibly further down, above a second table.
+        Names that are separated by spaces count only if there is one for every column. Lines with
+        more cells than names are refused, and so is a second table whose names are not requested.
+        A row that looks like numbers, such as "0,1 %;10 MPa", is not a header. A row of units sets
+        the units.
+    Ignored
+        Empty lines (separators alone too), lines that begin with #, % or //, and columns that are
+        not requested. Below the last point, rows that are empty in the requested columns.
+    Encoding
+        UTF-8, or UTF-16 with a byte order mark. Otherwise GBK if all bytes above ASCII are pairs
+        and most of these are common Chinese characters, else Windows-1252 or Latin-1. `encoding`
+        overrides this. Lines end with CR, LF or CRLF.
 
     A sheet of a workbook is read by the same rules. The columns of a .mat file are its real arrays
     in the order of the file. A vector is a column with its variable's name. A matrix A of k > 1

@@ -117,7 +117,7 @@ CYCLE_COLUMN = FileOption(
 
 @dataclass(frozen=True)
 class Reading:
-    """How a file is read, besides its columns; the keywords of :func:`curvewise.read_curve`."""
+    """Options for reading a file, except its columns."""
 
     sheet: str | int | None = None
     from_: str | None = None

@@ -33,7 +33,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class NumberTable:
-    """Where the rows of a curve are, and how messages call them."""
+    """The place of a curve's rows, and their name in messages."""
 
     file: str
     """With the sheet, of a workbook."""
@@ -229,7 +229,7 @@ def begin_of_table(file: str, row: str, rows: Sequence[tuple[int, str]], reading
     Parameters
     ----------
     file, row : str
-        What messages call the file, and a row.
+        The names of the file and of a row in messages.
     rows : sequence of tuple
         The number of each row, as a user counts, and its text.
     reading : Reading
@@ -297,7 +297,7 @@ def find_header(
 def _begin_of_asked(
     rows: Sequence[Sequence[Any]], numbers: Sequence[int], asked: set[str], begin: int, first: int
 ) -> int:
-    """Return where the header is that has all names asked for: to the letter, or nearly."""
+    """Return the place of the header with all requested names, exact or close."""
     for to_the_letter in (True, False):
         if any(names_in(row, asked, to_the_letter) for row in rows[begin:first]):
             return begin

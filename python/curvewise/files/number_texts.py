@@ -82,7 +82,7 @@ def to_number(cell: Any, decimal: str) -> float | None:
             return None
         try:
             return float(cell)
-        except OverflowError:  # a whole number of hundreds of digits
+        except OverflowError:  # an integer of hundreds of digits
             return math.inf
     if "_" in cell:  # float("1_000") is 1000.0: Python's syntax, not a measurement
         return None

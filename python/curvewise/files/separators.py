@@ -1,4 +1,4 @@
-"""What separates the cells of a text file, and whether another reading of its lines is as good.
+"""The separator of the cells of a text file, and whether it is unambiguous.
 
 The separator is the one that turns most of the first lines into numbers. Where a line may as well
 be one number ("1 000,5"), or its commas decimal signs without anything to tell so ("0,05,1,25"),

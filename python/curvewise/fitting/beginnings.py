@@ -178,7 +178,7 @@ def warn_of_beginnings(tests: Sequence[Any], units: str, *, level: int) -> str:
     tests, units
         As for `check_beginnings`.
     level : int
-        How many calls up the warning is shown.
+        The stack level of the warning.
     """
     try:
         return check_beginnings(tests, units)

@@ -22,7 +22,7 @@ __all__ = ["CYCLES", "Cycles", "DrivenTests", "fit_criterion", "fit_method"]
 Cycles: TypeAlias = Literal["all", "last"]
 CYCLES: tuple[str, ...] = get_args(Cycles)
 
-# The simulation has the strains of the test, though these turn back.
+# The simulation has the strains of the test, even if these reverse.
 _POINT_BY_POINT: dict[str, dict[str, Any]] = {"sum_of_squares": {"abscissa": "points"}}
 # A run takes 0.1 ms, so fewer starts save little time. Ten starts were within 0.05 % of the best of
 # scipy's least_squares from fifty places, on thirteen measured tests.

@@ -53,12 +53,12 @@ class PreparedTest:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Of the array."""
+        """The dimension of the array."""
         return self.curve.shape
 
     @property
     def column_names(self) -> tuple[str, ...]:
-        """What the columns are called."""
+        """The names of the columns."""
         return known_names(self.curve)
 
     def __getitem__(self, rows: Any) -> PreparedTest:

@@ -58,7 +58,7 @@ def checked_numbers(numbers: Any, count: int) -> Numbers | None:
     numbers : array_like, shape (count,), or None
         A counter may rise within a cycle: 3.25 belongs to cycle 3.
     count : int
-        Of points.
+        Number of points.
     """
     if numbers is None:
         return None

@@ -1,7 +1,7 @@
 """Whether the strains and stresses of a test are in the units of a fit, as far as it tells.
 
-A name or a row of units may say that they are not; so may a modulus that no usual material has.
-Nothing is converted: the user is asked, and says so by factors. Cost: linear in the test.
+A name or a row of units may show another unit, or a modulus that is unusual for materials. Nothing
+is converted: the user is asked, and answers with factors. Cost: linear in the test.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ _STRESS_UNITS = {
 }
 
 
-# How each way out is written, on the command line, in a study and in Python.
+# The options that resolve each doubt, on the command line, in a study and in Python.
 _OPTIONS = {
     "factors": "give --factors {}{}",
     "gauge_length": "give --gauge-length, in mm",
@@ -136,7 +136,7 @@ def doubt_of(test: Any, units: str) -> Doubt | None:
 
 
 def warn_of_units(tests: Sequence[Any], units: str) -> None:
-    """Warn of each test whose units have to be asked about."""
+    """Warn of each test whose units are doubtful."""
     for i, test in enumerate(tests):
         if doubt := doubt_of(test, units):
             said = f"tests[{i}]: {doubt.asked('python')}; if not, ignore this UnitsWarning"

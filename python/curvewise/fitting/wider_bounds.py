@@ -83,7 +83,7 @@ def search_within(
     bounds : mapping
         As read off the tests.
     most_runs : int, optional
-        Of the model, in all searches.
+        Maximum number of model runs in all searches.
     kept : collection of str
         Parameters whose bounds are not assumed, and stay.
 
@@ -92,7 +92,7 @@ def search_within(
     Identification
         The chosen search, with the evaluations of all.
     Beyond or None
-        What wider bounds have given; None if no bound was widened.
+        The result of wider bounds; None if no bound was widened.
     """
     first = search(bounds, max_runs=most_runs)
     sides = _assumed(first, kept)

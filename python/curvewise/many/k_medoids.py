@@ -45,9 +45,9 @@ def k_medoids(distances: Array, count: int, rounds: int) -> Clusters:
     distances : ndarray, shape (n, n)
         Row c has the distances of all curves from curve c, as a medoid.
     count : int
-        How many, from 1 to n.
+        Number of medoids, from 1 to n.
     rounds : int
-        How often each curve has its turn at most.
+        Maximum number of passes over all curves.
 
     Returns
     -------

@@ -261,9 +261,9 @@ class Index:
         Returns
         -------
         distances : ndarray of objects, shape (q,)
-            Of each curve of X an array of distances; only where asked for.
+            For each curve of X an array of distances; only if requested.
         indices : ndarray of objects, shape (q,)
-            Of each curve of X an array of int64. Labels as for :meth:`kneighbors`, in Series.
+            For each curve of X an array of int64. Labels as for :meth:`kneighbors`, in Series.
 
         Raises
         ------
@@ -427,7 +427,7 @@ class Index:
 
 
 def checked_count(n_neighbors: SupportsIndex, most: int, which: str) -> int:
-    """Return how many neighbours are asked for; refuse more than there are curves to be one."""
+    """Return the requested number of neighbours; raise if it exceeds the curves."""
     advice = f"give a whole number from 1 to {most}, {which}"
     return whole_number("n_neighbors", n_neighbors, 1, advice, most)
 

@@ -55,7 +55,7 @@ class NormalizedRuns:
     measure: WarpingName
     options: dict[str, Any]
     workers: int
-    # Heaps of (distance, start), and of (bound, start) of those that were given up at a limit.
+    # Heaps of (distance, start), and of (bound, start) for computations that stopped at a limit.
     _known: list[tuple[float, int]] = field(default_factory=list)
     _given_up: list[tuple[float, int]] = field(default_factory=list)
 

@@ -1,4 +1,4 @@
-"""Where in a long curve a short one occurs: subsequence DTW, and the same under Fréchet.
+"""Occurrences of a short curve in a long one, by subsequence DTW or Fréchet.
 
 Müller, "Information Retrieval for Music and Motion" (2007), chapter 7, for curves of any dimension
 and for several answers that do not overlap. The work is done by the compiled library.

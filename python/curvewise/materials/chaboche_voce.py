@@ -29,7 +29,7 @@ class ChabocheVoce(Material):
     Parameters
     ----------
     backstresses : int, default 2
-        How many, 0 to 99. C1, gamma1, C2, gamma2, … are their parameters.
+        Number of back stresses, 0 to 99. Their parameters are C1, gamma1, C2, gamma2, …
     modulus : {"constant", "decaying"}, default "constant"
         "decaying": :math:`d\sigma = E(p) \, d\varepsilon_e` with
         :math:`E(p) = E - (E - E_a)(1 - e^{-\xi p})`, with parameters Ea and xi.
@@ -60,8 +60,7 @@ class ChabocheVoce(Material):
         return chaboche_voce_parameters, chaboche_voce_stress
 
     def _hardening_bounds(self, span: Span) -> Bounds:
-        # Of back stresses that are steep at first little yield stress is left; much of it may be
-        # lost by softening.
+        # Steep back stresses leave little initial yield stress; softening may remove much of it.
         bounds: dict[str, Any] = {
             "yield": Log(0.02 * span.lowest_yield, 1.2 * span.highest_yield),
             "Q": (-1.2 * span.highest_yield, 4.0 * span.stress),

@@ -30,9 +30,10 @@ __all__ = [
     "thinned_cycle",
 ]
 
-# Of the stress at a turn: unloading between these is nearly straight, on the machine too.
+# Fractions of the stress at a reversal: unloading between them is nearly straight, also in
+# measurements.
 _UNLOADED = (0.05, 0.75)
-# Of the largest stress: where the first loading is nearly straight.
+# Fractions of the largest stress: the first loading is nearly straight between them.
 _LOADED = (0.05, 0.3)
 _FEW = 3  # points for a line
 _OFFSET = 0.002  # of plastic strain, or a quarter of what the first loading reaches

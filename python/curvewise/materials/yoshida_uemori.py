@@ -29,9 +29,9 @@ class YoshidaUemori(Material):
     Parameters
     ----------
     growth : {"saturating", "power"}, default "saturating"
-        Of the bounding surface: :math:`dR = K (RSAT - R) \, dp`, or
-        :math:`R = RSAT \left((C_1 + p)^{C_2} - C_1^{C_2}\right)` with parameters C1 and C2, as in
-        the paper's section 3.3.
+        The growth law of the bounding surface: :math:`dR = K (RSAT - R) \, dp`, or :math:`R = RSAT
+        \left((C_1 + p)^{C_2} - C_1^{C_2}\right)` with parameters C1 and C2, as in the paper's
+        section 3.3.
     modulus : {"constant", "decaying"}, default "constant"
         "decaying": :math:`d\sigma = E(p) \, d\varepsilon_e` with
         :math:`E(p) = E - (E - E_a)(1 - e^{-\xi p})`, with parameters Ea and xi.

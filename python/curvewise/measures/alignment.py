@@ -32,7 +32,7 @@ class Alignment(Record, Result):
         Index pairs ``(i, j)``: point ``i`` of P is matched to point ``j`` of Q. Each step is
         (1, 0), (0, 1) or (1, 1). Empty if a step pattern admits no path; `distance` is then inf.
     curves : tuple of two ndarrays, or None
-        Copies of P and Q, for the picture; not those of :mod:`curvewise.reference`.
+        Copies of P and Q, for the plot; None in results of :mod:`curvewise.reference`.
     """
 
     distance: float
@@ -42,7 +42,7 @@ class Alignment(Record, Result):
     def plot(self) -> Picture:
         """Return a matplotlib Figure of the curves and the pairs of the path.
 
-        Where the curves are not known, or have more than two coordinates, of the path alone.
+        If the curves are missing, or have more than two coordinates, it shows the path alone.
 
         Raises
         ------

@@ -22,16 +22,17 @@ _FAR = 1e300  # the value of unreachable cells; infinity does not have a derivat
 
 
 class ArrayPackage(NamedTuple):
-    """What PyTorch and JAX name or do differently.
+    """Operations that PyTorch and JAX name or perform differently.
 
     Attributes
     ----------
     xp : module
         The functions.
     place : callable
-        Of a numpy array: the same on the device.
+        A function that copies a numpy array to the device.
     scan : callable
-        Of (step, start, xs): the results of all steps, stacked, as ``jax.lax.scan`` has them.
+        A function of (step, start, xs) that returns the stacked results of all steps, as
+        ``jax.lax.scan`` does.
     """
 
     xp: Any

@@ -23,10 +23,9 @@ def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.sca
     P, Q : array_like, shapes (n, 2) and (m, 2)
         The curves, each of at least 2 different points.
     scale : {"mean", "mean_abs", "range"}
-        What differences in x and in y are divided by: the mean of P's x ("mean", the paper's),
-        the mean of abs(x), or the range. Loops centred on zero need one of the last two: if the
-        means are 0.1 % of the ranges, 1 % error in y gives 22.5 with "mean" and 0.17 with
-        "mean_abs".
+        The divisor of differences in x and in y: the mean of P's x ("mean", the paper's), the mean
+        of abs(x), or the range. Loops centred on zero need one of the last two: if the means are
+        0.1 % of the ranges, 1 % error in y gives 22.5 with "mean" and 0.17 with "mean_abs".
 
     Returns
     -------

@@ -265,9 +265,9 @@ def twe(
     {curves}
     {metric}
     stiffness : float >= 0
-        What each unit of time between matched points costs; points are one unit apart.
+        The cost of each unit of time between matched points; points are one unit apart.
     penalty : float >= 0
-        Of each point that is deleted.
+        The cost of each deleted point.
     {window}
     {cutoff}
     {missing}
@@ -318,7 +318,7 @@ def wdtw(
     {curves}
     {metric}
     steepness : float >= 0
-        How sharply the weight rises about half of the longer curve.
+        The steepness of the rise of the weight near half of the longer curve.
     {window}
     {cutoff}
     {missing}
@@ -401,7 +401,7 @@ def edit_table(P: CurveLike, Q: CurveLike, measure: EditDistance, **options: Any
     measure : {distances}
         The edit distance.
     **options
-        Those of its function.
+        The options of its function.
 
     Returns
     -------

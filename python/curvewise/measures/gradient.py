@@ -190,7 +190,7 @@ def of_arrays(
 ) -> tuple[Array, Array, Array]:
     """Return the same of arrays of shapes (..., n, d) and (..., m, d), for other packages' arrays.
 
-    A derivative that is not asked for is an array without entries.
+    A derivative that is not requested is an array without entries.
     """
     check_pairs(P.shape, Q.shape)
     pairs = P.shape[:-2]

@@ -22,7 +22,9 @@ def hausdorff(
     radius: Radius = Default.radius,
     cutoff: SupportsFloat | None = Default.cutoff,
 ) -> float:
-    """How far the point of either curve is from the other curve's points that is farthest from it.
+    """Compute the Hausdorff distance between the points of two curves.
+
+    It is the largest distance of a point of either curve from the other curve's points.
 
     Parameters
     ----------

@@ -53,14 +53,14 @@ MeasureName: TypeAlias = (
 
 
 class Condition(NamedTuple):
-    """How a preset computes one measure: on curves scaled by P's box or not, with what options."""
+    """Conditions of a measure in a preset: scaled or not, and options."""
 
     scaled: bool
     options: dict[str, Any]
 
 
 class Warping(NamedTuple):
-    """What more there is of a measure that is read off a table of all pairs of points."""
+    """Further functions of a measure with a table of all pairs of points."""
 
     path: Callable[..., Alignment]
     table: Callable[..., Array]

@@ -196,9 +196,9 @@ class WarpingInfo:
     value : float
         The distance.
     pruned : bool
-        Whether a part of the table was left out. If not, all of it was swept: because
-        ``prune=False`` asked for it, because the curves are short, or because the bounds said
-        early that they would not help.
+        Whether a part of the table was skipped. If not, the whole table was filled: because of
+        ``prune=False``, because the curves are short, or because the bounds showed early that
+        pruning would not help.
     cells_swept : int
         Cells of the table that were computed; some of them may have been computed twice.
     share : float
@@ -224,11 +224,11 @@ class Subsequence(Record):
     Attributes
     ----------
     distance : float
-        That of P and the run, ``Q[start : stop + 1]``.
+        The distance of P and the section, ``Q[start : stop + 1]``.
     start, stop : int
         The first point of the run, and the last.
     path : ndarray of int64, shape (k, 2), or None
-        Where asked for, index pairs ``(i, j)`` as those of :class:`Alignment`: point ``i`` of P is
+        If requested, index pairs ``(i, j)`` as those of :class:`Alignment`: point ``i`` of P is
         matched to point ``j`` of Q.
     """
 

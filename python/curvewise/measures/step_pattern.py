@@ -34,11 +34,11 @@ class StepPattern(Result):
     Attributes
     ----------
     rows : tuple of (int, int, int, float)
-        Of each cell that a step visits, the number of the step, the rows and the columns that it
-        lies behind the step's end, and its weight. The first of a step is where it begins, with
-        the weight -1. At most 8 rows and columns behind.
+        A tuple for each cell that a step visits: the number of the step, the rows and the columns
+        that the cell lies behind the step's end, and its weight. The first cell of a step is its
+        beginning, with the weight -1. At most 8 rows and columns behind.
     normalization : {"NA", "N", "M", "N+M"}
-        What ``normalize=True`` divides by: the weight that all paths have. "NA" where they differ.
+        The divisor of ``normalize=True``: the weight that all paths share. "NA" if they differ.
 
     Notes
     -----
@@ -90,7 +90,7 @@ class StepPattern(Result):
         type : int
             The set of steps, 1 to 7.
         weight : {"a", "b", "c", "d"}
-            What a move of some rows and columns weighs: the fewer of both, the more, the rows, or
+            The weight of a move of some rows and columns: the fewer of both, the more, the rows, or
             their sum.
         smoothed : bool
             Whether all moves of a step weigh as much as they do on average.

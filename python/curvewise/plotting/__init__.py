@@ -1,12 +1,12 @@
 """Pictures of the measures: what each of them saw in two curves.
 
-Every function computes the quadrilaterals, coupling or table with the function that gives the
-number, with the same options, so a picture shows the number's own geometry. It draws into a given
-matplotlib Axes and returns its artists. Axes are labelled unless they already are; the legend is
-left to the caller: ``ax.legend(loc="upper left")``, as the default "best" is slow where points
-are many. The pictures are those of figures 5 and 6 of Jekel, Venter, Venter, Stander, Haftka,
+Every function uses the quadrilaterals, coupling or table that the measure's own function computes
+with the same options. A plot therefore shows the geometry of the value. It is drawn into a given
+matplotlib Axes, and its artists are returned. Axes are labelled unless they already are. The legend
+is left to the caller: use ``ax.legend(loc="upper left")``, because the default "best" is slow for
+many points. The plots are those of figures 5 and 6 of Jekel, Venter, Venter, Stander, Haftka,
 "Similarity measures for identifying material parameters from hysteresis loops using inverse
-analysis", Int. J. Material Forming (2018), and their like for the other measures.
+analysis", Int. J. Material Forming (2018), and similar ones for the other measures.
 """
 
 from __future__ import annotations

@@ -44,7 +44,7 @@ def plot_alignment(
     P, Q : array_like, shape (n, d) and (m, d), or (n,) and (m,), d = 1 or 2
         The curves.
     ax : matplotlib.axes.Axes
-        Where to draw.
+        The axes to draw in.
     measure : {"dtw", "frechet"} or an edit distance
         Whose path to draw.
     every : int, optional

@@ -36,15 +36,15 @@ def plot_area(
     P, Q : array_like, shape (n, 2) and (m, 2)
         The curves.
     ax : matplotlib.axes.Axes
-        Where to draw.
+        The axes to draw in.
     spacing, crossing : str
         As in `area`.
     normalized : bool
         Whether to measure ``normalize(P, Q)``, the curves scaled by P's box. They are drawn in
         original units either way.
     names : sequence of str, optional
-        What the coordinates are called on the axes; by default what the curves' columns are called
-        (DataFrames, `read_curve`), else x and y.
+        The labels of the axes; by default the names of the curves' columns (DataFrames,
+        `read_curve`), else x and y.
 
     Returns
     -------

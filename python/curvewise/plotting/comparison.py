@@ -1,4 +1,4 @@
-"""A figure of a whole comparison: both curves, and for each measure its value and its picture."""
+"""A figure of a whole comparison: both curves, and a panel for each measure."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Compared(Protocol):
 
 
 def plot_comparison(comparison: Compared, *, names: Sequence[str] | None = None) -> Picture:
-    """Draw both curves, and for each measure of a comparison its value and its picture.
+    """Draw both curves, and for each measure its value and its plot.
 
     In the plane the curves fill the large panel and each measure has a small one. For series
     (d = 1) the panels are stacked; for d > 2 they are the tables of Fréchet and DTW.
@@ -49,11 +49,11 @@ def plot_comparison(comparison: Compared, *, names: Sequence[str] | None = None)
     Parameters
     ----------
     comparison : Comparison
-        What `compare` returned. Its preset decides which curves are measured, scaled or not;
-        the picture is in original units.
+        The result of `compare`. Its preset decides whether the measured curves are scaled; the plot
+        is in original units.
     names : sequence of str, optional
-        What the coordinates are called on the axes; by default what the curves' columns were called
-        (DataFrames, `read_curve`), else x and y.
+        The labels of the axes; by default the names of the curves' columns (DataFrames,
+        `read_curve`), else x and y.
 
     Returns
     -------
@@ -108,7 +108,7 @@ def _write_words(ax: Axes, words: str) -> None:
 
 
 def _draw_measure(comparison: Compared, name: str, ax: Axes, axes: Sequence[str]) -> Line2D | None:
-    """Draw the picture of one measure into a small panel, and return its accent."""
+    """Draw one measure in a small panel, and return its accent."""
     dim = len(axes)
     info, condition = MEASURES[name], comparison.conditions[name]
     options: dict[str, Any] = dict(condition.options)

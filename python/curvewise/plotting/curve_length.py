@@ -39,7 +39,7 @@ def plot_curve_length(
     P, Q : array_like, shape (n, 2) and (m, 2)
         The curves.
     ax : matplotlib.axes.Axes
-        Where to draw.
+        The axes to draw in.
     scale : str
         As in `curve_length`. It weights the differences and does not move the points. If it is 0,
         the value and the plot are undefined.

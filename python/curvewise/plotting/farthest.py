@@ -40,7 +40,7 @@ def plot_farthest(
     P, Q : array_like, shape (n, d) and (m, d), or (n,) and (m,), d = 1 or 2
         The curves.
     ax : matplotlib.axes.Axes
-        Where to draw.
+        The axes to draw in.
     metric, p, radius
         As for :func:`curvewise.hausdorff`.
     normalized, names

@@ -44,7 +44,7 @@ def plot_matching(
     P, Q : array_like, shape (n, d) and (m, d), or (n,) and (m,), d = 1 or 2
         The curves.
     ax : matplotlib.axes.Axes
-        Where to draw.
+        The axes to draw in.
     normalized, names
         As in `plot_area`.
 
@@ -98,7 +98,7 @@ def plot_free_space(
         The curves, of any d. For curves with more than about 100 points, the cells are too small to
         see.
     ax : matplotlib.axes.Axes
-        Where to draw: the vertices of P upwards, those of Q to the right.
+        The axes to draw in: the vertices of P upwards, those of Q to the right.
     distance : float, optional
         The largest distance of free pairs; by default the continuous Fréchet distance.
     normalized : bool

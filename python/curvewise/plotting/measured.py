@@ -1,4 +1,4 @@
-"""What a picture of a measure begins with: the curves to measure, and those to draw."""
+"""Preparation of a measure's plot: the curves to measure, and those to draw."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def measured_and_drawn(
     names: Sequence[str] | None = None,
     of_more_than_two: str = "",
 ) -> tuple[Pair, Pair, Labels]:
-    """Return what a picture begins with.
+    """Return the curves to measure and to draw, and their labels.
 
     Parameters
     ----------
@@ -31,16 +31,16 @@ def measured_and_drawn(
     normalized : bool
         Whether the curves are measured scaled by P's box.
     names : sequence of str, optional
-        What the coordinates are called on the axes.
+        The labels of the axes.
     of_more_than_two : str
-        What the error says of curves of more than two coordinates; if empty they are drawn.
+        The error for curves of more than two coordinates; if empty they are drawn.
 
     Returns
     -------
     measured, drawn : two ndarrays each
         The curves to measure, and those to draw: (n, d) and in original units.
     labels : Labels
-        What coordinates and curves are called.
+        The names of coordinates and curves.
     """
     curves = as_curves(P, Q)
     first, second = normalize(*curves) if normalized else curves

@@ -1,4 +1,4 @@
-"""Where partial curve mapping places the shorter curve. Time and memory of `pcm_match`."""
+"""Plot of partial curve mapping. Time and memory of `pcm_match`."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def plot_pcm(
     P, Q : array_like, shape (n, 2) and (m, 2)
         The curves, drawn in original units; the measure scales them by P's box.
     ax : matplotlib.axes.Axes
-        Where to draw.
+        The axes to draw in.
     offsets : int or "continuous"
         As in `pcm`.
     names

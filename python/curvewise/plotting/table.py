@@ -40,7 +40,7 @@ def plot_table(
     P, Q : array_like, shape (n, d) and (m, d), or (n,) and (m,)
         The curves, of any d.
     ax : matplotlib.axes.Axes
-        Where to draw: i, the index in P, upwards, and j, the index in Q, to the right.
+        The axes to draw in: i, the index in P, upwards, and j, the index in Q, to the right.
     measure : {"dtw", "frechet"}
         Whose table to draw.
     normalized : bool

@@ -1,4 +1,4 @@
-"""What an estimator is given: a list of curves, or scikit-learn's table whose rows are curves."""
+"""Input of an estimator: a list of curves, or a table whose rows are curves."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def fitted_curves(estimator: Any, X: Any) -> Any:
     _reference_system(estimator, X, estimator._crs)
     X, _ = unlabelled(X, "X")
     if _is_list_of_curves(X):
-        # Those that were fitted have been asked about.
+        # The curves of the fit have been checked already.
         return as_curve_list(X, "X", keep_float32=True, layout=estimator.layout or "channels_last")
     return list(validate_data(estimator, X, reset=False, dtype=np.float64))
 

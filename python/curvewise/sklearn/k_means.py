@@ -240,7 +240,7 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         Parameters
         ----------
         X : array_like, shape (q, n, d) or (q, n), or a sequence of curves
-            The curves that are asked for.
+            The query curves.
 
         Returns
         -------
@@ -257,7 +257,7 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         return _nearest(curves, self.cluster_centers_, mean, options)[0]
 
     def _mean(self) -> tuple[_Mean, dict[str, Any]]:
-        """Return the kind of mean, and what its functions are told."""
+        """Return the kind of mean, and the arguments of its functions."""
         check_choice("measure", self.measure, get_args(MeanName))
         mean = _MEANS[self.measure]
         options = dict(self.options or {})
@@ -277,7 +277,7 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
 
 @dataclass(frozen=True)
 class _Run:
-    """Where a run of Lloyd's algorithm has ended."""
+    """The end of one run of Lloyd's algorithm."""
 
     centers: Curves
     labels: npt.NDArray[np.int64]

@@ -40,15 +40,15 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
     Parameters
     ----------
     n_clusters : int
-        How many clusters.
+        Number of clusters.
     measure : str
         A measure by its name, see :func:`curvewise.available_measures`. Where it is not symmetric,
         the medoid is Q. Or "precomputed": X is then the matrix of all distances, as
         :func:`curvewise.cdist` returns it, which serves several numbers of clusters.
     options : dict, optional
-        Those of the measure's own function, e.g. ``{"window": 10}``.
+        Options of the measure's own function, e.g. ``{"window": 10}``.
     max_iter : int
-        How often each curve is tried as a medoid at most.
+        Maximum number of passes in which each curve is tried as a medoid.
     workers : int
         Threads for a call: at least 1, or -1 for one per core. Never changes a result.
     {layout}
@@ -64,7 +64,7 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
     inertia_ : float
         The sum of the distances from the medoids.
     n_iter_ : int
-        How often each curve was tried.
+        Number of passes.
 
     Warns
     -----
@@ -162,8 +162,7 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
         Parameters
         ----------
         X : array_like, shape (q, n, d) or (q, n), or a sequence of curves
-            The curves that are asked for; or their distances from those that were fitted, shape
-            (q, k).
+            The query curves; or their distances from the curves of the fit, shape (q, k).
 
         Returns
         -------

@@ -139,7 +139,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         X : array_like, shape (q, n, d) or (q, n), or a sequence of curves, optional
             As for :meth:`curvewise.Index.kneighbors`.
         n_neighbors : int, optional
-            That of the classifier if not given.
+            Number of neighbours; by default that of the classifier.
 
         Returns
         -------
@@ -162,7 +162,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         Parameters
         ----------
         X : array_like, shape (q, n, d) or (q, n), or a sequence of curves
-            The curves that are asked for.
+            The query curves.
 
         Returns
         -------
@@ -193,7 +193,7 @@ class CurveKNeighborsClassifier(ClassifierMixin, BaseEstimator):  # type: ignore
         Parameters
         ----------
         X : array_like, shape (q, n, d) or (q, n), or a sequence of curves
-            The curves that are asked for.
+            The query curves.
 
         Returns
         -------

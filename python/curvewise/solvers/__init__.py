@@ -1,4 +1,4 @@
-"""What solvers write, as histories: the text and binary files of CalculiX, Abaqus and LS-DYNA.
+"""Histories from result files of CalculiX, Abaqus and LS-DYNA.
 
 Each reader returns a :class:`SolverOutput`, which prints as a list of what the file holds and gives
 one number per increment: ``read_calculix_dat("deck.dat").history("fx", set_name="PULLED")``. A

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def main(arguments):  # type: (list[str]) -> None
-    """Write the histories that are asked for."""
+    """Write the requested histories."""
     if len(arguments) < 2:
         raise SystemExit("give the output database, the CSV file, and perhaps variables")
     path, target, wanted = arguments[0], arguments[1], arguments[2:]

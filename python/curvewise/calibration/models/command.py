@@ -38,10 +38,14 @@ class CommandModel:
 
     Templates hold placeholders with a parameter's name:
 
-    ``<<E>>`` inserts the shortest text that reads back as the same number. ``<<E:10>>`` is a field
-    of 10 characters, with as many digits as fit and always a decimal point, for decks with fixed
-    columns. ``<<E:12.4e>>`` accepts any of Python's format specifications. A number that is longer
-    than the given width is an error, because it would shift the columns behind it.
+    ``<<E>>``
+        The shortest text that reads back as the same number.
+    ``<<E:10>>``
+        A field of 10 characters, with as many digits as fit and always a decimal point, for decks
+        with fixed columns.
+    ``<<E:12.4e>>``
+        Any of Python's format specifications. A number that is longer than the given width is an
+        error, because it would shift the columns behind it.
 
     A template without placeholders, such as a mesh that the deck includes, is copied unchanged.
 

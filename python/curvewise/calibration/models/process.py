@@ -24,8 +24,8 @@ _LOOK = 0.1  # seconds between two looks at the log
 
 _GRACE = 2.0  # seconds between SIGTERM, on which solvers return their licence, and SIGKILL
 
-# What an error quotes of a log: its last lines, and before them the first lines that speak of an
-# error, with the line after each, where a solver names the cause and goes on.
+# An error quotes a log's last lines. Before them it quotes the first lines that mention an error,
+# each with the next line, because a solver may name the cause and continue.
 _LAST_LINES = 6
 _FIRST_ERRORS = 3
 _QUOTED_WIDTH = 120  # characters of a line

@@ -1,4 +1,4 @@
-"""What an exception says, with the line of the user's code that has raised it."""
+"""The message of an exception, with the user's line that raised it."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ _INSTALLED = (
 def named_with_place(error: BaseException) -> str:
     """Return an exception's type, its message, and its place: file, line and function.
 
-    The place is the innermost line of the user's own code; if there is none, the innermost outside
-    of this package. An error that this package alone has raised has no place.
+    The place is the innermost line of the user's own code, or else the innermost line outside this
+    package. The place is omitted if only this package is involved.
     """
     places = [
         (frame.f_code.co_filename, line, frame.f_code.co_name)

@@ -1,7 +1,8 @@
-"""The first simulation of a solver beside its test: asked about once, before hours of runs.
+"""Warns if the first simulation of a solver does not resemble its test.
 
-The extents of both curves tell of other units, swapped columns and another sign. A function of
-milliseconds is not asked about: its bounds may well span a factor of 20. Cost: O(n + m).
+The warning comes once, before hours of runs. The extents of both curves reveal other units, swapped
+columns and another sign. A function that takes milliseconds is not checked, because its bounds may
+well span a factor of 20. Cost: O(n + m).
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ class FirstRunWarning(UserWarning):
     """The first simulation of a search does not look like its test.
 
     Its extent differs from the test's by more than a factor of 20, it does not change, its columns
-    seem to be swapped, or it has the opposite sign. The search goes on. Searches with a
+    seem to be swapped, or it has the opposite sign. The search continues. Searches with a
     :class:`CommandModel` or a study compare; those with another model do so if the model has an
     attribute ``is_solver = True``.
 
