@@ -45,7 +45,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Raises
     ------
     SystemExit
-        By argparse: status 2 for wrong usage, 0 for --help and --version.
+        From argparse: status 2 for wrong usage, 0 for --help and --version.
 
     Examples
     --------

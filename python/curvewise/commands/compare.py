@@ -1,4 +1,4 @@
-"""``curvewise compare A B``: from two files to five numbers, as a table, JSON, or a picture."""
+"""``curvewise compare A B``: the measures of two files."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def add_compare(commands: Any) -> None:
 
 
 def _window(text: str) -> Window:
-    """Read a whole number, or a fraction between 0 and 1."""
+    """Read an integer, or a fraction between 0 and 1."""
     with contextlib.suppress(ValueError):
         return int(text)
     with contextlib.suppress(ValueError):

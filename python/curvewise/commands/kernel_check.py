@@ -188,7 +188,7 @@ def _is_rounded_up(value: float, P: Array, Q: Array) -> bool:
 
 def _equal(ours: Any, theirs: Any, exact: bool) -> bool:
     if isinstance(ours, Alignment):
-        # Where values are not exact, rounding may decide which path is taken.
+        # If values are inexact, rounding may decide which path is taken.
         same_path = np.array_equal(ours.path, theirs.path)
         return not exact or (ours.distance == theirs.distance and same_path)
     if exact:
@@ -211,7 +211,7 @@ def _pairs(info: MeasureInfo, seed: str) -> Iterator[tuple[Array, Array]]:
     centre = 3.0 if info.planar else 0.0
     for (n, m), dim in product(shapes, dimensions):
         P, Q = rng.normal(centre, size=(n, dim)), rng.normal(centre, size=(m, dim))
-        if "function" in seed:  # of x, which may not turn back
+        if "function" in seed:  # the x coordinate, which must not reverse
             P, Q = P[np.argsort(P[:, 0])], Q[np.argsort(Q[:, 0])]
         yield P, Q
         if not info.planar:

@@ -20,7 +20,7 @@ __all__ = ["Outcome", "add_limits", "checked", "measures_with_limits"]
 
 
 class Outcome(NamedTuple):
-    """What became of the limits; None for those that were not given."""
+    """The result of the limits; None for limits that were not given."""
 
     measures: Verdict | None
     tube: Tube | None

@@ -1,4 +1,4 @@
-"""What the commands print and draw of a comparison."""
+"""Printed tables and plots of a comparison."""
 
 from __future__ import annotations
 
@@ -44,6 +44,6 @@ def require_matplotlib() -> None:
 
 
 def write_picture(comparison: Comparison, file: str) -> None:
-    """Write the picture of a comparison, in the format that the name ends in, or PNG."""
+    """Write the plot of a comparison, in the format of the file's suffix, or PNG."""
     # With the format given, matplotlib does not append ".png" to a name without an ending.
     comparison.plot().savefig(file, format=Path(file).suffix[1:] or "png")

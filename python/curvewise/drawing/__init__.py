@@ -1,4 +1,4 @@
 """Pictures of arrays: curves, what links them, loops and their convergence, and the colours.
 
-Nothing here knows a measure or a result by name. matplotlib is imported when something is drawn.
+This package does not depend on measures or results. matplotlib is imported when something is drawn.
 """

@@ -51,7 +51,7 @@ _MOST_TICKS = 6
 
 
 class CurveArtists(NamedTuple):
-    """The artists of a picture of two curves.
+    """The artists of a plot of two curves.
 
     Attributes
     ----------

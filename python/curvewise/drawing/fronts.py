@@ -32,13 +32,13 @@ def front_and_parameters(
     Parameters
     ----------
     values, front : ndarray, shape (runs, 2) and (n, 2)
-        Of all runs, and of those on the front, from one end to the other.
+        The values of all runs, and of those on the front, from one end to the other.
     compromise : int
         Which run of the front is marked.
     measures, names : sequence of str
-        What the values and the parameters are called.
+        The names of the values and the parameters.
     parameters : ndarray, shape (n, k)
-        Of the runs on the front.
+        The parameters of the runs on the front.
     """
     figure = new_figure(figsize=(9.6, 4.0), layout="constrained")
     left, right = figure.subplots(1, 2)

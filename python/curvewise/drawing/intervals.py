@@ -62,13 +62,13 @@ def intervals_and_moves(
     ----------
     intervals : Intervals
     correlations : ndarray, shape (k, k)
-        Of the errors.
+        The correlations of the errors.
     loops : iterable of four ndarrays
         Test, optimum, and the optimum moved along the weakest direction and the other way.
     names : sequence of sequence of str
         For each loop what its coordinates are called.
     title : str
-        Of the lower row.
+        The title of the lower row.
 
     Returns
     -------

@@ -35,7 +35,7 @@ class Picture(Figure):
         _show_after_cell(self)
 
     def draw(self, renderer: Any) -> None:
-        """Draw the picture; IPython calls it too, which need not show it any more."""
+        """Draw the figure, which then need not be shown again (IPython calls this)."""
         super().draw(renderer)
         self.was_drawn = True
 
@@ -43,14 +43,14 @@ class Picture(Figure):
         return self.png()
 
     def png(self, dpi: float = _DPI) -> bytes:
-        """Return the picture as a PNG file, with nothing in it of when it was drawn."""
+        """Return the figure as a PNG file without a time stamp."""
         file = io.BytesIO()
         self.savefig(file, format="png", dpi=dpi, metadata={"Software": None})
         return file.getvalue()
 
 
 def _show_after_cell(picture: Picture) -> None:
-    """Show a picture when the notebook's cell that makes it has run; do nothing elsewhere."""
+    """Show a figure at the end of the notebook's cell; do nothing elsewhere."""
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython else None
     # A terminal shows no pictures; callbacks of widgets run outside of any cell.

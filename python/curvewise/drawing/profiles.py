@@ -29,12 +29,12 @@ def profile_of_a_parameter(
     Parameters
     ----------
     name : str
-        What the parameter is called.
+        The name of the parameter.
     values, objective : ndarray, shape (points,)
     rise : float
-        Of the objective, to which the interval goes.
+        The rise of the objective at the ends of the interval.
     interval, linear : (float, float)
-        That of the profile, and that by sensitivities.
+        The interval of the profile, and that by sensitivities.
     """
     figure = new_figure(figsize=(5.2, 3.8), layout="constrained")
     ax = figure.subplots()

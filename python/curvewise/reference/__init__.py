@@ -36,7 +36,7 @@ if TYPE_CHECKING:  # the same names and signatures; a test compares them one by 
 
 __all__: list[str] = []
 
-# Of each module here the functions that are a measure's too.
+# Functions of the modules that are also measures.
 for _found in iter_modules(globals()["__path__"]):
     _module = import_module(f"{__name__}.{_found.name}")
     for _name in set(_module.__all__) & set(_measures.__all__):

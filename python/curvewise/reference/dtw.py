@@ -221,7 +221,7 @@ def _relaxed_end(relax: Sequence[int], table: Array) -> tuple[int, int]:
 
 
 class _Ends(NamedTuple):
-    """Where paths may begin and end."""
+    """The allowed beginnings and ends of paths."""
 
     open_begin: bool
     open_end: bool
@@ -274,12 +274,16 @@ class _Steps(NamedTuple):
 
     @property
     def per(self) -> str:
-        """What normalize divides by."""
+        """The divisor of normalize."""
         return self.pattern.normalization
 
     @property
     def diagonal_weight(self) -> float | None:
-        """That of "symmetric1" without a penalty, and "symmetric2" with closed ends; else None."""
+        """Weight of a diagonal step in the simple tables; None for other tables.
+
+        The simple tables are those of "symmetric1" without a penalty and of "symmetric2" with
+        closed ends.
+        """
         weights = {"symmetric1": 1.0, "symmetric2": None if self.is_open else 2.0}
         return None if self.penalty else weights.get(self.name)
 

@@ -112,7 +112,7 @@ class _Pair(NamedTuple):
         return ground_distances(A, B, self.metric, self.order)
 
     def in_units(self, distance: float) -> float:
-        """Return a distance in the units of those of the table."""
+        """Return a distance in the units of the table's distances."""
         return float(times_power_of_two(np.array(distance), -self.exponent))
 
     def limit(self, epsilon: float) -> float:

@@ -127,7 +127,7 @@ class _Diagram:
         return square < self.square or (square == self.square and not self.strictly)
 
     def free(self, x: _Point, y: _Point, z: _Point, reached: _Position | None = None) -> _Part:
-        """Return what of the edge from `x` to `y` is within reach of `z`, from `reached` on."""
+        """Return the edge's part within reach of `z`, from `reached` on."""
         u, w = _minus(y, x), _minus(z, x)
         length, middle = _dot(u, u), _dot(u, w)
         half = middle**2 - length * (_dot(w, w) - self.square)

@@ -54,7 +54,7 @@ def strip_squares(strips: Array) -> Array:
 
 
 def _rising(curve: Array, name: str) -> Array:
-    """Return a curve in the order of x; refuse one that turns back."""
+    """Return a curve in the order of x; raise an error if x reverses."""
     steps = np.sign(np.diff(curve[:, 0]))
     moving = np.flatnonzero(steps)
     back = np.flatnonzero(steps[moving[1:]] != steps[moving[:-1]])

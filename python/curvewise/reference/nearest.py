@@ -44,7 +44,7 @@ def kneighbors(
 def radius_neighbors(
     curves: Curves, X: Curves, radius: float, measure: str = "dtw", **options: Any
 ) -> tuple[list[Array], list[npt.NDArray[np.int64]]]:
-    """Return distances and indices of those of `curves` within a radius, the nearest first."""
+    """Return distances and indices of curves within a radius, nearest first."""
     distances, indices = [], []
     for row in _all_distances(X, curves, measure, options):
         order = np.argsort(row, kind="stable")

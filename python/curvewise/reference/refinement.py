@@ -1,9 +1,9 @@
-"""How two curves get the same number of vertices before the area between them is taken.
+"""Refinement of two curves to the same number of vertices, for the area.
 
-By bisection (the paper's Algorithm 1): the longest part of the curve with fewer points is halved,
-again and again, until the numbers agree. A heap finds it: O((n - m) log m). Or by arc length:
-each curve gets a vertex at every relative arc length at which the other has one, by a merge of
-the two lists: O(n + m).
+Bisection (the paper's Algorithm 1) repeatedly halves the longest part of the curve with fewer
+points, until the numbers agree. A heap finds that part: O((n - m) log m). Refinement by arc length
+gives each curve a vertex at every relative arc length at which the other has one, by a merge of the
+two lists: O(n + m).
 """
 
 from __future__ import annotations

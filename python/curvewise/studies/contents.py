@@ -61,8 +61,8 @@ class Contents:
         Parameters
         ----------
         kept_in : Path, optional
-            Where the folders of runs are made and kept, whatever the file says. The folder that
-            is used is made if it is not there.
+            The parent of the runs' folders, which are kept, whatever the file says. It is created
+            if it does not exist.
         """
         made: dict[str, AnyModel] = {}
         for name, entry in self.models.items():

@@ -1,7 +1,7 @@
 """One run of every model of a study before the search, and its report.
 
-What goes wrong in a study goes wrong here: a deck that the solver refuses, a set that is called
-differently, units. Cost: one run of every model.
+It reveals most errors of a study: a deck that the solver refuses, a wrong name of a set, wrong
+units. Cost: one run of every model.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ __all__ = ["DryRun", "dry_run"]
 
 @dataclass(frozen=True)
 class Read:
-    """What a run has for one test.
+    """The data read from a run for one test.
 
     Attributes
     ----------
@@ -110,7 +110,7 @@ class DryRun:
 
     @property
     def least_seconds(self) -> float:
-        """How long the study takes at least."""
+        """The least duration of the study."""
         return math.ceil(self.runs / self.workers) * self.seconds
 
     def __str__(self) -> str:

@@ -235,5 +235,5 @@ def _value(tree: _Tree, values: Mapping[str, Any]) -> Any:
     if isinstance(tree, str):
         value = values[tree] if tree in values else _CONSTANTS[tree]
         return value if isinstance(value, np.ndarray) else np.float64(value)
-    # By map, as a loop of Python's would double the depth of calls, which has a limit.
+    # A loop in Python would double the depth of calls, which is limited.
     return _OPERATIONS[tree[0]](*map(_value, tree[1:], repeat(values)))

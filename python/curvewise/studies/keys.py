@@ -239,7 +239,7 @@ def name_or_number(wanted: str) -> Callable[[Any], Any]:
 
 
 def at_least(least: int) -> Callable[[Any], int]:
-    """Return what reads a whole number from a least one on."""
+    """Return a reader of integers from a least one on."""
     return reader(f"at least {least}", lambda value: whole(value) >= least, int)
 
 

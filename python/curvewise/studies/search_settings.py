@@ -22,7 +22,7 @@ _FEWEST_SAMPLES = 20
 
 @dataclass(frozen=True)
 class Comparison:
-    """How simulations are compared with tests: for all tests, or for one that differs."""
+    """Settings of the comparison: for all tests, or for one that differs."""
 
     measure: str | None = key(keys.choice(MEASURES))
     preset: str | None = key(keys.choice(tuple(PRESETS)))

@@ -51,7 +51,7 @@ def _scratch(source: Source, path: KeyPath, value: Any) -> Path:
 
 @dataclass(frozen=True)
 class Success:
-    """How a run says that it is complete: by a text in a file."""
+    """The sign of a complete run: a text in a file."""
 
     file: str = key(keys.in_run, LOG)
     text: str = key(keys.text, "", required="the text that a complete run writes")
@@ -108,7 +108,7 @@ class SolverModel:
 
     @property
     def made(self) -> tuple[DeckValue | DeckTable, ...]:
-        """What formulas make for the templates."""
+        """Values that formulas compute for the templates."""
         return (*self.values, *self.tables)
 
 

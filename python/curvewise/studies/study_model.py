@@ -116,7 +116,7 @@ class OutputReader:
     sources : tuple of CurveSource
         One for each test.
     success : (file, text) or None
-        A text that the file must hold, or the run has failed.
+        A text that the file must contain; otherwise the run has failed.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""The parameters by several measures, side by side: what `identify_each` returns."""
+"""The result of `identify_each`: parameters by several measures."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ __all__ = ["SeveralMeasures"]
 
 
 class SeveralMeasures(Mapping[str, Identification], Result):
-    """What `identify_each` returns: an :class:`Identification` for every measure, by its name.
+    """Result of `identify_each`: an :class:`Identification` for every measure.
 
     Attributes
     ----------
     runs : int
-        How many runs of the model all searches made together.
+        Number of model runs in all searches together.
     optima : ndarray, shape (measures, measures)
         Row i has the optimum of measure i under every measure (the paper's Table 4); nan where
         one refuses.

@@ -20,7 +20,7 @@ from .method import Method, options_of, refuse_unknown
 from .simplex import NelderMead
 from .trust_region import TrustRegion
 
-# What a user needs; the rest of this file is for the package.
+# The public names; the others are internal.
 __all__ = [
     "SDRM",
     "Auto",

@@ -89,14 +89,13 @@ class OpenSearch:
 
     @property
     def ended(self) -> bool:
-        """Whether the answer is there, and nothing more is asked."""
+        """Whether the answer is available, and nothing more is requested."""
         return self._finish is not None
 
     def ask(self) -> list[dict[str, float]]:
         """Return the parameter sets to run next, at the same time if you like.
 
-        Each set is returned once. An empty list means that others are out, which have to be told
-        before there is more to ask.
+        Each set is returned once. An empty list means that pending sets must be reported first.
         """
         new = [p for p in self._wanted if p not in self._out and p not in self._told]
         self._out.update(new)

@@ -40,7 +40,7 @@ _POOR, _FAIR, _GOOD = 0.1, 0.3, 0.7
 _AFTER_FAILURE, _AFTER_POOR = 0.5, 0.7  # the region, of the length of a step
 _SHORTER = 0.05  # sides of the region after a run that failed, of some of its axes
 _AFTER_LOOK = 5.0  # factor of the radius after geometry-improving steps
-_OF_NOISE = 5.0  # times as far a surrogate has to be known of a model with noise
+_OF_NOISE = 5.0  # factor of diff_step for a model with noise
 _AFTER_HOP = 0.15  # factor of the diff_step radius after a restart next to another minimum
 _FEW = 2  # up to this number of parameters, each independent start runs its own initial design
 # Excess of failed over good steps that marks the surrogate of the curves as misleading.
@@ -80,7 +80,7 @@ class Descent:
     random : numpy.random.Generator
     rules : Rules
     runs : Runs
-        Of all starts.
+        The runs of all starts.
     is_independent : bool
         Whether the start's place owes nothing to other starts.
     """
@@ -98,7 +98,7 @@ class Descent:
         self._failed = 0  # steps, less those that were good
         self._by_value = False
         self._noise = Noise(0.0, 0.0)
-        self._reach = rules.diff_step  # within which the surrogate has to be known
+        self._reach = rules.diff_step  # radius within which every direction must be sampled
         # differences of the value that are negligible compared with the reduction so far
         self._nothing = 0.0
 
@@ -109,7 +109,7 @@ class Descent:
 
     @property
     def centre(self) -> Array:
-        """Where it is."""
+        """The point of the best run."""
         assert self._best is not None
         point: Array = self._runs.points[self._best]
         return point

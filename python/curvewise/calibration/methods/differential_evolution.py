@@ -172,5 +172,5 @@ class _Stall:
 
     @property
     def message(self) -> str:
-        """How the search ended."""
+        """The ending of the search."""
         return f"improved by less than {self._improvement:.3g} over {self._generations} generations"

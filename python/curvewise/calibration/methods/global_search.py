@@ -38,9 +38,10 @@ _WITHOUT = 'by differential evolution, since cma is missing (pip install "curvew
 class Global(Method, name="global", keeps_curves=False, needs_squares=False):
     """Global search, for models that cost milliseconds: by CMA-ES, with rounds that grow.
 
-    By the package ``cma`` where it is installed (``pip install "curvewise[global]"``), otherwise
-    by scipy's differential evolution, which needs more runs and less often arrives; how the search
-    ended says so. For any measure. The points of a generation may run at the same time.
+    The package ``cma`` is used if it is installed (``pip install "curvewise[global]"``). Otherwise
+    scipy's differential evolution is used, which needs more runs and succeeds less often; the
+    message of the result reports it. For any measure. The points of a generation may run in
+    parallel.
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ class GlobalStage:
     Parameters
     ----------
     runs : Runs
-        Of the search.
+        The runs of the search.
     random : numpy.random.Generator
     """
 

@@ -1,4 +1,4 @@
-"""What a method of searching says of itself, whichever it is: the record that all of them fill in.
+"""The base record of all search methods.
 
 A method is a frozen dataclass of its options, checked when it is made. `identify`, `identify_each`
 and the check of a study know methods by this record alone. Python refuses a class that leaves out
@@ -40,7 +40,7 @@ class Method(ABC):
     Parameters
     ----------
     name : str
-        What the method is called in texts, such as "trust-region".
+        The name of the method in texts, such as "trust-region".
     keeps_curves : bool
         Whether it learns from the curves of its runs, which are kept then, and not only from their
         values.
@@ -100,7 +100,7 @@ class Method(ABC):
         Parameters
         ----------
         problem : Problem
-            Of experiments and bounds; its models, if it has any, are not run.
+            The problem, with experiments and bounds; its models, if any, are not run.
         seed, start, max_runs
             As those of :func:`curvewise.calibration.identify`.
 

@@ -42,15 +42,16 @@ def searched(
     Parameters
     ----------
     ledger, runs, rules
-        Of the search.
+        The data of the search.
     start : ndarray, shape (k,), or None
         The only one, where it is given.
     seed : int
-        Of all random numbers.
+        Seed of all random numbers.
     starts, most_starts : int
-        How many have to agree, and how many are made at most. A single one is not followed.
+        The number of starts that must agree, and the maximum number. After a single start, the
+        search ends.
     at_once : int
-        How many are made side by side.
+        Number of starts that run in parallel.
 
     Raises
     ------

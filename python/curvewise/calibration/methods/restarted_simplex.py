@@ -35,9 +35,9 @@ def nelder_mead(
     Parameters
     ----------
     function : callable
-        Of a point, shape (k,).
+        A function of a point, shape (k,).
     start : ndarray
-        Where to start.
+        The starting point.
     box : (low, high)
         The bounds of the search.
     random : numpy.random.Generator
@@ -49,7 +49,7 @@ def nelder_mead(
     restarts : int
         The most fresh simplices after the first; two in a row that gain nothing end the search.
     **options
-        Of scipy's Nelder-Mead.
+        Options of scipy's Nelder-Mead.
     """
     minimize = required("scipy.optimize").minimize
     k = start.size

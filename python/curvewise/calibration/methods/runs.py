@@ -34,9 +34,10 @@ class Noise(NamedTuple):
     Attributes
     ----------
     of_curves : float
-        Of a coordinate, in side lengths of the test's bounding box; 0 if the runs show no noise.
+        The noise of a coordinate, in side lengths of the test's bounding box; 0 if the runs show no
+        noise.
     of_value : float
-        Of the minimised value.
+        The noise of the minimised value.
     """
 
     of_curves: float

@@ -22,7 +22,7 @@ __all__ = ["EndedSearch", "Plan", "run_search"]
 
 @dataclass(frozen=True)
 class Plan:
-    """How to search, as the arguments of `identify` of the same names, and what runs models."""
+    """The settings of a search, named as in `identify`; the runner of models."""
 
     method: Method
     seed: int
@@ -53,9 +53,9 @@ def run_search(problem: Problem, plan: Plan, earlier_runs: Sequence[Run] = ()) -
     Parameters
     ----------
     problem, plan
-        What to search for, and how.
+        The problem, and the settings of the search.
     earlier_runs : sequence of (ndarray, Evaluation)
-        Those of earlier searches, from which some methods begin.
+        The runs of earlier searches, at which some methods begin.
     """
     start = None if plan.start is None else problem.space.unit(plan.start)
     required("scipy")

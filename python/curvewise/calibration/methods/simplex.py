@@ -41,7 +41,7 @@ class NelderMead(Method, name="nelder-mead", keeps_curves=False, needs_squares=F
     restarts : int, default 10
         The most fresh simplices after the first; two in a row that gain nothing end the search.
     options : mapping, optional
-        Of scipy's Nelder-Mead: xatol, fatol, maxiter, maxfev, adaptive, disp, return_all.
+        Options of scipy's Nelder-Mead: xatol, fatol, maxiter, maxfev, adaptive, disp, return_all.
 
     Raises
     ------

@@ -48,7 +48,7 @@ _TRY = 'is flat or stepped here; try another method ("global"), measure or start
 
 
 class End(NamedTuple):
-    """How one start ended.
+    """The end of one start.
 
     Attributes
     ----------
@@ -166,7 +166,7 @@ def finish_of(ends: Sequence[End], negligible: float, starts: int) -> Finish:
     negligible : float
         Differences of the value below this do not count.
     starts : int
-        How many have to agree; 1 where a start was given.
+        Number of starts that must agree; 1 if a start was given.
     """
     best = min(ends, key=lambda end: end.value)
     converged, message = best.finish

@@ -177,7 +177,7 @@ class CommandModel:
         Returns
         -------
         ndarray or list of ndarray
-            What `read` returned, in float64.
+            The result of `read`, in float64.
 
         Raises
         ------

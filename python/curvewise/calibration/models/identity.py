@@ -26,14 +26,14 @@ __all__ = ["ModelIdentity", "fingerprint", "model_identity", "qualified_name"]
 
 
 class ModelIdentity(NamedTuple):
-    """What a model's runs are stored under.
+    """The key under which a model's runs are stored.
 
     Attributes
     ----------
     text : str
         Two models with the same text have the same curves for the same parameters.
     fingerprint : str
-        Of the code behind the text; empty where the text is all there is.
+        The fingerprint of the code behind the text; empty if the text alone identifies the model.
     """
 
     text: str
@@ -48,7 +48,7 @@ def model_identity(model: Any, version: str | None) -> ModelIdentity:
     model : callable
         The model, perhaps with an attribute `identity`.
     version : str or None
-        What its user calls its present state.
+        The user's name for the present state.
 
     Raises
     ------

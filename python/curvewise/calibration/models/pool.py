@@ -48,7 +48,7 @@ _PATIENCE = 5.0  # seconds that a model has to end after Ctrl-C before its proce
 
 
 class Outcome(NamedTuple):
-    """What came of one call of the model: simulations, or the message of a failure."""
+    """The outcome of one call of the model: simulations, or a failure's message."""
 
     simulations: Any
     message: str
@@ -117,7 +117,7 @@ class ModelPool:
         self._pool = None
 
     def begin(self, calls: Iterable[dict[str, Any]]) -> None:
-        """Start calls that will be asked for, where something can run them meanwhile.
+        """Start calls that will be requested, if processes are free.
 
         Raises
         ------
@@ -292,7 +292,7 @@ def _broken(error: BrokenExecutor) -> RuntimeError:
     )
 
 
-# What follows runs in the worker processes.
+# The functions below run in the worker processes.
 
 _worker: dict[str, Any] = {"model": None, "running": False, "interrupted": False}
 

@@ -136,7 +136,7 @@ def _end_group(process: subprocess.Popen[bytes]) -> None:
             _signal_group(process, "SIGTERM")
             with contextlib.suppress(subprocess.TimeoutExpired):
                 process.wait(_GRACE)
-    finally:  # also when Ctrl-C is pressed once more
+    finally:  # also if Ctrl-C is pressed again
         _signal_group(process, "SIGKILL")
         process.wait()
 

@@ -176,7 +176,7 @@ class Cases(ForwardModel):
 
 
 def _response(case: Case, outcome: Outcome) -> Any:
-    """Return what of an outcome a case compares, or why there is nothing."""
+    """Return the part of an outcome that a case compares, or the error."""
     if outcome.message:
         return RuntimeError(outcome.message)
     result = outcome.simulations

@@ -29,7 +29,7 @@ __all__ = [
 
 Abscissa: TypeAlias = int | Literal["points"]
 
-# How far, relative to the experiment's extent in x, rounding may put the ends apart.
+# Rounding difference of the ends that is tolerated, relative to the experiment's extent in x.
 _SLACK = 1e-9
 # Largest difference between x of two points that are compared one by one. A solver's seven digits
 # and its own measure of strain pass, another path does not.
@@ -146,7 +146,7 @@ def difference_slopes(P: Array, Q: Array, directions: Array, *, abscissa: Abscis
     P, Q
         As for `differences`, which accepts them.
     directions : ndarray, shape (len(Q), d, k)
-        In which Q moves.
+        The directions in which Q moves.
 
     Returns
     -------
@@ -164,14 +164,14 @@ def difference_slopes(P: Array, Q: Array, directions: Array, *, abscissa: Abscis
 
 
 class _Place(NamedTuple):
-    """Where the experiment's points are on a simulation.
+    """The places of the experiment's points on a simulation.
 
     Attributes
     ----------
     ends : two of (ndarray of int, ndarray)
         The points of the simulation before and after each, and their parts in it.
     slope : ndarray
-        Of y there.
+        The slope of y there.
     """
 
     ends: tuple[tuple[Rows, Array], tuple[Rows, Array]]

@@ -31,7 +31,7 @@ __all__ = [
 ]
 
 MEASURES = (*registry.MEASURES, "sum_of_squares")
-# Those that are made of differences whose squares are added up.
+# Measures that add up squares of differences.
 LEAST_SQUARES = (
     *(name for name, info in registry.MEASURES.items() if info.residuals),
     "sum_of_squares",
@@ -167,9 +167,9 @@ class Criterion:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """What a record writes down: ``Criterion(**settings)`` makes it again, but of a function.
+        """The settings for a record: ``Criterion(**settings)`` rebuilds it.
 
-        Of a function it has the name alone.
+        A function is represented by its name, and cannot be rebuilt.
         """
         weights = None if self.weights is None else list(self.weights)
         named = {name: getattr(self, name) for name in _SETTINGS}
@@ -216,7 +216,7 @@ def criterion_of(
     options
         The keywords.
     others
-        What else a keyword could have been meant to be: arguments of that function.
+        Further candidates for a misspelt keyword: arguments of that function.
     """
     if isinstance(measure, Criterion):
         if options:

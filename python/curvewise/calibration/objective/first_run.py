@@ -44,9 +44,9 @@ def warn_of_first_run(
     ----------
     experiments : sequence of ndarray, shape (n, d)
     axes : sequence of tuple of str
-        What the coordinates of each are called.
+        The names of the coordinates of each.
     simulations
-        What the model has returned, without a failure.
+        The successful result of the model.
     """
     doubts = []
     for i, (test, names, curve) in enumerate(

@@ -23,7 +23,7 @@ from .objective import Objective
 
 __all__ = ["NoisyTestWarning", "advice_against_noise", "estimated_noise", "warn_of_noise"]
 
-# What noise does to the measures that it moves.
+# The effect of noise on the measures that do not average it out.
 _EFFECTS = {
     "curve_length": "curve_length takes noise for length",
     "pcm": "pcm takes noise for length",

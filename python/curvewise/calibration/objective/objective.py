@@ -31,7 +31,7 @@ _NEGLIGIBLE = 1e-7
 
 
 class Score(NamedTuple):
-    """What an objective makes of one set of simulations.
+    """The value of one set of simulations, with failures.
 
     Attributes
     ----------
@@ -234,7 +234,7 @@ class Objective:
         -------
         value : float
         gradients : list of ndarray
-            Of each simulation's shape.
+            The gradient of each simulation, in its shape.
         """
         total = 0.0
         gradients = []
@@ -369,7 +369,7 @@ class Objective:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """What a record writes down, in values that JSON can hold: of functions their names."""
+        """The settings for a record, as JSON values; functions by their names."""
         shared = self.criterion
         return {
             "measure": self.measure,

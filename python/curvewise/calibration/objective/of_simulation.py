@@ -51,7 +51,7 @@ class OfSimulation(NamedTuple):
 
 
 def of_simulation(criterion: Criterion, P: Array) -> OfSimulation:
-    """Return a criterion's functions for an experiment, which is scaled if it has to be."""
+    """Return a criterion's functions for an experiment, scaled if required."""
     measure, options = criterion.measure, criterion.condition.options
     if callable(measure):
         return OfSimulation(partial(_called, measure, P, options))

@@ -26,7 +26,7 @@ from .objective import Objective
 __all__ = ["Sampling", "sampling_of_tests"]
 
 _SHORTEST, _LONGEST = 1.0 / 3.0, 4.0  # of steps that decide, in distances
-_OF_NOISE = 4.0  # standard deviations: the largest of some hundred points
+_OF_NOISE = 4.0  # standard deviations: the largest of about a hundred points
 _ROUND = 100  # to which the points are rounded up that would be enough
 
 
@@ -49,7 +49,7 @@ class Sampling(NamedTuple):
 def sampling_of_tests(objective: Objective, distances: Array) -> list[Sampling]:
     """Return how the tests of such an objective are sampled, at distances from them.
 
-    Of a test whose distance is that of its noise no step decides: more points would not help.
+    If the distance of a test is that of its noise, no step decides: more points would not help.
     """
     assert objective.condition is not None
     of_all = zip(objective.experiments, objective.y_columns, distances, strict=True)

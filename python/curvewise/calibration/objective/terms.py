@@ -40,16 +40,16 @@ class FailedSimulationError(Exception):
 
 
 class Label(NamedTuple):
-    """What a term is called.
+    """The names of a term.
 
     Attributes
     ----------
     title : str
         In pictures and tables.
     argument : str
-        Where its experiment is wrong.
+        The name of its experiment in errors.
     prefix : str
-        What the reason of a failed simulation begins with.
+        The beginning of the message of a failed simulation.
     """
 
     title: str
@@ -178,7 +178,7 @@ class Term(ABC):
         simulation : ndarray, shape (n, d)
             One that has not failed.
         directions : ndarray, shape (n, d, k)
-            In which it moves.
+            The directions in which it moves.
 
         Returns
         -------

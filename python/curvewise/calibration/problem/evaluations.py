@@ -29,12 +29,12 @@ _PAUSE = 0.2  # seconds between two refreshes of the bar while nothing is run
 
 
 class Progress(NamedTuple):
-    """What a callback is told after every batch.
+    """The argument of a callback after every batch.
 
     Attributes
     ----------
     evaluations : int
-        How many parameter sets have been evaluated.
+        Number of evaluated parameter sets.
     parameters : dict of str to float
         The best of them.
     value : float
@@ -52,15 +52,16 @@ class Evaluations(Ledger):
     Parameters
     ----------
     simulator, problem, recorder
-        What runs the models, what scores them and names the parameters, and takes the search down.
+        The runner of the models; the problem, which scores simulations and names the parameters;
+        and the recorder of the search.
     limit : int or None
-        How many parameter sets to evaluate at most.
+        Maximum number of parameter sets to evaluate.
     callback : callable or None
         Told the progress after every batch; a true result ends the search.
     bar : object
         A tqdm progress bar.
     earlier_runs : sequence of (ndarray, Evaluation)
-        Of the same models, by earlier searches, with their places in the unit cube.
+        Runs of the same models in earlier searches, with their places in the unit cube.
     """
 
     def __init__(
@@ -81,7 +82,7 @@ class Evaluations(Ledger):
 
     @property
     def starts_at_once(self) -> int:
-        """How many starts a search makes side by side: three where there are several workers."""
+        """Number of parallel starts: three if there are several workers."""
         return STARTS_AT_ONCE if self._simulator.is_parallel else 1
 
     def begin_stage(self, name: str, *, keeps_curves: bool) -> None:

@@ -1,4 +1,4 @@
-"""Where and how models are run: in which processes, and with which store."""
+"""The execution of models: processes and store."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ _log = logging.getLogger("curvewise.calibration")
 
 
 class Finish(NamedTuple):
-    """How a search, or a stage of it, ended."""
+    """The ending of a search, or of one of its stages."""
 
     converged: bool
     message: str
@@ -52,11 +52,11 @@ class Ledger:
     Parameters
     ----------
     problem : Problem
-        What scores simulations and names the parameters.
+        The problem, which scores simulations and names the parameters.
     limit : int or None
-        How many parameter sets to evaluate at most.
+        Maximum number of parameter sets to evaluate.
     earlier_runs : sequence of (ndarray, Evaluation)
-        Of the same models, by earlier searches, with their places in the unit cube.
+        Runs of the same models in earlier searches, with their places in the unit cube.
 
     Attributes
     ----------
@@ -82,7 +82,7 @@ class Ledger:
 
     @property
     def dimensions(self) -> int:
-        """How many parameters there are."""
+        """Number of parameters."""
         return len(self.space.names)
 
     @property
@@ -114,7 +114,7 @@ class Ledger:
 
     @property
     def best_unit(self) -> Array:
-        """Where in the unit cube the best evaluation is."""
+        """The place of the best evaluation in the unit cube."""
         assert self._best is not None
         return self._units[self._best]
 

@@ -1,4 +1,4 @@
-"""What a search is about: objective, space and model. How the model is run is an `Execution`."""
+"""The problem of a search: objective, space and model."""
 
 from __future__ import annotations
 

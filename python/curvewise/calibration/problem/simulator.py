@@ -78,7 +78,7 @@ class Simulator:
         return self._pool.is_parallel
 
     def begin(self, parameters: Sequence[dict[str, float]]) -> None:
-        """Start runs that will be asked for, where something can make them meanwhile."""
+        """Start runs that will be requested, if processes are free."""
         for values in parameters:
             known = self._known(values)
             self._early |= {_run(self._call(j, values)): known[j] for j in known}

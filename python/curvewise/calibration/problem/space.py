@@ -26,7 +26,7 @@ __all__ = ["Space", "WideBoundsWarning"]
 # Columns of the table of evaluations, in addition to the parameters.
 _RESERVED = ("evaluation", "value", "failed", "seconds", "message")
 
-# How far a parameter stays below another one, as a fraction of its bounds' range.
+# Gap between a parameter and the one that it must stay below, as a fraction of its bounds' range.
 _GAP = 1e-6
 
 # A parameter within this fraction of the range from a bound is reported as at the bound.
@@ -139,7 +139,7 @@ class Space:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """What a search writes down of it; for plain bounds the bounds."""
+        """The record of the space; for plain bounds the bounds."""
         settings: dict[str, Any] = {}
         for name, given in self._given.items():
             if isinstance(given, Tied):
@@ -201,7 +201,7 @@ class Space:
         name : str
             A parameter that is searched for.
         value : float
-            Of it.
+            The value of the parameter.
         parameters : mapping of str to float, optional
             All of them: with them the upper bound of a parameter that stays below another one is
             at most the value of that one.
@@ -224,7 +224,8 @@ class Space:
     def at_bounds(self, parameters: Mapping[str, float]) -> dict[str, str]:
         """Return "lower" or "upper" for every parameter that is at a bound, to 0.1 % of the range.
 
-        What a parameter that stays below another one may be at most counts as its upper bound.
+        For a parameter that must stay below another one, the largest allowed value counts as its
+        upper bound.
         """
         places = {name: self.place(name, parameters[name], parameters) for name in self.names}
         return {

@@ -108,7 +108,7 @@ class Database:
     def write(self, table: str, rows: Iterable[Row], *, replace: bool = False) -> None:
         """Write rows without their checksums, within a transaction.
 
-        Of those whose key is there already, the old rows stay, unless they are to be replaced.
+        Rows with an existing key are ignored, unless `replace` is true.
         """
         how = "REPLACE" if replace else "IGNORE"
         for row in rows:

@@ -27,7 +27,7 @@ _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
 @dataclass(frozen=True)
 class Ending:
-    """How a search ended.
+    """The ending of a search.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class SearchRecord:
     settings : dict
         The settings that determine the course of the search.
     details : dict
-        What else a report needs: see `details_of`.
+        Further data for a report: see `details_of`.
     evaluations : tuple of Evaluation
         In the order of their numbers. Evaluations read from a store lack their curves.
     ending : Ending or None

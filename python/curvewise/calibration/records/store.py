@@ -118,7 +118,7 @@ class SimulationStore:
         self.close()
 
     def __len__(self) -> int:
-        """How many runs there are, of all models."""
+        """Return the number of runs of all models."""
         self._write()
         self._database.check("runs")
         return self._database.number("SELECT count(*) FROM runs")
@@ -197,7 +197,7 @@ class SimulationStore:
         Parameters
         ----------
         settings, details : str
-            Those of a `SearchRecord`, as JSON.
+            Settings and details of a `SearchRecord`, as JSON.
         """
         key = hashlib.sha256(settings.encode()).hexdigest()
         with self._database.transaction():

@@ -1,8 +1,8 @@
-"""How far a simulation is from its test, branch by branch.
+"""Residuals of a simulation, branch by branch.
 
-A residual is the measured y minus the simulated y at the place that a warping path gives, as for
-the noise of an uncertainty (fitted_points.py). Branches end where the test turns back by more than
-a tenth of its range. Cost: a warping path.
+A residual is the measured y minus the simulated y at the place on a warping path, as for the noise
+of an uncertainty (fitted_points.py). Branches end where the test reverses by more than a tenth of
+its range. Cost: a warping path.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Branch(NamedTuple):
     name : str
         "branch 1" and so on.
     x, residual : ndarray
-        Of every measured point, in the units of the test.
+        The x and the residual of every measured point, in the units of the test.
     """
 
     name: str

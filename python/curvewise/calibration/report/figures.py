@@ -1,8 +1,8 @@
 """The figures of a page, as what plotly.js draws: dicts of traces and a layout.
 
-They are made here and not by plotly's Python, which gives them random names. Curves are thinned to
-a number of points that keeps the page small, and numbers are rounded to seven digits, which no
-screen can show. The colours are those of every picture (drawing/palette.py).
+They are made here and not with plotly's Python, which gives them random names. Curves are thinned
+to a number of points that keeps the page small, and numbers are rounded to seven digits, more than
+a screen can show. The colours are those of all figures (drawing/palette.py).
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ AddFigure = Callable[[Figure, str], str]
 
 _MOST_FAILURES = 100  # in the table; the others are counted
 
-# What a page leaves to calls, since it runs no model and may be of one measure.
+# Functions that a page omits, because it does not run models and may have one measure.
 _OF_THE_FRONT = (
     "Which runs are good for two measures at once, and what a compromise costs each of them, says "
     "front(store, tests, measures), of the runs that a store holds."
@@ -39,7 +39,7 @@ _OF_THE_BOUNDS = (
 
 
 def overview(searches: Sequence[ShownSearch]) -> str:
-    """Return the parameters that several searches have found, side by side."""
+    """Return the parameters of several searches next to each other."""
     names = list(dict.fromkeys(name for search in searches for name in search.record.names))
     rows = []
     for number, search in enumerate(searches, 1):
@@ -72,7 +72,7 @@ def sections_of(search: ShownSearch, add: AddFigure, most: int) -> list[tuple[st
     add : callable
         Adds a figure to the page.
     most : int
-        How many points are drawn of a curve.
+        Maximum number of drawn points of a curve.
     """
     return [
         ("Parameters", _parameters(search, add)),

@@ -1,4 +1,4 @@
-"""What the two quasi-Newton searches share: the update of the inverse Hessian, and a decrease.
+"""Shared code of the quasi-Newton searches: BFGS update and decrease.
 
 The update of Broyden, Fletcher, Goldfarb and Shanno. J. Nocedal, S. J. Wright, "Numerical
 optimization", Springer (2006), chapter 6. Cost: O(k^3) for k coordinates.
@@ -22,7 +22,7 @@ def has_curvature(step: Array, change: Array, least: float) -> bool:
     ----------
     step, change : ndarray, shape (k,)
     least : float
-        Of the cosine between the two.
+        Least cosine between the two.
     """
     return float(step @ change) > least * float(np.linalg.norm(step) * np.linalg.norm(change))
 

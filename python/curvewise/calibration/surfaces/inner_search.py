@@ -77,7 +77,7 @@ class CurveSearch:
     Parameters
     ----------
     objective : Objective
-        Of the tests.
+        The objective of the tests.
     gain : float
         The smallest gain that counts, as a fraction of the value.
     show_activity : callable

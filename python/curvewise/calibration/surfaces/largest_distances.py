@@ -12,7 +12,7 @@ The coupling that attains the distance determines little about the pairs that do
 warping path of squared distances keeps all pairs short and is used first. If it predicts no
 reduction, the attaining coupling is used.
 
-Cost: a path and a linear program of some hundred rows, 2 to 4 ms, for each of up to 15 steps.
+Cost: a path and a linear program of about a hundred rows, 2 to 4 ms, for each of up to 15 steps.
 
 K. Madsen, "An algorithm for minimax solution of overdetermined systems of non-linear equations",
 J. Inst. Maths Applics 16 (1975) 321-328.

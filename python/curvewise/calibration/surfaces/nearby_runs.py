@@ -30,7 +30,7 @@ class NearbyRuns(NamedTuple):
     unit : ndarray, shape (k,)
         The point.
     points : ndarray, shape (m, k)
-        Where the runs are.
+        The points of the runs.
     distances : ndarray, shape (m,)
         Their distances from the point: the largest of any coordinate.
     runs : list of Evaluation

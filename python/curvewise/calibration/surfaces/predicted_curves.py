@@ -23,7 +23,7 @@ class PredictedCurves:
     Parameters
     ----------
     objective : Objective
-        Of the tests.
+        The objective of the tests.
     responses : Responses
         Converts vectors of the surface to curves.
     rows : list of ndarray, optional

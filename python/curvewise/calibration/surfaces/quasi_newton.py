@@ -34,7 +34,7 @@ def quasi_newton(
     Parameters
     ----------
     function : callable
-        Of a point, shape (k,).
+        A function of a point, shape (k,).
     start : ndarray, shape (k,)
     inverse_hessian : ndarray, shape (k, k)
         Positive definite; of the right size.

@@ -42,9 +42,9 @@ class SumOfSquares:
     Parameters
     ----------
     objective : Objective
-        Of the tests.
+        The objective of the tests.
     bend : callable, optional
-        Of a robust sum.
+        The transformation of a robust sum.
     """
 
     is_smooth: ClassVar[bool] = True

@@ -33,7 +33,7 @@ class Responses:
     Parameters
     ----------
     simulations : sequence of ndarray, shape (n, d)
-        Of some run; the others are brought to its numbers of points.
+        The simulations of a reference run; the others are resampled to its numbers of points.
     """
 
     def __init__(self, simulations: Sequence[Array]) -> None:
@@ -106,9 +106,9 @@ def resampled(curve: Array, count: int, extent: Array) -> Array:
     ----------
     curve : ndarray, shape (n, d)
     count : int
-        How many points to return.
+        Number of points to return.
     extent : ndarray, shape (d,)
-        By what coordinates are divided for the length; 0 counts as 1.
+        The divisors of the coordinates for the length; 0 counts as 1.
     """
     steps = np.diff(curve, axis=0) / np.where(extent > 0, extent, 1.0)
     length = np.concatenate(([0.0], np.cumsum(np.linalg.norm(steps, axis=1))))
@@ -140,7 +140,7 @@ class Surfaces:
     Attributes
     ----------
     centre : ndarray, shape (k,)
-        Where the surfaces touch `base`.
+        The point at which the surfaces equal `base`.
     base : ndarray, shape (coordinates,)
         The response there.
     slopes : ndarray, shape (coordinates, k)

@@ -49,7 +49,7 @@ class Correlation(NamedTuple):
     is_white : bool
         Whether the noise is taken for white.
     deviates : ndarray, shape (draws, k), or None
-        Of the bootstrap-t, absolute; None for white noise.
+        Absolute values of the bootstrap-t; None for white noise.
     """
 
     noise: list[Array]
@@ -87,8 +87,8 @@ class Correlation(NamedTuple):
     def freedom(self, columns: Array) -> Array:
         """Return the equivalent degrees of freedom of the variances of correlated noise, (k,).
 
-        Those of a weighted mean of the periodogram, whose squares are in the mean twice those of
-        the spectrum.
+        The degrees of freedom of a weighted mean of the periodogram, whose squares are on average
+        twice those of the spectrum.
         """
         shares = [
             _power(part) * np.abs(np.fft.rfft(noise))[:, np.newaxis] ** 2
@@ -134,7 +134,7 @@ def correlation_of(residuals: Sequence[Array], slopes: Array, moves: Array) -> C
     basis, values, _ = np.linalg.svd(slopes, full_matrices=False)
     basis = basis[:, values > 1e-9 * values[0]]
     counts = [len(one) for one in residuals]
-    # What the fit could still have taken would be taken for noise of long range.
+    # Components that the fit could still remove would look like long-range noise.
     left = np.concatenate(residuals)
     left = left - basis @ (basis.T @ left)
     count, freedom = len(left), len(left) - basis.shape[1]
@@ -176,9 +176,10 @@ class _Sums(NamedTuple):
     Attributes
     ----------
     whole, steps, taken : ndarray, shape (draws,)
-        Of the residuals; of the differences of neighbours; of what a fit takes from shifts.
+        Statistics of the residuals, of the differences of neighbours, and of the part that a fit
+        takes from shifts.
     variances : ndarray, shape (draws, k)
-        Of the estimates, with shifts.
+        The variances of the estimates, with shifts.
     """
 
     whole: Array
@@ -188,13 +189,13 @@ class _Sums(NamedTuple):
 
     @property
     def enlarging(self) -> Array:
-        """By what squares are multiplied, so that fits of shifts leave as much."""
+        """The factor of the squares with which fits of shifts leave as much."""
         enlarging: Array = self.whole / np.maximum(self.whole - self.taken, _LEAST * self.whole)
         return enlarging
 
 
 class _Squares:
-    """What makes `_Sums`: spectra of what a fit takes, and of how the estimates move.
+    """The input of `_Sums`: spectra of a fit's part and of the moves.
 
     Parameters
     ----------

@@ -79,7 +79,7 @@ def _compared_slopes(estimate: Estimate, optimum: Optimum) -> Array:
 
 
 def _follow(ends: Sequence[End], optimum: Optimum, estimate: Estimate) -> int:
-    """Let all ends arrive, side by side, and return in how many runs, made now or before."""
+    """Compute all ends in parallel; return the number of runs, new or stored."""
     fitted = estimate.compared(optimum.curves(optimum.unit))
     with optimum.execution.simulator(optimum.problem.model) as simulator:
         while steps := [(end, place) for end in ends if (place := end.next_place()) is not None]:

@@ -41,8 +41,8 @@ class Noise(NamedTuple):
     directions : sequence of Directions
         For each test the directions of the deviations of the measured points.
     residuals : sequence of ndarray or None
-        How far the measured points are from the simulation in these directions, in units of y;
-        None where sigma is given.
+        Distances of the measured points from the simulation in these directions, in units of y;
+        None if sigma is given.
     components : sequence of ndarray, shape (d,)
         For each test the standard deviation in each coordinate, in units of y, enlarged for the
         parameters that were fitted.
@@ -137,8 +137,9 @@ def _components(residuals: Array, directions: Directions, answers: Array) -> Arr
     residuals : ndarray, shape (n,)
     directions : Directions
     answers : ndarray, shape (d,)
-        How much of the model's answer is in each coordinate; noise is shared out so, unless other
-        shares are clearly more likely. They cannot be if all directions are equal.
+        The fraction of the model's response in each coordinate. Noise is divided in the same way,
+        unless other fractions are clearly more likely, which is impossible if all directions are
+        equal.
     """
     parts, squares = directions.unit**2, residuals**2
     level = float(np.mean(squares))

@@ -30,15 +30,15 @@ __all__ = ["ADDED_UP", "Spread", "bootstrapped_spread", "linear_spread", "rise_a
 ADDED_UP = ("area", "dtw", "sum_of_squares")
 """The measures that add up what is measured at each point; sensitivities are their theory."""
 
-# Of a minimisation on the surfaces: differences, in standard errors, and the gain that is not worth
-# another step, in parts of what a standard error costs.
+# Settings of a minimisation on the surfaces: finite differences, in standard errors, and the
+# negligible gain, as a fraction of the cost of a standard error.
 _DIFFERENCE, _ENOUGH = 0.05, 0.002
 # directions with less sensitivity than this, relative to the largest, are treated equally
 _FLATTEST = 1e-3
 
 
 class Spread(NamedTuple):
-    """Of the parameters, in their own units."""
+    """The standard errors of the parameters, in their units."""
 
     errors: Array
     bias: Array  # the mean change of the parameters due to noise alone
