@@ -1,6 +1,6 @@
 """Text that several docstrings share, written once.
 
-A docstring marked with :func:`filled` names a shared paragraph, or a list of choices, in braces: a
+A docstring marked with :func:`filled` names a shared paragraph, or a list of choices, in braces. A
 line ``{metric}`` becomes the description of that parameter; ``{measures}`` becomes the list of
 measures. :func:`inherit` gives a function of the reference the docstring of its measure. Both run
 once, at import.

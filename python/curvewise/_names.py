@@ -59,6 +59,6 @@ def _plain(name: str) -> str:
 
 
 def names_alone(names: Iterable[str]) -> Callable[[], list[str]]:
-    """Return a module's ``__dir__``: its public names, and not what it imports."""
+    """Return a module's ``__dir__``, which lists its public names only."""
     listed = sorted(names)
     return lambda: listed

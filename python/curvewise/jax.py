@@ -1,19 +1,19 @@
-"""The measures as losses of JAX: differentiable in both curves, of pairs or of batches of them.
+"""The measures as differentiable losses of JAX, for pairs or batches.
 
-Values and derivatives are those of :func:`curvewise.values_and_gradients`, to the bit, computed in
-float64 on the CPU by all its cores, as a callback (``jax.pure_callback``) with derivatives of its
-own (``jax.custom_vjp``). For ``jax.jit``, ``jax.vmap`` and ``jax.grad``. ``pip install
-"curvewise[jax]"``. JAX has float64 only where it is asked for it (``jax_enable_x64``); else values
-are computed in float64 of float32 coordinates, and returned as float32.
+Values and derivatives are bitwise identical to those of :func:`curvewise.values_and_gradients`. A
+callback (``jax.pure_callback``) computes them in float64 on the CPU by all its cores, with custom
+derivatives (``jax.custom_vjp``). ``jax.jit``, ``jax.vmap`` and ``jax.grad`` are supported. ``pip
+install "curvewise[jax]"``. JAX has float64 only if it is enabled (``jax_enable_x64``). Otherwise
+values are computed in float64 from float32 coordinates, and returned as float32.
 
-dtw (metric euclidean, sqeuclidean or cityblock, and window), soft_dtw and soft_dtw_divergence are
-computed in JAX's operations, without a callback, where JAX has float64 and another device than the
-CPU: to about 1e-10 of these values, with nan for curves that are not finite. Tests run these
-operations on the CPU, and on a GPU if there is one.
+If JAX has float64 and another device than the CPU, JAX's operations compute some measures without a
+callback. These are dtw (metric euclidean, sqeuclidean or cityblock, and window), soft_dtw and
+soft_dtw_divergence. They agree to about 1e-10 of the values, with nan for curves that are not
+finite. Tests run these operations on the CPU, and on a GPU if one exists.
 
-A second derivative is refused, and JAX refuses derivatives forwards. Errors of shapes and options
-are those of numpy's functions; what is found out about the numbers, where a program is compiled,
-JAX raises as an error of its own that has the same words in it.
+Second derivatives are refused, and JAX refuses forward-mode derivatives. Errors of shapes and
+options are those of numpy's functions. In a compiled program, JAX raises its own error for invalid
+numbers, with the same message in it.
 """
 
 from __future__ import annotations
@@ -199,17 +199,17 @@ def soft_dtw_divergence(P: Curves, Q: Curves, *, lengths: Lengths = None, **opti
 
 
 def pcm(P: Array, Q: Array, **options: Any) -> NoReturn:
-    """Refuse: partial curve mapping has no useful derivative.
+    """Raise an error: partial curve mapping does not have a useful derivative.
 
-    Its offset is the best of a row of places along the longer curve, and which of the two curves is
-    mapped is decided by their lengths: it jumps where another is best.
+    Its offset is the best of several places along the longer curve, and the lengths decide which of
+    the two curves is mapped. The value jumps when another choice is best.
 
     Parameters
     ----------
     P, Q : Array
-        Not looked at.
+        Ignored.
     **options
-        Not looked at.
+        Ignored.
 
     Raises
     ------
@@ -298,7 +298,7 @@ _measure.defvjp(_forward, _backward)
 def _computed(
     P: Array, Q: Array, of_P: Any, of_Q: Any, measure: str, options: Options, by: bool
 ) -> Any:
-    """Return the values and, if asked for, the slopes: what is not differentiated again."""
+    """Return the values and, if requested, the derivatives, both constant in JAX."""
     told = dict(options)
     are_numbers = not any(isinstance(of, jax.Array) for of in (of_P, of_Q))
     if (

@@ -1,16 +1,15 @@
-"""The measures as losses of PyTorch: differentiable in both curves, of pairs or of batches of them.
+"""The measures as differentiable losses of PyTorch, for pairs or batches.
 
-Values and derivatives are those of :func:`curvewise.values_and_gradients`, to the bit, computed in
-float64 on the CPU by all its cores. dtw (metric euclidean, sqeuclidean or cityblock, and window),
-soft_dtw and soft_dtw_divergence of tensors on another device that has float64 are computed there,
-in PyTorch's operations, to about 1e-10 of these values. Tests run these operations on the CPU, and
-on a GPU if there is one. For other measures and options a tensor is brought to the CPU, and the
-result back. A contiguous float64 tensor on the CPU is not copied. Errors are those of numpy's
-functions. ``pip install "curvewise[torch]"``.
+Values and derivatives are bitwise identical to those of :func:`curvewise.values_and_gradients`,
+computed in float64 on the CPU by all its cores. Tensors on another device with float64 are computed
+there, in PyTorch's operations, for dtw (metric euclidean, sqeuclidean or cityblock, and window),
+soft_dtw and soft_dtw_divergence. They agree to about 1e-10 of the values. Tests run these
+operations on the CPU, and on a GPU if one exists. For other measures and options a tensor is copied
+to the CPU, and the result back. A contiguous float64 tensor on the CPU is not copied. Errors are
+those of numpy's functions. ``pip install "curvewise[torch]"``.
 
-Derivatives are found together with the values, where a curve asks for them; backwards they are only
-multiplied. For ``torch.func.vmap`` and ``torch.func.grad``, too. They are not differentiated again:
-a second derivative is refused.
+Derivatives are computed together with the values, if a curve requires them; the backward pass only
+multiplies. ``torch.func.vmap`` and ``torch.func.grad`` work, too. Second derivatives are refused.
 """
 
 from __future__ import annotations
@@ -194,17 +193,17 @@ def soft_dtw_divergence(P: Curves, Q: Curves, *, lengths: Lengths = None, **opti
 
 
 def pcm(P: Tensor, Q: Tensor, **options: Any) -> NoReturn:
-    """Refuse: partial curve mapping has no useful derivative.
+    """Raise an error: partial curve mapping does not have a useful derivative.
 
-    Its offset is the best of a row of places along the longer curve, and which of the two curves is
-    mapped is decided by their lengths: it jumps where another is best.
+    Its offset is the best of several places along the longer curve, and the lengths decide which of
+    the two curves is mapped. The value jumps when another choice is best.
 
     Parameters
     ----------
     P, Q : Tensor
-        Not looked at.
+        Ignored.
     **options
-        Not looked at.
+        Ignored.
 
     Raises
     ------
@@ -334,7 +333,7 @@ def _scan(step: Any, carry: Any, stacked: tuple[Tensor, Tensor]) -> Tensor:
 
 
 class _Measure(torch.autograd.Function):  # type: ignore[misc]  # untyped
-    """The values, and what they are multiplied by backwards."""
+    """The values, and their factors in the backward pass."""
 
     @staticmethod
     def forward(

@@ -75,7 +75,7 @@ def add_fit(commands: Any) -> None:
 
 
 def _add_known(command: argparse.ArgumentParser) -> None:
-    """Add the options that say what is known of parameters."""
+    """Add the options for known parameters."""
     command.add_argument(
         "--fix",
         nargs="+",
@@ -96,7 +96,7 @@ def _add_known(command: argparse.ArgumentParser) -> None:
 
 
 def _add_output(command: argparse.ArgumentParser) -> None:
-    """Add the options that say what is written."""
+    """Add the options for the output."""
     command.add_argument(
         "--card",
         nargs="+",
@@ -156,7 +156,7 @@ def _quantity(written: str, text: str, wanted: str) -> Quantity:
 
 
 def _in_units(arguments: argparse.Namespace) -> tuple[dict[str, float], dict[str, Any]]:
-    """Return what is fixed and what is bounded, in the unit of stresses."""
+    """Return the fixed and the bounded parameters, in the unit of stresses."""
     units = arguments.units
     fixed = {name: quantity.within(units) for name, quantity in arguments.fix}
     bounds = {}
@@ -212,7 +212,7 @@ def _fit(arguments: argparse.Namespace) -> int:
             name=arguments.name,
             accept_undetermined=arguments.accept_undetermined,
         )
-    except UndeterminedCardError as error:  # the rest is there to be looked at
+    except UndeterminedCardError as error:  # the other files help to check the fit
         refusal = str(error)
     print("\nwritten:", ", ".join(map(str, written)))
     if refusal:

@@ -1,10 +1,10 @@
-"""Numbers of a fit that only the bounds of its search support: a card with them is refused.
+"""Doubtful numbers of a fit, and the refusal of cards with them.
 
-Whoever reads a card takes Young's modulus and the initial yield stress for properties of the
-material. Hardening parameters make up for each other: a card whose back stresses are undetermined
-one by one may follow the tests well. So the rule is about the first two. One of them is *doubtful*
-if the tests do not determine it and its interval reaches a bound of the search or is wider than its
-value.
+Readers of a card take Young's modulus and the initial yield stress for properties of the material.
+Hardening parameters compensate for each other: a card whose back stresses are undetermined
+individually may follow the tests well. The rule therefore covers only the first two. One of them is
+*doubtful* if the tests do not determine it and its interval reaches a bound of the search or is
+wider than its value.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _REACHED = 1e-6  # part of the bounds' range
 
 
 class UndeterminedCardError(ValueError):
-    """A card would hold a modulus or a yield stress that only the search's bounds support.
+    """A modulus or yield stress of a card is supported by the bounds alone.
 
     Examples
     --------
@@ -34,13 +34,13 @@ class UndeterminedCardError(ValueError):
 def doubts_of(
     uncertainty: Uncertainty | None, bounds: Mapping[str, tuple[float, float]], units: str
 ) -> dict[str, str]:
-    """Return why a modulus or a yield stress is doubtful, by name; empty if none is.
+    """Return why a modulus or a yield stress is doubtful, by name.
 
     Parameters
     ----------
     uncertainty : Uncertainty or None
     bounds : mapping of str to (low, high)
-        Those of the search.
+        The bounds of the search.
     units : str
         Unit of stress.
     """

@@ -24,7 +24,7 @@ class CardsOfFit:
 
     @property
     def material(self) -> Material:
-        """What was fitted."""
+        """The fitted material."""
         return self.model.material
 
     @property
@@ -63,7 +63,7 @@ class CardsOfFit:
         UndeterminedCardError
             If a parameter is `doubtful` and not accepted.
         ValueError
-            If the solver has no such material.
+            If the solver does not have such a material.
         """
         if not accept_undetermined:
             check_doubts(self.doubtful, solver)
@@ -100,7 +100,7 @@ class CardsOfFit:
         Returns
         -------
         list of Path
-            What was written.
+            The written files.
         """
         files = {
             solver: Path(folder, f"card_{solver}{FORMATS[solver].suffix}") for solver in solvers

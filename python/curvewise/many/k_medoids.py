@@ -1,12 +1,12 @@
 """Clusters around medoids, from a matrix of all distances: FasterPAM.
 
 Medoids are chosen one by one, each as the curve that most lowers the sum of distances to the
-nearest medoid (BUILD of Kaufman & Rousseeuw 1990). Then they are exchanged. For each curve that is
-not a medoid, in turn, the change of the sum for the exchange with each of the k medoids is computed
-at once, in O(n). The best exchange is made as soon as it lowers the sum. See Schubert & Rousseeuw,
-"Fast and eager k-medoids clustering", Information Systems 101, 2021. The search ends when no
-exchange lowers the sum. Cost O(n^2 k) for the first medoids and O(n^2) for each pass over all
-curves; memory O(n k) in addition to the matrix.
+nearest medoid (BUILD of Kaufman & Rousseeuw 1990). Then they are exchanged. The other curves are
+tried in turn. For each of them, the change of the sum for the exchange with each of the k medoids
+is computed at once, in O(n). The best exchange is made as soon as it lowers the sum. See Schubert &
+Rousseeuw, "Fast and eager k-medoids clustering", Information Systems 101, 2021. The search ends
+when no exchange lowers the sum. Cost O(n^2 k) for the first medoids and O(n^2) for each pass over
+all curves; memory O(n k) in addition to the matrix.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""One measure between many curves: all pairs of two lists, or one curve against others.
+"""One measure between many curves: all pairs, or one curve against others.
 
-Each curve is checked and packed once, not once a pair; threads share the pairs, the largest
-first, and neither their number nor their order changes a value. The work is done by the compiled
-library; a callable given in the place of a measure's name is called pair by pair from Python, and
-so is a measure whose ground distance is a callable.
+Each curve is checked and packed once, not once for each pair. Threads share the pairs, the largest
+first; neither their number nor their order changes a value. The compiled library computes the
+values. A callable instead of a measure's name is called pair by pair from Python, and so is a
+measure whose ground distance is a callable.
 """
 
 from __future__ import annotations
@@ -128,55 +128,55 @@ def cdist(
     Parameters
     ----------
     XA, XB : array_like, shapes (k, n, d) and (l, m, d), or sequences of curves
-        The curves of a sequence may differ in length, not in d. A curve of XA is P, one of XB is
-        Q. Without XB, XA is compared with itself: each pair of a symmetric measure is then
-        computed once, with the earlier curve as P, unless the metric is of one's own. A dict of
-        curves, a groupby, a Series or a GeoDataFrame of lines has labels too.
+        The curves of a sequence may differ in length, not in d. A curve of XA is P, one of XB is Q.
+        Without XB, XA is compared with itself. Each pair of a symmetric measure is then computed
+        once, with the earlier curve as P, unless the metric is user-defined. A dict of curves, a
+        groupby, a Series or a GeoDataFrame of lines also has labels.
     measure : {measures} or callable
         A measure by its name (see :func:`available_measures`), or a function of two curves that
-        returns a float. A callable runs in this thread, holding the interpreter's lock, pair by
-        pair: `workers` is of no use to it, and all pairs are computed. So are those of dtw and
-        frechet with ``closed=True`` or a callable `metric` (a matrix is of one pair, and refused).
+        returns a float. A callable runs in this thread, holding the GIL, pair by pair: `workers` is
+        ignored, and all pairs are computed. The same holds for dtw and frechet with ``closed=True``
+        or a callable `metric` (a matrix belongs to one pair, and is refused).
     out : ndarray of float64, shape (k, l), C-contiguous, optional
-        Where to write the result.
+        Array for the result.
     {workers}
     cutoff : float >= 0, optional
-        Values above it come back as inf; their pairs may be abandoned before their end. It may be
+        Values above it become inf; the computation of their pairs may stop early. It may be
         negative for a callable, and for a step pattern that has a negative weight.
     progress : bool or callable
-        True shows a bar (tqdm). A callable is called in this thread with (done, total), some
-        twenty times a second: cells of the tables, n m for a pair, for dtw and frechet; points,
-        n + m for a pair, for the others and with a callable.
+        True shows a bar (tqdm). A callable is called in this thread with (done, total), about
+        twenty times a second. The unit for dtw and frechet is a cell of the tables, n m for a pair.
+        The unit for other measures and callables is a point, n + m for a pair.
     {layout}
     {missing}
     **options
-        Those of the measure's own function, or of the callable.
+        Options of the measure's own function, or of the callable.
 
     Returns
     -------
     ndarray, shape (k, l), or DataFrame
-        `out`, if given. Entry (i, j) has the bits of ``measure(XA[i], XB[j], **options)``. Where XA
-        or XB have labels, a DataFrame with them as its index and columns.
+        `out`, if given. Entry (i, j) is bitwise identical to ``measure(XA[i], XB[j], **options)``.
+        If XA or XB have labels, a DataFrame with them as its index and columns.
 
     Raises
     ------
     ValueError
-        What the measure refuses, with the curve's place (``XA[3]``); curves of different d; an
-        unknown measure or option value; an `out` that does not fit; tracks in degrees without
-        ``metric="haversine"``, or in two reference systems.
+        If the measure refuses a curve, with the curve's place (``XA[3]``). If curves differ in d,
+        `out` does not fit, or a measure or option value is unknown. If tracks are in degrees
+        without ``metric="haversine"``, or in two reference systems.
     TypeError
-        A curve does not hold real numbers; an option that the measure does not have.
+        If a curve does not hold real numbers, or the measure does not have an option.
     ImportError
-        ``progress=True`` without tqdm: ``pip install "curvewise[progress]"``; labels without
-        pandas: ``pip install "curvewise[curves]"``.
+        If ``progress=True`` and tqdm is missing: ``pip install "curvewise[progress]"``. If curves
+        have labels and pandas is missing: ``pip install "curvewise[curves]"``.
 
     Notes
     -----
-    Time: the sum of the pairs'. Memory: the result, 0.1 kB a curve, and packed copies of some of
-    the curves at a time: some 100 MB at most, or four curves a thread where that is more. float32
-    stays as it is in memory and is computed in float64, with the bits of a float64 copy.
-    Ctrl-C ends a call on the main thread, and all its threads, within 0.2 s; the exceptions stand
-    in docs/reliability.md.
+    Time: the sum of the pairs'. Memory: the result, 0.1 kB for each curve, and packed copies of
+    some of the curves at a time. The copies take about 100 MB at most, or four curves per thread if
+    that is more. Arrays of float32 are kept in memory and computed in float64, bitwise identical to
+    a float64 copy. Ctrl-C ends a call on the main thread, and all its threads, within 0.2 s;
+    docs/reliability.md lists the exceptions.
 
     Examples
     --------
@@ -260,11 +260,11 @@ def pdist(
     X : array_like, shape (k, n, d), or a sequence of curves
         As for :func:`cdist`.
     measure : {symmetric} or callable
-        A symmetric one: dtw without open ends, area without spacing="arc_length" or "matched". A
-        callable, and a callable `metric`, is only called with the earlier curve as P: whether it
-        is symmetric is not looked at.
+        A symmetric measure: dtw without open ends, area without spacing="arc_length" or "matched".
+        A callable, and a callable `metric`, is only called with the earlier curve as P; its
+        symmetry is not checked.
     out : ndarray of float64, shape (k (k-1) / 2,), C-contiguous, optional
-        Where to write the result.
+        Array for the result.
     workers, cutoff, progress, layout, missing, **options
         As for :func:`cdist`.
 
@@ -272,15 +272,14 @@ def pdist(
     -------
     ndarray, shape (k (k-1) / 2,), or Series
         The upper triangle of the matrix, row by row, as ``scipy.spatial.distance.pdist`` returns
-        it: ``scipy.spatial.distance.squareform`` makes a matrix of it. The value for i < j is
-        that of ``measure(X[i], X[j], **options)``. Where the curves have labels, a Series whose
-        index is the pairs of labels; squareform and scipy's linkage take it too.
+        it: ``scipy.spatial.distance.squareform`` converts it to a matrix. The value for i < j is
+        that of ``measure(X[i], X[j], **options)``. If the curves have labels, a Series whose index
+        is the pairs of labels; squareform and scipy's linkage accept it too.
 
     Raises
     ------
     ValueError, TypeError, ImportError
-        As for :func:`cdist`; and ValueError for a measure that is not symmetric, which wants
-        :func:`cdist`.
+        As for :func:`cdist`; ValueError also if a measure is not symmetric: use :func:`cdist`.
 
     Notes
     -----
@@ -317,7 +316,7 @@ def pdist(
 
 
 def _is_called_by_pairs(measure: Measure, options: Mapping[str, Any]) -> bool:
-    """Say whether the library has no batches of a measure: a callable, or of closed curves."""
+    """Return whether pairs are called from Python: callables and closed curves."""
     return callable(measure) or callable(options.get("metric")) or bool(options.get("closed"))
 
 
@@ -328,11 +327,11 @@ def _called_by_pairs(
     rows: list[Array],
     columns: list[Array] | None,
 ) -> Callable[..., float]:
-    """Return what is called for every pair: a callable, or a measure with a metric of one's own."""
+    """Return the function for every pair: a callable, or a user-defined metric."""
     if callable(measure):
         return partial(measure, **options)
     name = _check_names(measure, options)
-    # What takes no metric of one's own refuses it here, as all do their curves.
+    # Measures without user-defined metrics refuse it here, as they refuse curves.
     of_pair = ("metric", "p", "radius", "closed") if name in get_args(WarpingName) else ()
     check_batch(rows, columns, name, {o: v for o, v in options.items() if o not in of_pair})
     return partial(MEASURES[name].function, **options, cutoff=limit)

@@ -95,7 +95,7 @@ class Prepared:
         ----------
         Q : array_like, shape (m, d); or an array of shape (k, m, d), or a list or tuple of curves
             A list or tuple is a list of curves if its first element has the same number of array
-            dimensions as P. Labelled collections, as for :func:`cdist`, are also lists of curves.
+            dimensions as `P`. Labelled collections, as for :func:`cdist`, are also lists of curves.
         workers : int
             Number of threads for a list, as for :func:`cdist`.
 

@@ -59,9 +59,9 @@ def subsequence(
     """Find the subsequences of Q that are most similar to P.
 
     The first answer is the best of all sections of consecutive points of Q: the result of ``dtw(P,
-    Q, open_begin=True, open_end=True)``. Each later one is the best section of the rest of Q, where
-    every remaining part is searched as if it were all of Q. The answers therefore do not overlap,
-    and their distances never fall. Of equal distances the section that ends first is the better.
+    Q, open_begin=True, open_end=True)``. Each later one is the best section of the rest, where
+    every remaining part of Q is searched separately. The answers therefore do not overlap, and
+    their distances never fall. Of equal distances the section that ends first is the better.
 
     Parameters
     ----------

@@ -10,7 +10,7 @@ from ..curves.inputs import Array, as_curve
 
 __all__ = ["CYCLES", "paths_of"]
 
-# Cycles that a card of CalculiX follows where nobody says which: they grow to 3 %.
+# Default cycles of a card of CalculiX: they grow to 3 %.
 CYCLES = (np.array([0.005, -0.005, 0.01, -0.01, 0.02, -0.02, 0.03, -0.03]),)
 
 

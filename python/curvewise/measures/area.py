@@ -49,8 +49,8 @@ def area(
         value then does not depend on the sampling of either curve, as long as they do not cross. It
         is not symmetric, because P's box scales. "matched" replaces the refinement and is robust to
         noise too: see Notes. "function" is the exact integral of abs(f - g) over the x that both
-        curves span, where f and g are linear between the points of P and of Q. The x of each curve
-        must only rise or only fall. A curve with several points at one x jumps there.
+        curves span. Here f and g interpolate P and Q linearly. The x of each curve must only rise
+        or only fall. A curve with several points at one x jumps there.
     crossing : {"rearrange", "split"}
         The treatment of a quadrilateral that intersects itself; without effect on
         ``spacing="matched"`` and "function". "rearrange" (the paper) swaps two vertices until it is

@@ -69,10 +69,10 @@ def dtw(
         is then where the cost divided by the weight of paths to it is least, as in R's dtw.
         `open_begin` needs a pattern normalised by N, such as "asymmetric".
     relax : sequence of four int >= 0, optional
-        Numbers of points that may be left out: at the beginning of P, the end of P, the beginning
-        of Q and the end of Q. The cheapest path counts, not normalised by length. At least one pair
-        of points is matched. Requires "symmetric1", with or without a penalty, and excludes
-        `window`, open ends and `normalize`.
+        Numbers of points that may be left out: at the beginning and end of P, then at the beginning
+        and end of Q (four numbers). The cheapest path counts, not normalised by length. At least
+        one pair of points is matched. Requires "symmetric1", with or without a penalty, and
+        excludes `window`, open ends and `normalize`.
     normalize : bool
         Whether to divide by the sum of the step weights, which must be the same for all paths: n +
         m with "symmetric2", else that of the pattern (``StepPattern.normalization``). The result is

@@ -78,8 +78,8 @@ def erp(
     -----
     Chen & Ng, "On the marriage of Lp-norms and edit distance" (2004). The recurrence is ``c[i, j] =
     min(c[i-1, j-1] + d(P[i], Q[j]), c[i-1, j] + d(P[i], gap), c[i, j-1] + d(gap, Q[j]))``. As in
-    aeon, the border before the first row and column holds the sums over all points of Q and of P. A
-    path that begins with unmatched points therefore pays for all of that curve. Chen & Ng add up
+    aeon, the border before the first row and column holds the sums over all points of either curve.
+    A path that begins with unmatched points therefore pays for all of that curve. Chen & Ng add up
     costs along the way instead. Exact. Time O(n m), memory O(n + m).
 
     Examples
@@ -131,9 +131,9 @@ def edr(
     Notes
     -----
     Chen, Özsu & Oria, "Robust and fast similarity search for moving object trajectories" (2005).
-    The cell c[i, j] is the least of three values: c[i-1, j-1], plus 1 unless d(P[i], Q[j]) <
-    epsilon; c[i-1, j] + 1; and c[i, j-1] + 1. As in aeon, points before the first match may be
-    skipped without cost. Exact. Time O(n m), memory O(n + m).
+    The recurrence is ``c[i, j] = min(c[i-1, j-1] + e, c[i-1, j] + 1, c[i, j-1] + 1)``, where e is 0
+    if d(P[i], Q[j]) < epsilon, else 1. As in aeon, points before the first match may be skipped
+    without cost. Exact. Time O(n m), memory O(n + m).
 
     Examples
     --------

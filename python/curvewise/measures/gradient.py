@@ -78,16 +78,19 @@ def value_and_gradient(
     frechet_continuous is that of the pair of points, or the critical event, that decides the value.
     Derivatives do not exist
 
-    - at ties: two paths of equal cost (dtw), two pairs of points or two critical events that could
-      each decide (frechet, frechet_continuous), two longest segments (area), two paths, or equal
-      points of Q (area with ``spacing="matched"``), two points of Q with the largest abs(x) or
-      abs(y), a place on a vertex of Q, or equal neighbours (curve_length);
+    - at a tie of dtw: two paths of equal cost;
+    - at a tie of frechet or frechet_continuous: two pairs of points, or two critical events, that
+      could each decide;
+    - at a tie of area: two longest segments; with ``spacing="matched"`` two paths, or equal points
+      of Q;
+    - at a tie of curve_length: two points of Q with the largest abs(x) or abs(y), a place on a
+      vertex of Q, or equal neighbours;
     - where matched points coincide or a difference is 0, except for squares: a kink, as of abs(x).
 
     At such places the result is the derivative to one side, or 0 for a term that vanishes. At a tie
-    of frechet or frechet_continuous it is the derivative of curves nearby, whose points are moved
-    by at most 2^-30 of the value: an element of Clarke's generalised gradient. The gradient of
-    frechet is 0 except at one point of Q, and jumps when another pair decides. The area with
+    of frechet or frechet_continuous it is the derivative of nearby curves, whose points are moved
+    by at most 2^-30 of the value. It is an element of Clarke's generalised gradient. The gradient
+    of frechet is 0 except at one point of Q, and jumps when another pair decides. The area with
     ``crossing="rearrange"`` jumps when quadrilaterals become complex; "split" does not. The option
     `cutoff` is ignored.
 

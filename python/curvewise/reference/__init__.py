@@ -3,11 +3,11 @@
 The interface, results and errors are those of :mod:`curvewise`, without ``workers``, and with one
 module for each measure. Only numpy is compiled. Docstrings are copied from ``curvewise.measures``,
 which is imported only for that purpose; the docstrings in the source here become the Notes. The
-values, tables and paths of dtw and frechet are bitwise identical to those of the compiled library,
-for every metric except minkowski with p other than 1, 2 and inf. Every sum is therefore written out
-in its order, without library functions that may reorder it. The other measures agree to 1e-12
-relative, if decisions do not depend on rounding (longest segment, simple or complex quadrilateral,
-shorter curve).
+values, tables and paths of dtw and frechet are bitwise identical to those of the compiled library.
+The only exception is the metric minkowski with p other than 1, 2 and inf. Every sum is therefore
+written out in its order, without library functions that may reorder it. The other measures agree to
+1e-12 relative, if decisions do not depend on rounding (longest segment, simple or complex
+quadrilateral, shorter curve).
 
 :mod:`curvewise.reference.nearest` has the functions of many distances: nearest neighbours,
 subsequences of a long curve, and the mean. :mod:`curvewise.reference.materials` has the

@@ -88,7 +88,7 @@ class Runs:
         return int(np.argmin(self.values))
 
     def number(self, point: Array) -> int | None:
-        """Return the index of the run at a point; None if there is none."""
+        """Return the index of the run at a point, or None."""
         return self._rows.get(tuple(point))
 
     def add(self, point: Array, run: Evaluation) -> int | None:

@@ -8,7 +8,7 @@ measure (`surfaces.inner_search`) on a kriging surrogate (`surfaces.kriged_surfa
 (`runs`). Before a start ends, a global stage (`global_stage`) searches the surrogate for other
 minima. If the model has a `jacobian`, a plane with its derivatives replaces the surrogate.
 
-A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000); S. M. Wild, R. G.
+A. R. Conn, N. I. M. Gould, Ph. L. Toint, "Trust-region methods", SIAM (2000). S. M. Wild, R. G.
 Regis, C. A. Shoemaker, "ORBIT: optimization by radial basis function interpolation in
 trust-regions", SIAM J. Sci. Comput. 30 (2008) 3197-3219.
 """

@@ -1,10 +1,10 @@
 """Sums of squares: vectors and values of runs, bounded minimisation.
 
 An active-set method solves a bounded linear least-squares problem in a few unknowns. A coordinate
-that meets its bound is fixed there, and released when the gradient points inwards. scipy's
-lsq_linear takes twenty times as long, mostly for bookkeeping, and a search solves hundreds of such
-problems. Gauss-Newton steps minimise nonlinear residuals, within a region in which their
-linearisation is accurate. Cost: O(m k^2 + k^3) for each step, with m residuals of k unknowns.
+that meets its bound is fixed there, and released when the gradient points inwards. The function
+`lsq_linear` of scipy takes twenty times as long, mostly for bookkeeping, and a search solves
+hundreds of such problems. Gauss-Newton steps minimise nonlinear residuals, within a region in which
+their linearisation is accurate. Cost: O(m k^2 + k^3) for each step, with m residuals of k unknowns.
 
 A. Björck, "Numerical methods for least squares problems", SIAM (1996), sections 5.2.3 and 9.2.
 """

@@ -1,8 +1,8 @@
 """Linear response surfaces of curves over the parameters.
 
 Each coordinate of each point has its own surface. The measure is evaluated exactly on predicted
-curves. A surface therefore serves every measure and preserves its kinks. Simulations whose number
-of points differs from the first (a solver with adaptive steps) are resampled at equal fractions of
+curves. A surface therefore serves every measure and preserves its kinks. Simulations may differ in
+their number of points (a solver with adaptive steps). They are then resampled at equal fractions of
 their arc length, in units of the first one's bounding box. Cost: O(k) for every coordinate and k
 parameters.
 """

@@ -7,10 +7,10 @@ autocovariances, whose spectrum is the periodogram. A fit takes part of the nois
 are enlarged until fits of shifted residuals leave as much as the observed fit. Intervals are those
 of a bootstrap-t. The pivot is the move of each refit, on the linearised model, in units of the
 standard error that its residuals give. Student's t allows for the few frequencies that decide an
-error. White noise is assumed unless one of two Monte Carlo tests rejects it: neighbours differ
-less, or a variance from the autocovariances is larger, than in 99 % of draws of white noise. The
-first statistic is Durbin and Watson's. Cost: O(n log n + n k) for each of 600 draws of n points and
-k parameters.
+error. White noise is assumed unless one of two Monte Carlo tests rejects it, compared with 99 % of
+draws of white noise. Either neighbours differ less, or a variance from the autocovariances is
+larger. The first statistic is Durbin and Watson's. Cost: O(n log n + n k) for each of 600 draws of
+n points and k parameters.
 
 B. Efron, R. J. Tibshirani, "An introduction to the bootstrap", Chapman & Hall (1993), section 12.5.
 D. N. Politis, J. P. Romano, "A circular block-resampling procedure for stationary data", in

@@ -1,8 +1,8 @@
 """Ansys Mechanical APDL: TB,CHABOCHE with TB,NLISO,,,,VOCE.
 
-Chaboche's constants are sigma0, C1, gamma1, C2, gamma2, … (dX = 2/3 C d(eps_p) - gamma X dp as
-tensors, C d(eps_p) - gamma X dp under uniaxial load); Voce's sigma0, R0, Rinf, b:
-sigma0 + R0 p + Rinf (1 - exp(-b p)). TBDATA takes six constants a line.
+Chaboche's constants are sigma0, C1, gamma1, C2, gamma2 and so on. The law is dX = 2/3 C d(eps_p) -
+gamma X dp for tensors, and C d(eps_p) - gamma X dp under uniaxial load. Voce's constants are
+sigma0, R0, Rinf, b: sigma0 + R0 p + Rinf (1 - exp(-b p)). TBDATA takes six constants per line.
 """
 
 from __future__ import annotations

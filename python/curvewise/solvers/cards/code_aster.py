@@ -1,9 +1,9 @@
 """Code_Aster: VMIS_CIN1_CHAB and VMIS_CIN2_CHAB, laws of one and of two back stresses.
 
-R(p) = R_I + (R_0 - R_I) exp(-B p), C(p) = C_I (1 + (K - 1) exp(-W p)) and
-gamma(p) = G_0 (A_I + (1 - A_I) exp(-B p)), where K = 1, W = 0 and A_I = 1 make C and gamma
-constants; X = 2/3 C a, da = d(eps_p) - gamma a dp. The command file is Python, so that R_I is
-written as the sum of yield and Q and loses no digit of either.
+The laws are R(p) = R_I + (R_0 - R_I) exp(-B p), C(p) = C_I (1 + (K - 1) exp(-W p)) and gamma(p) =
+G_0 (A_I + (1 - A_I) exp(-B p)). K = 1, W = 0 and A_I = 1 make C and gamma constants. The back
+stress is X = 2/3 C a, with da = d(eps_p) - gamma a dp. The command file is Python, so R_I is
+written as the sum of yield and Q without loss of digits.
 """
 
 from __future__ import annotations

@@ -1,10 +1,11 @@
-"""LS-DYNA: *MAT_125 for Yoshida and Uemori, *MAT_103 for Chaboche with up to two back stresses.
+"""LS-DYNA: *MAT_125 (Yoshida-Uemori) and *MAT_103 (Chaboche).
 
-*MAT_125 has the parameters themselves: SC1 = SC2 = C, E(p) = E - (E - EA) (1 - exp(-COE p)), and
-IOPT = 1 for R = RSAT ((C1 + p)^C2 - C1^C2); its anisotropy R = 1 is von Mises. *MAT_103 has the
-stress SIGY + QR1 (1 - exp(-CR1 p)) + QX1 (1 - exp(-CX1 p)) + QX2 (...) in tension, so QX = C /
-gamma and CX = gamma, whose quotient is rounded, and a back stress without recall has none. Cards
-have the long format, 20 columns a field: the "+" behind the keyword asks for it, whatever the deck.
+*MAT_125 uses the same parameters: SC1 = SC2 = C, E(p) = E - (E - EA) (1 - exp(-COE p)), and IOPT =
+1 for R = RSAT ((C1 + p)^C2 - C1^C2). Its anisotropy R = 1 is von Mises. *MAT_103 has up to two back
+stresses. Its stress in tension is SIGY + QR1 (1 - exp(-CR1 p)) + QX1 (1 - exp(-CX1 p)) + QX2 (...),
+so QX = C / gamma and CX = gamma. The quotient is rounded, and a back stress without recall cannot
+be written. Cards have the long format with fields of 20 columns: the "+" behind the keyword
+requests it, whatever the deck.
 """
 
 from __future__ import annotations
@@ -85,7 +86,7 @@ def _title(keyword: str, content: CardContent) -> list[str]:
 
 
 def _card(names: str, fields: Sequence[str | float]) -> list[str]:
-    """Return a line of fields in columns of 20, below their names; what is not given is blank."""
+    """Return a line of fields in columns of 20; missing ones are blank."""
     texts = [field if isinstance(field, str) else as_field(field, _WIDTH) for field in fields]
     head = "".join(name.rjust(_WIDTH) for name in names.split())
     return ["$#" + head[2:], "".join(text.rjust(_WIDTH) for text in texts)]

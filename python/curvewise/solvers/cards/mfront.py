@@ -1,8 +1,8 @@
 """MFront: the brick StandardElastoViscoPlasticity.
 
-Its rules: X = 2/3 C a with da = d(eps_p) - D a dp for Armstrong and Frederick, without recall
-Prager; Voce's radius R = Rinf + (R0 - Rinf) exp(-b p). The yield stress is a rule of its own
-("Linear" without slope), and radii of several rules add up, so that Q stands as it is.
+Its rules are X = 2/3 C a with da = d(eps_p) - D a dp for Armstrong and Frederick, and Prager
+without recall. Voce's radius is R = Rinf + (R0 - Rinf) exp(-b p). The yield stress is a separate
+rule ("Linear" without slope). The radii of several rules add up, so Q is written unchanged.
 """
 
 from __future__ import annotations

@@ -2,11 +2,11 @@
 
 In Besseling's overlay, layers share the strain and add their stresses. A layer has the modulus E,
 the yield strain y and the plastic strain p. It yields at E y (1 + R (1 - exp(-r p))). Once softer
-layers yield, the sum has a rounded curve and yields early after a reversal. For given y, R and r
-all stresses are linear in E. The best layers among a few dozen are therefore a problem of
-non-negative least squares (Lawson & Hanson), whose solution has few non-zero layers. The equations
-are reweighted several times to reduce the largest error (Lawson). Layers with a negligible
-contribution are removed while the error allows it.
+layers yield, the sum has a rounded curve and yields early after a reversal. If y, R and r are
+given, all stresses are linear in the modulus. The best layers among a few dozen are therefore a
+problem of non-negative least squares (Lawson & Hanson), whose solution has few non-zero layers. The
+equations are reweighted several times to reduce the largest error (Lawson). Layers with a
+negligible contribution are removed while the error allows it.
 
 Layers are integrated as in CalculiX, for finite strains with radial return (Simo & Hughes 1998,
 9.3), at the material's lateral contraction. The sum of lateral stresses must vanish. The fitted
