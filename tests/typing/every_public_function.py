@@ -77,6 +77,8 @@ distances = curvewise.pdist(np.stack((P, P)), "frechet", metric="chebyshev", out
 by_name = curvewise.cdist({"P": P, "Q": Q}, {"Q": Q})  # a DataFrame, whose types are pandas'
 by_pair = curvewise.pdist({"P": P, "Q": Q}, "frechet").loc["P", "Q"]
 distances = curvewise.pdist(np.stack((P, P)), layout="channels_last")
+distances = curvewise.pdist(curve for curve in (P, Q))
+slopes: FloatArray = curves.derivative(P)
 layout: type[UserWarning] = curvewise.LayoutWarning
 prepared = curvewise.Prepared(listed, "dtw", window=4)
 number = prepared(Q)

@@ -11,6 +11,7 @@ from .._names import names_alone
 from .backbone import backbone
 from .common_span import common_span
 from .cycles import loop_energy, loops, peaks_and_valleys
+from .derivative import derivative
 from .resampling import resample, trim
 from .reversals import reversals
 from .smoothing import smooth
@@ -23,6 +24,7 @@ __all__ = [
     "backbone",
     "common_span",
     "damping",
+    "derivative",
     "engineering_to_true",
     "last_cycle",
     "loop_energy",

@@ -2,109 +2,47 @@
 
 Lloyd's algorithm: every curve goes to the nearest centre, every centre moves to the mean of its
 curves, until the sum of distances falls no further. A mean is found from where it was, so that
-neither step raises the sum. First centres as k-means++ (Arthur & Vassilvitskii 2007). Cost of a
-round: k distances a curve, and those of ten moves of its mean; the distances of all pairs are never
-needed, except where the centres are medoids.
+neither step raises the sum. First centres as greedy k-means++ (Arthur & Vassilvitskii 2007). Cost
+of a round: k distances a curve, and those of ten moves of its mean; the distances of all pairs are
+never needed, except where the centres are medoids.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, SupportsFloat, SupportsIndex, TypeAlias, get_args
+from typing import Any, Literal, SupportsFloat, SupportsIndex, get_args
 
 import numpy as np
 import numpy.typing as npt
 
-from .._core import dtw_mean as compiled_dtw_mean
 from .._docstrings import filled
 from .._options import Default, check_choice, real_number, whole_number
 from ..curves.foreign_curves import warn
 from ..curves.inputs import Array, as_curve_list, copy_of
 from ..curves.layouts import Layout
-from ..many.averages import medoid, soft_mean
-from ..many.pairwise import Measure, cdist
-from ..measures.soft_dtw import soft_dtw
 from .inputs import (
-    BaseEstimator,
     ClusterMixin,
     ConvergenceWarning,
+    CurveEstimator,
     ManyCurves,
     Options,
     check_random_state,
+    checked_sample_weight,
     curves_to_fit,
     fitted_curves,
 )
+from .means import MEANS, MOVES, Curves, Mean, MeanName
 
 __all__ = ["CurveKMeans"]
 
-MeanName: TypeAlias = Literal["dtw", "soft_dtw", "frechet"]
-Curves: TypeAlias = list[Array]
 
-_MOVES = 10  # of a mean in a round
-_STILL = 1e-6  # a part of the sum that no move is made for
-
-
-@dataclass(frozen=True)
-class _Mean:
-    """A kind of mean.
-
-    Attributes
-    ----------
-    options : tuple of str
-        Its options; () for all options of the measure.
-    distances : callable
-        A function of (curves, centers, workers, **options) that returns the distances, shape (k,
-        number of centers).
-    moved : callable
-        A function of (center, its curves, workers, **options) that returns an improved center.
-    """
-
-    options: tuple[str, ...]
-    distances: Callable[..., Array]
-    moved: Callable[..., Array]
-
-
-def _distances(curves: Curves, centers: Curves, measure: Measure, **options: Any) -> Array:
-    return np.asarray(cdist(curves, centers, measure, layout="channels_last", **options))
-
-
-def _dtw_distances(curves: Curves, centers: Curves, workers: Any, **options: Any) -> Array:
-    return _distances(curves, centers, "dtw", metric="sqeuclidean", workers=workers, **options)
-
-
-def _dtw_moved(center: Array, curves: Curves, workers: Any, *, window: Any = None) -> Array:
-    mean, _, _ = compiled_dtw_mean(curves, [], center, window, _MOVES, _STILL, workers, None)
-    return np.asarray(mean)
-
-
-def _soft_distances(curves: Curves, centers: Curves, workers: Any, **options: Any) -> Array:
-    return _distances(curves, centers, soft_dtw, **options)
-
-
-def _soft_moved(center: Array, curves: Curves, workers: Any, **options: Any) -> Array:
-    told = {"gamma": 1.0, "window": None, "workers": workers, **options}
-    mean, _, _ = soft_mean(curves, np.ones(len(curves)), center, _MOVES, _STILL, told)
-    return mean
-
-
-def _frechet_distances(curves: Curves, centers: Curves, workers: Any, **options: Any) -> Array:
-    return _distances(curves, centers, "frechet", workers=workers, **options)
-
-
-def _frechet_moved(center: Array, curves: Curves, workers: Any, **options: Any) -> Array:
-    return curves[medoid(curves, "frechet", workers=workers, layout="channels_last", **options)]
-
-
-_MEANS: dict[str, _Mean] = {
-    "dtw": _Mean(("window",), _dtw_distances, _dtw_moved),
-    "soft_dtw": _Mean(("gamma", "window"), _soft_distances, _soft_moved),
-    "frechet": _Mean((), _frechet_distances, _frechet_moved),
-}
+_STARTS = 10
+_FEW_CELLS = 2e9  # of a round, for which all starts are made
 
 
 @filled()
-class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
+class CurveKMeans(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # untyped
     """Divide curves into clusters, each around the mean of its curves.
 
     Parameters
@@ -119,8 +57,13 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
     options : dict, optional
         Options: for dtw "window", for soft_dtw "gamma" and "window", for frechet those of its
         function.
-    n_init : int
-        Number of choices of first centres; the smallest sum counts.
+    init : "k-means++" or callable
+        The choice of first centres. "k-means++" draws each with the chance of its distance from
+        those before, and keeps the best of ``2 + log(n_clusters)`` draws. A callable is called as
+        ``init(X, n_clusters, random_state)`` and returns the centres, a list of curves.
+    n_init : int or "auto"
+        Number of choices of first centres; the smallest sum counts. "auto" takes 10 if these take
+        a few seconds (up to 2e9 cells of dtw tables for each round and start), else 1.
     max_iter : int
         Maximum number of rounds.
     tol : float >= 0
@@ -170,7 +113,8 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         *,
         measure: MeanName = "dtw",
         options: Options = None,
-        n_init: SupportsIndex = 1,
+        init: Literal["k-means++"] | Callable[..., Any] = "k-means++",
+        n_init: SupportsIndex | Literal["auto"] = "auto",
         max_iter: SupportsIndex = 50,
         tol: SupportsFloat = 1e-6,
         random_state: Any = None,
@@ -180,6 +124,7 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         self.n_clusters = n_clusters
         self.measure = measure
         self.options = options
+        self.init = init
         self.n_init = n_init
         self.max_iter = max_iter
         self.tol = tol
@@ -187,7 +132,9 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         self.workers = workers
         self.layout = layout
 
-    def fit(self, X: ManyCurves, y: None = None) -> CurveKMeans:
+    def fit(
+        self, X: ManyCurves, y: None = None, sample_weight: npt.ArrayLike | None = None
+    ) -> CurveKMeans:
         """Find the clusters of curves X.
 
         Parameters
@@ -196,6 +143,8 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
             The curves.
         y : None
             Not used.
+        sample_weight : array_like, shape (k,), optional
+            How much each curve counts, at least 0; 1 if not given.
 
         Returns
         -------
@@ -210,16 +159,19 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         """
         mean, options = self._mean()
         moves = whole_number("max_iter", self.max_iter, 1, "give a whole number >= 1")
-        starts = whole_number("n_init", self.n_init, 1, "give a whole number >= 1")
         limit = real_number("tol", self.tol, 0.0, "give a number >= 0")
         (given,) = curves_to_fit(self, X)
         curves = as_curve_list(given, "X", layout="channels_last")  # in float64
         most = len(curves)
         advice = f"give a whole number from 1 to {most}, the curves (n_samples={most})"
         count = whole_number("n_clusters", self.n_clusters, 1, advice, most)
+        weights = checked_sample_weight(sample_weight, curves)
         random = check_random_state(self.random_state)
-        begins = [_first_centers(curves, count, mean, options, random) for _ in range(starts)]
-        runs = [_lloyd(curves, centers, mean, options, moves, limit) for centers in begins]
+        begins = [
+            self._first_centers(curves, count, weights, mean, options, random)
+            for _ in range(self._starts(curves, count))
+        ]
+        runs = [_lloyd(curves, weights, centers, mean, options, moves, limit) for centers in begins]
         best = min(runs, key=lambda run: run.cost)
         if not best.converged:
             warn(
@@ -256,10 +208,36 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
         mean, options = self._mean()
         return _nearest(curves, self.cluster_centers_, mean, options)[0]
 
-    def _mean(self) -> tuple[_Mean, dict[str, Any]]:
+    def _starts(self, curves: Curves, count: int) -> int:
+        """Return from how many choices of first centres to begin."""
+        if not (isinstance(self.n_init, str) and self.n_init == "auto"):
+            return whole_number("n_init", self.n_init, 1, 'give a whole number >= 1, or "auto"')
+        points = sum(map(len, curves))
+        cells = points * points / len(curves) * (count + MOVES)  # of a round
+        return _STARTS if cells <= _FEW_CELLS else 1
+
+    def _first_centers(
+        self,
+        curves: Curves,
+        count: int,
+        weights: Array,
+        mean: Mean,
+        options: dict[str, Any],
+        random: Any,
+    ) -> Curves:
+        """Return the centres of a start: those of k-means++, or of a callable."""
+        if not callable(self.init):
+            check_choice("init", self.init, ("k-means++",))
+            return _first_centers(curves, count, weights, mean, options, random)
+        centers = as_curve_list(self.init(curves, count, random), "init", layout="channels_last")
+        if len(centers) != count:
+            raise ValueError(f"init returns {len(centers)} curves; give {count}, one a cluster")
+        return [copy_of(center) for center in centers]
+
+    def _mean(self) -> tuple[Mean, dict[str, Any]]:
         """Return the kind of mean, and the arguments of its functions."""
         check_choice("measure", self.measure, get_args(MeanName))
-        mean = _MEANS[self.measure]
+        mean = MEANS[self.measure]
         options = dict(self.options or {})
         for name in options:
             if mean.options and name not in mean.options:
@@ -268,11 +246,6 @@ class CurveKMeans(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
                     f"{' and '.join(mean.options)}"
                 )
         return mean, {"workers": self.workers, **options}
-
-    def __sklearn_tags__(self) -> Any:
-        tags = super().__sklearn_tags__()
-        tags.input_tags.three_d_array = True
-        return tags
 
 
 @dataclass(frozen=True)
@@ -287,33 +260,45 @@ class _Run:
 
 
 def _first_centers(
-    curves: Curves, count: int, mean: _Mean, options: dict[str, Any], random: Any
+    curves: Curves,
+    count: int,
+    weights: Array,
+    mean: Mean,
+    options: dict[str, Any],
+    random: Any,
 ) -> Curves:
-    """Return curves, each drawn with the chance of its distance from those drawn before.
+    """Return curves, each the best of some that are drawn by their distances from those before.
 
     The distances are sums of squares under dtw; under frechet they are squared, and those of
-    soft_dtw, which may be below 0, are counted from the smallest.
+    soft_dtw, which may be below 0, are counted from the smallest. Of several draws the one counts
+    that leaves the smallest sum.
     """
-    chosen = [int(random.randint(len(curves)))]
+    chosen: list[int] = []
     nearest = np.full(len(curves), np.inf)
-    for _ in range(count - 1):
-        latest = mean.distances(curves, [curves[chosen[-1]]], **options)[:, 0]
-        if mean is _MEANS["frechet"]:
+    chances = weights
+    for _ in range(count):
+        trials = 1 if not chosen else 2 + int(np.log(count))
+        drawn = random.choice(len(curves), trials, p=chances / chances.sum())
+        latest = mean.distances(curves, [curves[i] for i in drawn], **options)
+        if mean is MEANS["frechet"]:
             latest = latest * latest
-        nearest = np.minimum(nearest, latest)
-        chances = nearest - min(0.0, float(nearest.min()))
+        left = np.minimum(nearest[:, np.newaxis], latest)
+        best = int(np.argmin(weights @ left))
+        chosen.append(int(drawn[best]))
+        nearest = left[:, best]
+        chances = weights * (nearest - min(0.0, float(nearest.min())))
         chances[chosen] = 0.0
-        if not chances.any():  # all others are equal to one that was drawn
+        if not chances.any():  # all others are equal to one that was drawn, or do not count
             chances = np.ones(len(curves))
             chances[chosen] = 0.0
-        chosen.append(int(random.choice(len(curves), p=chances / chances.sum())))
     return [copy_of(curves[i]) for i in chosen]
 
 
 def _lloyd(
     curves: Curves,
+    weights: Array,
     centers: Curves,
-    mean: _Mean,
+    mean: Mean,
     options: dict[str, Any],
     most: int,
     limit: float,
@@ -321,32 +306,34 @@ def _lloyd(
     """Move centers and labels in turn until the sum falls no further."""
     labels, near = _nearest(curves, centers, mean, options)
     for moves in range(1, most + 1):
-        moved = _moved(curves, centers, labels, near, mean, options)
+        moved = _moved(curves, weights, centers, labels, near, mean, options)
         moved_labels, moved_near = _nearest(curves, moved, mean, options)
-        cost = float(near.sum())
-        fell = cost - float(moved_near.sum())
+        cost = float(weights @ near)
+        fell = cost - float(weights @ moved_near)
         if fell > 0.0:
             centers, labels, near = moved, moved_labels, moved_near
         if not fell > limit * abs(cost):
-            return _Run(centers, labels, float(near.sum()), moves, True)
-    return _Run(centers, labels, float(near.sum()), most, False)
+            return _Run(centers, labels, float(weights @ near), moves, True)
+    return _Run(centers, labels, float(weights @ near), most, False)
 
 
 def _moved(
     curves: Curves,
+    weights: Array,
     centers: Curves,
     labels: npt.NDArray[np.int64],
     near: Array,
-    mean: _Mean,
+    mean: Mean,
     options: dict[str, Any],
 ) -> Curves:
     """Return the centers, nearer to their curves; one without any is where a curve is far off."""
-    far = near.copy()
+    far = weights * near
     moved = []
     for k, center in enumerate(centers):
-        members = np.flatnonzero(labels == k)
+        members = np.flatnonzero((labels == k) & (weights > 0.0))
         if len(members) > 0:
-            moved.append(mean.moved(center, [curves[i] for i in members], **options))
+            own = [curves[i] for i in members]
+            moved.append(mean.moved(center, own, weights[members], **options))
         else:
             farthest = int(np.argmax(far))
             far[farthest] = -np.inf
@@ -355,7 +342,7 @@ def _moved(
 
 
 def _nearest(
-    curves: Curves, centers: Curves, mean: _Mean, options: dict[str, Any]
+    curves: Curves, centers: Curves, mean: Mean, options: dict[str, Any]
 ) -> tuple[npt.NDArray[np.int64], Array]:
     """Return the nearest center of each curve, and how far that is."""
     distances = mean.distances(curves, centers, **options)

@@ -13,15 +13,15 @@ from ..curves.foreign_curves import warn
 from ..curves.inputs import as_curve, copy_of
 from ..curves.layouts import Layout
 from ..many.k_medoids import k_medoids
-from ..many.pairwise import cdist
-from ..measures.registry import MeasureName
+from ..many.pairwise import Measure, cdist
 from .inputs import (
-    BaseEstimator,
     ClusterMixin,
     ConvergenceWarning,
+    CurveEstimator,
     ManyCurves,
     Options,
     check_is_fitted,
+    checked_sample_weight,
     curves_to_fit,
     fitted_curves,
     validate_data,
@@ -31,7 +31,7 @@ __all__ = ["CurveKMedoids"]
 
 
 @filled()
-class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyped
+class CurveKMedoids(ClusterMixin, CurveEstimator):  # type: ignore[misc]  # untyped
     """Divide curves into clusters, each around one of them: its medoid.
 
     The sum of the distances of all curves from their medoids is as small as no exchange of a medoid
@@ -40,11 +40,12 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
     Parameters
     ----------
     n_clusters : int
-        Number of clusters.
-    measure : str
-        A measure by its name, see :func:`curvewise.available_measures`. Where it is not symmetric,
-        the medoid is Q. Or "precomputed": X is then the matrix of all distances, as
-        :func:`curvewise.cdist` returns it, which serves several numbers of clusters.
+        How many clusters.
+    measure : str or callable
+        A measure by its name, see :func:`curvewise.available_measures`, or a function of two
+        curves. Where it is not symmetric, the medoid is Q. Or "precomputed": X is then the matrix
+        of all distances, as :func:`curvewise.cdist` returns it, which serves several numbers of
+        clusters.
     options : dict, optional
         Options of the measure's own function, e.g. ``{"window": 10}``.
     max_iter : int
@@ -93,7 +94,7 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
         self,
         n_clusters: SupportsIndex = 8,
         *,
-        measure: MeasureName | Literal["precomputed"] = "dtw",
+        measure: Measure | Literal["precomputed"] = "dtw",
         options: Options = None,
         max_iter: SupportsIndex = 100,
         workers: SupportsIndex = Default.workers,
@@ -106,7 +107,9 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
         self.workers = workers
         self.layout = layout
 
-    def fit(self, X: ManyCurves, y: None = None) -> CurveKMedoids:
+    def fit(
+        self, X: ManyCurves, y: None = None, sample_weight: npt.ArrayLike | None = None
+    ) -> CurveKMedoids:
         """Find the clusters of curves X.
 
         Parameters
@@ -115,6 +118,8 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
             The curves; or the matrix of their distances, shape (k, k).
         y : None
             Not used.
+        sample_weight : array_like, shape (k,), optional
+            How much the distance of each curve counts, at least 0; 1 if not given.
 
         Returns
         -------
@@ -140,7 +145,9 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
         most = len(distances)
         advice = f"give a whole number from 1 to {most}, the curves (n_samples={most})"
         count = whole_number("n_clusters", self.n_clusters, 1, advice, most)
-        found = k_medoids(np.ascontiguousarray(distances.T), count, rounds)
+        from_medoids = np.ascontiguousarray(distances.T)
+        weights = checked_sample_weight(sample_weight, from_medoids)
+        found = k_medoids(from_medoids * weights, count, rounds)
         if not found.converged:
             warn(
                 ConvergenceWarning(
@@ -148,7 +155,8 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
                 )
             )
         self.medoid_indices_ = found.medoids
-        self.labels_ = found.labels
+        # A curve that does not count has a cluster too.
+        self.labels_ = np.argmin(from_medoids[found.medoids], axis=0)
         self.inertia_ = found.cost
         self.n_iter_ = found.rounds
         self.__dict__.pop("cluster_centers_", None)
@@ -189,6 +197,5 @@ class CurveKMedoids(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # untyp
 
     def __sklearn_tags__(self) -> Any:
         tags = super().__sklearn_tags__()
-        tags.input_tags.three_d_array = True
         tags.input_tags.pairwise = self.measure == "precomputed"
         return tags

@@ -119,12 +119,13 @@ def test_means_of_curves(measure, options):
 
 @with_scikit_learn
 def test_a_cluster_without_curves_gets_one():
-    from curvewise.sklearn.k_means import _MEANS, _moved
+    from curvewise.sklearn.k_means import MEANS, _moved
 
     curves = [np.array([0.0, 0]), np.array([0.0, 1]), np.array([5.0, 5])]
     centers, labels = [curves[0], np.array([99.0, 99])], np.array([0, 0, 0])
     near = np.array([0.0, 1.0, 50.0])
-    moved = _moved(curves, centers, labels, near, _MEANS["dtw"], {"workers": 1})
+    weights = np.ones(3)
+    moved = _moved(curves, weights, centers, labels, near, MEANS["dtw"], {"workers": 1})
     assert moved[1].tolist() == [5.0, 5.0]
     equal = curvewise.sklearn.CurveKMeans(3, random_state=0).fit([[0, 0]] * 2 + [[4, 4]] * 2)
     assert equal.inertia_ == 0.0
@@ -145,7 +146,60 @@ def test_tables_of_lines_have_clusters():
 def test_clusters_pass_the_checks_of_estimators(name):
     from sklearn.utils.estimator_checks import check_estimator
 
-    assert len(check_estimator(getattr(curvewise.sklearn, name)(3), on_skip=None)) > 40
+    expected = {
+        "check_sample_weight_equivalence_on_dense_data": "first centres are drawn; curves that do "
+        "not count may be medoids, as of scikit-learn's KMeans"
+    }
+    estimator = getattr(curvewise.sklearn, name)(3)
+    results = check_estimator(estimator, expected_failed_checks=expected, on_skip=None)
+    assert len(results) > 40
+
+
+@with_scikit_learn
+@pytest.mark.parametrize(
+    ("kind", "measure"),
+    [
+        *(("CurveKMeans", measure) for measure in ("dtw", "soft_dtw", "frechet")),
+        ("CurveKMedoids", "frechet"),
+    ],
+)
+def test_a_weight_is_the_curve_that_often(kind, measure):
+    curves, _ = bundles(12)
+    counts = np.array([1, 2, 3] * 4)
+    repeated = [curve for curve, count in zip(curves, counts, strict=True) for _ in range(count)]
+    begin = {"init": lambda X, count, random: curves[:count]} if kind == "CurveKMeans" else {}
+    estimator = getattr(curvewise.sklearn, kind)(3, measure=measure, **begin)
+    weighted = estimator.fit(curves, sample_weight=counts)
+    labels, inertia, centers = weighted.labels_, weighted.inertia_, weighted.cluster_centers_
+    unweighted = estimator.fit(repeated)
+    assert np.array_equal(np.repeat(labels, counts), unweighted.labels_)
+    assert inertia == pytest.approx(unweighted.inertia_, rel=1e-9, abs=1e-9)
+    for ours, theirs in zip(centers, unweighted.cluster_centers_, strict=True):
+        np.testing.assert_allclose(ours, theirs, rtol=1e-6, atol=1e-6)
+    without = estimator.fit(curves, sample_weight=np.r_[0.0, np.ones(11)])
+    assert without.labels_.shape == (12,)
+    with pytest.raises(ValueError, match=r"sample_weight is 0|at least one non-zero"):
+        estimator.fit(curves, sample_weight=np.zeros(12))
+
+
+@with_scikit_learn
+def test_first_centres_and_starts():
+    from curvewise.sklearn.k_means import CurveKMeans
+
+    curves, truth = bundles(30, 5, seed=3)
+    sums = [CurveKMeans(5, n_init=1, random_state=seed).fit(curves).inertia_ for seed in range(10)]
+    assert max(sums) < 1.15 * min(sums)  # without several draws, up to 20 times the best
+    assert same_groups(CurveKMeans(5, random_state=0).fit(curves).labels_, truth)
+    short, long = [np.zeros(10)] * 50, [np.zeros(20_000)] * 50
+    assert CurveKMeans(3)._starts(short, 3) == 10
+    assert CurveKMeans(3)._starts(long, 3) == 1
+    assert CurveKMeans(3, n_init=4)._starts(long, 3) == 4
+    with pytest.raises(ValueError, match='n_init is 0; give a whole number >= 1, or "auto"'):
+        CurveKMeans(3, n_init=0).fit(curves)
+    with pytest.raises(ValueError, match="unknown init 'random'; choose from k-means"):
+        CurveKMeans(3, init="random").fit(curves)
+    with pytest.raises(ValueError, match="init returns 2 curves; give 3, one a cluster"):
+        CurveKMeans(3, init=lambda X, count, random: X[:2]).fit(curves)
 
 
 @with_scikit_learn
