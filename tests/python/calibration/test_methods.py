@@ -217,7 +217,7 @@ def test_a_region_where_simulations_fail_is_left(method):
     found = quiet_identify(fragile, model(TRUE), BOUNDS, measure="dtw", method=method)
     assert largest_error(found) < 1e-3
     assert bool(found.failures) == (method != "nelder-mead")  # whose path does not lead there
-    assert {message for _, message in found.failures} <= {
+    assert {message.partition(" (")[0] for _, message in found.failures} <= {
         "ArithmeticError: no convergence",
         "no simulation",
     }

@@ -87,6 +87,8 @@ class Objective:
         Whether the value is a weighted sum of squares of `residuals`.
     is_area_of_pieces : bool
         Whether the value adds up absolute areas of sections: "area" with ``spacing="matched"``.
+    is_sum_of_distances : bool
+        Whether the value adds up distances of points: "dtw" without options.
     is_largest_distance : bool
         Whether the value is a discrete Fréchet distance, or a mean of several.
     has_function : bool
@@ -171,6 +173,7 @@ class Objective:
         self.residual_factors: Array = np.sqrt(self.weights) / heights
         self.is_least_squares = all(term.is_least_squares for term in terms)
         self.is_area_of_pieces = all(term.is_area_of_pieces for term in terms)
+        self.is_sum_of_distances = all(term.is_sum_of_distances for term in terms)
         self.is_largest_distance = (
             self.condition is not None and self.measure == "frechet" and not self.condition.options
         )

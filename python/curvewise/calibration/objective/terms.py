@@ -143,6 +143,11 @@ class Term(ABC):
         return self.criterion.measure == "area" and is_of_pieces
 
     @property
+    def is_sum_of_distances(self) -> bool:
+        """Whether the value adds up Euclidean distances of all points: dtw without options."""
+        return self.criterion.measure == "dtw" and not self.criterion.condition.options
+
+    @property
     def settings(self) -> dict[str, Any]:
         """The settings that a record stores in addition to the experiment."""
         return {

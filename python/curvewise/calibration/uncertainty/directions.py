@@ -23,6 +23,7 @@ __all__ = ["Directions", "at_places", "directions_along", "directions_of", "fitt
 
 Places: TypeAlias = npt.NDArray[np.intp]
 
+_PAIRED = 0.8  # the least part of the points that a path matches with those of the same number
 _STILL = 1e-9  # of the longest step: a shorter step of a curve does not define a direction
 
 
@@ -84,11 +85,13 @@ def directions_along(
 
 def fitted_tests(
     objective: Objective, curves: Sequence[Array]
-) -> Iterator[tuple[Array, Directions, Array]]:
-    """Yield for each test its fitted points, their directions, and the residuals in these.
+) -> Iterator[tuple[Array, Directions, Array, Array | None]]:
+    """Yield for each test its fitted points, their directions, the residuals in these, and pairs.
 
     The residuals are from the points of a curve that are nearest to the measured ones. The fitted
     points are those that a warping path matches with these: they do not scatter along the curve.
+    Pairs are the deviations in each coordinate, of shape (n, d), if the path matches points of the
+    same number: the steps of the curve are then longer than the noise. Otherwise pairs are None.
     """
     known = objective.fitted(curves)
     for index, (test, curve) in enumerate(zip(objective.experiments, curves, strict=True)):
@@ -96,13 +99,21 @@ def fitted_tests(
         if scale is None:
             points = fitted_points(test, curve) if known is None else known[index]
             directions = _along_y(objective, index, len(test))
-            yield points, directions, directions.across(test - points)
+            yield points, directions, directions.across(test - points), None
         else:
             places = matched_places(test, curve)
             feet = _feet(test / scale, curve / scale, places)
             directions = directions_of(objective, index, curve, feet)
             residuals = directions.across(test - at_places(curve, feet))
-            yield at_places(curve, places), directions, residuals
+            yield at_places(curve, places), directions, residuals, _pairs(test, curve, places)
+
+
+def _pairs(test: Array, curve: Array, places: Array) -> Array | None:
+    same = places == np.arange(len(test))
+    if len(test) != len(curve) or same.mean() < _PAIRED:
+        return None
+    pairs: Array = (test - curve)[same]
+    return pairs if pairs.any(axis=0).all() else None  # a model that is driven by the test's x
 
 
 def at_places(curve: Array, places: Array) -> Array:

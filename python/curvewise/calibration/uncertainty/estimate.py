@@ -26,6 +26,7 @@ from .area_pieces import NoisyCurve, area_scatter
 from .correlation import Correlation, correlation_of, given_noise
 from .directions import Directions, at_places, directions_along
 from .noise import Noise
+from .paired import paired_scatter
 from .sensitivity import Optimum, moves_of
 
 __all__ = ["Estimate", "estimate_of"]
@@ -117,6 +118,14 @@ def estimate_of(optimum: Optimum, noise: Noise) -> Estimate:
             for test, curve, move, slope, cost in parts
         )
         covariance = None if of_pieces is None else correlation.variance * of_pieces
+    elif objective.is_sum_of_distances and noise.is_paired and correlation.is_white:
+        by_curve = [
+            np.stack(columns, axis=2) / one.scale[:, np.newaxis]
+            for one, columns in zip(directions, zip(*optimum.slopes, strict=True), strict=True)
+        ]
+        costs_of_distances = (objective.weights / noise.heights).tolist()
+        tests = zip(by_curve, noise.components, costs_of_distances, strict=True)
+        covariance = paired_scatter(tests)
     if covariance is None:
         covariance = correlation.scatter(moves, of_median=not objective.is_least_squares)
     factors = weights / deviations

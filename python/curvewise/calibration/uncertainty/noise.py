@@ -1,9 +1,10 @@
 """The noise of a test: its residuals from the fitted curve, or a given deviation.
 
-Residuals are taken in the directions of the deviations (`directions`). The noise of each coordinate
-is fitted to their squares by non-negative least squares, first with equal weights and then with
-those of the first fit. If that is not clearly more likely, all noise is attributed to the model's
-response. Cost: that of a dynamic time warping path for every loop.
+Residuals are taken in the directions of the deviations (`directions`). If the points of both curves
+belong together one by one, their differences give the noise of each coordinate. Otherwise it is
+fitted to the squares of the residuals by non-negative least squares, first with equal weights and
+then with those of the first fit. If that is not clearly more likely, all noise is attributed to the
+model's response. Cost: that of a dynamic time warping path for every loop.
 
 C. L. Lawson, R. J. Hanson, "Solving least squares problems", Prentice-Hall (1974), chapter 23.
 """
@@ -50,6 +51,8 @@ class Noise(NamedTuple):
         For each test its extent in y.
     freedom : int
         Points of all tests minus parameters.
+    is_paired : bool
+        Whether the points of both curves belong together one by one.
     """
 
     fitted: Sequence[Array]
@@ -58,6 +61,7 @@ class Noise(NamedTuple):
     components: Sequence[Array]
     heights: Sequence[float]
     freedom: int
+    is_paired: bool = False
 
     @property
     def sigma(self) -> Array:
@@ -97,7 +101,7 @@ def noise_of(optimum: Optimum, sigma: float | Sequence[float] | None) -> Noise:
     """Return the fitted points, and the residuals or the deviation in y that is given."""
     objective = optimum.problem.objective
     tests, curves = objective.experiments, optimum.curves(optimum.unit)
-    fitted, directions, residuals = zip(*fitted_tests(objective, curves), strict=True)
+    fitted, directions, residuals, pairs = zip(*fitted_tests(objective, curves), strict=True)
     total = sum(map(len, tests))
     freedom = total - optimum.unit.size
     if freedom < 1:
@@ -115,11 +119,18 @@ def noise_of(optimum: Optimum, sigma: float | Sequence[float] | None) -> Noise:
         # A single number does not have a usable residual: a hundredth of it by default.
         found = 0.01 * heights[i] * in_y[i]
         if residual.size > 1:
-            found = math.sqrt(total / freedom) * _components(residual, one, answers[i])
+            each = pairs[i]
+            found = (
+                _components(residual, one, answers[i])
+                if each is None
+                else np.sqrt(np.mean((each / one.scale) ** 2, axis=0))
+            )
+            found = math.sqrt(total / freedom) * found
         if known := objective.sigmas[i]:
             found = known * (found / _size(found) if found.any() else in_y[i])
         components.append(found)
-    return Noise(fitted, directions, residuals, components, heights, freedom)
+    is_paired = all(each is not None for each in pairs)
+    return Noise(fitted, directions, residuals, components, heights, freedom, is_paired)
 
 
 def _answers(optimum: Optimum) -> list[Array]:
