@@ -130,7 +130,7 @@ def test_residuals_are_distances_to_the_nearest_points_with_a_sign():
         return np.column_stack((t, 40.0 * np.sin(t)))
 
     test = noisy(wave(200), 0.01, 0.01)
-    ((_, directions, residuals),) = fitted_tests(Objective([test], "area"), [wave(200)])
+    ((_, directions, residuals, _),) = fitted_tests(Objective([test], "area"), [wave(200)])
     offsets = (test[:, np.newaxis] - wave(5000)) / directions.scale
     nearest = np.sqrt((offsets**2).sum(axis=2)).min(axis=1)
     inner = slice(5, -5)  # beyond an end the nearest point is the end
@@ -162,7 +162,7 @@ def test_other_curves_deviate_in_their_last_coordinate(case):
     objective = Objective([test], measure if curve.shape[1] == 2 else "dtw")
     moved = curve + 0.01 * np.cos(np.arange(curve.size)).reshape(curve.shape)
     moved[:, 0] = curve[:, 0] if curve.shape[1] > 1 else moved[:, 0]
-    ((points, directions, residuals),) = fitted_tests(objective, [moved])
+    ((points, directions, residuals, _),) = fitted_tests(objective, [moved])
     assert (directions.unit == np.eye(curve.shape[1])[-1]).all()
     if case != "squares":
         assert (points == fitted_points(objective.experiments[0], moved)).all()
