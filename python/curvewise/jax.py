@@ -141,7 +141,7 @@ def frechet(P: Curves, Q: Curves, *, lengths: Lengths = None, **options: Any) ->
 
 @documented_loss("Array")
 def frechet_continuous(P: Curves, Q: Curves, *, lengths: Lengths = None, **options: Any) -> Array:
-    """Compute :func:`curvewise.frechet_continuous` of arrays, differentiable in both.
+    """Compute :func:`curvewise.frechet_continuous` as a loss of two arrays.
 
     {loss}
 
@@ -161,7 +161,7 @@ def frechet_continuous(P: Curves, Q: Curves, *, lengths: Lengths = None, **optio
 
 @documented_loss("Array")
 def soft_dtw(P: Curves, Q: Curves, *, lengths: Lengths = None, **options: Any) -> Array:
-    """Compute :func:`curvewise.soft_dtw` of arrays, differentiable in both, everywhere.
+    """Compute :func:`curvewise.soft_dtw` as a loss, differentiable everywhere.
 
     {loss}
 
@@ -182,7 +182,7 @@ def soft_dtw(P: Curves, Q: Curves, *, lengths: Lengths = None, **options: Any) -
 
 @documented_loss("Array")
 def soft_dtw_divergence(P: Curves, Q: Curves, *, lengths: Lengths = None, **options: Any) -> Array:
-    """Compute :func:`curvewise.soft_dtw_divergence` of arrays, differentiable in both.
+    """Compute :func:`curvewise.soft_dtw_divergence` as a loss of two arrays.
 
     {loss}
 

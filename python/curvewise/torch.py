@@ -136,7 +136,7 @@ def frechet(P: Curves, Q: Curves, *, lengths: Lengths = None, **options: Any) ->
 
 @documented_loss("Tensor")
 def frechet_continuous(P: Curves, Q: Curves, *, lengths: Lengths = None, **options: Any) -> Tensor:
-    """Compute :func:`curvewise.frechet_continuous` of tensors, differentiable in both.
+    """Compute :func:`curvewise.frechet_continuous` as a loss of two tensors.
 
     {loss}
 
@@ -156,7 +156,7 @@ def frechet_continuous(P: Curves, Q: Curves, *, lengths: Lengths = None, **optio
 
 @documented_loss("Tensor")
 def soft_dtw(P: Curves, Q: Curves, *, lengths: Lengths = None, **options: Any) -> Tensor:
-    """Compute :func:`curvewise.soft_dtw` of tensors, differentiable in both, everywhere.
+    """Compute :func:`curvewise.soft_dtw` as a loss, differentiable everywhere.
 
     {loss}
 
@@ -176,7 +176,7 @@ def soft_dtw(P: Curves, Q: Curves, *, lengths: Lengths = None, **options: Any) -
 
 @documented_loss("Tensor")
 def soft_dtw_divergence(P: Curves, Q: Curves, *, lengths: Lengths = None, **options: Any) -> Tensor:
-    """Compute :func:`curvewise.soft_dtw_divergence` of tensors, differentiable in both.
+    """Compute :func:`curvewise.soft_dtw_divergence` as a loss of two tensors.
 
     {loss}
 

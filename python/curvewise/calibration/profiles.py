@@ -119,7 +119,7 @@ def profile(
     level: float = 0.95,
     method: Method | None = None,
 ) -> Profile:
-    """Hold a parameter at several values, and search for the others at each.
+    """Compute the profile of a parameter: the best fits at fixed values of it.
 
     Parameters
     ----------

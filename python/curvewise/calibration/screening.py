@@ -92,7 +92,7 @@ class Screening(Result):
 
 
 def screening(found: Identification, *, paths: int = 10, seed: int = 0) -> Screening:
-    """Say how much every parameter matters over the whole of its bounds.
+    """Estimate the effect of every parameter over the whole of its bounds.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ _ABOVE_0 = "a tolerance must be above 0"
 
 @dataclass(frozen=True)
 class Tube:
-    """Whether two curves stay within a rectangular tolerance of each other; true if they do.
+    """Result of `tube`; true if both curves stay within the tolerances.
 
     Attributes
     ----------

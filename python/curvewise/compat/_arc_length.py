@@ -28,7 +28,7 @@ _CHUNK = 1 << 15
 def pcm(
     exp_data: CurveLike, num_data: CurveLike, norm_seg_length: bool = False
 ) -> np.floating[Any]:
-    """Partial curve mapping measure, as similaritymeasures defines it.
+    """Compute the partial curve mapping measure of similaritymeasures.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def _weighted_sums(
 
 
 def curve_length_measure(exp_data: CurveLike, num_data: CurveLike) -> np.floating[Any]:
-    """Curve length based distance, self-normalised by the mean of the experiment.
+    """Compute the curve length measure, normalised by the experiment's mean.
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ def curve_length_measure(exp_data: CurveLike, num_data: CurveLike) -> np.floatin
 def get_length(
     x: CurveLike, y: CurveLike, norm_seg_length: bool = True
 ) -> tuple[Array, np.floating[Any], Array]:
-    """Arc lengths along a curve: of its segments, in total, and from its start.
+    """Compute arc lengths of a curve: of its segments, in total, from its start.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ _VERTEX_ORDERS = np.array([[0, 1, 2, 3], [1, 0, 2, 3], [0, 2, 1, 3]])
 
 
 def area_between_two_curves(exp_data: CurveLike, num_data: CurveLike) -> np.floating[Any]:
-    """Area between two curves in the plane.
+    """Compute the area between two curves in the plane.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def area_between_two_curves(exp_data: CurveLike, num_data: CurveLike) -> np.floa
 
 
 def makeQuad(x: CurveLike, y: CurveLike) -> np.floating[Any]:
-    """Area of a quadrilateral, its vertices reordered if it intersects itself.
+    """Compute the area of a quadrilateral, reordered if it intersects itself.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def makeQuad(x: CurveLike, y: CurveLike) -> np.floating[Any]:
 
 
 def is_simple_quad(ab: CurveLike, bc: CurveLike, cd: CurveLike, da: CurveLike) -> bool:
-    """Whether a quadrilateral does not intersect itself.
+    """Return whether a quadrilateral does not intersect itself.
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ def is_simple_quad(ab: CurveLike, bc: CurveLike, cd: CurveLike, da: CurveLike) -
 
 
 def poly_area(x: CurveLike, y: CurveLike) -> np.floating[Any]:
-    """Area of a polygon that does not intersect itself.
+    """Compute the area of a polygon that does not intersect itself.
 
     Parameters
     ----------
@@ -220,7 +220,7 @@ def poly_area(x: CurveLike, y: CurveLike) -> np.floating[Any]:
 
 
 def get_arc_length(dataset: CurveLike) -> tuple[np.floating[Any], Array]:
-    """Length of a curve, and of each of its segments.
+    """Compute the length of a curve, and of each of its segments.
 
     Parameters
     ----------

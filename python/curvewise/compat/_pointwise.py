@@ -13,7 +13,7 @@ __all__ = ["mae", "mse"]
 
 
 def mae(exp_data: CurveLike, num_data: CurveLike) -> np.floating[Any]:
-    """Mean absolute error over all coordinates of all points.
+    """Compute the mean absolute error over all coordinates of all points.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def mae(exp_data: CurveLike, num_data: CurveLike) -> np.floating[Any]:
 
 
 def mse(exp_data: CurveLike, num_data: CurveLike) -> np.floating[Any]:
-    """Mean squared error over all coordinates of all points.
+    """Compute the mean squared error over all coordinates of all points.
 
     Parameters
     ----------

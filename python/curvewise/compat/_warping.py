@@ -30,7 +30,7 @@ def dtw(
     metric: str | Callable[..., float] = "euclidean",
     **kwargs: Any,
 ) -> tuple[np.float64, Array]:
-    """Dynamic time warping distance and its cumulative table.
+    """Compute dynamic time warping and its cumulative table.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def dtw(
 
 
 def frechet_dist(exp_data: CurveLike, num_data: CurveLike, p: float = 2) -> np.float64:
-    """Discrete Fréchet distance.
+    """Compute the discrete Fréchet distance.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def frechet_dist(exp_data: CurveLike, num_data: CurveLike, p: float = 2) -> np.f
 
 
 def dtw_path(d: npt.ArrayLike) -> npt.NDArray[np.int64]:
-    """Warping path of a cumulative table.
+    """Find the warping path of a cumulative table.
 
     Parameters
     ----------

@@ -147,7 +147,7 @@ def peaks_and_valleys(curve: CurveLike, *, column: int = 0, reversal: float = 0.
 
 
 def loop_energy(curve: CurveLike, *, column: int = 0, reversal: float = 0.1) -> Array:
-    r"""Compute the energy dissipated in each cycle, the area that its loop encloses.
+    r"""Compute the dissipated energy of each cycle, the area of its loop.
 
     .. math:: E_D = \oint y \, \mathrm{d}x
 

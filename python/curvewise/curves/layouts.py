@@ -43,7 +43,7 @@ _settled: ContextVar[bool] = ContextVar("_settled", default=False)
 
 
 class LayoutWarning(UserWarning):
-    """Warns that curves have more coordinates than points, so that rows and columns may be swapped.
+    """Curves have more coordinates than points: rows and columns may be swapped.
 
     Functions of many curves take ``layout="channels_first"`` or ``layout="channels_last"``, which
     answer the question. For a single pair, transpose the curves, or ignore this warning.

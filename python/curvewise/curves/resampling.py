@@ -46,7 +46,7 @@ def resample(
     metric: StepMetric | None = None,
     turns: Turns = (),
 ) -> Array:
-    """Put evenly spaced points on a curve, branch by branch.
+    """Resample a curve at evenly spaced points, branch by branch.
 
     If two curves are resampled with `turns` and the same `count`, their branches have the same
     indices. `sum_of_squares`, `mse`, `mae` and the default of `area` require this.

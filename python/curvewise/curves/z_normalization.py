@@ -18,7 +18,7 @@ __all__ = ["normalized_windows", "z_normalized"]
 
 
 def z_normalized(curve: CurveLike) -> Array:
-    """Shift and scale each coordinate of a curve to mean 0 and standard deviation 1.
+    """Scale each coordinate of a curve to mean 0 and standard deviation 1.
 
     Parameters
     ----------

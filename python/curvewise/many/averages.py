@@ -142,7 +142,9 @@ def soft_dtw_mean(
     workers: SupportsIndex = Default.workers,
     layout: Layout | None = None,
 ) -> DtwMean:
-    """Compute the mean of curves under soft_dtw: a smoother one than :func:`curvewise.dtw_mean`.
+    """Compute the mean of curves under soft_dtw.
+
+    It is smoother than :func:`curvewise.dtw_mean`.
 
     The curve with the smallest weighted sum of ``soft_dtw(mean, curve)``, or rather a local minimum
     of that sum, which depends on the initial curve less than that of dtw does.
@@ -326,7 +328,7 @@ def medoid(
     layout: Layout | None = None,
     **options: Any,
 ) -> Any:
-    """Find the curve with the smallest sum of distances from all curves of a list.
+    """Find the curve with the smallest sum of distances from all curves.
 
     Parameters
     ----------

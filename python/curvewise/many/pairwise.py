@@ -61,7 +61,7 @@ LabelledCurves: TypeAlias = Mapping[Any, CurveLike] | Grouped | Indexed
 
 
 def available_measures() -> list[str]:
-    """Return the names that :func:`cdist`, :func:`pdist` and :class:`Prepared` take.
+    """Return the measures of :func:`cdist`, :func:`pdist` and :class:`Prepared`.
 
     Returns
     -------
@@ -123,7 +123,7 @@ def cdist(
     missing: Missing = Default.missing,
     **options: Any,
 ) -> Any:
-    """Compute a measure between every curve of one list and every curve of another.
+    """Compute a measure between all curves of two lists.
 
     Parameters
     ----------

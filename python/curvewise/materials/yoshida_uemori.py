@@ -15,7 +15,7 @@ __all__ = ["YoshidaUemori"]
 
 @dataclass(frozen=True)
 class YoshidaUemori(Material):
-    r"""Yoshida and Uemori's model of cyclic loading of sheet steel, with LS-DYNA's names.
+    r"""The Yoshida-Uemori model of cyclic loading, with LS-DYNA's names.
 
     A yield surface of the constant size Y moves inside a bounding surface, which moves and grows;
     while its centre stays within the stagnation surface, it does not grow. Uniaxial, as `*MAT_125`

@@ -14,7 +14,9 @@ __all__ = ["curve_length", "curve_length_residuals"]
 
 
 def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.scale) -> float:
-    """Curve-length measure: log-relative differences at equal fractions of arc length.
+    """Compute the curve-length measure between two curves.
+
+    It is the norm of log-relative differences at equal fractions of arc length.
 
     Every point of P is compared with the point of Q at the same fraction of its curve's length.
 
@@ -59,7 +61,7 @@ def curve_length(P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.sca
 def curve_length_residuals(
     P: CurveLike, Q: CurveLike, *, scale: LengthScale = Default.scale
 ) -> Array:
-    """Return the terms of :func:`curve_length`, for ``scipy.optimize.least_squares``.
+    """Return the terms of :func:`curve_length`, for a least-squares solver.
 
     Parameters
     ----------

@@ -192,7 +192,7 @@ def dtw_info(
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
 ) -> WarpingInfo:
-    """Dynamic time warping, with how much of the table it took and why.
+    """Compute dynamic time warping, with statistics on the table.
 
     Parameters
     ----------
@@ -247,7 +247,7 @@ def dtw_path(
     prune: bool = Default.prune,
     closed: bool = Default.closed,
 ) -> Alignment:
-    """Dynamic time warping with a warping path that attains it.
+    """Compute dynamic time warping with an optimal warping path.
 
     Parameters
     ----------
@@ -312,7 +312,8 @@ def dtw_table(
     ----------
     P, Q, metric, p, radius, step_pattern, penalty, window, open_begin, open_end, relax
         As for :func:`dtw`. An open end does not change the table: the value is then the smallest
-        entry of its last row; with `relax`, of the ends of its last row and last column.
+        entry of its last row. With `relax`, it is the smallest entry at the ends of its last row
+        and last column.
 
     Returns
     -------

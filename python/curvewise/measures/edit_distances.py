@@ -159,7 +159,9 @@ def lcss(
     cutoff: SupportsFloat | None = Default.cutoff,
     missing: Missing = Default.missing,
 ) -> float:
-    """Longest common subsequence: the share of points of the shorter curve that have no match.
+    """Compute the longest common subsequence distance.
+
+    It is the fraction of points of the shorter curve without a match.
 
     Parameters
     ----------
@@ -258,7 +260,9 @@ def twe(
     cutoff: SupportsFloat | None = Default.cutoff,
     missing: Missing = Default.missing,
 ) -> float:
-    """Time warp edit distance: matched segments, and deletions that cost a penalty and time.
+    """Compute the time warp edit distance.
+
+    Segments are matched; deletions cost a penalty and time.
 
     Parameters
     ----------
@@ -311,7 +315,9 @@ def wdtw(
     cutoff: SupportsFloat | None = Default.cutoff,
     missing: Missing = Default.missing,
 ) -> float:
-    """Weighted dynamic time warping: a match weighs more, the farther apart its indices are.
+    """Compute weighted dynamic time warping.
+
+    The weight of a match grows with the distance of its indices.
 
     Parameters
     ----------

@@ -99,7 +99,7 @@ def frechet_info(
     workers: SupportsIndex = Default.workers,
     prune: bool = Default.prune,
 ) -> WarpingInfo:
-    """Discrete Fréchet distance, with how much of the table it took and why.
+    """Compute the discrete Fréchet distance, with statistics on the table.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def frechet_path(
     prune: bool = Default.prune,
     closed: bool = Default.closed,
 ) -> Alignment:
-    """Discrete Fréchet distance with a coupling that attains it.
+    """Compute the discrete Fréchet distance with a coupling that attains it.
 
     Parameters
     ----------

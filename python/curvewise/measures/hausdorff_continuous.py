@@ -70,7 +70,7 @@ def hausdorff_continuous(P: CurveLike, Q: CurveLike, *, directed: bool = Default
 def hausdorff_continuous_points(
     P: CurveLike, Q: CurveLike, *, directed: bool = Default.directed
 ) -> FarthestPoints:
-    """Compute the Hausdorff distance between polygonal curves, with the points that attain it.
+    """Compute the Hausdorff distance of polygonal curves, with its points.
 
     Parameters
     ----------

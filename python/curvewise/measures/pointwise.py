@@ -17,7 +17,7 @@ __all__ = ["mae", "mse", "normalize", "sum_of_squares"]
 
 @filled()
 def sum_of_squares(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> float:
-    """Sum of squared differences of two curves of equal shape, entry by entry.
+    """Compute the sum of squared differences of two curves of equal shape.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def sum_of_squares(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.mis
 
 @filled()
 def mse(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> float:
-    """Mean squared difference over all n d entries of two curves of equal shape.
+    """Compute the mean squared difference of two curves of equal shape.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def mse(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> fl
 
 @filled()
 def mae(P: CurveLike, Q: CurveLike, *, missing: Missing = Default.missing) -> float:
-    """Mean absolute difference over all n d entries of two curves of equal shape.
+    """Compute the mean absolute difference of two curves of equal shape.
 
     Parameters
     ----------

@@ -70,7 +70,9 @@ def soft_dtw(
 def soft_dtw_divergence(
     P: CurveLike, Q: CurveLike, *, gamma: SupportsFloat = 1.0, window: Window = None
 ) -> float:
-    """Soft-DTW less half of that of each curve with itself: 0 for equal curves.
+    """Compute the soft-DTW divergence: 0 for equal curves.
+
+    It is soft-DTW less half of that of each curve with itself.
 
     Parameters
     ----------

@@ -99,7 +99,7 @@ def plot_farthest_of_lines(
     normalized: bool = False,
     names: Sequence[str] | None = None,
 ) -> CurveArtists:
-    """Draw the point of each polygonal curve that is farthest from the other curve.
+    """Draw the points of polygonal curves that are farthest apart.
 
     Parameters
     ----------

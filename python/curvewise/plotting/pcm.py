@@ -26,7 +26,7 @@ def plot_pcm(
     offsets: Offsets = Default.offsets,
     names: Sequence[str] | None = None,
 ) -> CurveArtists:
-    """Draw where partial curve mapping places the shorter curve on the longer one.
+    """Draw the place of the shorter curve in partial curve mapping.
 
     Parameters
     ----------

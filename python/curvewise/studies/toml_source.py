@@ -33,7 +33,7 @@ _TOKEN = re.compile(
 
 
 class StudyError(ValueError):
-    """A study file is wrong; the text has a line for every problem, with its line in the file.
+    """A study file has errors; the message lists them with their lines.
 
     Attributes
     ----------

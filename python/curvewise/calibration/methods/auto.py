@@ -16,7 +16,7 @@ __all__ = ["Auto"]
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Auto(Method, name="auto", keeps_curves=True, needs_squares=False):
-    """Least squares where each term of the objective is "sum_of_squares", else the trust region."""
+    """Least squares if every term is "sum_of_squares", else trust region."""
 
     def chosen_for(self, objective: Objective) -> Method:
         """Return the method for an objective."""

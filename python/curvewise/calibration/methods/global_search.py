@@ -36,7 +36,9 @@ _WITHOUT = 'by differential evolution, since cma is missing (pip install "curvew
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Global(Method, name="global", keeps_curves=False, needs_squares=False):
-    """Global search, for models that cost milliseconds: by CMA-ES, with rounds that grow.
+    """Global search by CMA-ES with growing populations.
+
+    It suits models that take milliseconds.
 
     The package ``cma`` is used if it is installed (``pip install "curvewise[global]"``). Otherwise
     scipy's differential evolution is used, which needs more runs and succeeds less often; the

@@ -30,7 +30,9 @@ _OF_SCIPY = ("xatol", "fatol", "maxiter", "maxfev", "adaptive", "disp", "return_
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class NelderMead(Method, name="nelder-mead", keeps_curves=False, needs_squares=False):
-    """Nelder and Mead's simplex, restarted: local, from `start`, for few parameters.
+    """Restarted Nelder-Mead simplex: a local search for few parameters.
+
+    It begins at `start`.
 
     It asks for one run at a time, whatever `workers` says.
 

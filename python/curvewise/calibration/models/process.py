@@ -33,7 +33,7 @@ _QUOTED_BYTES = 2**18  # of the log that are read
 
 
 class SolverError(RuntimeError):
-    """A run of the solver failed; the text says how, names its log, and quotes the log's end."""
+    """A run of the solver failed; the message names its log and quotes its end."""
 
 
 def run_solver(

@@ -39,7 +39,9 @@ _DEVIATION_OF_MEDIAN = 0.6745  # of the absolute values of normal noise, in stan
 
 
 class NoisyTestWarning(UserWarning):
-    """A test has noise that the measure does not average out, so that it moves the parameters.
+    """A test has noise that the measure does not average out.
+
+    The noise changes the identified parameters.
 
     :func:`identify`, :func:`identify_each` and :func:`cross_validate` warn once, before the first
     run of the model, for "curve_length", "pcm" and "frechet".

@@ -224,7 +224,7 @@ class Objective:
         return Score(float(self.weights @ terms), terms, tuple(failures))
 
     def value_and_gradient(self, simulations: Any) -> tuple[float, list[Array]]:
-        """Return what `predicted` returns as value, and its derivative by every coordinate.
+        """Return the value of `predicted`, and its derivative by every coordinate.
 
         The derivative is that of the measure with its path held; 0 for simulations that fail.
 
