@@ -1,6 +1,7 @@
-// The measures of one pair: values, paths, tables, quadrilaterals, matches and residuals. A value
-// takes two curves as they are given and a tuple of all options, which for short curves is most of
-// the time; the others two arrays and a dict of options.
+// The measures of one pair: values, paths, tables, quadrilaterals, matches and residuals. The
+// function for values takes two curves in any form and a tuple of all options, because reading them
+// takes most of the time for short curves. The other functions take two arrays and a dict of
+// options.
 #include <memory>
 #include <optional>
 #include <string>
@@ -96,8 +97,8 @@ py::tuple as_tuple(HausdorffPoints&& found) {
 
 py::tuple as_tuple(Interval&& interval) { return py::make_tuple(interval.low, interval.high); }
 
-// What is bound is plain functions of few types: what pybind11 makes of a type, the compiler has to
-// compile, and it is made once for all functions of that type.
+// Only plain functions of few types are bound. The compiler must compile pybind11's code for each
+// type, and it does so once for all functions of that type.
 
 // What compute(P, Q, options, control) finds, as a tuple.
 template <class Options, auto compute>
@@ -154,7 +155,7 @@ py::tuple value_with_gradient(const CurveArray& Q, Compute compute) {
     return py::make_tuple(value, gradient);
 }
 
-// A measure that has derivatives, by its name; none for another name.
+// The measure of that name that has derivatives, or nullopt for another name.
 std::optional<DifferentiableMeasure> read_differentiable(const std::string& name,
                                                          const py::dict& options) {
     std::optional<DifferentiableMeasure> found;
@@ -201,7 +202,7 @@ std::vector<CurveView> views(const CurveBatch& batch) {
     return result;
 }
 
-// The derivatives of all pairs by one of their curves, or None.
+// The derivatives of all pairs by one of their curves, if requested.
 class BatchGradient {
    public:
     BatchGradient(const CurveBatch& batch, bool is_wanted)
@@ -290,7 +291,7 @@ py::array_t<double> edit_table(const py::object& name, const CurveArray& P, cons
     return out;
 }
 
-// The value of two curves as they are given; `values` has all options.
+// The value of two curves in any form; `values` has all options.
 template <class Options>
 double value_of(const py::object& P, const py::object& Q, const py::tuple& values,
                 const py::tuple& defaults) {

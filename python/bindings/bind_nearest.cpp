@@ -65,7 +65,7 @@ class BoundIndex {
         return arrays;
     }
 
-    // X is a list, or None for the curves of the index.
+    // X is a list, or null for the curves of the index.
     py::tuple kneighbors(const py::object& X, std::ptrdiff_t count, const py::object& workers,
                          const py::object& progress) const {
         SearchRecord record;

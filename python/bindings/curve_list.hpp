@@ -30,7 +30,7 @@ struct Curves {
         return views.empty() ? 0.0 : static_cast<double>(views.front().dim());
     }
     double size() const noexcept { return static_cast<double>(views.size()); }
-    // What is read to check them, no less than a few for each of them.
+    // The entries that a check of the curves reads, at least a few for each curve.
     double entries() const noexcept { return size() * (10.0 + longest() * dim()); }
 
     std::vector<py::object> arrays;

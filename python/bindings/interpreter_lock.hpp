@@ -1,9 +1,10 @@
-// The interpreter's lock, let go and taken again, as pybind11's gil_scoped_release and
-// gil_scoped_acquire do, except for one thing: where the interpreter ends meanwhile (a daemon
-// thread is inside a call when the main thread leaves), Python before 3.14 ends a thread that asks
-// for the lock by pthread_exit(), which unwinds the stack. Out of a destructor that ends the
-// program, and through a frame that holds Python objects it frees them without the lock. So the
-// thread stands still instead, as it does from 3.14 on, until the process is gone.
+// Releases and reacquires the interpreter's lock, as pybind11's gil_scoped_release and
+// gil_scoped_acquire do, with one difference. The interpreter can end while another thread is
+// inside a call: a daemon thread, when the main thread leaves. Python before 3.14 then ends a
+// thread that requests the lock by pthread_exit(), which unwinds the stack. If that happens in a
+// destructor, the program ends. If it passes a frame that holds Python objects, it frees them
+// without the lock. So the thread waits forever instead, as it does from 3.14 on, until the process
+// ends.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,6 +1,6 @@
-// Long calls that Ctrl-C ends and that tell how far they are. The library knows nothing of Python:
-// its Control calls back from the thread that made the call, some twenty times a second, and only
-// then is the interpreter's lock taken.
+// Long calls that Ctrl-C can end and that report progress. The library does not depend on Python:
+// its Control calls back from the thread that made the call, about twenty times a second. Only the
+// callback takes the interpreter's lock.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -21,7 +21,7 @@ class PythonControl {
           handles_signals_(is_main_thread()),
           control_([this](std::int64_t done, std::int64_t total) { return report(done, total); }) {}
 
-    // None where nobody would hear of it.
+    // Null if neither signals nor progress need reports.
     Control* control() noexcept {
         return handles_signals_ || !progress_.is_none() ? &control_ : nullptr;
     }
@@ -65,8 +65,9 @@ auto unlocked(double steps, Function function) {
     return function();
 }
 
-// Calls function(Control*) likewise, so that it reports progress and hears of signals, which are
-// handled on the main thread, where Python delivers them. Who throws Stopped has set an exception.
+// Calls function(Control*) in the same way, so that it reports progress and checks for signals. The
+// main thread handles signals, because Python delivers them there. Code that throws Stopped has set
+// an exception.
 template <class Function>
 auto interruptible(double steps, const py::object& progress, Function function) {
     try {

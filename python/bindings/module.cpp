@@ -7,7 +7,7 @@
 #include "curvewise/build_info.hpp"
 #include "curvewise/ground_distance.hpp"
 
-// No global state except what is set once: safe without the interpreter's lock.
+// Global state is set only once, so the module is safe without the interpreter's lock.
 PYBIND11_MODULE(_core, module, pybind11::mod_gil_not_used()) {
     try {
         curvewise::build_info();  // chooses the instruction set

@@ -36,8 +36,8 @@ CurveView view(const CurveArray& array);
 // Of one of a list, which may be of float32 too, and is not converted either.
 CurveView listed_view(const py::object& array);
 
-// Two curves as a user gives them. What is no CurveArray, the package's as_curves() makes one, or
-// refuses.
+// Two curves in the forms that a user passes. The package's as_curves() converts an object that is
+// not a CurveArray, or rejects it.
 struct CurvePair {
     CurvePair(const py::object& P, const py::object& Q);
     CurveArray P;

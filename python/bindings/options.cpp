@@ -49,14 +49,14 @@ void check_metric_of(const char* option, Metric its, Metric metric) {
                           " only, not to " + name(metric));
 }
 
-// Unless it is None, beside a metric of one's own.
+// Throws unless the option is None; for options that a custom metric excludes.
 void refuse_beside_own(const char* option, const py::object& given) {
     if (!given || given.is_none()) return;
     throw py::value_error(std::string(option) +
                           " applies to a metric by its name, not to one of one's own");
 }
 
-// Where the measure, or the batch, takes none.
+// For measures and batches that do not take a custom metric.
 [[noreturn]] void refuse_own_metric() {
     std::string names;
     for (const char* name : choice_names(Metric{}))

@@ -1,6 +1,6 @@
-// From a dict of Python's options, by name, to the library's. What is missing keeps the default
-// of the C++ struct; a name that the measure does not have is a TypeError; a value out of range is
-// a ValueError that lists what is valid, whatever type the value has.
+// Converts a dict of Python's options, by name, to the library's. Missing options keep the default
+// of the C++ struct. A name that the measure does not have raises a TypeError. A value out of
+// range, of whatever type, raises a ValueError that lists the valid values.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -30,14 +30,15 @@ bool is_text(const py::object& given, const char* text);
 std::ptrdiff_t whole_number(const char* option, const py::object& given,
                             const WholeNumberRange& range);
 
-// Four whole numbers within the range; zeros for None.
+// Four whole numbers within the range; zeros if given is None.
 std::array<std::ptrdiff_t, 4> four_whole_numbers(const char* option, const py::object& given,
                                                  const WholeNumberRange& range);
 
-// A float between 0 and 1; none for any other object.
+// A float between 0 and 1; nullopt for any other object.
 std::optional<double> proper_fraction(const py::object& given);
 
-// A number within the range; where there may be none, infinity for None, and else a finite one.
+// A number within the range. If None is allowed, None gives infinity; otherwise the number must be
+// finite.
 double real_number(const char* option, const py::object& given, const RealNumberRange& range,
                    bool may_be_none);
 
@@ -50,20 +51,20 @@ double minkowski_order(const py::object& p, Metric metric);
 // The radius of haversine; no other metric takes one.
 double sphere_radius(const py::object& radius, Metric metric);
 
-// Whether the options are those of a batch, which has workers and a cutoff of its own.
+// Whether the options belong to a batch, which also has workers and a cutoff.
 enum class OptionsOf { pair, batch };
 
-// What is in a StepPattern of Python's: its rows, and what it divides by.
+// The contents of a Python StepPattern: its rows and its divisor.
 StepRows step_rows_of(const py::object& pattern);
 
-// (rows, what it divides by), as Python has them.
+// (rows, divisor), as Python has them.
 py::tuple as_tuple(const StepRows& pattern);
 
 // Reads the options of one measure (see curvewise/options.hpp): from a dict, or from a tuple that
 // has the value of every one in the measure's order.
 class OptionReader {
    public:
-    // `own` is for a metric of the user's own, null where there may be none.
+    // `own` receives a custom metric; null if the measure does not take one.
     OptionReader(const py::dict& given, OptionsOf what, OwnDistances* own) noexcept
         : given_(given), what_(what), own_(own) {}
     OptionReader(const py::tuple& values, OwnDistances* own) noexcept
@@ -106,7 +107,7 @@ class OptionReader {
             value = real_number(name, object, range, may_be_none);
         }
     }
-    // A step pattern by its name, or one's own.
+    // A step pattern by its name, or a custom one.
     void operator()(const char* name, StepPattern& value, StepRows& own) {
         const py::object object = take(name);
         if (object && !PyUnicode_Check(object.ptr()) && py::hasattr(object, "rows")) {
@@ -134,7 +135,7 @@ class OptionReader {
     py::ssize_t taken() const noexcept { return taken_; }
 
    private:
-    // A metric of one's own, beside which there may be neither p nor radius.
+    // A custom metric, which excludes p and radius.
     void read_own(GroundDistance& ground, const py::object& metric);
     // An option's value, or a null object where it is not given.
     py::object take(const char* name);
@@ -241,8 +242,8 @@ Options read_options(const py::dict& given, OptionsOf what = OptionsOf::pair,
 // Throws where there are not as many; whether each is the default, at a glance.
 bool are_defaults(const py::tuple& values, const py::tuple& defaults);
 
-// From a tuple of the values of all options in the measure's order: what most calls give are the
-// very objects of the tuple of defaults, and then none is read.
+// Reads a tuple of the values of all options in the measure's order. Most calls pass the very
+// objects of the tuple of defaults; then nothing is read.
 template <class Options>
 Options read_options(const py::tuple& values, const py::tuple& defaults, OwnDistances& own) {
     Options options;
@@ -255,9 +256,9 @@ Options read_options(const py::tuple& values, const py::tuple& defaults, OwnDist
 // A measure by its name, with its options, for a batch.
 Measure read_measure(const py::object& name, const py::dict& options);
 
-// For every measure its options with their defaults; for every option that is a choice, what it
-// may be; for every preset and measure, whether the curves are scaled, and the options that are not
-// the default.
+// The defaults of every measure's options; the choices of every option that has choices; and for
+// every preset and measure, whether the curves are scaled, and the options that differ from the
+// default.
 py::dict measure_defaults();
 py::dict option_choices();
 py::dict preset_conditions();

@@ -1,6 +1,5 @@
-// A ground distance of the user's own, a matrix or a callable: the library asks for the distances
-// of a block of points, and Python's curvewise.curves.own_distance answers, with what it has
-// checked.
+// A custom ground distance: a matrix or a callable. The library requests the distances of a block
+// of points. Python's curvewise.curves.own_distance computes and checks them.
 #pragma once
 
 #include <type_traits>

@@ -1,24 +1,25 @@
 // The least radius for which two walks through the free-space diagram meet, one from its first
-// corner and one from its last: for pairs of which a large part of the diagram can be reached, such
-// as white noise. What keeps them apart is then seldom seen where a single walk dies, which may
-// have left it hundreds of rows before, in a part of the diagram that leads nowhere; the search of
-// leash_search.hpp would look further and further around that row.
+// corner and one from its last. This search is for pairs for which a large part of the diagram is
+// reachable, such as white noise. There the row in which a single walk ends seldom shows the
+// bottleneck. The walk may have passed the bottleneck hundreds of rows before, in a part of the
+// diagram that leads nowhere. The search of leash_search.hpp would enlarge its window around that
+// row again and again.
 //
-//   1. Decisions by both walks, each step made by the one that has passed fewer cells: where one of
-//      them dies at once, that costs what it costs, and a yes is two small triangles instead of a
-//      large one. Radii rise from the least by steps that double, then the interval is divided; at
-//      a quarter, since a no is the cheaper answer.
-//   2. In an interval [low, high] that is small, what is reached with `low` from either end is
-//      completed. The walk back with `high` first meets it in some row, and the walk forth from
-//      there with `high` meets what the other end reached with `low` in some row behind: between
-//      the two rows lies what opens. The least radius that leads from the one to the other is found
-//      by bisection over these rows alone. It suffices for the curves, since what is reached with
-//      `low` is reached with every larger radius.
-//   3. A decision about the double below it shows that it is necessary. Otherwise 1 goes on with
-//      that double as `high`, and then 2 with rows further outside. When they are all, this is
-//      plain bisection.
+//   1. Decisions use both walks; the walk that has passed fewer cells makes the next step. If one
+//      walk ends at once, a no is cheap. A yes costs two small triangles instead of a large one.
+//      Radii rise from the least by steps that double; then the interval is divided at a quarter,
+//      since a no is the cheaper answer.
+//   2. If the interval [low, high] is small, the rows reachable with `low` from either end are
+//      completed. The backward walk with `high` meets the first of them in some row. The forward
+//      walk from there with `high` meets the rows reachable from the other end with `low` in a
+//      later row. The bottleneck lies between the two rows. Bisection over these rows alone gives
+//      the least radius that connects them. It suffices for the curves, since every larger radius
+//      reaches the points that `low` reaches.
+//   3. A decision about the double below that radius shows that the radius is necessary. Otherwise
+//      step 1 continues with that double as `high`, and step 2 with rows further outside. If these
+//      are all rows, this is plain bisection.
 //
-// Time about five decisions for white noise, at worst some 100; memory O(n + m).
+// Time: about five decisions for white noise, at worst about 100. Memory: O(n + m).
 #pragma once
 
 #include <algorithm>
@@ -66,7 +67,7 @@ class BackwardCurve {
     BoxedCurve boxed_;
 };
 
-// A walk from the first corner of a diagram, or from a row of which is known what was reached.
+// A walk from the first corner of a diagram, or from a row with known reachable runs.
 template <int Dim>
 class EndWalk {
    public:
@@ -98,7 +99,7 @@ class EndWalk {
 
     // The marks of the walk since begin() are those that stay.
     void keep_marks() noexcept { std::swap(marks_, trail_); }
-    // Goes on from the last mark, to the last row of which anything is reached.
+    // Continues from the last mark to the last row that has reachable points.
     void complete_marks(const Radius& radius) {
         resume(marks_.before(diagram_.rows()));
         while (row_ < diagram_.rows() - 1 && advance(radius)) marks_.note(row_, runs_);
@@ -180,7 +181,7 @@ class BothEnds {
         return false;
     }
 
-    // Goes on with both walks until they are in one row, and marks rows on the way.
+    // Continues both walks until they are in one row, and marks rows on the way.
     bool walks_meet(const Radius& radius, bool is_marking) {
         while (forth_.row() + back_.row() < last_) {
             EndWalk<Dim>& walk = forth_.cells() <= back_.cells() ? forth_ : back_;
@@ -221,9 +222,9 @@ class BothEnds {
                                 : have_met(mark.runs, walk.runs(), radius);
     }
 
-    // Whether what is reached of a row from either end has a point in common; of different radii,
-    // too, since what is free with one is free with the larger. An edge that one of two runs holds
-    // from its vertex on has all of what the other holds of it.
+    // Whether the parts of a row that are reachable from either end share a point. The radii may
+    // differ, since a point that is free with one radius is free with every larger one. If one of
+    // two runs holds an edge from its vertex on, it includes the other run's part of that edge.
     bool have_met(const Runs& forth, const Runs& back, const Radius& radius) const {
         const std::ptrdiff_t last_edge = diagram_.cells() - 1;
         std::size_t b = back.size();
@@ -237,8 +238,8 @@ class BothEnds {
         return false;
     }
 
-    // Of runs that share one edge, the first of either: whether what is reached of it from below
-    // begins before what is reached of it from above ends.
+    // For the first runs that share an edge: whether the part reachable from below begins before
+    // the part reachable from above ends.
     bool ends_meet(const Run& run, const Run& other, const Radius& radius) const {
         Bound high = other.low;
         if (!high.is_own_end()) {

@@ -1,10 +1,10 @@
-// A curve as the free-space diagram reads it: its points side by side, and a tree of boxes around
-// runs of 8, 16, 32, ... edges. Built in O(n), memory about 1.5 n points. A run far from a point,
-// or wholly near it, is then passed in one step: Bringmann, Künnemann & Nusser (2019) recurse over
-// boxes of the diagram for the same end.
+// A curve in the form that the free-space diagram reads: its points next to each other, and a tree
+// of boxes around runs of 8, 16, 32, ... edges. Construction takes O(n); memory is about 1.5 n
+// points. A run that is far from a point, or wholly near it, is then passed in one step. Bringmann,
+// Künnemann & Nusser (2019) recurse over boxes of the diagram for the same purpose.
 //
-// A single point is a curve of one edge of no length. What is read in inner loops takes the number
-// of coordinates, Dim, where it is known when this is compiled, or 0.
+// A single point is a curve with one edge of length zero. Inner loops take the number of
+// coordinates, Dim, if it is known at compile time, or 0.
 #pragma once
 
 #include <algorithm>

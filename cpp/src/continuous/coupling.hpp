@@ -1,8 +1,9 @@
-// Walks from vertex to vertex. Whether a discrete leash is long enough: the walk of reachable.hpp
-// over pairs of vertices alone (Eiter & Mannila 1994), by runs of vertices. Exact. Time O(n log m)
-// for alike curves, O(n m) at worst; memory O(runs of a row). And whether it is seen to be long
-// enough by the greedy walk that always steps to the nearest of the next pairs: O(n + m), the
-// filter of Bringmann, Künnemann & Nusser (2019).
+// Walks from vertex to vertex. The first decides whether a radius is at least the discrete Fréchet
+// distance: the walk of reachable.hpp over pairs of vertices alone (Eiter & Mannila 1994), by runs
+// of vertices. It is exact. Time O(n log m) for similar curves, O(n m) at worst; memory O(runs of a
+// row). The second is the greedy walk that always steps to the nearest of the next pairs. Its
+// success shows that the radius is sufficient. O(n + m), the filter of Bringmann, Künnemann &
+// Nusser (2019).
 #pragma once
 
 #include <algorithm>
@@ -16,8 +17,8 @@
 
 namespace curvewise::continuous {
 
-// What keeps a discrete leash keeps a continuous one: both ends of every step are in one cell,
-// whose free space is convex.
+// A radius that is sufficient for the discrete distance is sufficient for the continuous one: both
+// ends of every step are in one cell, whose free space is convex.
 template <int Dim>
 bool greedy_walk_succeeds(const BoxedCurve& p, const BoxedCurve& q, const Radius& radius) {
     const auto square = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
@@ -64,7 +65,7 @@ class CouplingWalk {
     void advance(std::ptrdiff_t i, const std::vector<Run>& from, const Radius& radius,
                  std::vector<Run>& to) const {
         to.clear();
-        std::ptrdiff_t next = 0;  // column that no run of `to` has looked at
+        std::ptrdiff_t next = 0;  // first column that no run of `to` has tested
         for (const Run& run : from) {
             // A step up, or up and to the right.
             const std::ptrdiff_t last = std::min(run.last + 1, last_column_);

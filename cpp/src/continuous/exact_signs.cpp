@@ -27,7 +27,7 @@ struct Parts {
     int exponent = no_exponent;
 };
 
-// The power of two of which all of several numbers are whole multiples.
+// The largest power of two that divides several numbers.
 class Unit {
    public:
     void admit(double x) { exponent_ = std::min(exponent_, Parts(x).exponent); }

@@ -1,12 +1,12 @@
-// The comparisons of the free-space diagram without rounding: what free_space.hpp asks where its
-// error bounds leave a question open. All are about one edge X Y, with u = Y - X, and points Z near
-// it, with w = Z - X and a radius r each. X + t u lies within r of Z for t between
+// The comparisons of the free-space diagram without rounding. free_space.hpp uses them if its error
+// bounds leave a comparison undecided. All are about one edge X Y, with u = Y - X, and points Z
+// near it, each with w = Z - X and a radius r. X + t u lies within r of Z for t between
 //
 //   (A -+ sqrt(R)) / D,   D = u.u,   A = u.w,   R = A^2 - D (w.w - r^2).
 //
-// Coordinates and radii are doubles, that is whole numbers times a power of two, and D is the same
-// for every Z: so each comparison is one of a + b sqrt(c) in whole numbers, decided by squaring.
-// Some microseconds each; a decision asks for a handful.
+// Coordinates and radii are doubles, that is, whole numbers times a power of two. D is the same for
+// every Z. So each comparison compares numbers a + b sqrt(c) in whole numbers, and squaring decides
+// it. Each takes some microseconds; a decision needs about five.
 #pragma once
 
 #include <cstddef>
@@ -31,8 +31,8 @@ class ExactSigns {
     int distance(std::ptrdiff_t vertex, const Reach& z) const;
     // The same of X + t (Y - X), a point of an edge.
     int distance_at(std::ptrdiff_t edge, double t, const Reach& z) const;
-    // Neither end of the edge is within r of Z. -1 where a piece of its inside is closer than r,
-    // 0 where one point of it is at r, 1 otherwise.
+    // For an edge whose ends are both farther than r from Z. -1 if a section inside it is closer
+    // than r, 0 if one point of it is at r, 1 otherwise.
     int inside(std::ptrdiff_t edge, const Reach& z) const;
     // The sign of the difference of the lower parameter of one and the lower, or the upper,
     // parameter of the other; both must have them.

@@ -1,18 +1,20 @@
-// The point of one polygonal curve that is farthest from another, points between vertices included:
-// a directed Hausdorff distance.
+// The point of one polygonal curve that is farthest from another curve, points between vertices
+// included: a directed Hausdorff distance.
 //
-// How far the points of an edge are from one edge of the other curve is a convex function of where
-// they are on it. Two things follow. If both ends of a stretch of an edge are near one and the same
-// edge of the other curve, so is all of the stretch. And the farthest point of an edge is one of
-// its ends, or a point at which the nearest edge changes. So the vertices are looked at first
-// (nearest.hpp), which gives a distance that most edges do not exceed, as one look at the edge that
-// is nearest to one of their ends says. A stretch that may exceed it is cut where the edges nearest
-// to its ends are equally far, and the nearest edge there is found: if that is one of the two, this
-// was the farthest point of the stretch, else both parts are treated likewise. About O(n + log m)
-// for curves that are alike.
+// The distance from a point of an edge to an edge of the other curve is a convex function of the
+// point's place. Two facts follow. If both ends of a section of an edge are near the same edge of
+// the other curve, all of the section is. And the farthest point of an edge is one of its ends, or
+// a point at which the nearest edge changes.
 //
-// What lies within `slack`, 2^-47 times the largest coordinate, above the farthest point found is
-// not sought.
+// So the vertices are tested first (nearest.hpp). This gives a distance that most edges do not
+// exceed: the edge nearest to one of their ends shows it at once. A section that may exceed the
+// distance is cut at the point that is equally far from the edges nearest to its two ends. The
+// nearest edge at the cut is then searched for. If it is one of the two, the cut is the farthest
+// point of the section; otherwise both parts are treated in the same way. About O(n + log m) for
+// similar curves.
+//
+// Points farther than the one found by less than `slack`, 2^-47 times the largest coordinate, are
+// not searched for.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +31,7 @@ namespace curvewise::continuous {
 // In units of the scaled curves.
 struct FoundPoint {
     double distance = 0.0;
-    std::ptrdiff_t edge = 0;     // of its own curve
+    std::ptrdiff_t edge = 0;     // of its curve
     double at = 0.0;             // the part of the edge that lies before it
     std::ptrdiff_t nearest = 0;  // the edge of the other curve
     double nearest_at = 0.0;

@@ -28,7 +28,7 @@ using curves::RangeScale;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// None for curves whose fourth powers stay in range.
+// The identity for curves whose fourth powers stay in range.
 RangeScale plain_scale(double largest) noexcept {
     const bool is_plain = largest == 0.0 || (largest > 0x1p-100 && largest < 0x1p100);
     return is_plain ? RangeScale(1.0) : RangeScale::to_unity(largest);

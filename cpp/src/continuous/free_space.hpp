@@ -1,13 +1,13 @@
 // The free-space diagram of two curves (Alt & Godau 1995) at one radius: which points of the edges
-// of one curve lie within it of a vertex of the other. Answers are exact. Each is first sought in
-// plain doubles with a bound on their error, and where that bound leaves it open, in whole numbers
-// (exact_signs.hpp).
+// of one curve lie within the radius of a vertex of the other. Answers are exact. Each is first
+// computed in plain doubles with an error bound. If the bound leaves it undecided, it is computed
+// in whole numbers (exact_signs.hpp).
 //
-// Error bounds. With eps = 2^-53, a difference of two coordinates is right to eps relatively,
-// however large both are, so that nothing is lost far from the origin; a sum of d products to
-// g = (d + 4) eps of the sum of magnitudes. `slack` below is 8 g. Coordinates are between 2^-100
-// and 2^100 or scaled to at most 1 (plain_scale), so that nothing overflows; what underflow may add
-// is below `tiny`.
+// Error bounds. With eps = 2^-53, the difference of two coordinates has a relative error of at most
+// eps, however large both are. So nothing is lost far from the origin. A sum of d products has an
+// error of at most g = (d + 4) eps times the sum of magnitudes. `slack` below is 8 g. Coordinates
+// are between 2^-100 and 2^100 or scaled to at most 1 (plain_scale), so that nothing overflows.
+// Underflow adds less than `tiny`.
 #pragma once
 
 #include <algorithm>
@@ -106,13 +106,14 @@ class EdgeFamily {
         return radius.holds(exact_.distance(vertex, {k, radius.given()}));
     }
 
-    // Whether a piece inside an edge is free of which neither end is. With X and Y the ends, Z the
-    // point, u = Y - X, w = Z - X, its square distance to the line is below r^2 where
+    // Whether an edge has a free section inside, if neither of its ends is free. X and Y are the
+    // ends, Z the point, u = Y - X, w = Z - X. The square distance of Z to the line is below r^2 if
     //
-    //   (u.w)^2 - u.u (w.w - r^2) > 0,
+    //   (u.w)^2 - u.u (w.w - r^2) > 0.
     //
-    // right to 6 g u.u (w.w + r^2); and its foot lies inside where 0 < u.w < u.u, the signs of
-    // which are right where that expression is beyond its error, since w.w > r^2.
+    // This expression has an error of at most 6 g u.u (w.w + r^2). The foot of Z lies inside if 0 <
+    // u.w < u.u. The signs of both differences are right if the expression exceeds its error, since
+    // w.w > r^2.
     bool inside_is_free(std::ptrdiff_t edge, std::ptrdiff_t k, const Radius& radius) const {
         const double* const x = edges_.point<Dim>(edge);
         const double* const y = edges_.point<Dim>(edge + 1);
@@ -131,7 +132,7 @@ class EdgeFamily {
         return radius.holds(exact_.inside(edge, {k, radius.given()}));
     }
 
-    // The free part of an edge, of whose ends it is known whether they are free.
+    // The free part of an edge, given which of its ends are free.
     FreePart free_part(std::ptrdiff_t edge, std::ptrdiff_t k, bool first_is_free,
                        bool second_is_free, const Radius& radius) const {
         const Bound reach{k, radius.given(), radius.scaled()};
@@ -139,7 +140,7 @@ class EdgeFamily {
         return {is_empty, first_is_free ? Bound{} : reach, second_is_free ? Bound{} : reach};
     }
 
-    // What is left of a free part, which is not empty, from a lower bound on.
+    // The rest of a free part, which is not empty, from a lower bound on.
     FreePart from(std::ptrdiff_t edge, Bound low, FreePart part, const Radius& radius) const {
         if (low.is_own_end()) return part;
         if (part.low.is_own_end() && part.high.is_own_end()) return {false, low, part.high};
@@ -265,9 +266,9 @@ class EdgeFamily {
         return radius.holds(exact_.low_to_high(edge, reach_of(low), reach_of(high)));
     }
 
-    // With h = w - (u.w / u.u) u, from the line to the point, r^2 - h.h is right to 15 g (r +
-    // |u|)^2 and the middle to 6 g (r + |u|) / |u|, because |w| <= r + |u| where any of the edge is
-    // free.
+    // h = w - (u.w / u.u) u leads from the line to the point. If any of the edge is free, |w| <= r
+    // + |u|. So r^2 - h.h has an error of at most 15 g (r + |u|)^2, and the middle one of at most 6
+    // g (r + |u|) / |u|.
     Roots roots_of(std::ptrdiff_t edge, const Bound& bound) const noexcept {
         const double* const x = edges_.point<Dim>(edge);
         const double* const y = edges_.point<Dim>(edge + 1);
@@ -279,7 +280,7 @@ class EdgeFamily {
             uw += u * (z[c] - x[c]);
         }
         constexpr double infinity = std::numeric_limits<double>::infinity();
-        // What is left of so short an edge when squared is worth nothing.
+        // The square of so short an edge has no correct digits.
         if (uu < 0x1p-960) return {0.5, 0.0, infinity};
         const double inverse = 1.0 / uu;
         const double middle = uw * inverse;
@@ -314,8 +315,8 @@ class EdgeFamily {
         return one.index == other.index || exact_.same_point(one.index, other.index);
     }
 
-    // The first index from `from` to `last` where `found` holds, or last + 1; none of a run whose
-    // box `passes` is one. Runs of any size are passed in O(log n) steps.
+    // The first index from `from` to `last` for which `found` holds, or last + 1. If `passes` holds
+    // for a run's box, no index of the run is found. Runs of any size are passed in O(log n) steps.
     template <class Passes, class Found>
     std::ptrdiff_t first_where(std::ptrdiff_t from, std::ptrdiff_t last, Passes passes,
                                Found found) const {

@@ -1,7 +1,7 @@
-// Whole numbers of any size, for the comparisons that rounded arithmetic leaves open: sums,
-// differences, products and signs, without an error ever. Schoolbook arithmetic on 32-bit limbs,
-// O(k l) for a product of k and l limbs: the numbers compared here have some ten to thirty, a few
-// hundred where tiny coordinates meet huge ones.
+// Whole numbers of any size, for comparisons that rounded arithmetic cannot decide: exact sums,
+// differences, products and signs. Schoolbook arithmetic on 32-bit limbs, O(k l) for a product of k
+// and l limbs. The numbers compared here have about ten to thirty limbs, or a few hundred if tiny
+// coordinates meet huge ones.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class Integer {
     // |a| - |b|, where that is not negative.
     static Limbs difference_of_magnitudes(const Limbs& a, const Limbs& b);
 
-    Limbs limbs_;  // the lowest first, the highest not 0; none for 0
+    Limbs limbs_;  // the lowest first, the highest not 0; empty for 0
     bool negative_ = false;
 };
 

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Not above the real root of a sum of `dim` squares of differences, of which `square` is the
-// rounded one: each operation errs by 2^-53 of its result, below the usual range by more.
+// A double not above the real root of a sum of `dim` squares of differences, given the rounded sum
+// `square`. Each operation errs by 2^-53 of its result, and by more below the usual range.
 double safe_root(double square, std::ptrdiff_t dim) noexcept {
     if (square < 0x1p-900) return 0.0;
     return std::sqrt(square) * (1.0 - static_cast<double>(dim + 6) * 0x1p-52);
@@ -25,7 +25,7 @@ double square_between_boxes(const double* a, const double* b, std::ptrdiff_t dim
     return sum;
 }
 
-// The finest level with at most so many boxes.
+// The finest level with at most `most` boxes.
 int level_with(const BoxedCurve& curve, std::ptrdiff_t most) noexcept {
     int level = 0;
     while (curve.boxes(level) > most) ++level;
@@ -51,8 +51,8 @@ double CurveSummary::bound(const CurveSummary& other, std::ptrdiff_t dim) const 
     const double* const q = other.numbers_.data();
     const double ends =
         std::max(square_distance<0>(p, q, dim), square_distance<0>(p + dim, q + dim, dim));
-    // The boxes' sides on either end of a coordinate: some point lies as far beyond the other curve
-    // as they are apart.
+    // The boxes' sides at either end of a coordinate: some point lies beyond the other curve by at
+    // least their distance.
     double beyond = 0.0;
     for (std::ptrdiff_t c = 2 * dim; c < 4 * dim; ++c) {
         beyond = std::max(beyond, std::abs(p[c] - q[c]));

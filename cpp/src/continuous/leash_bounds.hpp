@@ -1,13 +1,14 @@
-// Lower bounds of the continuous Fréchet distance between one curve, P, and many that are kept, Q,
-// from cheap to dear: what a search looks at before it computes a distance.
+// Lower bounds of the continuous Fréchet distance between one curve, P, and many stored curves, Q,
+// from cheap to expensive. A search tests them before it computes a distance.
 //
 //   level 0   O(d)       the distances of the ends; how far one box reaches beyond the other
-//   level 1   O(64 d)    both curves cut into some 8 runs of edges: the largest distance of the box
+//   level 1   O(64 d)    both curves cut into about 8 runs of edges: the largest distance of the
+//   box
 //                        of a run to the nearest box of the other curve
-//   level 2   O(1000 d)  the same with some 32 runs
+//   level 2   O(1000 d)  the same with about 32 runs
 //
-// The distance is the real number, rounded up. What is computed here is made a little smaller than
-// its rounding can have made it larger. Curves outside the usual range have the bound 0.
+// The distance is the real number, rounded up. Each bound is reduced by a little more than rounding
+// can have raised it. Curves outside the usual range have the bound 0.
 #pragma once
 
 #include <cstddef>

@@ -1,18 +1,20 @@
-// The derivatives of the continuous Fréchet distance. A critical event decides the distance: below
-// its leash, no path passes it in the free-space diagram (Alt & Godau 1995). It is one of
+// The derivatives of the continuous Fréchet distance. A critical event decides the distance: with
+// any smaller radius, no path passes it in the free-space diagram (Alt & Godau 1995). There are
+// three kinds:
 //
-//   - two vertices: the ends of the curves, or vertices from which the leash grows both ways along
-//     one curve;
-//   - a vertex and the point of an edge that is nearest to it, which may be held;
-//   - two vertices and one point of an edge that is equally far from both, where the leash to the
-//     first falls along the edge and the leash to the second grows. If a vertex moves, so does that
-//     point. The derivative is the mean of both leashes' derivatives with the weights under which
-//     moving the point changes nothing.
+// - Two vertices: the ends of the curves, or vertices from which the pair distance grows both ways
+//   along one curve.
+// - A vertex and the nearest point of an edge, which may be held.
+// - Two vertices and one point of an edge that is equally far from both. Along the edge, the
+//   distance to the first falls and the distance to the second grows. If a vertex moves, so does
+//   that point. The derivative is the mean of both distances' derivatives, with the weights under
+//   which moving the point changes nothing.
 //
 // Every path within the distance passes the deciding event, so it is sought in one matching. Other
-// rows may use the whole leash without need: they are no event, or an event of a shorter leash. If
-// several events have the same leash, one is taken that decides after both curves have been moved
-// by at most 2^-30 of the distance. O(n + m) beyond the value and the path, and both again at ties.
+// rows may have the same pair distance without need. They are not events, or they are events of a
+// smaller distance. If several events have the same distance, the search takes one that still
+// decides after both curves have been moved by at most 2^-30 of the distance. It costs O(n + m)
+// beyond the value and the path, and both again at ties.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +29,7 @@
 namespace curvewise {
 namespace {
 
-// Relative to the longest leash: rows that are looked at, and events that tie.
+// Relative to the largest pair distance: rows to test, and events that tie.
 constexpr double nearly_whole = 1e-8;
 constexpr double tied = 1e-11;
 // A cosine that is 0 but for rounding.
@@ -49,7 +51,7 @@ struct Place {
     }
 };
 
-// The leash between two places, of which one is a vertex.
+// A matched pair of places, at least one of them a vertex.
 class Leash {
    public:
     Leash(const CurveView& P, const CurveView& Q, const Row& row)
@@ -65,7 +67,7 @@ class Leash {
 
     double length() const noexcept { return length_; }
     bool is_between_vertices() const noexcept { return p_.fraction + q_.fraction == 0.0; }
-    // Of a leash between two vertices: whether no shorter one passes there.
+    // For a pair of vertices: whether no path with a smaller distance passes there.
     bool blocks() const noexcept {
         const bool before_p = grows(P_, p_, -1, -1.0), behind_p = grows(P_, p_, 1, -1.0);
         const bool before_q = grows(Q_, q_, -1, 1.0), behind_q = grows(Q_, q_, 1, 1.0);
@@ -76,8 +78,8 @@ class Leash {
         return p_.fraction > 0.0 ? -cosine_to(P_, p_.vertex, p_.vertex + 1)
                                  : cosine_to(Q_, q_.vertex, q_.vertex + 1);
     }
-    // The distance along the edge from its end to the end of another leash; none where that is on
-    // another edge.
+    // The distance along the edge from this end to the end of another pair; nullopt if that end is
+    // on another edge.
     std::optional<double> distance_along_edge(const Leash& other) const noexcept {
         const auto on_one = [](const Place& a, const Place& b) {
             return a.fraction > 0.0 && b.fraction > 0.0 && a.vertex == b.vertex;
@@ -113,7 +115,7 @@ class Leash {
         }
         return result;
     }
-    // Whether it does not fall towards the next vertex of a curve, or there is none.
+    // Whether the distance does not fall towards the next vertex of a curve, or the curve ends.
     bool grows(const CurveView& curve, const Place& place, std::ptrdiff_t step,
                double sign) const noexcept {
         const std::ptrdiff_t next = place.vertex + step;
@@ -159,13 +161,13 @@ class Leash {
     double length_ = 0.0;
 };
 
-// The rows of an event with the weights of their leashes, the second of which may be 0.
+// The rows of an event with their weights. The second weight may be 0.
 struct Event {
     Row first{}, second{};
     double first_weight = 1.0, second_weight = 0.0;
 };
 
-// The event of a matching with the longest leash.
+// The event of a matching with the largest pair distance.
 class EventSearch {
    public:
     EventSearch(const CurveView& P, const CurveView& Q, const std::vector<Row>& rows) {
@@ -193,7 +195,7 @@ class EventSearch {
     }
 
     const Event& found() const noexcept { return found_; }
-    // Exactly one event is as long as the longest leash.
+    // Exactly one event has the largest distance.
     bool is_decided() const noexcept { return ties_ == 1; }
 
    private:
@@ -210,7 +212,7 @@ class EventSearch {
         if (leash.blocks()) {
             offer({row, row}, leash.length());
         } else if (is_whole(leash.length())) {
-            ++ties_;  // the place of an event of two leashes, at a vertex by a tie or by rounding
+            ++ties_;  // the place of an event of two pairs, at a vertex by a tie or by rounding
         }
     }
 
@@ -222,12 +224,12 @@ class EventSearch {
         offer({row, row}, nearest.length());
     }
 
-    // The event of a leash that grows and the last one that falls.
+    // The event of a distance that grows and the last one that falls.
     void offer_pair(const Leash& leash, const Row& row) {
         if (!falling_) return;
         const std::optional<double> gap = falling_->distance_along_edge(leash);
         if (!gap) return;
-        // Both leashes are equally long where they cross, by their slopes.
+        // Both distances are equal where their tangents cross.
         const double down = -falling_->cosine(), up = leash.cosine();
         const double crossing =
             (up * falling_->length() + down * leash.length() - up * down * *gap) / (up + down);
@@ -252,7 +254,7 @@ Event deciding_event(const CurveView& P, const CurveView& Q,
     return EventSearch(p.view(), q.view(), moved.parameters).found();
 }
 
-// Beside a distance beyond the range, what is lost of small coordinates is nothing.
+// For a distance beyond the range, the loss of small coordinates is negligible.
 std::vector<double> shrunk(const CurveView& curve) {
     std::vector<double> points;
     for (std::ptrdiff_t i = 0; i < curve.size(); ++i) {

@@ -1,13 +1,13 @@
-// A matching of two curves that a leash of a given length holds: a path through the free space from
-// corner to corner, as parameters (vertex index + fraction) of both curves, one row for every side
-// of a cell that it crosses. It is traced backwards through what a walk (reachable.hpp) reached: of
-// the sides by which a cell can have been entered, the one where the curves are nearer, at the
-// point where they are nearest. So it keeps to where the curves are close, and uses the whole leash
-// only where it must.
+// A matching of two curves whose pair distances are all at most a given radius. It is a path
+// through the free space from corner to corner, as parameters (vertex index + fraction) of both
+// curves. It has one row for every side of a cell that it crosses. The path is traced backwards
+// through the parts that a walk (reachable.hpp) reached. A cell can have been entered by more than
+// one side. The trace takes the side with the nearer curves, at their nearest point. So the curves
+// are close along the path, and it uses the whole radius only where it must.
 //
-// What was reached is kept for every sqrt(n)-th row and for the rows between two of those at a
-// time. Time that of two walks and O(n + m); memory O(n + m) for the matching, and O(sqrt(n) r)
-// where a row has r runs.
+// The reachable runs are kept for every sqrt(n)-th row, and for the rows between two of those at a
+// time. Time: two walks and O(n + m). Memory: O(n + m) for the matching, and O(sqrt(n) r) if a row
+// has r runs.
 #pragma once
 
 #include <algorithm>
@@ -33,10 +33,10 @@ class LeashMeasure {
                  Poller& poller) noexcept
         : diagram_(diagram), radius_(radius), range_(range), poller_(poller) {}
 
-    // The least double that is not below the radius nor below the leash of any row. Rows that are
-    // longer than all before them are first moved by a unit in the last place, if that helps;
-    // except for those at vertices of both curves, before and behind which walks are on different
-    // edges.
+    // The least double that is not below the radius nor below the pair distance of any row. A row
+    // that is longer than all rows before it is first moved by a unit in the last place, if that
+    // helps. Rows at vertices of both curves are not moved, because the walks before and behind are
+    // on different edges.
     double longest(LeashPath& matched) {
         for (std::size_t k = 1; k + 1 < matched.size(); ++k) {
             poller_.spend(64);
@@ -86,7 +86,7 @@ class LeashMeasure {
     }
 
     const Diagram<Dim>& diagram_;
-    Radius radius_;  // the longest leash so far
+    Radius radius_;  // the largest pair distance so far
     const RangeScale& range_;
     Poller& poller_;
 };
@@ -140,7 +140,7 @@ class LeashPathTrace {
         found_.push_back({x, y});
     }
 
-    // From a point of row i_ on edge j_ down to the row below, of which `runs` were reached.
+    // From a point of row i_ on edge j_ down to the row below, whose reachable runs are `runs`.
     void trace_row(const Runs& runs) {
         const std::ptrdiff_t i = i_ - 1;
         chain_of_ = runs.size();
@@ -184,8 +184,9 @@ class LeashPathTrace {
         return goes_left;
     }
 
-    // The parameter between low and high, and at most `most`, nearest to the wished one. Not at the
-    // very reach of a vertex while there is room: there rounding stretches the leash.
+    // The parameter between low and high, and at most `most`, that is nearest to `wished`. It keeps
+    // off the exact end of a vertex's reach if the interval allows, because rounding there
+    // increases the distance.
     static double chosen(const FreePart& part, double low, double high, double wished,
                          double most) noexcept {
         constexpr double margin = 0x1p-10;
@@ -195,7 +196,7 @@ class LeashPathTrace {
         return std::min(std::max(std::min(wished, greatest), least), most);
     }
 
-    // What is reached of the lower side of cell (i, j_).
+    // The reachable part of the lower side of cell (i, j_).
     FreePart reached_below(std::ptrdiff_t i, const Runs& runs) const {
         const std::size_t r = run_at(runs, j_ + 1);
         if (r == runs.size() || runs[r].last < j_) return {true, {}, {}};
@@ -204,7 +205,7 @@ class LeashPathTrace {
         return part;
     }
 
-    // What is reached of its left side.
+    // The reachable part of its left side.
     FreePart reached_left(std::ptrdiff_t i, const Runs& runs) {
         if (j_ == 0) {
             const bool is_reached = runs[0].first == 0 && runs[0].low.is_own_end();
@@ -232,7 +233,8 @@ class LeashPathTrace {
         }
     }
 
-    // The last run that begins before column j; their number where there is none.
+    // The index of the last run that begins before column j, or the number of runs if there is no
+    // such run.
     static std::size_t run_at(const Runs& runs, std::ptrdiff_t j) noexcept {
         const auto behind = std::partition_point(runs.begin(), runs.end(),
                                                  [j](const Run& run) { return run.first < j; });

@@ -1,27 +1,26 @@
-// The continuous Fréchet distance of two curves as a double, and decisions about it, all certified.
+// The continuous Fréchet distance of two curves as a double, and decisions about it, all exact.
 //
-// The decision is a walk through the rows of the free-space diagram (reachable.hpp), exact for any
-// radius. The value is the least double for which it says yes: the real number rounded up. Looking
-// for it by bisection would take some 50 walks; instead,
+// A decision is a walk through the rows of the free-space diagram (reachable.hpp), exact for any
+// radius. The value is the least double for which the decision is yes: the real number, rounded up.
+// Plain bisection would take about 50 walks. Instead, the search has four steps:
 //
-//   1. the leash must hold the ends together, and the two vertices that lie furthest from the other
-//      curve (nearest.hpp): the least radius that does is found without a walk, and a walk with it
-//      succeeds for many curves that are alike;
-//   2. a walk that fails dies at the row of a bottleneck. The least radius that passes it is found
-//      by bisection on walks that begin `window` rows before it and end as many behind it. Where a
-//      window eight times as wide would say another radius, or where that only pushes the walk on
-//      into a blind alley, the window grows;
-//   3. the walk goes on with that radius, to its end or to the next bottleneck;
-//   4. the radius r it ends with is sufficient; a whole walk with the double below r, which dies at
-//      the bottleneck, shows that it is necessary. If that walk ends well, the bottleneck was not
-//      where the walks died: again with a window eight times as wide. Once it is as wide as the
-//      diagram this is plain bisection.
+// 1. The radius must reach between the ends, and from the two vertices farthest from the other
+//    curve (nearest.hpp) to that curve. The least such radius needs no walk. A walk with it
+//    succeeds for many similar curves.
+// 2. A walk that fails ends in the row of a bottleneck. Bisection finds the least radius that
+//    passes it, on walks from `window` rows before it to `window` rows behind it. The window grows
+//    if one eight times as wide gives another radius, or if the walk only enters a dead end.
+// 3. The walk continues with that radius, to its end or to the next bottleneck.
+// 4. The final radius r is sufficient. A whole walk with the double below r, which ends at the
+//    bottleneck, shows that r is necessary. If that walk succeeds, the bottleneck was elsewhere,
+//    and the search repeats with a window eight times as wide. Once the window is as wide as the
+//    diagram, this is plain bisection.
 //
-// Steps 2 to 4 are done to 10 bits first, which finds the bottleneck that counts, and then to the
-// last bit. What a walk reached with one radius is reached with every larger one, so that a walk
-// may begin where one with a smaller radius passed. One walk for curves whose witnesses decide,
-// four or five for others that are alike; memory O(n + m). Where the windows of step 2 get too
-// large (white noise), the search is given up for one from both ends (both_ends.hpp).
+// Steps 2 to 4 first run to 10 bits, which finds the deciding bottleneck, and then to the last bit.
+// Every larger radius reaches all points that a smaller one reaches. So a walk may begin where one
+// with a smaller radius passed. The search takes one walk if the ends or the farthest vertices
+// decide, and four or five for other similar curves. Memory is O(n + m). If the windows of step 2
+// get too large (white noise), the search from both ends (both_ends.hpp) takes over.
 #pragma once
 
 #include <algorithm>
@@ -90,7 +89,7 @@ class LeashSearch {
             .succeeds(radius_of(distance));
     }
 
-    // A matching within a distance that is sufficient, and its longest leash.
+    // A matching within a distance that is sufficient, and its largest pair distance.
     std::pair<double, LeashPath> matching(double distance) {
         const Radius radius = radius_of(distance);
         LeashPath matched = LeashPathTrace<Dim>(diagram_, radius, poller_).parameters();
@@ -136,8 +135,8 @@ class LeashSearch {
         return high;
     }
 
-    // Whether the windows have taken as many steps as half a walk does where all is reached. Rows
-    // of which little is reached are passed sooner than that pays.
+    // Whether the windows have taken as many steps as half a walk does if all is reachable. Rows
+    // with few reachable points are passed sooner than that pays.
     bool is_astray() const noexcept {
         return cells_around_ > 128 * (p_.size() + q_.size()) && rows_around_ > last_ / 2;
     }
@@ -195,8 +194,8 @@ class LeashSearch {
         return least_double(holds(below) ? 0.0 : below, infinity, 2, 1, holds);
     }
 
-    // From what runs_ reached of row `from` to row `to`. Returns the last row of which anything
-    // was reached.
+    // Advances runs_, the reachable runs of row `from`, to row `to`. Returns the last row with
+    // reachable points.
     std::ptrdiff_t walk(std::ptrdiff_t from, std::ptrdiff_t to, const Radius& radius,
                         Trail* trail) {
         for (std::ptrdiff_t i = from; i < to; ++i) {
@@ -214,7 +213,7 @@ class LeashSearch {
         return to;
     }
 
-    // Rows before and behind a bottleneck, and what was reached of the first of them.
+    // Rows before and behind a bottleneck, and the reachable runs of the first of them.
     struct Stretch {
         const Trail::Mark& mark;
         std::ptrdiff_t goal;

@@ -1,6 +1,6 @@
-// The least double for which a monotone condition holds, by bisection on bit patterns: those of
-// doubles that are not negative have the order of their values, so that 62 steps always do, and 50
-// where the leading bits are known.
+// The least double for which a monotone condition holds, by bisection on bit patterns. The bit
+// patterns of doubles that are not negative have the order of their values. So 62 steps always
+// suffice, and 50 if the leading bits are known.
 #pragma once
 
 #include <algorithm>
@@ -25,9 +25,9 @@ inline double double_of(std::uint64_t bits) noexcept {
 // The neighbour below a number above 0.
 inline double next_below(double x) noexcept { return double_of(bits_of(x) - 1); }
 
-// Above `below`, where it does not hold, and at most `most`: a double for which `holds`, while it
-// does not for another at most `tolerance` doubles below; or `most`, without asking there. `stride`
-// doubles up is where to look first.
+// A double above `below` and at most `most` for which `holds`. `holds` is false for `below`, and
+// for another double at most `tolerance` doubles below the result. If no smaller double is found,
+// the result is `most`, which is not tested. The search begins `stride` doubles above `below`.
 template <class Holds>
 double least_double(double below, double most, std::uint64_t stride, std::uint64_t tolerance,
                     Holds holds) {

@@ -1,8 +1,9 @@
-// How far the vertices of one curve lie from the other, the directed Hausdorff distance of a set of
-// points to a curve: no leash is shorter. It is the continuous Fréchet distance itself for many
-// curves that are alike, and the place to begin the search for it. Rounded, so a guess and no
-// bound. Vertices near enough are passed with a look at the edges around the last nearest one;
-// the others search the tree of boxes. About O(n + log m) for alike curves.
+// The largest distance of a vertex of one curve to the other curve: the directed Hausdorff distance
+// of a set of points to a curve. It is a lower bound of the continuous Fréchet distance. It is
+// equal to the distance for many similar curves, and the search begins there. The value is rounded,
+// so it is a guess and not a certified bound. For vertices near enough, a test of the edges around
+// the last nearest one suffices; the rest search the tree of boxes. About O(n + log m) for similar
+// curves.
 #pragma once
 
 #include <algorithm>
@@ -25,11 +26,11 @@ class NearestEdges {
    public:
     NearestEdges(const BoxedCurve& curve, Poller& poller) : curve_(curve), poller_(poller) {}
 
-    // Of all vertices of `points`, or `floor` where none is further.
+    // The furthest of all vertices of `points`, or `floor` if all are nearer.
     Furthest furthest(const BoxedCurve& points, const Furthest& floor) const {
         Furthest found = floor;
         std::ptrdiff_t near = 0;
-        // The vertices between those of a coarse round lie hardly further: few are searched for.
+        // The vertices between those of a coarse round are seldom further, so few need a search.
         for (const std::ptrdiff_t step : {std::ptrdiff_t{61}, std::ptrdiff_t{1}}) {
             near = 0;
             for (std::ptrdiff_t i = 0; i < points.size(); i += step) {

@@ -1,12 +1,12 @@
-// Which points of a free-space diagram a monotone path from its first corner reaches, one row
-// after the other: row i is vertex i of the first curve against the edges of the second. What is
-// reached of a row is kept as runs of edges, few and far between where curves are alike, so that
-// rows and columns that nothing reaches cost nothing; inside a run, and beside it, boxes of edges
-// are passed in one step. Every answer is exact. Memory O(runs of a row), time O(n log m) for
-// alike curves, O(n m) at worst.
+// The points of a free-space diagram that a monotone path from its first corner reaches, one row
+// after the other. Row i is vertex i of the first curve against the edges of the second. The
+// reachable part of a row is stored as runs of edges. Similar curves have few runs, so unreachable
+// rows and columns cost nothing. Inside a run, and next to it, boxes of edges are passed in one
+// step. Every answer is exact. Memory O(runs of a row), time O(n log m) for similar curves, O(n m)
+// at worst.
 //
-// Alt & Godau (1995), Lemma 3: what is reached of an edge of a cell is an interval that ends where
-// its free part ends, so only its lower bound is carried. The bound is the greatest of lower
+// The reachable part of an edge of a cell is an interval that ends where the free part ends (Alt &
+// Godau 1995, Lemma 3). So only its lower bound is carried. The bound is the greatest of the lower
 // bounds of free parts of that edge.
 #pragma once
 
@@ -35,7 +35,7 @@ class Diagram {
         : columns_(first), rows_(second) {}
 
     std::ptrdiff_t rows() const noexcept { return columns_.vertices(); }
-    // Edges of the second curve: cells beside each other.
+    // The edges of the second curve; each is a cell of a row.
     std::ptrdiff_t cells() const noexcept { return rows_.vertices() - 1; }
 
     bool corner_is_free(std::ptrdiff_t i, std::ptrdiff_t j, const Radius& radius) const {
@@ -51,7 +51,7 @@ class Diagram {
                columns_.first_free_edge(0, edges - 1, j, radius) == edges;
     }
 
-    // What is free of edge j of the second curve in row i, of edge i of the first in column j.
+    // The free part of edge j of the second curve in row i, and of edge i of the first in column j.
     FreePart part_of_row(std::ptrdiff_t i, std::ptrdiff_t j, const Radius& radius) const {
         return rows_.free_part(j, i, corner_is_free(i, j, radius), corner_is_free(i, j + 1, radius),
                                radius);
@@ -64,7 +64,7 @@ class Diagram {
     const EdgeFamily<Dim>& first_edges() const noexcept { return columns_; }
     const EdgeFamily<Dim>& second_edges() const noexcept { return rows_; }
 
-    // What is reached of row 0, whose first corner is free.
+    // The reachable part of row 0, whose first corner is free.
     void start(const Radius& radius, Runs& runs) const {
         runs.clear();
         runs.push_back({0, 0, {}});
@@ -72,13 +72,13 @@ class Diagram {
         runs[0].last = std::min(runs[0].last, cells() - 1);
     }
 
-    // From what is reached of row i to what is reached of row i + 1. Returns the number of cells
-    // between the ends of what was looked at.
+    // Computes the reachable part of row i + 1 from that of row i. Returns the number of cells
+    // between the first and the last tested.
     std::ptrdiff_t advance(std::ptrdiff_t i, const Runs& from, const Radius& radius,
                            Runs& to) const {
         to.clear();
         std::ptrdiff_t cells_passed = 0;
-        std::ptrdiff_t entered = -1;  // of the cells looked at, the last whose left side is reached
+        std::ptrdiff_t entered = -1;  // the last tested cell with a reachable left side
         for (std::size_t r = 0; r < from.size(); ++r) {
             const Run& run = from[r];
             const std::ptrdiff_t next = r + 1 < from.size() ? from[r + 1].first : cells() - 1;
@@ -118,7 +118,7 @@ class Diagram {
         if (first > last) return;
         std::ptrdiff_t j = first;
         if (corner_is_free(i + 1, j, radius)) {
-            // A run that ends before cell j goes on in it: what is free of the cell before ends
+            // A run that ends before cell j continues in it: the free part of the cell before ends
             // in the corner between them.
             if (to.empty() || to.back().last != j - 1) to.push_back({j, j, {}});
             j = extend(i, j, last, radius, to.back());
@@ -143,8 +143,8 @@ class Diagram {
         return run.last + 1;
     }
 
-    // The last cell, up to `most`, that a path enters from its left, having reached the lower edge
-    // of cell `from`; `from` itself where there is none.
+    // The last cell, up to `most`, that a path enters from its left after it has reached the lower
+    // edge of cell `from`; `from` itself if there is no such cell.
     std::ptrdiff_t last_entered(std::ptrdiff_t i, std::ptrdiff_t from, std::ptrdiff_t most,
                                 const Radius& radius) const {
         Bound low;  // of the edge of the first curve

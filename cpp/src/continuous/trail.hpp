@@ -10,7 +10,7 @@
 
 namespace curvewise::continuous {
 
-// What was reached of some rows, a few of them and not more than so many runs in all.
+// The reachable runs of a few rows, at most `most` runs in all.
 class Trail {
    public:
     struct Mark {
