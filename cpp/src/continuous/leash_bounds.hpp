@@ -2,9 +2,8 @@
 // from cheap to expensive. A search tests them before it computes a distance.
 //
 //   level 0   O(d)       the distances of the ends; how far one box reaches beyond the other
-//   level 1   O(64 d)    both curves cut into about 8 runs of edges: the largest distance of the
-//   box
-//                        of a run to the nearest box of the other curve
+//   level 1   O(64 d)    both curves cut into about 8 runs of edges: the largest distance of a
+//                        run's box to the nearest box of the other curve
 //   level 2   O(1000 d)  the same with about 32 runs
 //
 // The distance is the real number, rounded up. Each bound is reduced by a little more than rounding

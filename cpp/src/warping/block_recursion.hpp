@@ -1,19 +1,19 @@
-// The table of the Fréchet distance, taken apart into blocks over the runs of two box trees. A
-// block is settled without its cells where
+// The table of the Fréchet distance, divided into blocks over the runs of two box trees. A block is
+// settled without its cells in two cases:
 //
-//   no cell that leads into it has been reached, or its smallest ground distance is above `upper`:
-//     blocked, nothing comes out of it;
-//   its largest ground distance is at most `lower`, a bound that the answer cannot be below:
-//     free, what comes in passes through, the smallest of it to each cell behind.
+//   blocked: no cell that leads into it has been reached, or its smallest ground distance is above
+//     `upper`. Nothing comes out of it.
+//   free: its largest ground distance is at most `lower`, a lower bound of the answer. Values pass
+//     through it, the smallest of them to each cell behind.
 //
-// Other blocks are split, down to `block_side` points, and then swept. What is known of a cell is
-// kept only along the front between what is done and what is not: one value for each point of
-// either curve. What kind of value, and how it passes through a block, is the Front's business:
-// whether a cell has been reached (reach.hpp), or the cell of the table (block_values.hpp).
+// Other blocks are split, down to `block_side` points, and then swept. Cells are kept only along
+// the front between finished and unfinished blocks: one value for each point of either curve. The
+// Front defines the kind of value, and how it passes through a block: whether a cell has been
+// reached (reach.hpp), or the cell of the table (block_values.hpp).
 //
-// Similar curves stay near each other along a narrow part of the table only, and there the blocks
-// that are neither free nor blocked lie along two lines: nearly linear time, against O(n m) at the
-// worst, in blocks that a sweep handles in much less time.
+// Similar curves stay near each other along a narrow part of the table only. There the blocks that
+// are neither free nor blocked lie along two lines. So the time is nearly linear. At worst it is
+// O(n m), in blocks that a sweep handles in much less time.
 #pragma once
 
 #include <algorithm>
@@ -68,7 +68,7 @@ class BlockRecursion {
     const BlockCounts& counts() const noexcept { return counts_; }
 
    private:
-    // Some 20 µs of work; a block that is only looked at takes as long as some swept cells.
+    // About 20 µs of work; testing a block takes as long as sweeping some cells.
     static constexpr std::int64_t effort_between_polls = 1 << 16;
     static constexpr std::int64_t effort_of_a_block = 256;
 
@@ -124,8 +124,8 @@ class BlockRecursion {
                                    runs.first * kernels::block_side);
     }
 
-    // The longer side, or both where they are alike. What leads into the first cell of a part is
-    // on the front until the part before it is done.
+    // Splits the longer side, or both if they have the same level. The values that lead into the
+    // first cell of a part stay on the front until the part before it is done.
     void split(const Box& p, const Box& q, typename Front::Value corner) {
         const bool both = p.level == q.level;
         const std::ptrdiff_t p_parts = p.level < q.level ? 1 : parts(P_, p);

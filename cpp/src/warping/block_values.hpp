@@ -1,7 +1,7 @@
-// The cells of the Fréchet table along the front of a recursion over its blocks, as far as they
-// are at most the recursion's upper bound: those are exact, or the lower bound where they are
-// below it; others are above the upper bound. In a free block of similar curves most values along
-// the front are alike: a run of equal values is kept as one, and blocked runs cost next to nothing.
+// The cells of the Fréchet table along the front of a recursion over its blocks. Cells that are at
+// most the recursion's upper bound are exact, or equal to the lower bound if they are below it. The
+// rest are above the upper bound. In a free block of similar curves, most values along the front
+// are equal. A run of equal values is stored as one, and blocked runs cost almost nothing.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
-// Boxes over the runs of points of a curve, as an implicit binary tree: a box of level 0 holds
-// `leaf_points` points that follow each other, one of level k two of level k - 1. Built in O(n d)
-// time and n d / 2 doubles. The smallest and largest ground distance between two boxes bound those
-// of all their points. They are computed by the operations of the kernels
-// (kernels/metrics.inl.hpp), each of which is monotone in floating point too: a bound holds to the
-// bit, without slack. What is no such norm has no bounds.
+// Boxes over the runs of points of a curve, as an implicit binary tree. A box of level 0 holds
+// `leaf_points` consecutive points, a box of level k two boxes of level k - 1. Construction takes
+// O(n d) time and n d / 2 doubles. The smallest and largest ground distance between two boxes bound
+// the distances of all their points. They are computed by the operations of the kernels
+// (kernels/metrics.inl.hpp). Each operation is monotone in floating point, too, so a bound holds
+// exactly, without slack. Ground distances that are not such norms have no bounds.
 #pragma once
 
 #include <algorithm>
@@ -118,8 +118,8 @@ class NearestSearch {
     NearestSearch(const PointAccess& from, const BoxTree& tree) noexcept
         : from_(from), tree_(tree) {}
 
-    // From point i, starting at point `start` of the tree. Ends at the first point found that is
-    // no further than `enough`, which need not be the nearest.
+    // Searches from point i, starting at point `start` of the tree. Ends at the first point whose
+    // distance is at most `enough`, which need not be the nearest.
     Nearest operator()(std::ptrdiff_t i, std::ptrdiff_t start, double enough) noexcept {
         const std::ptrdiff_t dim = tree_.dim();
         i_ = i;
@@ -137,7 +137,7 @@ class NearestSearch {
         return best_;
     }
 
-    // Looked at by all searches, an account of their time.
+    // The number of boxes that all searches have tested, a measure of their time.
     std::int64_t boxes() const noexcept { return boxes_; }
 
    private:
@@ -185,9 +185,9 @@ class NearestSearch {
     std::int64_t boxes_ = 0;
 };
 
-// The distance of every point of a curve of `count` points to the nearest of the tree's: the
-// smallest entry of each row (or column) of the table of ground distances, to the bit. Each search
-// starts from the last one's answer. Throws Stopped where the poller says so; counts nothing as
+// The distance of every point of a curve of `count` points to the nearest point of the tree:
+// exactly the smallest entry of each row (or column) of the table of ground distances. Each search
+// starts from the last one's result. Throws Stopped if the poller stops the call; counts no work as
 // done.
 void nearest_distances(const PointAccess& from, std::ptrdiff_t count, const BoxTree& tree,
                        Metric metric, Poller& poller, double* distances);

@@ -11,11 +11,11 @@
 namespace curvewise::warping {
 namespace {
 
-// With fewer, the two paths take more than the sweep does for what they may save.
+// With fewer cells, the two paths take longer than the sweep could save.
 constexpr std::ptrdiff_t fewest_cells = std::ptrdiff_t{1} << 13;
 
-// With more, bounds of what is still to come are worth their time (dtw_pruned.hpp). All fit into
-// one table of predecessors.
+// With more cells, bounds of the rest of a path are worth their time (dtw_pruned.hpp). Up to this
+// size, one table of predecessors holds all cells.
 constexpr std::ptrdiff_t most_cells = 1'200'000;
 
 // `fixed_dim`: the number of coordinates, or 0 where it is known at run time only.

@@ -11,9 +11,9 @@
 namespace curvewise::warping {
 
 // The least bound under which a closed walk exists, by bisection among distances. With `bound`
-// given, the starts from which a cell is reached lie between two, the first and the last; since two
-// walks that cross have a cell in common, start k has a walk if (n, k + m) is reached from starts
-// on both sides of k, or from k, and if some cell of the last row is reached from k.
+// given, the starts from which a cell is reached lie between a first and a last one. Two walks that
+// cross share a cell. So start k has a walk in two cases: (n, k + m) is reached from k, or it is
+// reached from starts on both sides of k and some cell of the last row is reached from k.
 class LeastMaximumSearch {
    public:
     LeastMaximumSearch(std::ptrdiff_t n, std::ptrdiff_t m, RowDistances& distances, Poller& poller)
@@ -35,7 +35,7 @@ class LeastMaximumSearch {
 
    private:
     struct Starts {
-        std::ptrdiff_t first, last;  // that reach a cell; none: -1
+        std::ptrdiff_t first, last;  // starts that reach a cell; -1 if there are none
         bool are_there() const noexcept { return last >= 0; }
         void add(const Starts& others) noexcept {
             if (!others.are_there()) return;
@@ -52,12 +52,13 @@ class LeastMaximumSearch {
     // The value of one walk, from the point of Q that is nearest to P's first: of the three next
     // pairs it takes the nearest. An upper bound in O(n + m).
     double greedy();
-    // Whether some closed walk has no pair farther apart than `bound`. Then `used_` is the largest
-    // distance of a cell that is reached, otherwise `blocked_` the least one of a cell that is not.
+    // Whether a closed walk exists with all pair distances at most `bound`. If so, `used_` is the
+    // largest distance of a reached cell; otherwise `blocked_` is the least distance of a cell that
+    // is not reached.
     bool admits(double bound);
     // Row i of the starts from which cells are reached; whether there is one.
     bool reach_row(std::ptrdiff_t i, double bound);
-    // Row i of what reaches the last row, among what is reached: a single mark instead of starts.
+    // Row i of the reached cells that reach the last row, with a single mark instead of starts.
     void reach_back(std::ptrdiff_t i, double bound);
 
     static constexpr std::ptrdiff_t chunk = 64;

@@ -17,7 +17,7 @@
 
 namespace curvewise::warping {
 
-// Sums, of which the first pair, met again at the end, counts once.
+// Sums. The first pair is met again at the end and counts once.
 struct LeastSum {
     static double first(double /*cost*/) noexcept { return 0.0; }
     static double join(double before, double cost) noexcept { return before + cost; }
@@ -87,8 +87,8 @@ class WalkSearch {
           above_(row_),
           places_(static_cast<std::size_t>(n + 1)) {}
 
-    // Its value, of which walk() attains it. Its rows are those between the first columns of `low`
-    // and the last ones of `high`.
+    // The value that walk() attains. The rows hold the columns between the first ones of `low` and
+    // the last ones of `high`.
     double operator()(std::ptrdiff_t start, const Walk& low, const Walk& high) {
         codes_.clear();
         before_ = 0;

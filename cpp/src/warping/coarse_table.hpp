@@ -1,11 +1,12 @@
-// The Fréchet table of two curves in boxes, coarsely: with the smallest ground distance of each
-// pair of boxes in place of a cell, the recurrence gives a lower bound of the distance, with the
-// largest an upper one (take, of the path of boxes, the path of points that goes through all of
-// their points). How many boxes the paths of a distance between the two may cross says, before
-// much has been done, whether the table can be pruned. Of boxes larger than a block of the
-// recursion a block inside is looked at, taken at random: a long curve that comes back to its
-// levels again and again has some of each in every large box, and in few blocks. Time and memory
-// O(boxes), a small part of the table's cells.
+// A coarse Fréchet table of two curves, in boxes. If the smallest ground distance of each pair of
+// boxes replaces a cell, the recurrence gives a lower bound of the distance. The largest ground
+// distance gives an upper bound: the path of points through all points of the path of boxes. The
+// number of boxes that paths may cross, for distances between the two bounds, shows early if the
+// table can be pruned.
+//
+// Boxes larger than a block of the recursion are represented by a random block inside. A long curve
+// that returns to the same levels has points of all levels in every large box, but in few blocks.
+// Time and memory are O(boxes), a small part of the table's cells.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +25,9 @@ class CoarseTable {
 
     double lower() const noexcept { return lower_; }
     double upper() const noexcept { return upper_; }
-    // The share of the blocks that can be reached over ground distances of at most `upper`, as far
-    // as the pairs of boxes tell, and that are not wholly at or below `lower`: what a recursion
-    // between the two has to sweep.
+    // The share of the blocks that a recursion between the two bounds must sweep, judged by the
+    // pairs of boxes. These blocks can be reached over ground distances of at most `upper`, and are
+    // not wholly at or below `lower`.
     double undecided_share(double lower, double upper) const;
 
    private:

@@ -29,9 +29,9 @@ class CostSums {
         }
     }
 
-    // All of that for n rows and m columns, whose least costs stand elsewhere: from the last one
-    // on, those of the rows `row_step` apart, those of the columns one behind the other. Two sums
-    // that do not wait for each other.
+    // All of these sums for n rows and m columns, from the last one on. The least costs of the rows
+    // are `row_step` apart, those of the columns are contiguous. The two sums do not wait for each
+    // other.
     void add_up(const double* row, std::ptrdiff_t row_step, std::ptrdiff_t n, const double* column,
                 std::ptrdiff_t m, bool they_add) {
         after_row_.resize(static_cast<std::size_t>(n + 1));
@@ -58,9 +58,9 @@ class CostSums {
         for (std::ptrdiff_t k = both; k < m; ++k) add_column();
     }
 
-    // Of what is summed up for n rows and m columns. The table adds up the n + m - 1 cells of a
-    // path at most, and the sums n or m terms, or both, each with a relative error of 2^-53; and of
-    // three such in a term itself, and in a cell.
+    // The slack of sums for n rows and m columns. The table adds up at most the n + m - 1 cells of
+    // a path, and the sums have n or m terms, or both. Each addition has a relative error of 2^-53.
+    // A term and a cell have three such errors themselves.
     static double slack(std::ptrdiff_t n, std::ptrdiff_t m) noexcept {
         return 1.0 - static_cast<double>(n + m + 6) * 0x1p-52;
     }

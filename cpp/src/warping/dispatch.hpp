@@ -19,7 +19,7 @@ struct Level {
 std::vector<Level> available_levels();
 
 // The last of them, or the one that the environment variable CURVEWISE_ISA names; chosen once.
-// Throws std::runtime_error where this machine has no level of that name.
+// Throws std::runtime_error if this machine does not have a level of that name.
 const Level& active_level();
 
 }  // namespace curvewise::warping

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// With fewer cells, to find out that curves are not alike would take more than some 3 % of the full
-// sweep's time.
+// With fewer cells, it would take more than about 3 % of the full sweep's time to find that curves
+// are not similar.
 constexpr std::ptrdiff_t fewest_cells = 1'200'000;
 
 // The table's cells for each that is swept, roughly: threads are worth their start by these.
@@ -24,7 +24,7 @@ constexpr std::ptrdiff_t expected_pruning = 16;
 // Where more of a coarse table is live, the full sweep of the fine one is expected to be as fast.
 constexpr double most_live_share = 0.6;
 
-// What is done before the work that the caller counts.
+// Work before the work that the caller counts.
 class Uncounted {
    public:
     explicit Uncounted(Poller& poller) noexcept
@@ -191,7 +191,7 @@ class DtwSearch {
         return value > options_.cutoff ? infinity : value;
     }
 
-    // The path, after the value: within what was swept for that.
+    // The path, after the value, within the columns that were swept for the value.
     Path path() const {
         SweepProblem within = problem_;
         within.columns = LiveColumns(problem_.columns, swept_);
@@ -233,8 +233,9 @@ class DtwSearch {
         return coarse_share_ * static_cast<double>(threads) / 2.0 <= most_live_share;
     }
 
-    // The best path of a coarse problem, by this same search where it is long. Where that gives up,
-    // its own coarse curves may have been too coarse; a full sweep is short beside the fine one.
+    // The best path of a coarse problem, by this same search if it is long. If that search gives
+    // up, its coarse curves may have been too coarse. A full sweep of them is short compared with
+    // the fine one.
     IndexPairs coarse_path(const SweepProblem& coarse) {
         if (cells(coarse) > options_.most_coarse_cells) {
             DtwPruningOptions options = options_;
@@ -259,7 +260,8 @@ class DtwSearch {
         return static_cast<double>(swept) / static_cast<double>(cells(problem));
     }
 
-    // The value of the best path near that of the coarse problem; infinity where there is none.
+    // The value of the best path near that of the coarse problem; infinity if there is no such
+    // path.
     double value_around(const IndexPairs& path, const SweepProblem& coarse) {
         SweptColumns corridor;
         corridor.rows = corridor_around(path, coarse, problem_, corridor_reach());

@@ -1,20 +1,20 @@
-// DTW without most of its table, exact to the bit.
+// DTW without most of its table, with bitwise identical results.
 //
-// An upper bound of the distance is the value of some path: both curves are decimated, their best
-// path found (by this same search, where they are still long), and the table swept within a narrow
-// corridor around it. A lower bound of what the rest of a path costs is what each row, and each
-// column, that is still to come costs at least: its smallest ground distance, or less
-// (least_distances.hpp). Cells from which every path costs more than the upper bound are dead, and
-// the sweep leaves them out as it goes (strip_narrower.hpp). Curves that are alike leave 3 to 6 %
-// of the table: time O(n m) still, and O(n + m) memory.
+// An upper bound of the distance is the value of some path. Both curves are decimated, and their
+// best path is found, by this same search if they are still long. Then the table is swept within a
+// narrow corridor around that path. A lower bound of the cost of the rest of a path is the sum over
+// each row, and over each column, that follows: at least its smallest ground distance
+// (least_distances.hpp). If every path from a cell costs more than the upper bound, the cell is
+// pruned, and the sweep skips it (strip_narrower.hpp). For similar curves, 3 to 6 % of the table
+// remains. The time is still O(n m), the memory O(n + m).
 //
-// The bits stay: the upper bound is summed in the table's own operations, and so is not below the
-// table's value; what a path of that value visits is live. Dead cells that are left out change no
-// minimum on it.
+// Results are bitwise identical. The upper bound is summed in the table's own operations, so it is
+// not below the table's value. All cells that a path of that value visits are active. Pruned cells
+// do not change a minimum on it.
 //
-// Curves that are not alike leave all of their table. The decimated curves say so early; nothing
-// is returned then, and the full sweep is the faster way. Nor is anything returned where a path
-// may begin anywhere, which leaves no corridor, and for orders of minkowski that have no bounds.
+// If curves are not similar, nothing can be pruned. The decimated curves show that early; then the
+// search returns nullopt, and the full sweep is faster. It also returns nullopt if a path may begin
+// anywhere, which leaves no corridor, and for orders of minkowski that have no bounds.
 #pragma once
 
 #include <cstddef>
@@ -33,8 +33,8 @@ struct DtwPruningOptions {
     bool open_end = false;
     // Whether to return nothing where the full sweep is expected to be as fast.
     bool gives_up = true;
-    // One point in so many is left at the next coarser level; up to so many cells, a coarse table
-    // is swept as a whole.
+    // The next coarser level keeps one point in `decimation`; a coarse table of up to
+    // `most_coarse_cells` cells is swept as a whole.
     std::ptrdiff_t decimation = 24;
     std::ptrdiff_t most_coarse_cells = std::ptrdiff_t{1} << 18;
 };
@@ -55,7 +55,7 @@ struct DtwPruningRecord {
 std::optional<double> dtw_pruned(const SweepProblem& problem, const DtwPruningOptions& options,
                                  DtwPruningRecord& record);
 
-// The same with the path. There is none where the value is above the cutoff.
+// The same with the path; nullopt if the value is above the cutoff.
 std::optional<Path> dtw_path_pruned(const SweepProblem& problem, const DtwPruningOptions& options,
                                     DtwPruningRecord& record);
 

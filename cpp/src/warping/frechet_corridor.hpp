@@ -1,11 +1,12 @@
-// The part of the Fréchet table that a path can lie in: the cells that can be reached from the
-// first over ground distances of at most the value of the last, and from which the last can be
-// reached. Every predecessor with which a cell of the path is compared is either one of them, with
-// the value that it has in the whole table, or larger than they are. So a search for the path that
-// looks at these cells only decides as one that looks at all of them, ties included.
+// The part of the Fréchet table that can contain a path. These are the cells that can be reached
+// from the first, and from which the last can be reached, over ground distances of at most the
+// value of the last. The path search compares the predecessors of each cell on the path. Each
+// predecessor is either in this part, with its value in the whole table, or larger than the
+// predecessors in it. So a search within these cells decides as a search of all cells does, ties
+// included.
 //
-// Two recursions over the blocks of the table (block_recursion.hpp), one from either end. Free
-// blocks say nothing of the values in them, so these are left to the sweep.
+// Two recursions over the blocks of the table (block_recursion.hpp) find the part, one from either
+// end. Free blocks do not give the values in them, so the sweep computes them.
 #pragma once
 
 #include "warping/live_columns.hpp"

@@ -20,10 +20,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double reach_cost = 0.45;
 constexpr double value_cost = 2.5;
 
-constexpr double block_cost = 64.0;  // of one that is looked at, besides
+constexpr double block_cost = 64.0;  // of a tested block, in addition
 
-// Shares of the full sweep's time: what may be lost where it has to be done after all, always and
-// where success is likely; and what a search may take that succeeds.
+// Shares of the full sweep's time. The first two may be lost if the full sweep is needed after all:
+// in any case, and if success is likely. The third limits a search that succeeds.
 constexpr double small_share = 0.02;
 constexpr double risked_share = 0.25;
 constexpr double worthwhile_share = 0.8;
@@ -138,7 +138,7 @@ class FrechetSearch {
 
     template <class Front>
     void run(Front& front, double lower, double upper, typename Front::Value corner) {
-        // Half of what is left: nobody knows whether this pass will be the last.
+        // Half of the remaining steps, because this pass may not be the last.
         const std::int64_t steps = (options_.steps - counted_steps_) / 2;
         counted_steps_ += steps;
         BlockRecursion<Norm, Front> recursion(P_, Q_, lower, upper, front, poller_, steps);
@@ -156,7 +156,7 @@ class FrechetSearch {
         return std::min(estimate * first_factor, record_.upper);
     }
 
-    // Points of which one is taken: by then the estimate is a small part of the work.
+    // One of this number of points is taken. The estimate is then a small part of the work.
     std::ptrdiff_t decimation() const noexcept {
         constexpr double most_cells = 1 << 16;
         std::ptrdiff_t step = 16;

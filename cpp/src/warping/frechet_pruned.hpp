@@ -1,12 +1,12 @@
-// The discrete Fréchet distance without most of its table, exact to the bit.
+// The discrete Fréchet distance without most of its table, with bitwise identical results.
 //
-// A lower bound from nearest neighbours (nearest_point_bound.hpp) is often the distance itself.
-// Whether it is, is decided by a recursion over blocks of the table (block_recursion.hpp), and if
-// not, the bound is raised in steps until the last cell is reached; a second recursion, with the
-// table's values, between the last bound that was too low and the first that was not, gives the
-// distance. Time nearly linear where the curves are alike, memory O(n + m).
+// A lower bound from nearest neighbours (nearest_point_bound.hpp) is often the distance itself. A
+// recursion over blocks of the table (block_recursion.hpp) decides whether it is. If not, the bound
+// is raised in steps until the last cell is reached. A second recursion, with the table's values,
+// runs between the last bound that was too low and the first that was not. It gives the distance.
+// The time is nearly linear for similar curves, the memory O(n + m).
 //
-// Where the curves are not alike, a coarse table says so early, and nothing is returned: the full
+// If the curves are not similar, a coarse table shows it early, and the result is nullopt: the full
 // sweep is then as fast or faster.
 #pragma once
 
@@ -39,10 +39,10 @@ struct PruningOptions {
     std::int64_t steps = 0;
 };
 
-// The last value of the Fréchet table, or infinity where it is above the cutoff. Nothing where the
-// ground distance has no bounds, or where it gives up; nothing is then counted. Looks at the
-// problem's curves, its ground distance, its kernels and its poller only. Throws Stopped where
-// the poller says so.
+// The last value of the Fréchet table, or infinity if it is above the cutoff. Returns nullopt if
+// the ground distance has no bounds, or if the search gives up; no work is then counted. Uses only
+// the problem's curves, its ground distance, its kernels and its poller. Throws Stopped if the
+// poller stops the call.
 std::optional<double> frechet_pruned(const SweepProblem& problem, const PruningOptions& options,
                                      PruningRecord& record);
 

@@ -52,11 +52,11 @@ auto with_norm(Metric metric, Use use) {
     });
 }
 
-// What is kept of a caller's own distances at a time, or one row of the table: 16 MB.
+// The number of a caller's own distances to keep at a time, 16 MB, or one row of the table.
 inline constexpr std::ptrdiff_t max_own_distances = std::ptrdiff_t{1} << 21;
 
-// The metric whose distances of boxes bound those of points: itself, or of an arc what is under it;
-// then the kernels' arcs() make bounds of them.
+// The metric whose distances of boxes bound those of points: the metric itself, or for an arc the
+// metric inside the arc function. The kernels' arcs() then turn these into bounds.
 Metric metric_of_boxes(Metric metric) noexcept;
 
 // Whether with_norm() calls, of metric_of_boxes().
@@ -65,7 +65,7 @@ bool has_box_bounds(Metric metric) noexcept;
 // Throws std::invalid_argument for an order of minkowski outside [1, inf].
 void check_ground_distance(const GroundDistance& ground);
 
-// Throws std::invalid_argument for a function of one's own, for what cannot compute with one.
+// Throws std::invalid_argument for a custom function, in computations that do not take one.
 void refuse_own_distances(const GroundDistance& ground);
 
 // Orders 1, 2 and inf of minkowski by their own names.
@@ -75,8 +75,8 @@ Metric named_metric(const GroundDistance& ground) noexcept;
 Metric canonical_metric(const GroundDistance& ground, std::ptrdiff_t dim) noexcept;
 kernels::Cost canonical_cost(const GroundDistance& ground, const PackedPair& curves) noexcept;
 
-// The root that is taken at the end, of a table of largest distances, which it leaves as they are;
-// or none. Inline, since a call of few points takes most of its time for what is asked once.
+// The root that is taken once at the end of a table of largest distances, if the metric has one.
+// Inline, because a call of few points spends most of its time on such single checks.
 class PutOffRoot {
    public:
     PutOffRoot() noexcept = default;
@@ -88,8 +88,8 @@ class PutOffRoot {
     }
     // Of many, in place.
     void take(double* values, std::ptrdiff_t count) const noexcept;
-    // A little more than what is under the root of a value, so that the rounding of squares and
-    // roots gives nothing up.
+    // A little more than the radicand of a value, so that the rounding of squares and roots loses
+    // nothing.
     double most_under(double value) const noexcept;
 
    private:
@@ -107,7 +107,7 @@ inline PutOffRoot put_off_root(kernels::Cost& cost, const GroundDistance& ground
     return root;
 }
 
-// Coordinate c, as it is packed, of the point whose longitude and latitude both are x.
+// Packed coordinate c of the point whose longitude and latitude both are x.
 double coordinate_on_sphere(double x, std::ptrdiff_t c) noexcept;
 
 // Of every curve of such a measure.
@@ -116,14 +116,16 @@ inline curves::Requirements requirements(const char* measure,
     return {measure, 1, false, ground.metric == Metric::haversine};
 }
 
-// By which power of a factor the distance grows when both curves do.
+// If both curves are multiplied by a factor, the distance is multiplied by this power of the
+// factor.
 int degree(Metric metric) noexcept;
 
 // The range in which curves of this largest magnitude are compared.
 RangeScale range_of(const GroundDistance& ground, double largest_magnitude) noexcept;
 
-// The cutoff of a sum for one of its quotient: a little more than the product, so that the rounding
-// of the quotient gives nothing up: of one near 0, too, which is by the smallest double.
+// The cutoff of a sum for a cutoff of its quotient. It is a little more than the product, so that
+// the rounding of the quotient loses nothing. For quotients near 0, it is larger by the smallest
+// double.
 inline double undivided(double cutoff, double divisor) noexcept {
     if (divisor == 1.0) return cutoff;
     return (cutoff + std::numeric_limits<double>::denorm_min()) * (divisor * (1.0 + 1e-15));

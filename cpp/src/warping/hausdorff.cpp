@@ -1,7 +1,7 @@
 // hausdorff: the distances of all pairs of points, one point of Q after another against a SIMD
-// vector of P's, of which the least of every row and of every column are kept. A point that is not
-// farther from the other curve than what has been found cannot be known before all of it has been
-// looked at, so nothing is left out. O(n m) time, O(n + m) memory.
+// vector of P's. The least distances of every row and of every column are kept. Nothing can be
+// skipped: all distances of a point must be known before it is clear that the point does not
+// decide. O(n m) time, O(n + m) memory.
 #include "curvewise/hausdorff.hpp"
 
 #include <algorithm>

@@ -14,7 +14,7 @@ double part_of(const double* whole, std::ptrdiff_t c, std::ptrdiff_t dim) noexce
     return (whole[dim + c] - whole[c]) / parts;
 }
 
-// A side that lies so many parts above a lower side, or with negative parts below an upper one.
+// A side that lies `distance` parts above a lower side, or with negative parts below an upper one.
 double side_at(double whole_side, double part, std::uint16_t distance) noexcept {
     return whole_side + part * distance;
 }
@@ -22,7 +22,7 @@ double side_at(double whole_side, double part, std::uint16_t distance) noexcept 
 // The distance from the whole box's side, rounded so that side_at() is not further inwards.
 std::uint16_t distance_of(double side, double whole_side, double part) noexcept {
     const double found = (side - whole_side) / part;
-    if (!(found >= 1.0)) return 0;  // nor where the box has no extent, or one that is infinite
+    if (!(found >= 1.0)) return 0;  // nor if the extent of the box is zero or infinite
     const auto distance = static_cast<std::uint16_t>(std::min(found, parts - 1.0));
     for (const int less : {0, 1}) {
         const auto tried = static_cast<std::uint16_t>(distance - less);
@@ -32,7 +32,7 @@ std::uint16_t distance_of(double side, double whole_side, double part) noexcept 
     return 0;
 }
 
-// A level of the tree of so many points, from the finest on.
+// A level of the tree of a curve of `points` points, from the finest on.
 struct Level {
     explicit Level(std::ptrdiff_t points) noexcept
         : boxes((points + BoxTree::leaf_points - 1) / BoxTree::leaf_points) {}

@@ -1,9 +1,9 @@
-// The boxes of many curves that are kept, in little memory: of each curve only the levels of its
-// tree that bounds look at, and a side of a box as its distance from the same side of the curve's
-// whole box, in 2^-16 of the whole box's extent. Some 24 to 40 boxes of 4 d bytes a curve.
+// The boxes of many stored curves, in little memory. Each curve has only the levels of its tree
+// that bounds use. A side of a box is stored as its distance from the same side of the curve's
+// whole box, in 2^-16 of the whole box's extent. That is about 24 to 40 boxes of 4 d bytes a curve.
 //
-// Distances are rounded so that a box read back encloses the box of the tree: what is below all
-// distances from it is below those from the points in it.
+// Distances are rounded so that a stored box encloses the box of the tree. So a lower bound of all
+// distances from the box is a lower bound for the points in it.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct BoxLevel {
     std::ptrdiff_t points_per_box() const noexcept { return BoxTree::leaf_points << level; }
 };
 
-// The finest level of a tree with at most so many boxes.
+// The finest level of a tree with at most `most` boxes.
 BoxLevel level_with(const BoxTree& tree, std::ptrdiff_t most) noexcept;
 
 // Boxes that were read: the last ones are often asked for again.
@@ -35,7 +35,7 @@ struct BoxRoom {
 
 class KeptBoxes {
    public:
-    // The finest levels of at most so many boxes are kept.
+    // The finest levels with at most these numbers of boxes are kept.
     static constexpr std::ptrdiff_t most_boxes[] = {48, 32, 8};
 
     void keep(const BoxTree& tree);

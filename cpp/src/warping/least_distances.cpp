@@ -79,7 +79,7 @@ class LeafSearch {
                     from_.points()(std::min(begin + k, end - 1), c);
             }
         }
-        // What is further away than every point of the nearest box holds no nearest point.
+        // A box farther away than every point of the nearest box contains no nearest point.
         const double most = largest_distance<Norm>(own_, to_.box(0, nearest_), dim());
         double least[lanes];
         std::fill_n(least, lanes, infinity);

@@ -1,10 +1,10 @@
-// Lower bounds of the smallest ground distance of every point of one curve to any of another: of
-// the smallest entry of each row, or column, of the table. For each leaf box of the one curve, a
-// search finds the leaf boxes of the other that come nearest: it starts where the last one ended,
-// climbs from there, and looks into what may be nearer, so many boxes at most. The distances of
-// the box's points to all boxes that were found, large and small, then bound theirs from below.
-// Every bound holds to the bit (see box_tree.hpp). Time O(n) searches of O(log m) boxes where the
-// curves are alike, and never more than O(n); memory O(1).
+// Lower bounds of the smallest ground distance of every point of one curve to any point of another,
+// that is, of the smallest entry of each row, or column, of the table. For each leaf box of the one
+// curve, a search finds the nearest leaf boxes of the other. It starts at the last search's result,
+// climbs from there, and opens boxes that may be nearer, up to a maximum number. The distances of
+// the box's points to all boxes that were found, large and small, are then lower bounds. Every
+// bound holds exactly (see box_tree.hpp). Time: O(n) searches of O(log m) boxes for similar curves,
+// and never more than O(n). Memory: O(1).
 #pragma once
 
 #include "runtime/poller.hpp"

@@ -1,6 +1,6 @@
 // The table of DTW (symmetric1) between one curve in one dimension, P, and many, Q, one after the
-// other, without the cells that are dead (kernels/line.inl.hpp). The columns of each row are kept
-// as long as the numbers of points stay as they are. O(n m) time, O(n + m) memory.
+// other, without the pruned cells (kernels/line.inl.hpp). The columns of each row are kept while
+// the numbers of points do not change. O(n m) time, O(n + m) memory.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,10 @@
-// The columns of the table that a sweep looks at, row by row. The band is the one that never
-// narrows. A sweep may also look at what an earlier one left of every row, or narrow what it looks
-// at while it goes: cells from which no path of interest leads on are dead, and count as infinite.
+// The columns of the table that a sweep covers, row by row. The band never narrows. A sweep may be
+// limited to the columns that an earlier sweep left of every row, or narrow its columns while it
+// runs. Cells from which no path of interest continues are pruned, and count as infinite.
 //
-// That changes no value on a path of interest, nor a decision on it: sums and minima are monotone
-// in floating point too, so that a predecessor which is not on such a path, and so is worse, can
-// only become worse still.
+// Pruning changes no value on a path of interest, nor a decision on it. Sums and minima are
+// monotone in floating point, too. A predecessor that is not on such a path is worse, and can only
+// become still worse.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct CostToGo {
     }
 };
 
-// What a sweep that narrows has looked at.
+// The columns that a narrowing sweep has covered.
 struct SweptColumns {
     // Per row, ends that never fall: every path of interest keeps to them.
     std::vector<ColumnRange> rows;
@@ -48,8 +48,8 @@ class LiveColumns {
     // What `kept` says of every row of `base`. It must outlive the sweep.
     LiveColumns(const LiveColumns& base, const SweptColumns& kept) noexcept
         : band_(base.band_), kept_(kept.rows.data()) {}
-    // `base`, narrowed strip by strip to the cells that are live; `swept` says what was left. Both
-    // must outlive the sweep, which covers the whole table.
+    // `base`, narrowed strip by strip to the active cells; `swept` receives the remaining columns.
+    // Both must outlive the sweep, which covers the whole table.
     LiveColumns(const LiveColumns& base, const CostToGo& cost_to_go, SweptColumns& swept) noexcept
         : band_(base.band_), kept_(base.kept_), cost_to_go_(&cost_to_go), swept_(&swept) {}
 

@@ -1,11 +1,12 @@
-// Of curves in one dimension: the values of one that the points of another may be matched to, as
-// intervals. A point costs at least its distance to the nearest of them.
+// For curves in one dimension: the values of one curve to which the points of the other may be
+// matched, as intervals. A point costs at least its distance to the nearest interval.
 //
-// Without a band these are the values of all runs of the curve, the same for every point: boxes
-// that overlap, or nearly, become one, and few are left, since a curve passes most values more than
-// once. With a band each point has the interval of the points in its band, the bound of Keogh &
-// Ratanamahatana (2005): the extremes of runs of points, from those of runs a quarter as long, in
-// SIMD. O((n + m) log(window)) time for all points, in SIMD less than the O(n + m) of running ones.
+// Without a band, these are the values of all runs of the curve, the same for every point. Boxes
+// that overlap, or nearly, are merged. Few remain, since a curve passes most values more than once.
+// With a band, each point has the interval of the points in its band, the bound of Keogh &
+// Ratanamahatana (2005). The extremes of runs of points come from runs a quarter as long, in SIMD.
+// This takes O((n + m) log(window)) for all points, in SIMD less time than the O(n + m) of running
+// extremes.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +19,16 @@
 
 namespace curvewise::warping {
 
-// Writes what is left of `count` intervals, each its lower end and then its upper one; returns how
-// many. Gaps of at most `most_gap` are closed. O(count) for each that is left.
+// Writes the merged intervals of `count` intervals, each its lower end and then its upper one;
+// returns their number. Gaps of at most `most_gap` are closed. O(count) for each remaining
+// interval.
 std::ptrdiff_t merge_intervals(const double* intervals, std::ptrdiff_t count, double most_gap,
                                double* merged);
 
 class BandedValues {
    public:
-    // For `count` points beside a curve of `size`, both stored in reverse; kept as long as these
-    // numbers stay as they are. False where there is no band.
+    // For `count` points against a curve of `size`, both stored in reverse. The result is kept
+    // while these numbers do not change. Returns false if there is not a band.
     bool assign(std::ptrdiff_t count, std::ptrdiff_t size, std::optional<std::ptrdiff_t> window);
     // Whether enclose() has not been called since the numbers changed.
     bool is_new() const noexcept { return is_new_; }
@@ -45,8 +47,8 @@ class BandedValues {
     std::ptrdiff_t size_ = -1;
     bool is_limited_ = false;
     bool is_new_ = false;
-    // The other curve's points in the band of point k are among those from first_ + begins_[k] on,
-    // `length_` of them, where the curve goes on at either end as it ends.
+    // The other curve's points in the band of point k are among the `length_` points from first_ +
+    // begins_[k] on. Beyond either end, the curve continues with its end value.
     std::ptrdiff_t first_ = 0;
     std::ptrdiff_t length_ = 1;
     std::vector<std::ptrdiff_t> begins_;

@@ -1,10 +1,10 @@
-// The path of DTW through a table of which few cells a row are live, see cheap_cells.hpp: rows are
-// swept a SIMD vector at a time, each time from the first column to the last that can be live, with
-// two bits a cell for where its path comes from. Then the path is read off backwards.
+// The path of DTW through a table with few active cells in a row, see cheap_cells.hpp. Rows are
+// swept a SIMD vector at a time, each time from the first column to the last that can be active.
+// Two bits a cell store where its path comes from. Then the path is read off backwards.
 //
-// The cells are those of the sweep, to the bit: what is dead is on no path that costs at most
-// `most`, and is larger than what such a path comes from. Time O(cells looked at), memory two bits
-// each, four where a vector has two lanes.
+// The cells are bitwise identical to those of the sweep. A pruned cell is on no path that costs at
+// most `most`, and is larger than the predecessors of such a path. Time O(computed cells), memory
+// two bits each, four if a vector has two lanes.
 #pragma once
 
 #include <cstddef>

@@ -40,7 +40,7 @@ class DirectedBound {
     static constexpr std::ptrdiff_t samples = 64;
     static constexpr std::ptrdiff_t run_level = 3;
     static constexpr std::ptrdiff_t runs_per_poll = 8;
-    // The time of a box that is looked at in a search, in that of cells of a sweep.
+    // The time that a search needs for a box, in cells of a sweep.
     static constexpr double cells_per_box = 20.0;
 
     void look_at(std::ptrdiff_t i) noexcept {

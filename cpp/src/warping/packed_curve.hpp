@@ -43,8 +43,8 @@ class PackedCurve {
     }
 
     // Whether every |coordinate| is 0 or at least 2^-400. Differences of two such curves are then 0
-    // or at least 2^-452, the last bit of such a coordinate, and their squares 0 or at least
-    // 2^-904: what the fast square root takes.
+    // or at least 2^-452, the last bit of such a coordinate. Their squares are 0 or at least
+    // 2^-904, the domain of the fast square root.
     bool squares_are_in_domain() const noexcept { return squares_are_in_domain_; }
 
    private:

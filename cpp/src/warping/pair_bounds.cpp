@@ -62,7 +62,8 @@ double unfinished_distance(const double* a, const double* b, std::ptrdiff_t dim)
     return sum;
 }
 
-// Of boxes in one dimension. Gaps that are small beside all values lower a bound by little.
+// Boxes in one dimension. Closing gaps that are small relative to all values lowers a bound only a
+// little.
 std::ptrdiff_t merge(const BoxLevel& boxes, AlignedBuffer& merged) {
     double low = infinity, high = -infinity;
     for (std::ptrdiff_t b = 0; b < boxes.count; ++b) {
@@ -205,8 +206,8 @@ double PairBounds::combined(double rows, double columns, double first_row,
            (is_symmetric2() ? std::max(first_row, first_column) : first_row + first_column);
 }
 
-// Whether differences add up to that between the ends, or to less, and so that rounding changes
-// each by a few units in its last place: none of their squares is too small a number for that.
+// Whether differences add up to at most the difference between the ends, so that rounding changes
+// each by a few units in its last place. No square of a difference is too small for that.
 bool PairBounds::has_ways_through(const PackedCurve& q) const noexcept {
     return options_.recurrence == kernels::Recurrence::dtw_symmetric1 &&
            (metric_ != Metric::sqeuclidean || PackedPair{P_, q}.squares_are_in_domain());

@@ -1,30 +1,32 @@
-// Lower bounds of dtw and frechet between one curve, P, and many that are kept, Q, from cheap to
-// dear: what a search looks at before it computes a distance.
+// Lower bounds of dtw and frechet between one curve, P, and many stored curves, Q, from cheap to
+// expensive. A search tests them before it computes a distance.
 //
 //   level 0   the distances of the ends; how far one box reaches beyond the other
-//   level 1   both curves cut into some 8 runs: for each run the distance of its box to the nearest
+//   level 1   both curves cut into about 8 runs. For each run, the distance of its box to the
+//   nearest
 //             box of the other curve, times its points, added up (dtw); the largest distance
-//             (frechet); of P's runs and of Q's, the larger of the two
-//   level 2   the same with some 32 runs
-//   level 3   each point in the place of the runs, against some 48 boxes
+//             (frechet). The larger result of P's runs and of Q's
+//   level 2   the same with about 32 runs
+//   level 3   each point instead of the runs, against about 48 boxes
 //
-// in the dimension d, O(d), O(64 d), O(1000 d) and O(48 (n + m) d) time, the last one in SIMD.
-// In one dimension boxes are intervals, and points are compared with few of them, or with one of
-// their own (matched_values.hpp): level 1 is then of Q's points alone, in O(m), level 2 of Q's and
-// P's in O(n + m), and no other is of use.
+// In the dimension d, the levels take O(d), O(64 d), O(1000 d) and O(48 (n + m) d) time, the last
+// one in SIMD. In one dimension, boxes are intervals. Points are compared with few of them, or with
+// an interval for each point (matched_values.hpp). Level 1 then uses Q's points alone, in O(m),
+// level 2 those of Q and P in O(n + m). Further levels do not help.
 //
-// A window leaves a point, or a run, only the boxes that its band reaches: the bound of Keogh &
-// Ratanamahatana (2005) with several boxes in the place of their one. In one dimension a path that
-// pays for the dearer of its rows and its columns then pays for both after all, where the rows are
-// compared with the values nearest to Q's points that P holds in their bands, not with Q's points:
-// the bound of Lemire (2009). What a cell costs is at least the way from q to that value, and from
-// there to p. The terms of the last level say, besides, what the rest of a path costs at least: a
-// sweep with a cutoff leaves out what is too dear (live_columns.hpp).
+// With a window, a point or a run has only the boxes that its band reaches: the bound of Keogh &
+// Ratanamahatana (2005) with several boxes instead of one. In one dimension, the sum over rows and
+// the sum over columns can be added. The rows are then not compared with Q's points, but with the
+// values nearest to Q's points that P holds in their bands: the bound of Lemire (2009). A cell
+// costs at least the way from q to that value, and from there to p. The terms of the last level
+// also bound the cost of the rest of a path. A sweep with a cutoff skips cells that cost too much
+// (live_columns.hpp).
 //
-// No bound is above the value as it is computed. Distances to boxes are computed by the monotone
-// operations of the ground distance (kernels/boxes.inl.hpp), and the ends' in the table's own
-// order: no slack. Sums in another order than the table's get the slack of CostSums. What
-// is no norm (kernels/metrics.inl.hpp), and curves outside the usual range, have the bound 0.
+// No bound is above the computed value. Distances to boxes are computed by the monotone operations
+// of the ground distance (kernels/boxes.inl.hpp), and those of the ends in the table's own order,
+// without slack. Sums in another order than the table's get the slack of CostSums. Ground distances
+// that are not norms (kernels/metrics.inl.hpp), and curves outside the usual range, have the bound
+// 0.
 #pragma once
 
 #include <cstddef>
@@ -45,8 +47,8 @@ namespace curvewise::warping {
 
 using curves::CheckedCurve;
 
-// What is kept of each Q besides its points: its ends and its box, one curve behind the other, and
-// its boxes.
+// The stored data of each Q besides its points: its ends and its box, one curve behind the other,
+// and its boxes.
 class KeptBounds {
    public:
     void keep(const CheckedCurve& Q, const PackedCurve& packed, PointOrder order);
@@ -79,8 +81,8 @@ class KeptBounds {
     KeptBoxes boxes_;
 };
 
-// Which boxes of one curve the band leaves each point of the other, kept as long as the numbers of
-// points stay as they are.
+// The boxes of one curve that the band leaves each point of the other, kept while the numbers of
+// points do not change.
 class BandedBoxes {
    public:
     // Of `count` points, in the order in which they are stored.
@@ -113,9 +115,9 @@ class PairBounds {
     bool has_looked_at_ends(std::ptrdiff_t j) const noexcept { return is_bounded(j); }
     // That of a level above 0 and curve j, whose points are `q`.
     double refined(std::ptrdiff_t j, const PackedCurve& q, int level);
-    // What the rest of a path costs at least, for a sweep that leaves out what is above `most`, in
-    // the unit of the table. Nothing where the measure's own pruning does better, or where there
-    // are no bounds. Valid until the next call.
+    // The least cost of the rest of a path, for a sweep that skips cells above `most`, in the unit
+    // of the table. Returns nullopt if the measure's own pruning is better, or if bounds do not
+    // exist. Valid until the next call.
     std::optional<CostToGo> cost_to_go(std::ptrdiff_t j, const PackedCurve& q, double most);
     // Whether the table's value, or one above `most`, follows from that without a general sweep.
     bool is_of_lines() const noexcept;
@@ -147,10 +149,10 @@ class PairBounds {
     }
     bool has_ways_through(const PackedCurve& q) const noexcept;
     void compute_row_terms(std::ptrdiff_t j, const PackedCurve& q);
-    // In one dimension, within a band, which has no open ends.
+    // In one dimension, within a band and without open ends.
     void compute_banded_row_terms(std::ptrdiff_t j, const PackedCurve& q);
     void compute_column_terms(std::ptrdiff_t j, const PackedCurve& q);
-    // The distances of `points` to the nearest of these boxes, of which alone it says something.
+    // The distances of `points` to the nearest of these boxes.
     void compute_terms(const PackedCurve& points, kernels::PointsAndBoxes boxes,
                        AlignedBuffer& terms) const;
     // Makes bounds of distances of boxes.
@@ -163,13 +165,13 @@ class PairBounds {
     const PackedCurve& P_;
     Metric metric_;
     Metric box_metric_;
-    kernels::LeastFunction kernel_;  // null where there are no bounds
+    kernels::LeastFunction kernel_;  // null if bounds do not exist
     kernels::ExtremesFunction extremes_;
     double largest_;
     BoxTree tree_;
     std::vector<double> summary_;
-    // The terms of the last level that were computed last: of P's points in order, or in reverse,
-    // of Q's as they are stored.
+    // The most recent terms of the last level: P's points in order or in reverse, Q's in their
+    // stored order.
     AlignedBuffer row_terms_;
     AlignedBuffer column_terms_;
     std::ptrdiff_t row_terms_of_ = -1;
@@ -180,7 +182,7 @@ class PairBounds {
     BandedBoxes boxes_of_columns_;
     BandedValues values_of_rows_;
     BandedValues values_of_columns_;
-    AlignedBuffer reversed_;        // P, where its points have values of their own
+    AlignedBuffer reversed_;        // P, if each of its points has a value
     AlignedBuffer nearest_values_;  // to Q's points, of those of their bands in P
     AlignedBuffer merged_;          // boxes of P, in one dimension
     AlignedBuffer merged_of_kept_;  // of Q

@@ -1,12 +1,14 @@
 // Divide and conquer. A region's path enters it from one known cell above (or starts in it) and
-// ends in its last row at a known column. While the region is small, it is swept once with the
-// predecessor of every cell, and the path is read off backwards. A larger one is swept in two
-// halves: the upper one for the values of its last row, the lower one with, in every cell, the
-// column at which its path leaves that row. This gives the cell where the two halves meet; the
-// lower half starts from its value. So every value on the path is computed from the same operands
-// as in the whole table and keeps its bits, which a backward pass (Hirschberg) would not; values
-// off the path can only be larger than in the whole table, so every decision on it is the same.
-// Twice the cells of a distance in all, half of them with origins. O(n + m) memory.
+// ends in its last row at a known column. A small region is swept once with the predecessor of
+// every cell, and the path is read off backwards. A larger one is swept in two halves: the upper
+// one for the values of its last row, the lower one with, in every cell, the column at which its
+// path leaves that row. This gives the cell where the two halves meet; the lower half starts from
+// its value.
+//
+// So every value on the path is computed from the same operands as in the whole table, and is
+// bitwise identical. A backward pass (Hirschberg) would not give that. Values off the path can only
+// be larger than in the whole table, so every decision on the path is the same. In all, it computes
+// twice the cells of a distance, half of them with origins. O(n + m) memory.
 #include "warping/path.hpp"
 
 #include <algorithm>
@@ -78,7 +80,7 @@ class PathFinder {
         return is_limited ? CodeLayout(problem_, region).size : region.rows * region.columns;
     }
 
-    // In the last row, beside whose columns anything may stand.
+    // In the last row, whose values outside the columns are undefined.
     std::ptrdiff_t end_column(const Part& part, const Row& last_row) const noexcept {
         const Region& region = part.region;
         if (!part.open_end) return region.columns - 1;

@@ -1,6 +1,6 @@
-// Whether the Fréchet distance of two curves is at most a threshold: which cells of the table can
-// be reached from the first over cells whose ground distance is at most it. A bit for each point of
-// either curve; 64 x 64 cells are swept a word at a time.
+// Whether the Fréchet distance of two curves is at most a threshold. The cells of the table are
+// reached from the first over cells whose ground distance is at most the threshold. There is a bit
+// for each point of either curve; 64 x 64 cells are swept a word at a time.
 #pragma once
 
 #include <cstdint>

@@ -47,7 +47,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
                                 "no deviation in metres");
 }
 
-// The points of a curve, and one before its first, all of whose coordinates are 0.
+// The points of a curve, preceded by a point whose coordinates are all 0.
 std::vector<double> led(const CurveView& curve) {
     std::vector<double> points(static_cast<std::size_t>((curve.size() + 1) * curve.dim()), 0.0);
     double* next = points.data() + curve.dim();
@@ -247,7 +247,7 @@ class RecurrenceMeasure : public pairwise::SweptMeasure {
     }
 
    private:
-    // Where every path is infinite, one of them; empty where the steps admit none.
+    // If every path is infinite, one of them; empty if the steps admit no path.
     static std::vector<std::array<std::int64_t, 2>> path_of_any_cost(
         const RecurrenceProblem& problem, const pairwise::Call<Memory>& call) {
         const Recurrence recurrence = without_costs(problem.recurrence);

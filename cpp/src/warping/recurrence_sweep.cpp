@@ -44,7 +44,7 @@ double divisor(Per per, std::ptrdiff_t n, std::ptrdiff_t m) noexcept {
     return 1.0;
 }
 
-// The step by which each cell of a part was reached, strip by strip.
+// The step that reached each cell of a part, strip by strip.
 struct RecurrenceSweep::Codes {
     Codes(const Part& part, std::ptrdiff_t reach, std::ptrdiff_t height)
         : stride(std::min(height, part.end - part.first) + reach),
@@ -139,8 +139,8 @@ void RecurrenceSweep::prepare_costs(const RangeScale& range) {
     }
 }
 
-// A point that is left out costs its distance from a point that does not move, or from the one
-// before, which is the one behind it where points are stored in reverse.
+// A deleted point costs its distance from a fixed point, or from the previous point. In reverse
+// storage, the previous point is the one behind it.
 void RecurrenceSweep::prepare_gaps(double gap, double* rows, double* columns) {
     const std::ptrdiff_t n = curves_.rows(), m = curves_.columns();
     kernels::Strip strip = whole_.ground;
@@ -295,7 +295,7 @@ void RecurrenceSweep::aim(kernels::RecurrenceStrip& strip, const Part& part, std
     const std::ptrdiff_t reach = table_.reach, above = std::min(reach, first);
     strip.lanes = rows + reach;
     strip.columns = part.columns;
-    // Of the curve in reverse order, so many columns before the last.
+    // The curve is in reverse order, so the part starts this many points later.
     strip.ground.q += curves_.columns() - part.columns;
     strip.ground.columns = part.columns;
     strip.ground.p += first - above;

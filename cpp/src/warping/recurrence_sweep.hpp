@@ -1,10 +1,10 @@
 // The table of a recurrence with any steps, swept by strips of rows: the value, the table, and a
-// path, for which the rows are halved until the steps of all cells of a part fit into some memory
-// (Hirschberg's division, going forward only, so that every cell keeps its bits): a part is swept
-// up to its middle row, the path through the lower half is found, which says where it leaves the
-// upper, and then that through the upper half, of which only the columns up to there are swept.
-// Time O(n m) terms for a value, at most 1 + log2(n m / (2^22 + 16 (n + m))) / 2 times that for a
-// path; memory O(n + m), and for a path O((n + m) log n).
+// path. For a path, the rows are halved until the steps of all cells of a part fit into a limited
+// memory. This is Hirschberg's division, but only forward, so that every cell is bitwise identical.
+// A part is swept up to its middle row. Then the path through the lower half is found, which gives
+// the column where it leaves the upper half. Then the path through the upper half is found, whose
+// columns are swept only up to there. A value takes O(n m) terms. A path takes at most 1 + log2(n m
+// / (2^22 + 16 (n + m))) / 2 times that. Memory is O(n + m), and O((n + m) log n) for a path.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@
 
 namespace curvewise::warping {
 
-// What a value is divided by, for curves of so many points.
+// The divisor of a value, for curves of n and m points.
 double divisor(Per per, std::ptrdiff_t n, std::ptrdiff_t m) noexcept;
 
 // What one thread keeps from one pair to the next.
@@ -33,7 +33,7 @@ struct RecurrenceMemory {
     std::vector<std::ptrdiff_t> columns;
 };
 
-// What is swept: the curves as the recurrence takes them, in units of a range.
+// The problem to sweep: the curves as the recurrence takes them, in units of a range.
 struct RecurrenceProblem {
     const Recurrence& recurrence;
     const StepTable& steps;
@@ -67,7 +67,7 @@ class RecurrenceSweep {
         std::ptrdiff_t row;
         std::ptrdiff_t column;
     };
-    // Rows first..end - 1 in so many columns.
+    // Rows first..end - 1 in `columns` columns.
     struct Part {
         std::ptrdiff_t first;
         std::ptrdiff_t end;

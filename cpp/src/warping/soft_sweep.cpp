@@ -15,9 +15,9 @@ using kernels::exponent_of_zero;
 using kernels::ScaledLanes;
 using kernels::Shares;
 
-// Of a value alone: as for dtw, what is touched stays in the first-level cache.
+// For a value alone: as for dtw, the data of a strip stays in the first-level cache.
 constexpr std::ptrdiff_t value_height = 256;
-// With gradients at least so many rows, since each strip has its ramps.
+// The least number of rows with gradients, since each strip has ramps.
 constexpr std::ptrdiff_t least_height = 64;
 
 std::ptrdiff_t gradient_height(std::ptrdiff_t rows) noexcept {

@@ -1,10 +1,10 @@
-// The table of soft-DTW: its last cell, and the derivatives of that by both curves.
+// The table of soft-DTW: its last cell, and the derivatives of that cell by both curves.
 //
-// The table is swept by strips of rows, each by anti-diagonals, as that of dtw is (strip.hpp), in
-// the scaled numbers of kernels/soft.hpp. The gradient needs all of the table: the row above every
-// strip is kept, and from the last strip up each is swept again with the shares of every cell's
-// predecessors, along which weights run back. With strips of sqrt(n) rows that is O(m sqrt(n))
-// memory, and at most two sweeps forward and one back.
+// As for dtw (strip.hpp), the table is swept by strips of rows, each by anti-diagonals, in the
+// scaled numbers of kernels/soft.hpp. The gradient needs all of the table. The row above every
+// strip is kept. From the last strip up, each is swept again with the shares of every cell's
+// predecessors, and weights run back along them. With strips of sqrt(n) rows, this takes O(m
+// sqrt(n)) memory, and at most two sweeps forward and one back.
 #pragma once
 
 #include <cstddef>

@@ -95,7 +95,7 @@ bool StripNarrower::narrow(kernels::Strip& strip, std::ptrdiff_t* first_column,
     if (high < strip.high_lane) {
         strip.high_lane = high;
         strip.before[high + 2] = infinity;
-        // The lanes below begin anew, one a diagonal: all at the same column.
+        // The lanes below restart, one on each diagonal, all at the same column.
         first_column[high + 1] = std::max(first_column[high + 1], next - high - 1);
         left_to_ = first_column[high + 1];
     }

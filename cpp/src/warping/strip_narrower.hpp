@@ -1,10 +1,10 @@
-// Narrows the strips of a sweep to the cells that are live (see live_columns.hpp): the columns
-// where a strip begins, by the row above it; while it is swept, the lanes at both ends, by the last
-// two diagonals, across one of which every path goes. Dead cells between live ones are swept. Time
-// O(1) a lane that is dropped, and O(1) a row.
+// Narrows the strips of a sweep to the active cells (see live_columns.hpp). The row above a strip
+// gives the columns where it begins. While the strip is swept, the last two diagonals give the
+// lanes at both ends, because every path crosses one of them. Pruned cells between active ones are
+// swept. Time O(1) for each dropped lane, and O(1) a row.
 //
 // Several threads may take turns with the strips. A strip may be entered as soon as a column of the
-// row above it is live, and ends after the strip above it has.
+// row above it is active, and ends after the strip above it has.
 #pragma once
 
 #include <algorithm>
@@ -31,14 +31,14 @@ class StripNarrower {
     }
 
     StripNarrower() noexcept = default;
-    // `edges`: of the row above the table, all of which may be live, and of every strip.
+    // `edges` belong to the row above the table, whose cells may all be active, and to every strip.
     StripNarrower(const CostToGo& cost_to_go, SweptColumns& swept, StripEdge* edges) noexcept
         : cost_to_go_(&cost_to_go), swept_(&swept), edges_(edges) {}
 
     bool is_on() const noexcept { return cost_to_go_ != nullptr; }
 
-    // Before a strip's first diagonal: moves the beginnings of its rows to the first live column of
-    // the row above. False where there is none, and the strip above is finished.
+    // Before a strip's first diagonal: moves the beginnings of its rows to the first active column
+    // of the row above. False if there is no such column, and the strip above is finished.
     bool enter(const kernels::Strip& strip, std::ptrdiff_t number, std::ptrdiff_t first_row,
                std::ptrdiff_t* first_column) noexcept;
     // The strip above the present one is finished.
@@ -47,10 +47,10 @@ class StripNarrower {
     // can come.
     bool narrow(kernels::Strip& strip, std::ptrdiff_t* first_column,
                 std::ptrdiff_t* last_column) noexcept;
-    // Whether a path may have left the strip through its last row; what that row holds from then on
-    // stays as it is.
+    // Whether a path may have left the strip through its last row; from then on, the row's contents
+    // do not change.
     bool has_left() const noexcept { return has_left_; }
-    // After a strip's last diagonal: what lies beside its last row's columns is infinite.
+    // After a strip's last diagonal: sets the cells next to its last row's columns to infinity.
     void leave(const kernels::Strip& strip, const std::ptrdiff_t* first_column,
                const std::ptrdiff_t* last_column, bool is_last) noexcept;
 
@@ -75,7 +75,7 @@ class StripNarrower {
     std::ptrdiff_t counted_to_ = 0;
     std::ptrdiff_t low_ = 0;
     std::ptrdiff_t high_ = -1;
-    // Columns of the last row before this one have been looked at.
+    // Columns of the last row before this one have been tested.
     std::ptrdiff_t left_to_ = 0;
     bool has_left_ = false;
     bool is_above_finished_ = false;

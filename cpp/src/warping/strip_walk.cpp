@@ -55,9 +55,9 @@ std::ptrdiff_t strip_height(const SweepProblem& problem, const Region& region,
     return (rows + strips - 1) / strips;
 }
 
-// Doubles before and behind the lane arrays, a page, where several threads sweep: prefetchers run
-// past the end of what one thread sweeps and would take the lines that another is writing
-// (measured: a third of the speed).
+// Doubles before and behind the lane arrays, a page, if several threads sweep. Prefetchers run past
+// the end of one thread's data and would take the lines that another is writing (measured: a third
+// of the speed).
 constexpr std::ptrdiff_t gap_between_threads = 512;
 
 // The lane arrays: values and origins of three diagonals, and the costs of one.
@@ -198,7 +198,8 @@ void StripWalk::aim(std::ptrdiff_t strip) noexcept {
 
 std::int64_t StripWalk::advance(std::ptrdiff_t end) noexcept {
     if (at_start_) {
-        // The 0 above cell (0, 0) starts every path; it is nobody's diagonal predecessor.
+        // The 0 above cell (0, 0) starts every path; it is not the diagonal predecessor of another
+        // cell.
         advance_(strip_, strip_.next_diagonal + 1, fill_);
         strip_.before_last[0] = infinity;
         at_start_ = false;

@@ -51,7 +51,7 @@ void skip_rest(const SweepProblem& problem, const StripPlan& plan, std::ptrdiff_
     problem.poller.count_steps(std::max<std::ptrdiff_t>(rows, 0) * problem.curves.columns());
 }
 
-// Takes strips from the pipeline until none is left, or the poller says stop.
+// Takes strips from the pipeline until it is empty, or until the poller stops.
 void sweep_in_turn(StripWalk& walk, std::ptrdiff_t chunk, std::ptrdiff_t weight,
                    runtime::Pipeline& pipeline, Poller& poller) {
     for (std::ptrdiff_t s = pipeline.take(); s >= 0; s = pipeline.take()) {

@@ -16,8 +16,8 @@ namespace curvewise::warping {
 void sweep(const SweepProblem& problem, const Region& region, bool starts_here, double* boundary,
            const Destination& destination);
 
-// The whole table's last row; after giving up, values of which each is above `give_up_above`.
-// It stands in the problem's memory until the next sweep.
+// The whole table's last row; after giving up, values that are all above `give_up_above`. The row
+// is in the problem's memory until the next sweep.
 const Row& last_row(const SweepProblem& problem);
 
 // What the table would hold in a cell if its path began there: its ground distance.

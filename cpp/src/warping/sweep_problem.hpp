@@ -1,4 +1,4 @@
-// What is swept: a table, the part of it that is wanted, and where the results go.
+// The problem to sweep: a table, the part of it to compute, and the places of the results.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace curvewise::warping {
 
-// Long enough to amortise the ramps at both ends of a strip and the pass over the boundary row,
-// short enough that three diagonals and the strip's points stay in the first-level cache.
+// Long enough to amortise the ramps at both ends of a strip and the pass over the boundary row.
+// Short enough that three diagonals and the strip's points stay in the first-level cache.
 inline constexpr std::ptrdiff_t max_strip_height = 256;
 
 // A row of the table, with the room that a sweep needs behind it.
@@ -37,14 +37,15 @@ class Row {
     AlignedBuffer row_;
 };
 
-// What one thread needs to sweep, kept from one sweep to the next: where curves are short, getting
-// it anew takes as long as a good part of the sweep. O(m).
+// The memory that one thread needs to sweep, kept from one sweep to the next. If curves are short,
+// a new allocation takes as long as a good part of the sweep. O(m).
 struct SweepMemory {
     AlignedBuffer lanes;
     AlignedBuffer own_distances;  // of a strip
     Row row;
 
-    // Room for so many columns, of any content: of a few, as short curves have, none of the heap's.
+    // Memory for `count` columns, with any content. A few columns, as short curves have, need no
+    // heap memory.
     std::ptrdiff_t* columns(std::size_t count) {
         if (count <= few_columns_.size()) return few_columns_.data();
         many_columns_.resize(count);

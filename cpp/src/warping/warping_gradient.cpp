@@ -70,7 +70,7 @@ class PointPair {
     std::ptrdiff_t place_of_largest_ = 0;
 };
 
-// What is larger where the points' distance is; 0 where they coincide.
+// A number that grows with the points' distance; 0 if they coincide.
 template <class Row>
 double magnitude(const PointPair& at) noexcept {
     return at.largest() == 0.0 ? 0.0 : Row::magnitude(at);

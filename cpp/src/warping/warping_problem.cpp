@@ -22,7 +22,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Whoever gave a function of one's own is asked by one thread.
+// Only one thread calls a custom function.
 std::ptrdiff_t workers_for(const GroundDistance& ground, std::ptrdiff_t asked_for) {
     const std::ptrdiff_t workers = runtime::resolve_workers(asked_for);
     return ground.own == nullptr ? workers : 1;

@@ -1,9 +1,9 @@
-// dtw or frechet of two packed curves: the cumulative table between them, and what is read off it,
-// the value, the path, or all of it.
+// dtw or frechet of two packed curves: the cumulative table between them, and the results that are
+// read off it: the value, the path, or all of it.
 //
-// For Fréchet with the Euclidean distance, or on the sphere, the table holds squares and one root,
-// or arc, is taken at the end: both are monotone, so the value has the same bits. The path is
-// decided on the squares, that is before the rounding of a root can make two of them equal. Time
+// For Fréchet with the Euclidean distance, or on the sphere, the table holds squares, and one root,
+// or arc, is taken at the end. Both are monotone, so the value is bitwise identical. The path is
+// decided on the squares, that is, before the rounding of a root can make two of them equal. Time
 // O(n m), memory O(n + m), except for the table.
 #pragma once
 
@@ -54,8 +54,8 @@ class WarpingProblem {
     // One above `cutoff` may come back as any other that is. `looks_at_ends`: first at the
     // distances of the ends, unless these are known to be within it.
     double distance(double cutoff, bool looks_at_ends = true);
-    // The same, for curves within the usual range, where the cells that are dead by `cost_to_go`
-    // (in the unit of the table, of which `most_in_table` makes the cutoff) are left out.
+    // The same, for curves within the usual range, without the cells that `cost_to_go` prunes.
+    // `cost_to_go` is in the unit of the table; most_in_table() gives its cutoff.
     double narrowed_distance(const CostToGo& cost_to_go);
     // A little above the cutoff in the unit of the table, so that the rounding of squares and roots
     // gives nothing up.

@@ -55,7 +55,7 @@ struct RowDistance {
 // the carry of an addition.
 template <class Norm, int fixed_dim>
 void reach(ReachBlock& block) noexcept {
-    constexpr std::ptrdiff_t group = 16;  // columns looked at together
+    constexpr std::ptrdiff_t group = 16;  // columns tested together
     const Pack threshold = simd::pset1<Pack>(block.threshold);
     const std::uint64_t all = ~std::uint64_t{0} >> (block_side - block.columns);
     RowDistance<Norm, fixed_dim> distance{block.across, block.down, block.across_stride,
@@ -139,7 +139,7 @@ ReachFunction select_reach_in(std::ptrdiff_t dim) noexcept {
     return reach<Norm, 0>;
 }
 
-// The table of Fréchet holds what is without a root.
+// The table of Fréchet holds the distances without their root.
 ReachFunction select_reach(Metric metric, std::ptrdiff_t dim) noexcept {
     return with_row<PackArithmetic, DividerRoot>(metric, [=](auto row) -> ReachFunction {
         using Row = decltype(row);

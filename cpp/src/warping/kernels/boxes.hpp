@@ -1,6 +1,6 @@
-// What lower bounds ask of an instruction-set level: how far the points of one curve are from the
-// boxes around the runs of another, and what intervals and sums of these distances take. As for
-// strips, pointers and sizes only.
+// The functions that lower bounds need from an instruction-set level: distances of the points of
+// one curve from the boxes around the runs of another, and the intervals and sums of these
+// distances. As for strips, only pointers and sizes cross the boundary.
 #pragma once
 
 #include <cstddef>
@@ -20,14 +20,13 @@ struct PointsAndBoxes {
     // never fall, or never rise, from point to point.
     const std::ptrdiff_t* first_box;
     const std::ptrdiff_t* last_box;
-    // In one dimension, where not null: each point has an interval of its own, and no boxes.
+    // In one dimension, if not null: each point has its own interval, and there are no boxes.
     // Padded.
     const double* low;
     const double* high;
     // The distance of every point to the nearest of its boxes; padded.
     double* least;
-    // Where each has an interval of its own, and not null: the number in it that is nearest;
-    // padded.
+    // If each point has its own interval, and not null: the nearest number in it; padded.
     double* nearest;
 };
 
@@ -38,7 +37,7 @@ struct SlidingWindow {
     const double* values;  // `count` + `length` - 1 of them, padded
     std::ptrdiff_t count;
     std::ptrdiff_t length;
-    // As many as there are values, of which the first `count` are the answer; padded.
+    // The same number of entries as there are values; the first `count` are the answer. Padded.
     double* low;
     double* high;
 };

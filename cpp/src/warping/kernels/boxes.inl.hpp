@@ -1,8 +1,8 @@
 // The distances of points to the nearest of some boxes (see boxes.hpp), a SIMD vector of points at
-// a time: O(points boxes d). The nearest coordinate of a box is subtracted, and the rest computed,
-// by the operations of the ground distance, each of which is monotone in floating point too: no
-// point within a box is nearer, to the bit. Included by the kernel of each level, inside its
-// anonymous namespace.
+// a time: O(points boxes d). The nearest coordinate of a box is subtracted, and the rest is
+// computed by the operations of the ground distance. Each of them is monotone in floating point,
+// too, so the bound is exact: no point within a box is nearer. The kernel of each level includes
+// this file inside its anonymous namespace.
 
 // Each point's own interval.
 template <class Norm, bool keeps_nearest>
@@ -87,8 +87,9 @@ LeastFunction select_least(Metric metric, std::ptrdiff_t dim) noexcept {
     });
 }
 
-// The extremes of windows of `to` values from those of `from`, of four such windows at most, in
-// place: one begins where it is written, and nothing before it is read again.
+// Computes, in place, the extremes of windows of `to` values from those of windows of `from`
+// values, with at most four of the latter for each. A window begins where its result is written,
+// and nothing before that place is read again.
 void lengthen(const double* low, const double* high, const SlidingWindow& window,
               std::ptrdiff_t from, std::ptrdiff_t to) noexcept {
     const std::ptrdiff_t last = to - from;

@@ -1,8 +1,8 @@
-// Steps that are compiled: those of every named pattern, and of the edit distances, of which only
-// the weights that are not 1 and the costs of a step are read when it runs. What steps add last in
-// common is added once, to the least of them: rounding never reverses an order, so that a cell
-// keeps its bits, and "typeIVc" adds 3 costs in the place of 18. Included by recurrence_set.cpp,
-// inside its anonymous namespace.
+// Compiled steps: those of every named pattern, and those of the edit distances. For the latter,
+// only the weights that are not 1 and the costs of a step are read at run time. The last term that
+// several steps add in common is added once, to the least of them. Rounding never reverses an
+// order, so cells are bitwise identical, and "typeIVc" adds 3 costs instead of 18.
+// recurrence_set.cpp includes this file inside its anonymous namespace.
 
 // What of a table of steps decides which code it runs.
 struct Shape {
@@ -135,7 +135,8 @@ struct CompiledSteps {
     static constexpr Shape shape = shapes.all[which];
     static constexpr bool is_guarded = false;
 
-    // What a diagonal reads, in a place of its own: a store of values could change any other.
+    // The pointers that a diagonal reads, in a separate object: a store of values could change any
+    // other.
     struct Sources {
         const double* values[shape.step_count];
         const double* terms[shape.term_count];

@@ -61,9 +61,9 @@ struct EuclideanCost : SquaredCost<dim> {
     }
 };
 
-// By both kinds of root (see each_mixed_root) in the plane: in space loads are the limit, and more
-// is lost than gained. Fewer rows do not last long enough for more than a few per cent; where the
-// fast root is as good as the divider, there is nothing to wait for before the first gain.
+// Uses both kinds of root (see each_mixed_root) in the plane. In space, loads are the limit, and
+// mixed roots lose more than they gain. With fewer rows than this, the gain is at most a few per
+// cent. If the fast root is as good as the divider, the gain starts with fewer rows.
 constexpr std::ptrdiff_t min_rows_of_mixed_roots = multiplies_roots ? 32 : 112;
 
 struct MixedEuclideanCost : SquaredCost<2> {
@@ -142,7 +142,7 @@ void fill_arcs(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
     }
 }
 
-// Of what is no norm, a pair of points at a time.
+// For distances that are not norms, a pair of points at a time.
 template <class Row>
 void fill_one_by_one(const Strip& strip, std::ptrdiff_t t, std::ptrdiff_t low,
                      std::ptrdiff_t high) noexcept {

@@ -15,8 +15,8 @@ struct Line {
     const double* q;
     std::ptrdiff_t rows;
     std::ptrdiff_t columns;
-    // Row i may hold columns first_step[i] - k to last_step[i] - k, which never fall from row to
-    // row, where k is i % the level's line_height; with so much room behind them.
+    // Row i may hold columns first_step[i] - k to last_step[i] - k, where k is i % the level's
+    // line_height. Both never fall from row to row. The arrays have that much padding behind them.
     const double* first_step;
     const double* last_step;
     // Which cells are dead, see CostToGo.

@@ -1,9 +1,9 @@
-// The table of two curves in one dimension where few cells of a row are live (see line.hpp), too
-// few to fill the diagonals of a strip: some rows at a time, each a column behind the one above
-// it. Their values stay in registers, a row a lane, and only the last row's are written. Where
-// these rows begin, and behind what the row above leaves, dead cells end them, as in EAPrunedDTW
-// (Herrmann & Webb 2021), here by what the rest of a path costs at least. Included by the kernel of
-// each level, inside its anonymous namespace.
+// The table of two curves in one dimension with few active cells in a row (see line.hpp), too few
+// to fill the diagonals of a strip. It is filled by some rows at a time, each one column behind the
+// row above it. Values stay in registers, a row in each lane, and only the last row is written.
+// Pruned cells end the rows at both sides, as in EAPrunedDTW (Herrmann & Webb 2021); here the least
+// cost of the rest of a path decides. The kernel of each level includes this file inside its
+// anonymous namespace.
 
 // A step waits for the one before it, so that more rows take little longer, as long as there are
 // registers for them.
@@ -111,7 +111,7 @@ class LineSweep {
         }
         const std::ptrdiff_t last_below = smaller(last_ + 1, last_of_top);
         while (column <= last_below) step(above[column], all);
-        // Nothing comes from above any more, and soon all lanes are beyond what has come.
+        // No more values come from above, and soon all lanes are beyond the last one.
         const std::ptrdiff_t last_lane = smaller(last_ + height - 1, last_of_top);
         while (column <= last_lane) step(infinity, all);
         const std::ptrdiff_t end = last_step(bottom) + 1;
@@ -145,7 +145,7 @@ class LineSweep {
     }
 
     Cells cells_of(std::ptrdiff_t row, std::ptrdiff_t rows, double corner) const noexcept {
-        double last_points[height] = {};  // nothing stands behind them
+        double last_points[height] = {};  // no points follow them
         const double* points = line_.p + row;
         if (rows < height) {
             std::memcpy(last_points, points, sizeof(double) * static_cast<std::size_t>(rows));

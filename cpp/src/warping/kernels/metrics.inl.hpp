@@ -1,36 +1,38 @@
-// The ground distances, one row each: what the library asks of a ground distance, and its
-// arithmetic, written once for doubles and for SIMD vectors of them. Included by
-// ../ground_distance.hpp, and by the kernel of each level inside its anonymous namespace. There
-// `A` does the arithmetic of the one number type or the other, and `Root` takes square roots.
+// The ground distances, one row each: the properties that the library needs and the arithmetic,
+// written once for doubles and for SIMD vectors. ../ground_distance.hpp includes this file, and so
+// does the kernel of each level, inside its anonymous namespace. There `A` does the arithmetic of
+// one number type, and `Root` takes square roots.
 //
-// Each row says
+// Each row has the properties
 //
-//   degree          by which power of a factor the distance grows when both curves do; one of
-//                   degree 0 is computed on the curves as they are, whatever their range, since
-//                   what is small beside the largest coordinate counts in it, too
-//   is_norm         whether it is a norm of the differences of coordinates (or its square) of which
-//                   each operation is monotone in floating point: distances of boxes, which are
-//                   computed by the same operations, then bound those of their points to the bit.
-//                   Without one there are no bounds, and nothing is pruned by them
-//   is_absolute_in_one_dimension    whether |difference| is computed in its place there
+//   degree          if both curves are multiplied by a factor, the distance is multiplied by this
+//                   power of the factor. Degree 0 is computed on unscaled curves, whatever their
+//                   range, because small differences between large coordinates matter, too
+//   is_norm         whether it is a norm of the differences of coordinates (or its square), and
+//   each
+//                   operation is monotone in floating point. Distances of boxes, computed by the
+//                   same operations, are then exact bounds of the distances of their points. A
+//                   distance that is not a norm has no bounds, and nothing is pruned by them
+//   is_absolute_in_one_dimension    whether |difference| replaces it there
 //   is_root         whether it is the root of sqeuclidean, or another function of it that is
 //                   monotone in floating point. A table of largest distances then holds sqeuclidean
-//                   in its place, until one root at the end. Of a root that is no norm, what is
-//                   under it has the bounds, each of which is then finished
+//                   instead, and takes one root at the end. If such a function is not a norm,
+//                   sqeuclidean has the bounds, and the function is applied to each bound
 //
-// and has
+// and the functions
 //
-//   add, finish     of a norm: adds the difference of one coordinate to a sum, in their order, and
-//                   makes the distance of the sum; nothing is fused or reordered
-//   finish          of another root: the same, given the radius
-//   distance        of what is neither: between two points p(c) and q(c), one pair at a time
-//   magnitude       for gradients: what is larger where the distance is, and does not overflow
-//   slope           the derivative by coordinate c of the point of Q, times a weight, where the
-//                   points are `at` some places that differ, at.p(c) and at.q(c), and have this
-//                   magnitude
+//   add, finish     for a norm: add() adds the difference of one coordinate to a sum, in the order
+//   of
+//                   coordinates; finish() makes the distance of the sum. Nothing is fused or
+//                   reordered
+//   finish          for another root: the same, given the radius
+//   distance        for the rest: between two points p(c) and q(c), one pair at a time
+//   magnitude       for gradients: a number that grows with the distance and does not overflow
+//   slope           the derivative by coordinate c of the point of Q, times a weight. The points
+//   are
+//                   `at` different places, at.p(c) and at.q(c), and have this magnitude
 //
-// A row that lacks one of them does not compile, nor does a metric that lacks a row
-// (-Werror=switch).
+// A row that lacks a member does not compile, nor does a metric without a row (-Werror=switch).
 
 template <class A>
 struct Sqeuclidean {
@@ -119,8 +121,8 @@ struct Chebyshev {
     }
 };
 
-// Of an order other than 1, 2 and infinity, which are computed as what they are. Powers round as
-// they like, which is not monotone.
+// For orders other than 1, 2 and infinity, which have their own rows. The rounding of powers is not
+// monotone.
 struct Minkowski {
     static constexpr int degree = 1;
     static constexpr bool is_norm = false;
@@ -155,13 +157,15 @@ struct Minkowski {
     }
 };
 
-// Along the great circle between points of the sphere, which curves/sphere.hpp puts on that of
-// diameter 1, so that sqeuclidean is the square of half the chord of the unit sphere, h: the arc is
-// 2 asin(sqrt(h)), beyond a right angle pi - 2 asin(sqrt(1 - h)), whose 1 - h is exact. With
-// s = sqrt(h), asin(s) = s + s (z P(z)), z = s s <= 1/2: 19 coefficients by interpolation in the
-// nodes of Chebyshev, whose error is 1e-17 of asin(s). Between neighbours s grows by 2^-53 s at
-// least, asin(s) by more; the rounding of s (z P(z)), which is at most 0.111 s, comes to half of
-// that for both together. Thus no rounding turns the order of two arcs.
+// The great-circle distance between points of the sphere. curves/sphere.hpp puts them on the sphere
+// of diameter 1, so that sqeuclidean is h, the square of half the chord of the unit sphere. The arc
+// is 2 asin(sqrt(h)). Beyond a right angle it is pi - 2 asin(sqrt(1 - h)), whose 1 - h is exact.
+// With s = sqrt(h), asin(s) = s + s (z P(z)), z = s s <= 1/2. P has 19 coefficients by
+// interpolation in the Chebyshev nodes, with an error of 1e-17 of asin(s).
+//
+// The rounding is monotone. Between neighbours s grows by at least 2^-53 s, and asin(s) by more. s
+// (z P(z)) is at most 0.111 s, and its rounding comes to half of that growth for both together. So
+// rounding never reverses the order of two arcs.
 template <class A, class Root>
 struct Haversine {
     using Number = typename A::Number;

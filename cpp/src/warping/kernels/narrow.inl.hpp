@@ -1,7 +1,7 @@
-// Rows of a table of which few cells are live (see narrow.hpp). What a diagonal hands to the next
-// stays in registers: there is too little to do on one for its stores to be done when the next one
-// loads. Per diagonal: a ground distance, the recurrence, two bits a cell. Included by the kernel
-// of each level, inside its anonymous namespace.
+// Rows of a table with few active cells (see narrow.hpp). The values that a diagonal passes to the
+// next stay in registers. A diagonal has so little work that its stores would not be complete when
+// the next one loads. Per diagonal: a ground distance, the recurrence, two bits a cell. The kernel
+// of each level includes this file inside its anonymous namespace.
 
 std::ptrdiff_t narrow(NarrowRows& rows) noexcept {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -9,7 +9,7 @@ std::ptrdiff_t narrow(NarrowRows& rows) noexcept {
     const Pack most = simd::pset1<Pack>(rows.most);
     Pack cells = simd::pset1<Pack>(infinity);
     Pack diagonal = moved_up(cells, rows.corner);
-    // Read once: codes are written as bytes, of which a compiler thinks that they may lie anywhere.
+    // Read once: codes are written as bytes, and for a compiler bytes may alias anything.
     const std::ptrdiff_t first = rows.first, last = rows.last, q_stride = rows.q_stride;
     const double* const boundary = rows.boundary;
     const double* q = rows.q - first;

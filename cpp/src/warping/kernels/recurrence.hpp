@@ -1,10 +1,10 @@
-// What a recurrence with any steps asks of an instruction-set level. As for the strips of dtw and
-// frechet (strip.hpp), pointers and sizes only, and the table goes by strips of rows and, within
-// one, by anti-diagonals.
+// The functions that a recurrence with any steps needs from an instruction-set level. As for the
+// strips of dtw and frechet (strip.hpp), only pointers and sizes cross the boundary. The table is
+// filled by strips of rows and, within a strip, by anti-diagonals.
 //
-// A step reaches back as many as `reach` rows or columns: that many rows of the strip above are the
-// first lanes of a strip, and its last rows are what leaves it. On diagonal t, lane k is row
-// k - reach of the strip and column t - k.
+// A step reaches back at most `reach` rows or columns. The first lanes of a strip are that many
+// rows of the strip above, and its last rows are its output. On diagonal t, lane k is row k - reach
+// of the strip and column t - k.
 #pragma once
 
 #include "strip.hpp"
@@ -53,7 +53,8 @@ struct RecurrenceStrip {
     double* boundary;
     std::ptrdiff_t boundary_stride;
     const double* left_border;  // of each lane the cell before column 0; null: infinity
-    // A path may begin in so many cells of the strip's first row, and of its first column.
+    // The number of cells of the strip's first row, and of its first column, in which a path may
+    // begin.
     std::ptrdiff_t start_columns;
     std::ptrdiff_t start_rows;
     double* ends;  // of each lane the cell in the last column, where not null
@@ -64,9 +65,9 @@ struct RecurrenceStrip {
     std::ptrdiff_t value_count;
     std::ptrdiff_t pair_count;
 
-    // Where steps ask for them: gaps and moves of lane k's row, of column j at
-    // [columns - 1 - j]; room for the moves of a diagonal; |i - j|, or the weights by it, for odd
-    // and even differences, at [(i - j) / 2] rounded down; the difference in lane 0 of diagonal 0.
+    // If steps need them: gaps and moves of lane k's row, and of column j at [columns - 1 - j]; a
+    // buffer for the moves of a diagonal. |i - j|, or the weights by it, for odd and even
+    // differences, at [(i - j) / 2] rounded down; the difference in lane 0 of diagonal 0.
     const double* row_gaps;
     const double* column_gaps;
     const double* row_steps;
@@ -81,8 +82,8 @@ struct RecurrenceStrip {
     std::ptrdiff_t low_lane;
     std::ptrdiff_t high_lane;
 
-    // Where asked for: the step of lane k on diagonal t, at codes[t * code_stride + k], with room
-    // for a diagonal of them; the cell of lane k and column j, at table[k * table_stride + j].
+    // If requested: the step of lane k on diagonal t, at codes[t * code_stride + k], with a buffer
+    // for one diagonal. The cell of lane k and column j, at table[k * table_stride + j].
     std::uint8_t* codes;
     std::ptrdiff_t code_stride;
     double* code_lanes;

@@ -1,8 +1,8 @@
 // The sweep of recurrences with any steps (see recurrence.hpp), compiled once for each
-// instruction-set level. O(terms) per cell. Steps that a user has made up are data, which is read
-// anew for every few SIMD vectors of lanes; those of a named pattern or an edit distance are
-// compiled (compiled_steps.inl.hpp). In a file of its own, so that dtw and frechet stay the code
-// that they are.
+// instruction-set level. O(terms) per cell. User-defined steps are data, read again for every few
+// SIMD vectors of lanes. The steps of a named pattern or an edit distance are compiled
+// (compiled_steps.inl.hpp). This is a separate file, so that the code of dtw and frechet does not
+// change.
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
@@ -58,8 +58,9 @@ void look_up(const RecurrenceStrip& strip, std::ptrdiff_t t, Lanes& lanes) noexc
     }
 }
 
-// Guarded are steps with something negative: an infinite cost, whatever its weight, and a sum that
-// overflows in both directions make them infinite. Sums of what is not negative are never nan.
+// Guarded are steps with negative terms. An infinite cost makes them infinite, whatever its weight,
+// and so does a sum that overflows in both directions. Sums of numbers that are not negative are
+// never nan.
 template <int packs, bool with_codes, bool is_guarded>
 inline void cells(const RecurrenceStrip& strip, const Lanes& lanes, std::ptrdiff_t k) noexcept {
     Pack best[packs], code[packs];
@@ -165,7 +166,7 @@ void fill_moves(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
     }
 }
 
-// The distances of a diagonal's lanes, and of as many beside them as a step may visit.
+// The distances of a diagonal's lanes, and of the lanes next to them that a step may visit.
 void fill_pairs(RecurrenceStrip& strip, std::ptrdiff_t t, CostFunction fill) noexcept {
     const std::ptrdiff_t skipped = strip.lanes - strip.ground.rows;
     std::ptrdiff_t low = strip.low_lane - strip.reach, high = strip.high_lane + strip.reach;
@@ -183,7 +184,7 @@ double before_column_zero(const RecurrenceStrip& strip, std::ptrdiff_t lane) noe
     return strip.left_border == nullptr ? infinity : strip.left_border[lane];
 }
 
-// The cells of the rows above, before the diagonal is computed, and those beside it, after.
+// The cells of the rows above, before the diagonal is computed, and those next to it, after.
 void enter_from_above(const RecurrenceStrip& strip, std::ptrdiff_t t) noexcept {
     for (std::ptrdiff_t k = 0; k < strip.reach; ++k) {
         const std::ptrdiff_t column = t - k;

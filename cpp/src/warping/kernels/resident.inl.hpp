@@ -1,17 +1,15 @@
 // The sweep of a strip of at most `resident_rows` rows whose values stay in registers (see
-// strip.hpp): what sweep.inl.hpp loads of two diagonals and stores of a third takes more of a
-// processor than the arithmetic does. Included by the kernel of each level, inside its anonymous
-// namespace.
+// strip.hpp). sweep.inl.hpp loads two diagonals and stores a third, which takes more time than the
+// arithmetic. The kernel of each level includes this file inside its anonymous namespace.
 //
-// Lane l of register r is row l * registers + r of the strip. So what register r needs of the row
-// above it is what register r - 1 held a diagonal before, as it is; lanes move once a diagonal,
-// from the last register to the first. The points of Q are moved likewise: for each of the last
-// diagonals those of register 0's rows are held, one lane a row, and register r takes what register
-// 0 took r diagonals ago. No load crosses a line of the cache.
+// Lane l of register r is row l * registers + r of the strip. So register r needs, for the row
+// above it, the unchanged value of register r - 1 on the diagonal before. Lanes move once a
+// diagonal, from the last register to the first. The points of Q move in the same way. For each of
+// the last diagonals, the points of register 0's rows are held, one lane for each row. Register r
+// takes the points that register 0 took r diagonals ago. No load crosses a cache line.
 //
-// Rows that have not begun hold infinity, since all that they come from does. Rows past their last
-// column, and those that a strip lacks, go on with points that are 0, and nothing reads what comes
-// of it.
+// Rows that have not begun hold infinity, since all of their predecessors do. Rows past their last
+// column, and rows that a strip lacks, continue with points that are 0; nothing reads their values.
 
 constexpr std::ptrdiff_t registers = resident_rows / width;
 
@@ -42,8 +40,8 @@ struct ResidentRoots : ResidentSquares {
     }
 };
 
-// What a row keeps for the row below it, beside its last value: of the cells above and at the
-// diagonal the lesser, which is all that most recurrences ask for; for "symmetric2" the latter.
+// What a row keeps for the row below it, in addition to its last value. Most recurrences need only
+// the lesser of the cells above and at the diagonal; "symmetric2" needs the cell at the diagonal.
 template <class Rule>
 struct Kept {
     static Pack of(const Pack& now, const Pack& before) noexcept { return simd::pmin(now, before); }
@@ -94,7 +92,7 @@ class ResidentPoints {
         }
         return Distance::template finish<r>(sum);
     }
-    // So many diagonals have been entered; the next one is the first of others.
+    // `diagonals` diagonals have been entered; the next one starts a new group.
     void turn_over(std::ptrdiff_t diagonals) noexcept {
         for (int c = 0; c < dim; ++c) {
             std::memmove(of_diagonals_[c], of_diagonals_[c] + diagonals * width,
@@ -137,8 +135,8 @@ struct ResidentValues {
             store(strip.before_last + 1 + r * width, kept[r]);
         });
     }
-    // The cells of registers r to 0, the last of them first: what it leaves none of the others
-    // needs. `up` and `kept_above` are of the row above register 0.
+    // The cells of registers r to 0, the last of them first, so that no cell overwrites an input of
+    // another. `up` and `kept_above` are of the row above register 0.
     template <class Rule, class Distance, std::ptrdiff_t r, class Points>
     EIGEN_ALWAYS_INLINE void step(const Points& points, std::ptrdiff_t place, const Pack& up,
                                   const Pack& kept_above) noexcept {
@@ -193,16 +191,17 @@ void advance_resident(Strip& strip, std::ptrdiff_t end, CostFunction) noexcept {
     strip.next_diagonal = end;
 }
 
-// The ramps at both ends of a strip are as long as it is tall, and all lanes are computed there,
-// as are the rows that the last strip lacks: that takes more than it saves where the shorter side
-// has fewer points, by measurement. Beside roots in the plane loads weigh less.
+// The ramps at both ends of a strip are as long as it is tall. All lanes are computed there, and so
+// are the rows that the last strip lacks. If the shorter side has fewer points than this, that
+// costs more than it saves, by measurement. With roots in the plane, the saved loads matter less.
 constexpr std::ptrdiff_t least_side = width > 4 ? 128 : 192;
 constexpr std::ptrdiff_t least_side_of_roots(std::ptrdiff_t dim) noexcept {
     return dim == 2 ? 224 : 192;
 }
 
-// Null where it is no faster: with vectors of two lanes, whose registers are too few for the values
-// of 32 rows; of roots, without multiplications in the place of the divider, which is the limit.
+// Null where it would not be faster. That is so for vectors of two lanes, whose registers are too
+// few for the values of 32 rows. It is so for roots on a level where multiplications cannot replace
+// the divider, because the divider is the limit.
 template <class Rule>
 AdvanceFunction select_resident_of(Cost cost, std::ptrdiff_t dim,
                                    std::ptrdiff_t shorter_side) noexcept {

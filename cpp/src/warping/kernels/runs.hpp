@@ -6,7 +6,8 @@
 
 namespace curvewise::kernels {
 
-// Runs are looked at so many at a time, or a divisor of it: what is of runs is padded to it.
+// The number of runs that are processed together, or a multiple of it; arrays of runs are padded to
+// it.
 inline constexpr std::ptrdiff_t runs_at_once = 32;
 
 struct RunsAndBoxes {
@@ -18,7 +19,7 @@ struct RunsAndBoxes {
     std::ptrdiff_t dim;
     // For each point of a run a box, its lowest coordinates and then its highest.
     const double* boxes;
-    // Of coordinate c of run k at [c * stride + k], written: what it is shifted by, and scaled by.
+    // Output: the shift and the scale of coordinate c of run k, at [c * stride + k].
     double* means;
     double* scales;
     // The sum, or the largest, of the distances of each run's points to their boxes; written.

@@ -1,7 +1,7 @@
-// All runs of a curve against boxes (see runs.hpp), some SIMD vectors of runs at a time, each lane
-// one run: O(count length d), of which each step reads numbers side by side. Mean and deviation are
-// those of the run's own numbers, in two passes. Included by the kernel of each level, inside its
-// anonymous namespace.
+// All runs of a curve against boxes (see runs.hpp), some SIMD vectors of runs at a time, one run in
+// each lane: O(count length d). Each step reads adjacent numbers. The mean and the deviation are
+// those of the run's own numbers, in two passes. The kernel of each level includes this file inside
+// its anonymous namespace.
 
 constexpr std::ptrdiff_t run_packs = 4;  // additions that do not wait for each other
 static_assert(runs_at_once % (run_packs * width) == 0);

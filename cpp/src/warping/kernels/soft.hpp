@@ -2,20 +2,20 @@
 // strip.hpp), forwards and backwards.
 //
 // A cell holds Z = exp(-R / gamma), the sum over all paths to it of the exponentials of their
-// costs, which obeys
+// costs:
 //
 //   Z[i, j] = exp(-d / gamma) (Z[i-1, j] + Z[i, j-1] + Z[i-1, j-1])
 //
-// and takes one exponential a cell where R = d + softmin takes three and a logarithm. Z leaves the
-// range of a double at once: it is mantissa 2^exponent, the mantissa from 1 to 2, the exponent a
-// whole number that is kept as a double.
+// This takes one exponential a cell. R = d + softmin takes three and a logarithm. Z leaves the
+// range of a double at once. So it is stored as mantissa 2^exponent: the mantissa is from 1 to 2,
+// and the exponent is a whole number in a double.
 #pragma once
 
 #include <cstddef>
 
 namespace curvewise::kernels {
 
-// What 0 has in the place of an exponent: far below all others, and still finite.
+// The exponent of zero: far below all others, and still finite.
 inline constexpr double exponent_of_zero = -0x1p1000;
 
 // Numbers on one anti-diagonal: of lane k at index k + 1, with the row above the strip at 0.
@@ -45,9 +45,9 @@ struct SoftStep {
 using SoftForward = void (*)(const SoftStep& step, std::ptrdiff_t low,
                              std::ptrdiff_t high) noexcept;
 
-// The weights of cells low..high of diagonal t, the derivatives of the value by their costs, from
-// the diagonals t + 1 and t + 2; and what they add to the gradients. Coordinate c of lane k is
-// p[c * p_stride + k] and q[c * q_stride + k]; its gradients have the same places.
+// The weights of cells low..high of diagonal t, that is, the derivatives of the value by their
+// costs, from the diagonals t + 1 and t + 2; and their contributions to the gradients. Coordinate c
+// of lane k is p[c * p_stride + k] and q[c * q_stride + k]; its gradients have the same places.
 struct SoftBackstep {
     Shares current;
     Shares next;

@@ -14,7 +14,7 @@ inline std::uint64_t bits_of(double number) noexcept {
     return bits;
 }
 
-// A whole number of up to 2^51 that is added to it stands in its last bits.
+// A whole number of up to 2^51 that is added to it is in the last bits of the sum.
 constexpr double integer_shift = 0x1.8p52;
 
 // 2^n of a whole number n <= 0; 0 where that is less than the least normal number.
@@ -41,8 +41,8 @@ inline double small_power_of_two(double x) noexcept {
     return sum * y + 1.0;
 }
 
-// Compilers turn these loops into vectors where parameters of the loop's own function are said not
-// to overlap; of local pointers they do not believe it.
+// Compilers vectorise these loops if parameters of the loop's own function are declared not to
+// overlap; for local pointers they ignore the declaration.
 template <bool with_shares>
 inline void fill_cells(std::ptrdiff_t low, std::ptrdiff_t high, double scale,
                        const double* __restrict cost, const double* __restrict before_mantissas,

@@ -1,20 +1,21 @@
-// Correctly rounded square roots that do not wait for the divider, where the level has fused
-// multiply-add: a first guess, Goldschmidt's iteration, one correction. Included by the kernel of
-// each level, inside its anonymous namespace.
+// Correctly rounded square roots that do not wait for the divider, for levels with fused
+// multiply-add: a first guess, Goldschmidt's iteration, one correction. The kernel of each level
+// includes this file inside its anonymous namespace.
 //
 // With y close to 1 / sqrt(x), s = x y and h = y / 2, a step r = 1/2 - s h, s += s r, h += h r
-// squares the relative error of both. The last one leaves s within 2^-50 of sqrt(x) and h as close
-// to 1 / (2 sqrt(x)). Then s + h (x - s s) is the square root to about 2^-45 ulp before its one
-// rounding, so that it is rounded right unless sqrt(x) lies that close to the middle between two
-// doubles. Those x can be listed, and all come out right: tests/cpp/warping/test_square_root.cpp.
+// squares the relative error of both. The last step leaves s within 2^-50 of sqrt(x) and h equally
+// close to 1 / (2 sqrt(x)). Then s + h (x - s s) is the square root to about 2^-45 ulp before its
+// one rounding. It is rounded correctly unless sqrt(x) lies that close to the middle between two
+// doubles. Those x can be listed, and all are rounded correctly:
+// tests/cpp/warping/test_square_root.cpp.
 //
-// (To step once less and correct twice with the h of that step is one operation shorter. Its error
-// is 2^-28 ulp: one argument in some 10^9 comes out wrong, and a third of the listed ones.)
+// (One step less and two corrections with the h of that step is one operation shorter. But its
+// error is 2^-28 ulp: about one argument in 10^9 is wrong, and a third of the listed ones.)
 //
-// Domain: 0, and 2^-904 to 2^1020: below, the residual would not be exact. What keeps sums of
-// squares in it is in ../packed_curve.hpp.
+// Domain: 0, and 2^-904 to 2^1020. Below, the residual would not be exact. ../packed_curve.hpp
+// keeps sums of squares in this domain.
 //
-// Each root is begun when it is made and finished by root(), so that others may come between.
+// The constructor starts each root and root() finishes it, so that others may come between.
 
 #include "pack.inl.hpp"
 
@@ -34,8 +35,8 @@ class DividerRoot {
 // From a reciprocal root to 14 bits, in two steps.
 class FastRoot {
    public:
-    // What is added changes no x except 0, whose reciprocal root is infinite; s is 0 then. An
-    // addition and a subtraction of exponents leave the units that multiply to the rest.
+    // The added number changes no x except 0, whose reciprocal root is infinite; s is 0 then. An
+    // addition and a subtraction of exponents leave the multiplication units to the rest.
     explicit FastRoot(const Pack& x) noexcept
         : x_(x), y_(_mm512_rsqrt14_pd(simd::padd(x, simd::pset1<Pack>(0x1p-1000)))) {}
     Pack root() const noexcept {
@@ -61,10 +62,10 @@ constexpr bool multiplies_roots = true;  // faster than by the divider alone
 
 #elif defined(EIGEN_VECTORIZE_AVX2) && defined(EIGEN_VECTORIZE_FMA)
 
-// From a reciprocal root to 4.8 bits, which is an integer less half the bits of x (Robertson, A
-// brief history of InvSqrt, 2012): r lies between -0.0346 and 0.0338, where the polynomial of r,
-// of degree 5 through the Chebyshev nodes, is 1 / sqrt(1 - 2 r) to 2^-30.3. A step would leave
-// 2^-60, if its numbers had as many bits. Of 0 the guess is finite, and s remains 0.
+// Starts from a reciprocal root to 4.8 bits: an integer less half the bits of x (Robertson, A brief
+// history of InvSqrt, 2012). Then r lies between -0.0346 and 0.0338. The polynomial of r, of degree
+// 5 through the Chebyshev nodes, is 1 / sqrt(1 - 2 r) to 2^-30.3. A step would leave 2^-60 if
+// doubles had that many bits. For 0 the guess is finite, and s remains 0.
 class FastRoot {
    public:
     explicit FastRoot(const Pack& x) noexcept : x_(x) {
@@ -95,7 +96,7 @@ class FastRoot {
    private:
     Pack x_, s_, h_;
 };
-// Alone it is no faster than the divider; beside it, it is.
+// The fast root alone is as slow as the divider; both together are faster.
 using UniformRoot = DividerRoot;
 constexpr bool mixes_roots = true;
 constexpr bool multiplies_roots = false;
@@ -109,8 +110,8 @@ constexpr bool multiplies_roots = false;
 
 #endif
 
-// Calls use(k, root) of the vectors of lanes low to high, given squares(k) of each: every second
-// one takes the fast root, so that the divider is busy too.
+// Calls use(k, root) for the vectors of lanes low to high, given squares(k) of each. Every second
+// vector takes the fast root, so that the divider is busy, too.
 template <class Squares, class Use>
 void each_second_root_fast(std::ptrdiff_t low, std::ptrdiff_t high, const Squares& squares,
                            const Use& use) noexcept {
@@ -122,9 +123,9 @@ void each_second_root_fast(std::ptrdiff_t low, std::ptrdiff_t high, const Square
     if (k <= high) use(k, FastRoot::of(squares(k)));
 }
 
-// The same where the fast root alone is no faster than the divider: one of four takes it. The next
-// fast root is begun before this one is finished: a processor does not hold as many instructions as
-// it would take to find that by itself, and would wait for each chain of multiplications.
+// The same for levels on which the fast root alone is as slow as the divider: one of four takes it.
+// The next fast root is begun before this one is finished. A processor cannot hold enough
+// instructions to overlap them by itself; it would wait for each chain of multiplications.
 template <class Squares, class Use>
 void each_fourth_root_fast(std::ptrdiff_t low, std::ptrdiff_t high, const Squares& squares,
                            const Use& use) noexcept {

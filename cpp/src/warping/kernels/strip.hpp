@@ -1,17 +1,17 @@
-// The boundary between the library and its kernels: plain pointers and sizes, so that a kernel
-// may be compiled for another instruction set than the rest. No Eigen type, no standard
-// container, no allocation and no exception crosses it.
+// The boundary between the library and its kernels: plain pointers and sizes, so that a kernel may
+// be compiled for another instruction set than the rest. No Eigen type, no standard container, no
+// allocation and no exception crosses it.
 //
-// The cumulative table is cut into strips of rows. A strip is swept by anti-diagonals: on
-// diagonal t, lane k is the cell of row k (of the strip) and column t - k. `before` and
-// `before_last` hold the two last diagonals, lane k at index k + 1; index 0 holds the cell above
-// lane 0, from the strip above. So for lanes a..b of diagonal t
+// The cumulative table is cut into strips of rows. A strip is swept by anti-diagonals: on diagonal
+// t, lane k is the cell of row k (of the strip) and column t - k. `before` and `before_last` hold
+// the two last diagonals, lane k at index k + 1. Index 0 holds the cell above lane 0, from the
+// strip above. So for lanes a..b of diagonal t, these are contiguous:
 //
 //   up = before[a..b],  left = before[a+1..b+1],  diagonal = before_last[a..b]
 //
-// are contiguous, and with Q stored reversed so are the points of Q. Only the strip's bottom row
-// leaves it: `boundary` is the row above on the way in and the bottom row on the way out; column
-// j is written rows - 1 diagonals after it was read.
+// Q is stored reversed, so that its points are contiguous, too. Only the strip's bottom row leaves
+// it: `boundary` is the row above before the sweep and the bottom row after it. Column j is written
+// rows - 1 diagonals after it was read.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@
 
 namespace curvewise::kernels {
 
-// Lanes may be computed past the last active one, up to a whole SIMD vector: every array that a
-// sweep touches is this much longer than its content, and P and Q are finite there.
+// Lanes may be computed past the last active one, up to a whole SIMD vector. So every array that a
+// sweep uses is this much longer than its content, and P and Q are finite there.
 inline constexpr std::ptrdiff_t padding = 8;
 
 // The rows of a strip whose values stay in registers.
@@ -65,8 +65,8 @@ struct Strip {
     double* current;
     double* cost;  // one diagonal of ground distances, for those that are not fused
 
-    // Where asked for: the column at which the path of a cell leaves the row above the region, in
-    // lanes and a boundary row of their own, moved along with the values.
+    // If requested: the column at which the path of a cell leaves the row above the region. These
+    // columns have separate lanes and a separate boundary row, and move along with the values.
     double* origin_boundary;
     double* origin_before;
     double* origin_before_last;
@@ -100,7 +100,7 @@ using AdvanceFunction = void (*)(Strip& strip, std::ptrdiff_t end, CostFunction 
 enum class Output { boundary_only, origins, codes, narrow_codes, table };
 
 // A ground distance, and whether every sum of squares is 0 or within the domain of the fast square
-// root; or one of the caller's own, in place of the metric.
+// root; or the caller's custom distance, which replaces the metric.
 struct Cost {
     Metric metric;
     bool squares_in_domain;
@@ -111,9 +111,8 @@ struct Cost {
 struct KernelSet {
     AdvanceFunction (*advance)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
                                Output output) noexcept;
-    // The same for strips of at most resident_rows rows, which hold all of their columns, where the
-    // bottom row is all that is wanted. Null where it is no faster, of a region whose shorter side
-    // this is.
+    // The same for strips of at most resident_rows rows that hold all of their columns, if only the
+    // bottom row is needed. Null if it would not be faster for a region with this shorter side.
     AdvanceFunction (*resident)(Recurrence recurrence, Cost cost, std::ptrdiff_t dim,
                                 std::ptrdiff_t shorter_side) noexcept;
     CostFunction (*fill)(Cost cost) noexcept;

@@ -1,7 +1,7 @@
-// The one anti-diagonal sweep of a strip, for DTW and Fréchet (see strip.hpp for the layout).
-// Per SIMD vector of cells: three loads of earlier diagonals, the ground distance, the
-// recurrence, one store. Three policies compose it: the recurrence, the ground distance, and what
-// is kept besides the bottom row. Included by the kernel of each level, inside its anonymous
+// The one anti-diagonal sweep of a strip, for DTW and Fréchet (see strip.hpp for the layout). Per
+// SIMD vector of cells: three loads of earlier diagonals, the ground distance, the recurrence, one
+// store. It is composed of three policies: the recurrence, the ground distance, and the output
+// besides the bottom row. The kernel of each level includes this file inside its anonymous
 // namespace.
 
 #include "ground_distance.inl.hpp"
@@ -41,13 +41,13 @@ struct DiscreteFrechet {
     static Pack from_least(const Pack& least, const Pack& d) noexcept {
         return simd::pmax(least, d);
     }
-    // Predecessors are compared as they are: where d is larger than all, each would do.
+    // Predecessors are compared directly: if d is larger than all, any of them is right.
     static Pack through_diagonal(const Pack& diag, const Pack&) noexcept { return diag; }
     static Pack through_side(const Pack& side, const Pack&) noexcept { return side; }
 };
 
-// What is kept of a cell besides its value. Before a diagonal, begin(); per vector, cells();
-// after it, diagonal().
+// The output for a cell besides its value. Before a diagonal, begin(); per vector, cells(); after
+// it, diagonal().
 struct KeepNothing {
     explicit KeepNothing(const Strip&) noexcept {}
     void begin(Strip&, std::ptrdiff_t) noexcept {}
@@ -121,9 +121,9 @@ struct KeepCodes {
     }
 };
 
-// The same where few lanes are live, and a second loop over them would take longer than the cells:
-// the codes of a SIMD vector are the bytes of one number, the sum of its lanes, which is written
-// past the last active lane, too.
+// The same for few active lanes, for which a second loop would take longer than the cells. The
+// codes of a SIMD vector are the bytes of one number, the sum of its lanes. It is written past the
+// last active lane, too.
 struct KeepFewCodes {
     using Word = std::conditional_t<width == 4, std::uint32_t,
                                     std::conditional_t<width == 2, std::uint16_t, std::uint8_t>>;
@@ -148,7 +148,7 @@ struct KeepFewCodes {
     void diagonal(Strip&, std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t) noexcept {}
 
    private:
-    // In lane l, the word of which byte l is the code.
+    // In lane l, the word whose byte l is the code.
     static Pack words(Predecessor predecessor) noexcept {
         double lanes[width];
         for (std::ptrdiff_t l = 0; l < width; ++l) {
@@ -255,7 +255,7 @@ AdvanceFunction select_output(Cost cost, std::ptrdiff_t dim, Output output) noex
             return select_cost<Rule, KeepNothing>(cost, dim);
         case Output::origins:
             return select_cost<Rule, KeepOrigins>(cost, dim);
-        case Output::codes:  // bound by what they write: one form is enough
+        case Output::codes:  // the writes are the limit, so one form suffices
             return advance<Rule, BufferedCost, KeepCodes>;
         case Output::narrow_codes:
             if (cost.metric == Metric::cityblock && dim == 2 && !cost.is_own) {
